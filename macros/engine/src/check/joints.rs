@@ -1,0 +1,363 @@
+//! The joints of a mechanism: bodies by name, parameters by value.
+
+use proc_macro2::{Ident, Span};
+use syn::Expr;
+use syn::spanned::Spanned;
+
+use super::mechanism::{Definition, Definitions, definition};
+use super::number::{Numbers, elements};
+use super::pairs::Pairs;
+use crate::diag::{Faults, code, did_you_mean, list};
+use crate::model::number::literals;
+use crate::model::{Binding, Body, BodyKind, JointDef, JointUse, Number, ParameterKind, Row, Term};
+use crate::syntax::mechanism::{Field, carrier_path};
+use crate::syntax::{Value, ungroup};
+
+/// The bodies that joints name, by their places.
+pub(super) struct Mentioned {
+    pub(super) bodies: Vec<bool>,
+    /// Whether all names could be read; if not, the body that seems to be left alone may be meant by one of the others.
+    pub(super) is_certain: bool,
+}
+
+/// Checks one field that is described as a joint.
+pub(super) struct JointChecker<'a> {
+    pub(super) field: &'a Field,
+    /// The word of its attribute.
+    pub(super) word: Span,
+    /// The fields that joints may name, and the bodies that they are.
+    pub(super) names: &'a [&'a Ident],
+    pub(super) bodies: &'a [Option<Body>],
+    pub(super) definitions: &'a [JointDef],
+}
+
+impl JointChecker<'_> {
+    pub(super) fn check(
+        &self,
+        types: &Definitions,
+        mentioned: &mut Mentioned,
+        numbers: &mut Numbers<'_>,
+        faults: &mut Faults,
+    ) -> Option<JointUse> {
+        let name = &self.field.name;
+        let found = code(&self.field.ty);
+        let mut pairs = Pairs::new(format!("joint `{name}`"), self.word, &self.field.list);
+        let definition = match definition(self.field, types) {
+            Some(Definition::Joint(place)) => *place,
+            Some(Definition::Body(_)) => {
+                faults.at_span(
+                    self.word,
+                    format!("`{found}` is a body: describe `{name}` by `#[body(mass = .., ..)]`"),
+                );
+                mentioned.is_certain = false;
+                return None;
+            }
+            other => {
+                // A fault in a definition is reported there.
+                if other.is_none() {
+                    faults.at(
+                        &self.field.ty,
+                        format!(
+                            "`{name}` is described as a joint, but `{found}` is none; take one of `holonom::joints`, or \
+                             define one with `joint!`"
+                        ),
+                    );
+                }
+                match pairs.optional("between", faults) {
+                    Some(expr) => _ = self.between(expr, mentioned, faults),
+                    None => mentioned.is_certain = false,
+                }
+                return None;
+            }
+        };
+        let joint = &self.definitions[definition];
+        let formal = list(&joint.bodies);
+        let example =
+            format!("the bodies that it connects ({formal}), as in `between = [ground, rod]`");
+        let between = pairs.required("between", &example, faults);
+        mentioned.is_certain &= between.is_some();
+        let bodies = between.and_then(|expr| self.between(expr, mentioned, faults));
+        if let Some(expr) = between
+            && let Some(found) = elements(expr).map(|elements| elements.len())
+            && found != joint.bodies.len()
+        {
+            let (kind, count) = (&joint.name, plural(joint.bodies.len(), "body", "bodies"));
+            faults.at(
+                expr,
+                format!("`{kind}` connects {count} ({formal}); found {found}"),
+            );
+        }
+        let mut bindings = Vec::new();
+        for parameter in &joint.parameters {
+            let key = parameter.name.to_string();
+            let example = parameter.kind.example();
+            numbers.field = name.to_string();
+            numbers.attribute.clone_from(&key);
+            let expr = pairs.required(&key, example, faults);
+            bindings.push(expr.and_then(|expr| {
+                self.binding(
+                    expr,
+                    parameter.kind,
+                    bodies.as_deref(),
+                    joint,
+                    numbers,
+                    faults,
+                )
+            }));
+        }
+        pairs.finish(faults);
+        let bodies = bodies.filter(|bodies| bodies.len() == joint.bodies.len())?;
+        let bindings: Vec<Binding> = bindings.into_iter().collect::<Option<_>>()?;
+        self.particles(joint, &bodies, &bindings, faults)?;
+        Some(JointUse {
+            name: name.clone(),
+            path: carrier_path(&self.field.ty)?,
+            definition,
+            bodies,
+            bindings,
+        })
+    }
+
+    fn between(
+        &self,
+        expr: &Expr,
+        mentioned: &mut Mentioned,
+        faults: &mut Faults,
+    ) -> Option<Vec<Option<usize>>> {
+        let Some(elements) = elements(expr) else {
+            faults.at(
+                expr,
+                "`between` takes bodies in brackets, as in `[ground, rod]`",
+            );
+            mentioned.is_certain = false;
+            return None;
+        };
+        let mut bodies: Vec<Option<Option<usize>>> = Vec::new();
+        for element in &elements {
+            let place = self.body(element, faults);
+            match place {
+                Some(Some(place)) => mentioned.bodies[place] = true,
+                Some(None) => {}
+                None => mentioned.is_certain = false,
+            }
+            if place.is_some() && bodies.contains(&place) {
+                let twice = code(element);
+                faults.at(
+                    element,
+                    format!("a joint between `{twice}` and itself constrains nothing; name each body once"),
+                );
+            }
+            bodies.push(place);
+        }
+        if let [Some(None)] = bodies[..] {
+            faults.at(
+                expr,
+                "a joint of the `ground` alone constrains nothing; name a body",
+            );
+        }
+        bodies.into_iter().collect()
+    }
+
+    fn body(&self, expr: &Expr, faults: &mut Faults) -> Option<Option<usize>> {
+        if let Expr::Path(path) = ungroup(expr)
+            && let Some(found) = path.path.get_ident()
+        {
+            if let Some(place) = self.names.iter().position(|name| *name == found) {
+                return Some(Some(place));
+            }
+            if found == "ground" {
+                return Some(None);
+            }
+            let known: Vec<String> = self
+                .names
+                .iter()
+                .map(ToString::to_string)
+                .chain(["ground".into()])
+                .collect();
+            let near = did_you_mean(&found.to_string(), known.iter().map(String::as_str));
+            faults.at(
+                found,
+                format!(
+                    "no body `{found}` in this mechanism; it has {}{near}",
+                    list(known.iter())
+                ),
+            );
+            return None;
+        }
+        let known = list(
+            self.names
+                .iter()
+                .map(ToString::to_string)
+                .chain(["ground".into()]),
+        );
+        faults.at(
+            expr,
+            format!("expected the name of a body; there are {known}"),
+        );
+        None
+    }
+
+    fn binding(
+        &self,
+        expr: &Expr,
+        kind: ParameterKind,
+        bodies: Option<&[Option<usize>]>,
+        joint: &JointDef,
+        numbers: &mut Numbers<'_>,
+        faults: &mut Faults,
+    ) -> Option<Binding> {
+        if !kind.is_vector() {
+            if elements(expr).is_some() {
+                faults.at(
+                    expr,
+                    format!("`{}` takes {}", numbers.attribute, kind.example()),
+                );
+                return None;
+            }
+            return numbers.scalar(expr, faults).map(Binding::Scalar);
+        }
+        if let Expr::Call(call) = ungroup(expr)
+            && matches!(ungroup(&call.func), Expr::Path(path) if path.path.is_ident("local"))
+        {
+            let copies: Vec<Option<[Number; 3]>> = call
+                .args
+                .iter()
+                .map(|copy| self.vector(copy, kind, numbers, faults))
+                .collect();
+            let wanted = bodies.map_or(joint.bodies.len(), <[_]>::len);
+            if copies.len() != wanted {
+                let (key, wanted) = (&numbers.attribute, plural(wanted, "body", "bodies"));
+                faults.at(
+                    call,
+                    format!(
+                        "`{key}` by `local(..)` takes one vector for each of {wanted}; found {}",
+                        copies.len()
+                    ),
+                );
+                return None;
+            }
+            return copies
+                .into_iter()
+                .collect::<Option<_>>()
+                .map(Binding::Local);
+        }
+        self.vector(expr, kind, numbers, faults)
+            .map(Binding::Global)
+    }
+
+    fn vector(
+        &self,
+        expr: &Expr,
+        kind: ParameterKind,
+        numbers: &mut Numbers<'_>,
+        faults: &mut Faults,
+    ) -> Option<[Number; 3]> {
+        if elements(expr).is_none() {
+            let (key, example) = (&numbers.attribute, kind.example());
+            faults.at(
+                expr,
+                format!("`{key}` takes {example}, or `local(..)` with one for each body"),
+            );
+            return None;
+        }
+        let vector = numbers.vector(expr, faults)?;
+        if kind == ParameterKind::Axis && literals(&vector) == Some([0.0; 3]) {
+            faults.at(
+                expr,
+                format!(
+                    "`{}` of `{}` is the zero vector; an axis has a direction, as in `[1.0, 0.0, 0.0]`",
+                    numbers.attribute, self.field.name
+                ),
+            );
+            return None;
+        }
+        Some(vector)
+    }
+
+    /// A particle has no orientation: it carries a joint's points at its own place only.
+    fn particles(
+        &self,
+        joint: &JointDef,
+        bodies: &[Option<usize>],
+        bindings: &[Binding],
+        faults: &mut Faults,
+    ) -> Option<()> {
+        let mut sound = Some(());
+        for (place, body) in bodies.iter().enumerate() {
+            let Some(body) = body.and_then(|body| self.bodies[body].as_ref()) else {
+                continue;
+            };
+            if body.kind != BodyKind::Particle {
+                continue;
+            }
+            for (parameter, uses) in uses(joint, place) {
+                let at_centre = match (&bindings[parameter], uses) {
+                    (Binding::Global(point), ParameterKind::Point) => *point == body.position,
+                    (Binding::Local(points), ParameterKind::Point) => {
+                        points[place] == [Number::ZERO; 3]
+                    }
+                    _ => false,
+                };
+                if !at_centre {
+                    let parameter = &joint.parameters[parameter].name;
+                    let key = parameter;
+                    let written = self.field.list.pairs.iter().find(|pair| pair.key == *key);
+                    faults.at_span(
+                        written.map_or(self.word, |pair| match &pair.value {
+                            Value::Expr(expr) => expr.span(),
+                            _ => pair.key.span(),
+                        }),
+                        format!(
+                            "joint `{}` fixes `{parameter}` on the particle `{}`, which has no orientation: only a point \
+                             at the particle's own position can be fixed on it",
+                            self.field.name, body.name
+                        ),
+                    );
+                    sound = None;
+                }
+            }
+        }
+        sound
+    }
+}
+
+/// The vector parameters that the rows of a joint fix on one of its bodies.
+fn uses(joint: &JointDef, body: usize) -> Vec<(usize, ParameterKind)> {
+    fn visit(term: &Term, body: usize, found: &mut Vec<usize>) {
+        match term {
+            Term::Point { body: b, parameter }
+            | Term::Fixed { body: b, parameter }
+            | Term::Normal {
+                body: b, parameter, ..
+            } if *b == body => {
+                found.push(*parameter);
+            }
+            Term::Sum(terms) => terms.iter().for_each(|(_, term)| visit(term, body, found)),
+            Term::Product(a, b) | Term::Dot(a, b) | Term::Cross(a, b) => {
+                visit(a, body, found);
+                visit(b, body, found);
+            }
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    for row in &joint.rows {
+        match row {
+            Row::Scalar(term) | Row::Vector(term) => visit(term, body, &mut found),
+        }
+    }
+    if let Some(angle) = joint.angle {
+        found.push(angle.axis);
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+        .into_iter()
+        .map(|parameter| (parameter, joint.parameters[parameter].kind))
+        .collect()
+}
+
+/// "1 body", "2 bodies".
+fn plural(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}

@@ -1,0 +1,182 @@
+//! Mechanisms: bodies, joints between them, and what belongs to neither.
+
+use proc_macro2::Ident;
+use syn::spanned::Spanned;
+
+use super::bodies;
+use super::joints::{JointChecker, Mentioned};
+use super::number::Numbers;
+use super::pairs::Pairs;
+use crate::diag::{Faults, code};
+use crate::model::{BodyKind, JointDef, Model, Number};
+use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
+
+/// What a field's type turned out to be.
+#[derive(Clone, Debug)]
+pub enum Definition {
+    /// A rigid body or a particle.
+    Body(BodyKind),
+    /// A joint by its place among the definitions.
+    Joint(usize),
+    /// A joint with a fault in its definition, which is reported where it is defined.
+    Faulty,
+}
+
+/// The definitions behind the field types, by the path as it was written.
+pub type Definitions = Vec<(String, Definition)>;
+
+/// Checks a mechanism. `None` if anything is wrong; the faults say what.
+pub fn check(
+    syntax: &MechanismSyntax,
+    types: &Definitions,
+    definitions: Vec<JointDef>,
+    facade: &proc_macro2::TokenStream,
+    faults: &mut Faults,
+) -> Option<Model> {
+    let mut numbers = Numbers::new(facade);
+    let gravity = gravity(syntax, &mut numbers, faults);
+    let mut names: Vec<&Ident> = Vec::new();
+    let mut bodies = Vec::new();
+    for field in &syntax.fields {
+        if may_be_body(field, types) {
+            names.push(&field.name);
+            bodies.push(body(field, types, &mut numbers, faults));
+        }
+    }
+    let mut joints = Vec::new();
+    let mut mentioned = Mentioned {
+        bodies: vec![false; names.len()],
+        is_certain: true,
+    };
+    for field in &syntax.fields {
+        match &field.role {
+            Some((Role::Joint, word)) => {
+                let checker = JointChecker {
+                    field,
+                    word: word.span(),
+                    names: &names,
+                    bodies: &bodies,
+                    definitions: &definitions,
+                };
+                joints.push(checker.check(types, &mut mentioned, &mut numbers, faults));
+            }
+            Some((Role::Body, _)) => {}
+            None => {
+                mentioned.is_certain = false;
+                faults.at(
+                    &field.name,
+                    format!(
+                        "field `{}` is not described; write `#[body(..)]` or `#[joint(..)]` above it",
+                        field.name
+                    ),
+                );
+            }
+        }
+    }
+    if names.is_empty() {
+        faults.at(
+            &syntax.name,
+            format!(
+                "mechanism `{}` has no body; a field becomes one by `#[body(..)]`",
+                syntax.name
+            ),
+        );
+    }
+    for (place, name) in names.iter().enumerate() {
+        let free = bodies[place].as_ref().is_none_or(|body| body.free);
+        if mentioned.is_certain && !mentioned.bodies[place] && !free {
+            faults.at(
+                name,
+                format!(
+                    "no joint names the body `{name}`; connect it, or mark it free: `#[body(free, ..)]`"
+                ),
+            );
+        }
+    }
+    let bodies: Vec<_> = bodies.into_iter().collect::<Option<_>>()?;
+    let joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
+    let symbols = std::mem::take(&mut numbers.symbols);
+    Some(Model {
+        name: syntax.name.clone(),
+        gravity: gravity?,
+        bodies,
+        joints,
+        definitions,
+        symbols,
+    })
+}
+
+fn gravity(
+    syntax: &MechanismSyntax,
+    numbers: &mut Numbers<'_>,
+    faults: &mut Faults,
+) -> Option<[Number; 3]> {
+    let mut pairs = Pairs::new(
+        "`#[mechanism(..)]`".into(),
+        syntax.name.span(),
+        &syntax.list,
+    );
+    numbers.field = syntax.name.to_string();
+    numbers.attribute = "gravity".into();
+    let gravity = match pairs.optional("gravity", faults) {
+        Some(expr) => numbers.vector(expr, faults),
+        None => Some([Number::ZERO; 3]),
+    };
+    pairs.finish(faults);
+    gravity
+}
+
+/// What the type of a field turned out to be.
+#[must_use]
+pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Definition> {
+    let path = carrier_path(&field.ty)?.to_string();
+    types
+        .iter()
+        .find(|(known, _)| *known == path)
+        .map(|(_, definition)| definition)
+}
+
+/// Whether joints may name the field, even if something is wrong with its description.
+fn may_be_body(field: &Field, types: &Definitions) -> bool {
+    match (&field.role, definition(field, types)) {
+        (Some((Role::Body, _)), _) | (_, Some(Definition::Body(_))) => true,
+        (Some((Role::Joint, _)), _) => false,
+        (None, definition) => definition.is_none(),
+    }
+}
+
+fn body(
+    field: &Field,
+    types: &Definitions,
+    numbers: &mut Numbers<'_>,
+    faults: &mut Faults,
+) -> Option<crate::model::Body> {
+    let Some((Role::Body, word)) = &field.role else {
+        return None;
+    };
+    let name = &field.name;
+    let found = code(&field.ty);
+    match definition(field, types) {
+        Some(Definition::Body(kind)) => {
+            bodies::check(name, *kind, word.span(), &field.list, numbers, faults)
+        }
+        Some(Definition::Joint(_) | Definition::Faulty) => {
+            faults.at(
+                word,
+                format!(
+                    "`{found}` is a joint: describe `{name}` by `#[joint(between = [..], ..)]`"
+                ),
+            );
+            None
+        }
+        None => {
+            faults.at(
+                &field.ty,
+                format!(
+                    "`{name}` is described as a body, but `{found}` is none; a body is a `Body` or a `Particle`"
+                ),
+            );
+            None
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! Numbers: literals, arithmetic and elementary functions are evaluated here; paths become symbols.
+
+use std::ops::RangeInclusive;
+
+use proc_macro2::TokenStream;
+use quote::{ToTokens, quote};
+use syn::spanned::Spanned;
+use syn::{BinOp, Expr, Lit, UnOp};
+
+use crate::diag::{Faults, code, did_you_mean, list};
+use crate::model::{Number, Symbol};
+use crate::syntax::ungroup;
+
+/// The size of numbers: beyond it products and reciprocals leave the range of `f64`.
+const SIZES: RangeInclusive<f64> = 1e-40..=1e40;
+
+/// Of numbers, evaluated at expansion.
+type Function = fn(f64) -> f64;
+
+const FUNCTIONS: [(&str, Function); 6] = [
+    ("sqrt", f64::sqrt),
+    ("sin", f64::sin),
+    ("cos", f64::cos),
+    ("tan", f64::tan),
+    ("exp", f64::exp),
+    ("deg", f64::to_radians),
+];
+
+/// Evaluates numbers and keeps the table of symbols.
+#[derive(Debug)]
+pub struct Numbers<'a> {
+    /// Where the private support of the run-time crate lives.
+    facade: &'a TokenStream,
+    /// Symbols met so far.
+    pub symbols: Vec<Symbol>,
+    /// The field that is being read.
+    pub field: String,
+    /// The attribute that is being read.
+    pub attribute: String,
+}
+
+/// A number, or an expression of type `f64`.
+enum Value {
+    Literal(f64),
+    Later {
+        expression: TokenStream,
+        is_const: bool,
+    },
+}
+
+impl Value {
+    fn tokens(&self) -> TokenStream {
+        match self {
+            Self::Literal(value) => quote!(#value),
+            Self::Later { expression, .. } => expression.clone(),
+        }
+    }
+
+    fn is_const(&self) -> bool {
+        matches!(self, Self::Literal(_) | Self::Later { is_const: true, .. })
+    }
+}
+
+impl<'a> Numbers<'a> {
+    /// No symbols so far.
+    #[must_use]
+    pub fn new(facade: &'a TokenStream) -> Self {
+        Self {
+            facade,
+            symbols: Vec::new(),
+            field: String::new(),
+            attribute: String::new(),
+        }
+    }
+
+    /// One number.
+    pub fn scalar(&mut self, expr: &Expr, faults: &mut Faults) -> Option<Number> {
+        match self.value(expr, faults)? {
+            Value::Literal(value) => in_range(value, expr, faults).map(Number::Literal),
+            Value::Later {
+                expression,
+                is_const,
+            } => {
+                // A constant of another type, or an unknown one, is refused by the compiler: with one sentence, wherever the
+                // expression is used. The call changes nothing; it tells the type where that of the constant is not known.
+                let value = crate::emit::local("value");
+                let expression = quote! {
+                    ::core::convert::identity::<f64>({ let #value: f64 = #expression; #value })
+                };
+                if let Some(known) = self.known(&expression) {
+                    return Some(Number::Symbol(known));
+                }
+                let place = u32::try_from(self.symbols.len()).ok()?;
+                self.symbols.push(Symbol {
+                    expression,
+                    is_const,
+                    span: expr.span(),
+                    field: self.field.clone(),
+                    attribute: self.attribute.clone(),
+                });
+                Some(Number::Symbol(place))
+            }
+        }
+    }
+
+    /// The symbol of the same expression, so that what is equal in two places cancels. What must be positive keeps a symbol of its
+    /// own, whose place a refusal names.
+    fn known(&self, expression: &TokenStream) -> Option<u32> {
+        let positive = |attribute: &str| matches!(attribute, "mass" | "inertia");
+        if positive(&self.attribute) {
+            return None;
+        }
+        let text = expression.to_string();
+        self.symbols
+            .iter()
+            .position(|s| !positive(&s.attribute) && s.expression.to_string() == text)
+            .and_then(|place| u32::try_from(place).ok())
+    }
+
+    /// `N` numbers in brackets.
+    pub fn array<const N: usize>(
+        &mut self,
+        expr: &Expr,
+        faults: &mut Faults,
+    ) -> Option<[Number; N]> {
+        let elements = elements(expr)?;
+        if elements.len() != N {
+            faults.at(
+                expr,
+                format!(
+                    "`{}` takes {N} numbers; found {}",
+                    self.attribute,
+                    elements.len()
+                ),
+            );
+            return None;
+        }
+        let numbers: Vec<Option<Number>> = elements
+            .iter()
+            .map(|element| self.scalar(element, faults))
+            .collect();
+        let numbers: Vec<Number> = numbers.into_iter().collect::<Option<_>>()?;
+        numbers.try_into().ok()
+    }
+
+    /// Three numbers in brackets, with a sentence about what else was found.
+    pub fn vector(&mut self, expr: &Expr, faults: &mut Faults) -> Option<[Number; 3]> {
+        if elements(expr).is_none() {
+            let key = &self.attribute;
+            let example = if key == "gravity" {
+                "[0.0, 0.0, -9.81]"
+            } else {
+                "[0.0, 0.5, 0.0]"
+            };
+            faults.at(
+                expr,
+                format!("`{key}` takes three numbers in brackets, as in `{example}`"),
+            );
+            return None;
+        }
+        self.array(expr, faults)
+    }
+
+    fn value(&mut self, expr: &Expr, faults: &mut Faults) -> Option<Value> {
+        match ungroup(expr) {
+            Expr::Lit(literal) => match &literal.lit {
+                Lit::Float(float) => faults.accept(float.base10_parse()).map(Value::Literal),
+                Lit::Int(int) => faults.accept(int.base10_parse::<f64>()).map(Value::Literal),
+                _ => self.refuse(expr, faults),
+            },
+            Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+                Some(match self.value(&unary.expr, faults)? {
+                    Value::Literal(value) => Value::Literal(-value),
+                    Value::Later {
+                        expression,
+                        is_const,
+                    } => Value::Later {
+                        expression: quote!((-(#expression))),
+                        is_const,
+                    },
+                })
+            }
+            Expr::Binary(binary) => {
+                let left = self.value(&binary.left, faults);
+                let right = self.value(&binary.right, faults);
+                let (left, right) = (left?, right?);
+                let folded = |f: fn(f64, f64) -> f64| match (&left, &right) {
+                    (Value::Literal(x), Value::Literal(y)) => Some(Value::Literal(f(*x, *y))),
+                    _ => None,
+                };
+                let folded = match binary.op {
+                    BinOp::Add(_) => folded(|x, y| x + y),
+                    BinOp::Sub(_) => folded(|x, y| x - y),
+                    BinOp::Mul(_) => folded(|x, y| x * y),
+                    BinOp::Div(_) => folded(|x, y| x / y),
+                    _ => {
+                        faults.at(binary.op, "expected `+`, `-`, `*` or `/`");
+                        return None;
+                    }
+                };
+                Some(folded.unwrap_or_else(|| {
+                    let (x, y, op) = (left.tokens(), right.tokens(), binary.op);
+                    Value::Later {
+                        expression: quote!((#x #op #y)),
+                        is_const: left.is_const() && right.is_const(),
+                    }
+                }))
+            }
+            Expr::Call(call) => self.call(call, faults),
+            Expr::Path(path) if path.path.is_ident("PI") => {
+                Some(Value::Literal(std::f64::consts::PI))
+            }
+            Expr::Path(path) if path.path.is_ident("TAU") => {
+                Some(Value::Literal(std::f64::consts::TAU))
+            }
+            Expr::Path(path) => Some(Value::Later {
+                expression: path.to_token_stream(),
+                is_const: true,
+            }),
+            _ => self.refuse(expr, faults),
+        }
+    }
+
+    fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<Value> {
+        let Expr::Path(path) = ungroup(&call.func) else {
+            return self.refuse(&call.func, faults);
+        };
+        let Some((name, function)) = FUNCTIONS.iter().find(|(name, _)| path.path.is_ident(name))
+        else {
+            let found = code(path);
+            let known = FUNCTIONS.map(|(name, _)| name);
+            let near = did_you_mean(&found, known);
+            faults.at(
+                &call.func,
+                format!(
+                    "no function `{found}` here; there are {}{near}",
+                    list(known)
+                ),
+            );
+            return None;
+        };
+        let [argument] = call.args.iter().collect::<Vec<_>>()[..] else {
+            faults.at(
+                call,
+                format!("`{name}` takes one number, not {}", call.args.len()),
+            );
+            return None;
+        };
+        Some(match self.value(argument, faults)? {
+            Value::Literal(value) => Value::Literal(function(value)),
+            Value::Later { expression, .. } => {
+                let (facade, name) = (self.facade, quote::format_ident!("{name}"));
+                Value::Later {
+                    expression: quote!(#facade::__private::#name(#expression)),
+                    is_const: false,
+                }
+            }
+        })
+    }
+
+    fn refuse(&self, expr: &Expr, faults: &mut Faults) -> Option<Value> {
+        faults.at(
+            expr,
+            format!(
+                "expected a number: a literal, arithmetic, `PI`, `TAU`, the path of a constant, or one of {}",
+                list(FUNCTIONS.map(|(name, _)| name))
+            ),
+        );
+        None
+    }
+}
+
+/// A number that is finite, and of a size that products and reciprocals bear.
+pub fn in_range(value: f64, at: impl ToTokens, faults: &mut Faults) -> Option<f64> {
+    if value == 0.0 || SIZES.contains(&value.abs()) {
+        return Some(value);
+    }
+    if value.is_finite() {
+        let (least, most) = (SIZES.start(), SIZES.end());
+        faults.at(
+            at,
+            format!(
+                "this is {value:e}; a number that is not 0 has a size from {least:e} to {most:e}"
+            ),
+        );
+    } else {
+        faults.at(at, format!("this is {value}; a finite number is needed"));
+    }
+    None
+}
+
+/// The elements of an expression in brackets.
+#[must_use]
+pub fn elements(expr: &Expr) -> Option<Vec<&Expr>> {
+    match ungroup(expr) {
+        Expr::Array(array) => Some(array.elems.iter().collect()),
+        _ => None,
+    }
+}

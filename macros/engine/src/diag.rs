@@ -1,0 +1,157 @@
+//! Faults of a description: all of them at once, each on the user's token.
+
+use std::fmt::Display;
+
+use proc_macro2::{Span, TokenStream};
+use quote::ToTokens;
+
+/// Collects faults. Dropping it unread is a mistake of ours and panics in a test.
+#[derive(Debug, Default)]
+pub struct Faults {
+    errors: Vec<syn::Error>,
+    read: bool,
+}
+
+impl Faults {
+    /// No fault so far.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A fault at some tokens.
+    pub fn at(&mut self, tokens: impl ToTokens, message: impl Display) {
+        self.errors.push(syn::Error::new_spanned(tokens, message));
+    }
+
+    /// A fault at a span.
+    pub fn at_span(&mut self, span: Span, message: impl Display) {
+        self.errors.push(syn::Error::new(span, message));
+    }
+
+    /// A fault found by the parser.
+    pub fn add(&mut self, error: syn::Error) {
+        self.errors.push(error);
+    }
+
+    /// The value of a result, or the fault.
+    pub fn accept<T>(&mut self, result: syn::Result<T>) -> Option<T> {
+        result.map_err(|error| self.add(error)).ok()
+    }
+
+    /// Whether there is a fault.
+    #[must_use]
+    pub fn any(&self) -> bool {
+        !self.errors.is_empty()
+    }
+
+    /// Takes the faults of another collector over.
+    pub fn append(&mut self, mut other: Self) {
+        other.read = true;
+        self.errors.append(&mut other.errors);
+    }
+
+    /// The faults as items that the compiler reports, in the order of the source; nothing without faults.
+    pub fn into_tokens(mut self) -> TokenStream {
+        self.read = true;
+        self.errors.sort_by_key(|error| {
+            let start = error.span().start();
+            (start.line, start.column)
+        });
+        self.errors
+            .drain(..)
+            .map(syn::Error::into_compile_error)
+            .collect()
+    }
+}
+
+impl Drop for Faults {
+    fn drop(&mut self) {
+        if !self.read && !std::thread::panicking() {
+            panic!("faults were collected and never read");
+        }
+    }
+}
+
+/// "`a`, `b` and `c`".
+pub fn list<T: Display>(names: impl IntoIterator<Item = T>) -> String {
+    let names: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    match names.as_slice() {
+        [] => "nothing".into(),
+        [only] => only.clone(),
+        [most @ .., last] => format!("{} and {last}", most.join(", ")),
+    }
+}
+
+/// Code on one line as a person would write it: `Option<Revolute>`, `crate::LENGTH`.
+pub fn code(tokens: impl ToTokens) -> String {
+    let mut text = tokens.into_token_stream().to_string();
+    for (spaced, tight) in [
+        (" :: ", "::"),
+        (":: ", "::"),
+        (" <", "<"),
+        ("< ", "<"),
+        (" >", ">"),
+        (" ,", ","),
+    ] {
+        text = text.replace(spaced, tight);
+    }
+    text
+}
+
+/// "; did you mean `rocker`?" where a known name is near enough.
+pub fn did_you_mean<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    known
+        .into_iter()
+        .map(|name| (distance(found, name), name))
+        .filter(|&(distance, name)| distance <= 1 + name.len() / 4 && distance < name.len())
+        .min()
+        .map_or_else(String::new, |(_, name)| format!("; did you mean `{name}`?"))
+}
+
+/// The number of insertions, deletions and replacements between two words (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (k, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = k + 1;
+        for (l, &y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[l + 1];
+            row[l + 1] = replaced.min(row[l] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Faults, code, did_you_mean, distance};
+    use quote::quote;
+
+    #[test]
+    fn near_names_are_offered() {
+        assert_eq!(distance("roker", "rocker"), 1);
+        assert_eq!(
+            did_you_mean("roker", ["crank", "rocker"]),
+            "; did you mean `rocker`?"
+        );
+        assert_eq!(did_you_mean("wheel", ["crank", "rocker"]), "");
+        assert_eq!(did_you_mean("k", ["i", "j"]), "");
+    }
+
+    #[test]
+    fn code_is_written_without_needless_space() {
+        assert_eq!(
+            code(quote!(::a::Pair<'a, Option<f64>>)),
+            "::a::Pair<'a, Option<f64>>"
+        );
+    }
+
+    #[test]
+    #[should_panic(expected = "never read")]
+    fn faults_must_be_read() {
+        drop(Faults::new());
+    }
+}

@@ -1,0 +1,152 @@
+//! Checks of the numbers that the macro cannot see: by the compiler where it can evaluate them, else in `prepare`.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use crate::model::{Model, Number, Symbol};
+
+/// Numbers that the macro could not see are checked by the compiler where it can evaluate them.
+pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
+    let mut tokens = TokenStream::new();
+    for symbol in positive_symbols(model).filter(|symbol| symbol.is_const) {
+        let expression = &symbol.expression;
+        let message = format!(
+            "`{}` of `{}` must be positive",
+            symbol.attribute, symbol.field
+        );
+        tokens.extend(quote::quote_spanned! {symbol.span=>
+            const _: () = ::core::assert!((#expression) > 0.0_f64, #message);
+        });
+    }
+    for joint in &model.joints {
+        let path = &joint.path;
+        let fingerprint = Literal::u64_suffixed(model.definition(joint).fingerprint);
+        tokens.extend(quote! {
+            const _: () = ::core::assert!(
+                <#path as #facade::Joint>::FINGERPRINT == #fingerprint,
+                "the type and the definition of a joint differ; is one of them shadowed?"
+            );
+        });
+    }
+    tokens
+}
+
+fn positive_symbols(model: &Model) -> impl Iterator<Item = &Symbol> {
+    model.bodies.iter().flat_map(|body| {
+        [body.mass]
+            .into_iter()
+            .chain(body.inertia)
+            .filter_map(|number| match number {
+                Number::Symbol(place) => model.symbols.get(place as usize),
+                Number::Literal(_) => None,
+            })
+    })
+}
+
+/// The checks of `prepare`.
+pub fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
+    let mut tokens = TokenStream::new();
+    let mut refuse = |condition: TokenStream, field: &str, attribute: &str, fault: TokenStream| {
+        tokens.extend(quote! {
+            if #condition {
+                return ::core::result::Result::Err(#facade::ParameterError {
+                    field: #field,
+                    attribute: #attribute,
+                    fault: #facade::ParameterFault::#fault,
+                });
+            }
+        });
+    };
+    for symbol in &model.symbols {
+        let expression = &symbol.expression;
+        let condition = quote!(!f64::is_finite(#expression));
+        refuse(
+            condition,
+            &symbol.field,
+            &symbol.attribute,
+            quote!(NotFinite),
+        );
+    }
+    for symbol in positive_symbols(model) {
+        let expression = &symbol.expression;
+        let condition = quote!((#expression) <= 0.0_f64);
+        refuse(
+            condition,
+            &symbol.field,
+            &symbol.attribute,
+            quote!(NotPositive),
+        );
+    }
+    for (field, attribute, moments) in symbolic_inertias(model) {
+        let [a, b, c] = moments;
+        let condition = quote!({
+            let (a, b, c): (f64, f64, f64) = (#a, #b, #c);
+            let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
+            excess(a, b, c) || excess(b, c, a) || excess(c, a, b)
+        });
+        refuse(condition, &field, attribute, quote!(TriangleInequality));
+    }
+    for (field, attribute, vector) in symbolic_directions(model) {
+        let condition = quote!([#(#vector),*].iter().all(|component: &f64| *component == 0.0));
+        refuse(condition, &field, &attribute, quote!(ZeroLength));
+    }
+    tokens
+}
+
+fn number(model: &Model, number: Number) -> TokenStream {
+    match number {
+        Number::Literal(value) => quote!(#value),
+        Number::Symbol(place) => model
+            .symbols
+            .get(place as usize)
+            .map_or(quote!(0.0), |s| s.expression.clone()),
+    }
+}
+
+fn symbolic_inertias(model: &Model) -> Vec<(String, &'static str, [TokenStream; 3])> {
+    model
+        .bodies
+        .iter()
+        .filter(|body| body.inertia.iter().any(|moment| moment.literal().is_none()))
+        .map(|body| {
+            (
+                body.name.to_string(),
+                "inertia",
+                body.inertia.map(|entry| number(model, entry)),
+            )
+        })
+        .collect()
+}
+
+/// Axes, and orientations, that hold a symbol.
+fn symbolic_directions(model: &Model) -> Vec<(String, String, Vec<TokenStream>)> {
+    use crate::model::{Binding, ParameterKind};
+    let mut found = Vec::new();
+    let symbolic = |numbers: &[Number]| numbers.iter().any(|n| n.literal().is_none());
+    for body in model
+        .bodies
+        .iter()
+        .filter(|body| symbolic(&body.orientation))
+    {
+        let p = body.orientation.map(|entry| number(model, entry)).into();
+        found.push((body.name.to_string(), "orientation".into(), p));
+    }
+    for joint in &model.joints {
+        let parameters = &model.definition(joint).parameters;
+        for (parameter, binding) in parameters.iter().zip(&joint.bindings) {
+            if parameter.kind != ParameterKind::Axis {
+                continue;
+            }
+            let vectors = match binding {
+                Binding::Global(vector) => vec![*vector],
+                Binding::Local(vectors) => vectors.clone(),
+                Binding::Scalar(_) => Vec::new(),
+            };
+            for vector in vectors.iter().filter(|vector| symbolic(*vector)) {
+                let vector = vector.map(|entry| number(model, entry)).into();
+                found.push((joint.name.to_string(), parameter.name.to_string(), vector));
+            }
+        }
+    }
+    found
+}

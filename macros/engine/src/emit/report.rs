@@ -1,0 +1,191 @@
+//! The report on a mechanism: names, sizes, counts.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::joint::kind;
+use crate::model::Model;
+use crate::model::mechanism::Layout;
+use crate::plan::Plan;
+use crate::plan::kernels::{Kernel, Kernels};
+use crate::plan::system::Terms;
+use crate::symbolic::arena::Stage;
+use crate::symbolic::count::{Count, count};
+use crate::symbolic::scene::Reading;
+use crate::symbolic::vector::Frame;
+
+/// Name and cost of every kernel that is called at run time, in the order of the report.
+#[must_use]
+pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
+    let of = |kernel: &Kernel| count(&kernel.arena, &kernel.outputs, Stage::State);
+    let mut counts = vec![];
+    for evaluation in &kernels.evaluations {
+        counts.push((
+            evaluation_name(evaluation.terms, evaluation.reading),
+            of(&evaluation.kernel),
+        ));
+    }
+    for (name, kernel) in [
+        ("constraints", &kernels.constraints),
+        ("constraint rates", &kernels.constraint_rates),
+        ("jacobian", &kernels.jacobian),
+        ("gamma", &kernels.gamma),
+        ("forces", &kernels.forces),
+        ("kinetic energy", &kernels.kinetic_energy),
+        ("potential energy", &kernels.potential_energy),
+        ("coordinate rates", &kernels.coordinate_rates),
+    ] {
+        counts.push((name.into(), of(kernel)));
+    }
+    for solver in &kernels.solvers {
+        let solve = count(&solver.arena, &solver.solution, Stage::RightHandSide);
+        let suffix = if solver.terms == Terms::Compliant {
+            ", compliant"
+        } else {
+            ""
+        };
+        counts.push((format!("solve{suffix}"), solve));
+    }
+    counts
+}
+
+/// The name of an evaluation in the report.
+#[must_use]
+pub fn evaluation_name(terms: Terms, reading: Reading) -> String {
+    let terms = match terms {
+        Terms::Plain => "standard",
+        Terms::Stabilised => "baumgarte",
+        Terms::Compliant => "penalty",
+    };
+    match reading {
+        Reading::Raw => format!("evaluate {terms}"),
+        Reading::Normalised => format!("evaluate {terms}, normalised"),
+    }
+}
+
+/// The plan in words.
+#[must_use]
+pub fn describe(model: &Model, plan: &Plan, layout: &Layout) -> String {
+    let frame = |frame: &Frame| match frame {
+        Frame::Global => "global".to_string(),
+        Frame::Body(body) => model.bodies[*body].name.to_string(),
+    };
+    let unknown = |k: usize| {
+        if k >= layout.velocities {
+            let row = k - layout.velocities;
+            let joint = layout
+                .row
+                .iter()
+                .rposition(|&first| first <= row)
+                .unwrap_or(0);
+            return format!("{}[{}]", model.joints[joint].name, row - layout.row[joint]);
+        }
+        let body = layout
+            .velocity
+            .iter()
+            .rposition(|&first| first <= k)
+            .unwrap_or(0);
+        let place = k - layout.velocity[body];
+        let letter = if place < 3 { "v'" } else { "w'" };
+        format!("{}.{letter}{}", model.bodies[body].name, place % 3 + 1)
+    };
+    let pivots: Vec<String> = plan
+        .pivots
+        .iter()
+        .map(|pivot| {
+            let unknowns: Vec<String> = pivot.unknowns().into_iter().map(unknown).collect();
+            match unknowns.as_slice() {
+                [only] => only.clone(),
+                several => format!("({})", several.join(", ")),
+            }
+        })
+        .collect();
+    let translation: Vec<String> = plan.translation.iter().map(frame).collect();
+    let rows: Vec<String> = plan.rows.iter().map(frame).collect();
+    format!(
+        "accelerations in axes of: {}; rows in axes of: {}; pivots: {}",
+        translation.join(", "),
+        rows.join(", "),
+        pivots.join(" ")
+    )
+}
+
+/// The constant `REPORT`.
+#[must_use]
+pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenStream {
+    let layout = model.layout();
+    let name = model.name.to_string();
+    let bodies = model.bodies.iter().enumerate().map(|(place, body)| {
+        let (name, kind) = (body.name.to_string(), kind(body.kind, facade));
+        let (coordinate, velocity) = (layout.coordinate[place], layout.velocity[place]);
+        quote!(#facade::BodyInfo { name: #name, kind: #kind, coordinate: #coordinate, velocity: #velocity })
+    });
+    let joints = model.joints.iter().enumerate().map(|(place, joint)| {
+        let definition = model.definition(joint);
+        let (name, kind) = (joint.name.to_string(), definition.name.to_string());
+        let (row, rows) = (layout.row[place], definition.equations());
+        let bodies = joint.bodies.iter().map(|body| match body {
+            Some(body) => quote!(::core::option::Option::Some(#body)),
+            None => quote!(::core::option::Option::None),
+        });
+        let has_angle = definition.angle.is_some();
+        quote! {
+            #facade::JointInfo {
+                name: #name, kind: #kind, row: #row, rows: #rows, bodies: &[#(#bodies),*], has_angle: #has_angle,
+            }
+        }
+    });
+    let blocks = kernels.blocks.iter().map(|block| {
+        let crate::plan::kernels::Block { joint, body, offset } = *block;
+        let (row, rows) = (layout.row[joint], model.definition(&model.joints[joint]).equations());
+        let (column, columns) = (layout.velocity[body], model.bodies[body].kind.velocities());
+        quote! {
+            #facade::Block {
+                joint: #joint, body: #body, row: #row, rows: #rows, column: #column, columns: #columns, offset: #offset,
+            }
+        }
+    });
+    let counts = counts(kernels).into_iter().map(|(name, count)| {
+        let Count {
+            additions,
+            multiplications,
+            divisions,
+            square_roots,
+            depth,
+        } = count;
+        quote! {
+            #facade::Kernel {
+                name: #name,
+                operations: #facade::Operations {
+                    additions: #additions,
+                    multiplications: #multiplications,
+                    divisions: #divisions,
+                    square_roots: #square_roots,
+                    depth: #depth,
+                },
+            }
+        }
+    });
+    let Layout {
+        coordinates,
+        velocities,
+        rows,
+        ..
+    } = layout;
+    let degrees_of_freedom = velocities.cast_signed() - rows.cast_signed();
+    let plan = describe(model, &kernels.plan, &layout);
+    quote! {
+        #facade::Report {
+            name: #name,
+            bodies: &[#(#bodies),*],
+            joints: &[#(#joints),*],
+            blocks: &[#(#blocks),*],
+            coordinates: #coordinates,
+            velocities: #velocities,
+            equations: #rows,
+            degrees_of_freedom: #degrees_of_freedom,
+            kernels: &[#(#counts),*],
+            plan: #plan,
+        }
+    }
+}

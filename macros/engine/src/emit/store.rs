@@ -1,0 +1,194 @@
+//! Values that are known before the state is: computed once, kept in arrays.
+
+use std::collections::HashMap;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::local;
+use super::straight_line::{Environment, StraightLine, write};
+use crate::model::Symbol;
+use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+
+/// The values that kernels take from `prepare` and from `coefficients`, gathered from all kernels.
+#[derive(Debug, Default)]
+pub struct Store {
+    arena: Arena,
+    /// What `prepare` computes.
+    constants: Vec<Expr>,
+    /// What `coefficients` computes.
+    coefficients: Vec<Expr>,
+}
+
+impl Store {
+    /// The expression that loads a value of a kernel's arena.
+    pub fn load(&mut self, arena: &Arena, value: Expr) -> TokenStream {
+        let stage = arena.stage(value);
+        let value = self.import(arena, value);
+        let (slots, array) = match stage {
+            Stage::Literal | Stage::Parameter => (&mut self.constants, local("constants")),
+            _ => (&mut self.coefficients, local("coefficients")),
+        };
+        let place = slots
+            .iter()
+            .position(|&known| known == value.abs())
+            .unwrap_or_else(|| {
+                slots.push(value.abs());
+                slots.len() - 1
+            });
+        if value.is_negative() {
+            quote!(-#array[#place])
+        } else {
+            quote!(#array[#place])
+        }
+    }
+
+    /// Copies a value into the arena of the store.
+    fn import(&mut self, arena: &Arena, value: Expr) -> Expr {
+        let mut copies: HashMap<usize, Expr> = HashMap::new();
+        let copy = |copies: &HashMap<usize, Expr>, expr: Expr| {
+            let copy = copies[&expr.node()];
+            if expr.is_negative() { -copy } else { copy }
+        };
+        for place in arena.live(&[value], Stage::Literal) {
+            let own = &mut self.arena;
+            let made = match arena.node(place) {
+                Node::Constant(bits) => own.constant(f64::from_bits(bits)),
+                Node::Input(input) => own.input(input),
+                Node::Add(a, b) => own.add(copy(&copies, a), copy(&copies, b)),
+                Node::Multiply(a, b) => own.mul(copy(&copies, a), copy(&copies, b)),
+                Node::Reciprocal(a) => own.reciprocal(copy(&copies, a)),
+                Node::SquareRoot(a) => own.sqrt(copy(&copies, a)),
+                Node::Sign(a) => own.sign(copy(&copies, a)),
+            };
+            copies.insert(place, made);
+        }
+        copy(&copies, value)
+    }
+
+    /// The number of constants. Complete only when every kernel is written.
+    #[must_use]
+    pub fn constants(&self) -> usize {
+        self.constants.len()
+    }
+
+    /// The number of coefficients. Complete only when every kernel is written.
+    #[must_use]
+    pub fn coefficients(&self) -> usize {
+        self.coefficients.len()
+    }
+
+    /// The body of `coefficients`; may ask for further constants.
+    pub fn write_coefficients(&mut self) -> StraightLine {
+        let (arena, outputs) = (self.arena.clone(), self.coefficients.clone());
+        write(
+            &arena,
+            &outputs,
+            Stage::Coefficient,
+            &mut Kernel { store: self },
+        )
+    }
+
+    /// The body of `prepare`.
+    #[must_use]
+    pub fn write_constants(&self, symbols: &[Symbol]) -> StraightLine {
+        write(
+            &self.arena,
+            &self.constants,
+            Stage::Parameter,
+            &mut Preparation { symbols },
+        )
+    }
+}
+
+/// The environment of a kernel: inputs from its arguments, earlier values from the store.
+#[derive(Debug)]
+pub struct Kernel<'a> {
+    /// Where earlier values come from.
+    pub store: &'a mut Store,
+}
+
+impl Environment for Kernel<'_> {
+    fn input(&mut self, input: Input) -> TokenStream {
+        load_input(input)
+    }
+
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream {
+        self.store.load(arena, value)
+    }
+}
+
+/// The expression of an input that comes with the arguments of a kernel.
+fn load_input(input: Input) -> TokenStream {
+    let (array, place) = match input {
+        Input::Coordinate(place) => ("coordinates", place),
+        Input::Velocity(place) => ("velocities", place),
+        Input::Upper(place) => ("upper", place),
+        Input::Lower(place) => ("lower", place),
+        Input::RateGain => return field("rate"),
+        Input::PositionGain => return field("position"),
+        Input::Compliance => return field("compliance"),
+        // Symbols are constants: only `prepare` reads them.
+        Input::Symbol(_) => return quote!(S::constant(0.0)),
+    };
+    let (array, place) = (local(array), place as usize);
+    quote!(#array[#place])
+}
+
+fn field(name: &str) -> TokenStream {
+    let (stabilisation, field) = (local("stabilisation"), local(name));
+    quote!(#stabilisation.#field)
+}
+
+/// The environment of `prepare`: symbols as they were written.
+struct Preparation<'a> {
+    symbols: &'a [Symbol],
+}
+
+impl Environment for Preparation<'_> {
+    fn input(&mut self, input: Input) -> TokenStream {
+        match input {
+            Input::Symbol(place) => {
+                let expression = &self.symbols[place as usize].expression;
+                quote!(S::constant(#expression))
+            }
+            other => load_input(other),
+        }
+    }
+
+    fn earlier(&mut self, _: &Arena, _: Expr) -> TokenStream {
+        // Nothing is earlier than a parameter but literals, which are written in place.
+        quote!(S::constant(0.0))
+    }
+}
+
+/// The environment of the back-substitution: state-dependent values come from the factors.
+#[derive(Debug)]
+pub struct BackSubstitution<'a> {
+    /// Where constants and coefficients come from.
+    pub store: &'a mut Store,
+    /// What the factorisation hands over.
+    pub factors: Vec<Expr>,
+}
+
+impl Environment for BackSubstitution<'_> {
+    fn input(&mut self, input: Input) -> TokenStream {
+        load_input(input)
+    }
+
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream {
+        if arena.stage(value) < Stage::State {
+            return self.store.load(arena, value);
+        }
+        let place = self
+            .factors
+            .iter()
+            .position(|&known| known == value)
+            .unwrap_or_else(|| {
+                self.factors.push(value);
+                self.factors.len() - 1
+            });
+        let factors = local("factors");
+        quote!(#factors[#place])
+    }
+}

@@ -1,0 +1,175 @@
+//! An arena to statements: one `let` per node, named after its origin.
+
+use std::collections::{HashMap, HashSet};
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::local;
+use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+
+/// How values of an earlier stage, and inputs, reach the code.
+pub trait Environment {
+    /// The expression that loads an input of the stage at hand.
+    fn input(&mut self, input: Input) -> TokenStream;
+
+    /// The expression that loads a value known earlier.
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream;
+}
+
+/// Statements, and the outputs as expressions over them.
+#[derive(Clone, Debug)]
+pub struct StraightLine {
+    /// One `let` per node.
+    pub statements: TokenStream,
+    /// The outputs in order.
+    pub outputs: Vec<TokenStream>,
+}
+
+struct Writer<'a, E> {
+    arena: &'a Arena,
+    environment: &'a mut E,
+    names: HashMap<usize, Ident>,
+    fused: HashSet<usize>,
+    statements: TokenStream,
+}
+
+/// Writes the nodes that the outputs need and that are known no earlier than `from`.
+pub fn write(
+    arena: &Arena,
+    outputs: &[Expr],
+    from: Stage,
+    environment: &mut impl Environment,
+) -> StraightLine {
+    let live = arena.live(outputs, from);
+    let fused = fused_products(arena, &live, outputs);
+    let mut writer = Writer {
+        arena,
+        environment,
+        names: HashMap::new(),
+        fused,
+        statements: TokenStream::new(),
+    };
+    for &place in &live {
+        writer.node(place);
+    }
+    let outputs = outputs
+        .iter()
+        .map(|&output| writer.reference(output))
+        .collect();
+    StraightLine {
+        statements: writer.statements,
+        outputs,
+    }
+}
+
+/// Products that one sum alone uses, one for each sum: they are written there, as a fused multiply-add.
+fn fused_products(arena: &Arena, live: &[usize], outputs: &[Expr]) -> HashSet<usize> {
+    let mut uses: HashMap<usize, usize> = HashMap::new();
+    for &place in live {
+        for operand in arena.node(place).operands() {
+            *uses.entry(operand.node()).or_default() += 1;
+        }
+    }
+    for output in outputs {
+        *uses.entry(output.node()).or_default() += 1;
+    }
+    let is_output: HashSet<usize> = outputs.iter().map(|output| output.node()).collect();
+    let own: HashSet<usize> = live.iter().copied().collect();
+    let fusible = |x: Expr| {
+        matches!(arena.get(x), Node::Multiply(..))
+            && own.contains(&x.node())
+            && uses.get(&x.node()) == Some(&1)
+            && !is_output.contains(&x.node())
+    };
+    live.iter()
+        .filter_map(|&place| match arena.node(place) {
+            Node::Add(_, b) if fusible(b) => Some(b.node()),
+            Node::Add(a, _) if fusible(a) => Some(a.node()),
+            _ => None,
+        })
+        .collect()
+}
+
+impl<E: Environment> Writer<'_, E> {
+    fn node(&mut self, place: usize) {
+        let value = match self.arena.node(place) {
+            Node::Multiply(..) if self.fused.contains(&place) => return,
+            Node::Constant(_) => return,
+            Node::Input(input) => self.environment.input(input),
+            Node::Add(a, b) => self.sum(a, b),
+            Node::Multiply(a, b) => {
+                let (a, b) = (self.reference(a), self.reference(b));
+                quote!(#a * #b)
+            }
+            Node::Reciprocal(a) => {
+                let a = self.reference(a);
+                quote!(S::reciprocal(#a))
+            }
+            Node::SquareRoot(a) => {
+                let a = self.reference(a);
+                quote!(S::sqrt(#a))
+            }
+            Node::Sign(a) => {
+                let a = self.reference(a);
+                quote!(S::select(#a, S::constant(0.0), S::constant(-1.0), S::constant(1.0)))
+            }
+        };
+        self.bind(place, &value);
+    }
+
+    fn bind(&mut self, place: usize, value: &TokenStream) {
+        let label = self
+            .arena
+            .label(place)
+            .map(|label| label.trim_start_matches("r#"));
+        let name = local(&format!("{}_{place}", label.unwrap_or("n")));
+        self.statements.extend(quote!(let #name = #value;));
+        self.names.insert(place, name);
+    }
+
+    /// The operand of a sum that is fused into it, and the other one.
+    fn fused_operand(&self, a: Expr, b: Expr) -> Option<(Expr, Expr)> {
+        if self.fused.contains(&b.node()) {
+            Some((b, a))
+        } else if self.fused.contains(&a.node()) {
+            Some((a, b))
+        } else {
+            None
+        }
+    }
+
+    fn sum(&mut self, a: Expr, b: Expr) -> TokenStream {
+        if let Some((product, other)) = self.fused_operand(a, b)
+            && let Node::Multiply(x, y) = self.arena.get(product)
+        {
+            let x = if product.is_negative() { -x } else { x };
+            let (x, y, other) = (self.reference(x), self.reference(y), self.reference(other));
+            return quote!(S::fused(#x, #y, #other));
+        }
+        let first = self.reference(a);
+        let second = self.reference(b.abs());
+        if b.is_negative() {
+            quote!(#first - #second)
+        } else {
+            quote!(#first + #second)
+        }
+    }
+
+    fn reference(&mut self, expr: Expr) -> TokenStream {
+        if let Some(value) = self.arena.literal(expr) {
+            return quote!(S::constant(#value));
+        }
+        let place = expr.node();
+        if !self.names.contains_key(&place) {
+            let value = self.environment.earlier(self.arena, expr.abs());
+            self.bind(place, &value);
+        }
+        let name = &self.names[&place];
+        if expr.is_negative() {
+            quote!((-#name))
+        } else {
+            quote!(#name)
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! A mechanism: bodies, joints, gravity.
+
+use proc_macro2::{Ident, TokenStream};
+
+use super::joint::JointDef;
+use super::number::{Number, Symbol};
+
+/// Whether a body has an orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyKind {
+    /// Position and orientation.
+    Rigid,
+    /// Position only.
+    Particle,
+}
+
+impl BodyKind {
+    /// The coordinates of a body of this kind.
+    #[must_use]
+    pub const fn coordinates(self) -> usize {
+        match self {
+            Self::Rigid => 7,
+            Self::Particle => 3,
+        }
+    }
+
+    /// The velocities of a body of this kind.
+    #[must_use]
+    pub const fn velocities(self) -> usize {
+        match self {
+            Self::Rigid => 6,
+            Self::Particle => 3,
+        }
+    }
+}
+
+/// A body. Its axes here are the principal axes.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// The field.
+    pub name: Ident,
+    /// Body or particle.
+    pub kind: BodyKind,
+    /// Mass (kg).
+    pub mass: Number,
+    /// Principal moments of inertia about the centre of mass (kg m^2).
+    pub inertia: [Number; 3],
+    /// Euler parameters of the rotation that takes components in the user's axes to principal axes.
+    pub user_axes: [f64; 4],
+    /// The centre of mass at the start (m, global).
+    pub position: [Number; 3],
+    /// Euler parameters of the user's axes at the start.
+    pub orientation: [Number; 4],
+    /// The velocity of the centre of mass at the start (m/s, global).
+    pub velocity: [Number; 3],
+    /// The angular velocity at the start (rad/s, the user's axes).
+    pub angular_velocity: [Number; 3],
+    /// Whether it may go without a joint.
+    pub free: bool,
+}
+
+/// What a mechanism gives for a parameter of a joint.
+#[derive(Clone, Debug)]
+pub enum Binding {
+    /// A point or vector in global axes at the initial configuration.
+    Global([Number; 3]),
+    /// A point or vector for every body, in the user's body axes.
+    Local(Vec<[Number; 3]>),
+    /// A number.
+    Scalar(Number),
+}
+
+/// A joint of a mechanism.
+#[derive(Clone, Debug)]
+pub struct JointUse {
+    /// The field.
+    pub name: Ident,
+    /// The type as it was written, without generic arguments.
+    pub path: TokenStream,
+    /// The place of its definition.
+    pub definition: usize,
+    /// Its bodies by their places; `None` is the ground.
+    pub bodies: Vec<Option<usize>>,
+    /// What its parameters are, in the order of the definition.
+    pub bindings: Vec<Binding>,
+}
+
+/// A checked mechanism.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The struct.
+    pub name: Ident,
+    /// Gravity (m/s^2, global).
+    pub gravity: [Number; 3],
+    /// The bodies in the order of the fields.
+    pub bodies: Vec<Body>,
+    /// The joints in the order of the fields.
+    pub joints: Vec<JointUse>,
+    /// The definitions that the joints use.
+    pub definitions: Vec<JointDef>,
+    /// Numbers that the macro cannot see.
+    pub symbols: Vec<Symbol>,
+}
+
+impl Model {
+    /// The definition of a joint.
+    #[must_use]
+    pub fn definition(&self, joint: &JointUse) -> &JointDef {
+        &self.definitions[joint.definition]
+    }
+
+    /// The place of each body's first coordinate and first velocity, and the totals.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        let mut layout = Layout::default();
+        for body in &self.bodies {
+            layout.coordinate.push(layout.coordinates);
+            layout.velocity.push(layout.velocities);
+            layout.coordinates += body.kind.coordinates();
+            layout.velocities += body.kind.velocities();
+        }
+        for joint in &self.joints {
+            layout.row.push(layout.rows);
+            layout.rows += self.definition(joint).equations();
+        }
+        layout
+    }
+}
+
+/// Where things stand in the state and among the rows.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// The first coordinate of each body.
+    pub coordinate: Vec<usize>,
+    /// The first velocity of each body.
+    pub velocity: Vec<usize>,
+    /// The first row of each joint.
+    pub row: Vec<usize>,
+    /// All coordinates.
+    pub coordinates: usize,
+    /// All velocities.
+    pub velocities: usize,
+    /// All rows.
+    pub rows: usize,
+}

@@ -1,0 +1,10 @@
+//! What a description means: bodies, joints and numbers, names bound, shapes known, independent of how it was written.
+
+pub mod inertia;
+pub mod joint;
+pub mod mechanism;
+pub mod number;
+
+pub use joint::{AngleDef, JointDef, Parameter, ParameterKind, Row, Term};
+pub use mechanism::{Binding, Body, BodyKind, JointUse, Model};
+pub use number::{Number, Symbol};

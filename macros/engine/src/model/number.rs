@@ -1,0 +1,53 @@
+//! Numbers of a description: known at expansion, or named and known when the code runs.
+
+use proc_macro2::{Span, TokenStream};
+
+/// A number as the model knows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// Evaluated by the macro.
+    Literal(f64),
+    /// An entry of the table of symbols.
+    Symbol(u32),
+}
+
+impl Number {
+    /// Zero.
+    pub const ZERO: Self = Self::Literal(0.0);
+    /// One.
+    pub const ONE: Self = Self::Literal(1.0);
+
+    /// The value, if the macro could see it.
+    #[must_use]
+    pub const fn literal(self) -> Option<f64> {
+        match self {
+            Self::Literal(value) => Some(value),
+            Self::Symbol(_) => None,
+        }
+    }
+}
+
+/// The values, if the macro could see all of them.
+#[must_use]
+pub fn literals<const N: usize>(numbers: &[Number; N]) -> Option<[f64; N]> {
+    let mut values = [0.0; N];
+    for (value, number) in values.iter_mut().zip(numbers) {
+        *value = number.literal()?;
+    }
+    Some(values)
+}
+
+/// A number that the macro cannot see, because it names a constant of the user's crate.
+#[derive(Clone, Debug)]
+pub struct Symbol {
+    /// An expression of type `f64`; functions are written as paths below `__private`.
+    pub expression: TokenStream,
+    /// Whether the compiler can evaluate the expression in a constant.
+    pub is_const: bool,
+    /// Where it was written.
+    pub span: Span,
+    /// The field that it describes.
+    pub field: String,
+    /// The attribute that it belongs to.
+    pub attribute: String,
+}

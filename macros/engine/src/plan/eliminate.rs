@@ -1,0 +1,314 @@
+//! Symbolic elimination of a symmetric system with pivots of one or two unknowns, in a given order: `L D L^T`.
+
+use std::collections::BTreeMap;
+
+use super::Pivot;
+use crate::symbolic::arena::{Arena, Expr};
+
+/// A sparse symmetric matrix.
+#[derive(Clone, Debug, Default)]
+pub struct Symmetric {
+    rows: Vec<BTreeMap<usize, Expr>>,
+}
+
+impl Symmetric {
+    /// The zero matrix.
+    #[must_use]
+    pub fn new(size: usize) -> Self {
+        Self {
+            rows: vec![BTreeMap::new(); size],
+        }
+    }
+
+    /// An entry.
+    #[must_use]
+    pub fn get(&self, k: usize, l: usize) -> Expr {
+        self.rows[k].get(&l).copied().unwrap_or(Arena::ZERO)
+    }
+
+    /// Sets an entry and its mirror image.
+    pub fn set(&mut self, k: usize, l: usize, value: Expr) {
+        for (k, l) in [(k, l), (l, k)] {
+            if value == Arena::ZERO {
+                self.rows[k].remove(&l);
+            } else {
+                self.rows[k].insert(l, value);
+            }
+        }
+    }
+
+    /// Adds to an entry and its mirror image.
+    pub fn add(&mut self, arena: &mut Arena, k: usize, l: usize, value: Expr) {
+        let sum = arena.add(self.get(k, l), value);
+        self.set(k, l, sum);
+    }
+
+    fn neighbours(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+        self.rows[k].keys().copied()
+    }
+
+    fn remove(&mut self, k: usize) {
+        for (l, _) in std::mem::take(&mut self.rows[k]) {
+            if l != k {
+                self.rows[l].remove(&k);
+            }
+        }
+    }
+}
+
+/// One step of the elimination: `x_P = P^-1 rhs_P - sum L_i^T x_i`.
+#[derive(Clone, Debug)]
+struct Step {
+    unknowns: Vec<usize>,
+    inverse: Inverse,
+    lower: Vec<(usize, Vec<Expr>)>,
+}
+
+/// The inverse of a pivot.
+#[derive(Clone, Debug)]
+enum Inverse {
+    /// Entry by entry.
+    Matrix(Vec<Vec<Expr>>),
+    /// Of `[A C^T; C 0]`: `C^-1` and `A`.
+    Forbidden {
+        inverse: [[Expr; 2]; 2],
+        mass: [[Expr; 2]; 2],
+    },
+}
+
+impl Inverse {
+    /// `P^-1 b`.
+    fn apply(&self, arena: &mut Arena, b: &[Expr]) -> Vec<Expr> {
+        let mut dot = |x: &[Expr], y: &[Expr]| {
+            let mut sum = Arena::ZERO;
+            for (&x, &y) in x.iter().zip(y) {
+                let product = arena.mul(x, y);
+                sum = arena.add(sum, product);
+            }
+            sum
+        };
+        match self {
+            Self::Matrix(rows) => rows.iter().map(|row| dot(row, b)).collect(),
+            Self::Forbidden {
+                inverse: [first, second],
+                mass,
+            } => {
+                let (upper, lower) = b.split_at(2);
+                let x = [dot(first, lower), dot(second, lower)];
+                let inertia = [dot(&mass[0], &x), dot(&mass[1], &x)];
+                let left = [0, 1].map(|k| arena.sub(upper[k], inertia[k]));
+                let mut dot = |y: [Expr; 2]| {
+                    let products = [arena.mul(y[0], left[0]), arena.mul(y[1], left[1])];
+                    arena.add(products[0], products[1])
+                };
+                vec![
+                    x[0],
+                    x[1],
+                    dot([first[0], second[0]]),
+                    dot([first[1], second[1]]),
+                ]
+            }
+        }
+    }
+}
+
+/// A multiplier's pivot before and after other rows were eliminated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Check {
+    /// The unknown.
+    pub unknown: usize,
+    /// The pivot.
+    pub pivot: Expr,
+    /// The same diagonal element before any multiplier was eliminated.
+    pub before: Expr,
+}
+
+/// A factorised symmetric matrix.
+#[derive(Clone, Debug)]
+pub struct Factors {
+    steps: Vec<Step>,
+    /// The pivots that depend on the state and are not safe by themselves.
+    pub checks: Vec<Check>,
+}
+
+/// Factorises a matrix.
+///
+/// `determinants` are those of the blocks [`Pivot::Forbidden`] at the start.
+pub fn factorise(
+    arena: &mut Arena,
+    mut matrix: Symmetric,
+    pivots: &[Pivot],
+    determinants: &[f64],
+) -> Factors {
+    let mut determinants = determinants.iter();
+    let mut steps = Vec::new();
+    let mut checks = Vec::new();
+    let mut before: BTreeMap<usize, Expr> = BTreeMap::new();
+    for &pivot in pivots {
+        let unknowns = pivot.unknowns();
+        if let Pivot::Multiplier(k) = pivot {
+            let value = matrix.get(k, k);
+            if arena.literal(value).is_none_or(|value| value == 0.0) {
+                let before = before.get(&k).copied().unwrap_or(value);
+                checks.push(Check {
+                    unknown: k,
+                    pivot: value,
+                    before,
+                });
+            }
+        }
+        let inverse = match pivot {
+            Pivot::Forbidden(accelerations, rows) => {
+                let (inverse, determinant) = invert_forbidden(arena, &matrix, accelerations, rows);
+                let at_start = determinants.next().copied().unwrap_or(1.0);
+                let before = arena.constant(at_start);
+                checks.push(Check {
+                    unknown: rows[0],
+                    pivot: determinant,
+                    before,
+                });
+                inverse
+            }
+            _ => Inverse::Matrix(invert(arena, &matrix, &unknowns)),
+        };
+        let coupled: Vec<usize> = {
+            let mut coupled: Vec<usize> = unknowns
+                .iter()
+                .flat_map(|&k| matrix.neighbours(k))
+                .collect();
+            coupled.sort_unstable();
+            coupled.dedup();
+            coupled.retain(|k| !unknowns.contains(k));
+            coupled
+        };
+        let lower: Vec<(usize, Vec<Expr>)> = coupled
+            .iter()
+            .map(|&i| {
+                let column: Vec<Expr> = unknowns.iter().map(|&k| matrix.get(i, k)).collect();
+                (i, inverse.apply(arena, &column))
+            })
+            .collect();
+        for (place, (i, row)) in lower.iter().enumerate() {
+            for &j in &coupled[..=place] {
+                let mut update = Arena::ZERO;
+                for (p, &unknown) in unknowns.iter().enumerate() {
+                    let product = arena.mul(row[p], matrix.get(j, unknown));
+                    update = arena.add(update, product);
+                }
+                if matches!(pivot, Pivot::Multiplier(_)) && *i == j && update != Arena::ZERO {
+                    before.entry(j).or_insert(matrix.get(j, j));
+                }
+                matrix.add(arena, *i, j, -update);
+            }
+        }
+        for &unknown in &unknowns {
+            matrix.remove(unknown);
+        }
+        steps.push(Step {
+            unknowns,
+            inverse,
+            lower,
+        });
+    }
+    Factors { steps, checks }
+}
+
+fn invert(arena: &mut Arena, matrix: &Symmetric, unknowns: &[usize]) -> Vec<Vec<Expr>> {
+    match *unknowns {
+        [k] => vec![vec![arena.reciprocal(matrix.get(k, k))]],
+        [k, l] => {
+            let (a, b, c) = (matrix.get(k, k), matrix.get(k, l), matrix.get(l, l));
+            let (ac, bb) = (arena.mul(a, c), arena.square(b));
+            let determinant = arena.sub(ac, bb);
+            let inverse = arena.reciprocal(determinant);
+            let (a, b, c) = (
+                arena.mul(a, inverse),
+                arena.mul(b, inverse),
+                arena.mul(c, inverse),
+            );
+            vec![vec![c, -b], vec![-b, a]]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The inverse of `[A C^T; C 0]`, and the determinant of `C`.
+fn invert_forbidden(
+    arena: &mut Arena,
+    matrix: &Symmetric,
+    accelerations: [usize; 2],
+    rows: [usize; 2],
+) -> (Inverse, Expr) {
+    let [[a, b], [c, d]] = rows.map(|row| accelerations.map(|k| matrix.get(row, k)));
+    let (ad, bc) = (arena.mul(a, d), arena.mul(b, c));
+    let determinant = arena.sub(ad, bc);
+    let reciprocal = arena.reciprocal(determinant);
+    // Rows are accelerations, columns are rows of C.
+    let inverse = [[d, -b], [-c, a]].map(|row| row.map(|entry| arena.mul(entry, reciprocal)));
+    let mass = accelerations.map(|k| accelerations.map(|l| matrix.get(k, l)));
+    (Inverse::Forbidden { inverse, mass }, determinant)
+}
+
+impl Factors {
+    /// Solves the system for a right-hand side.
+    pub fn solve(&self, arena: &mut Arena, mut right: Vec<Expr>) -> Vec<Expr> {
+        for step in &self.steps {
+            for (i, row) in &step.lower {
+                for (p, &unknown) in step.unknowns.iter().enumerate() {
+                    let product = arena.mul(row[p], right[unknown]);
+                    right[*i] = arena.sub(right[*i], product);
+                }
+            }
+        }
+        let mut solution = vec![Arena::ZERO; right.len()];
+        for step in self.steps.iter().rev() {
+            let right: Vec<Expr> = step.unknowns.iter().map(|&k| right[k]).collect();
+            let values = step.inverse.apply(arena, &right);
+            for (p, (&unknown, mut value)) in step.unknowns.iter().zip(values).enumerate() {
+                for (i, row) in &step.lower {
+                    let product = arena.mul(row[p], solution[*i]);
+                    value = arena.sub(value, product);
+                }
+                solution[unknown] = value;
+            }
+        }
+        solution
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Symmetric, factorise};
+    use crate::plan::Pivot;
+    use crate::symbolic::arena::Arena;
+
+    #[test]
+    fn a_numeric_saddle_system_is_solved() {
+        // [4 1 1; 1 3 0; 1 0 0] x = (9, 7, 1): x = (1, 2, 3).
+        let mut arena = Arena::new();
+        let mut matrix = Symmetric::new(3);
+        for (k, l, value) in [(0, 0, 4.0), (0, 1, 1.0), (1, 1, 3.0), (0, 2, 1.0)] {
+            let value = arena.constant(value);
+            matrix.set(k, l, value);
+        }
+        for pivots in [
+            vec![Pivot::Saddle(0, 2), Pivot::Acceleration(1)],
+            vec![
+                Pivot::Acceleration(1),
+                Pivot::Acceleration(0),
+                Pivot::Multiplier(2),
+            ],
+        ] {
+            let factors = factorise(&mut arena, matrix.clone(), &pivots, &[]);
+            let right = [9.0, 7.0, 1.0].map(|value| arena.constant(value)).to_vec();
+            let solution = factors.solve(&mut arena, right);
+            let values: Vec<f64> = solution
+                .iter()
+                .map(|&x| arena.literal(x).expect("folds"))
+                .collect();
+            for (value, expected) in values.iter().zip([1.0, 2.0, 3.0]) {
+                assert!((value - expected).abs() < 1e-15, "{values:?}");
+            }
+        }
+    }
+}

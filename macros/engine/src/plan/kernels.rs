@@ -1,0 +1,444 @@
+//! The kernels of a mechanism, as outputs over arenas.
+
+use super::Plan;
+use super::candidates::{choose, equations_of_motion};
+use super::eliminate::Check;
+use super::system::{System, Terms, applied_forces};
+use crate::model::{BodyKind, Model};
+use crate::symbolic::arena::{Arena, Expr};
+use crate::symbolic::fixed::{initial_orientation, triple};
+use crate::symbolic::scene::{Orientation, Reading, Scene};
+use crate::symbolic::vector::{Frame, Triple, VectorId};
+
+/// Outputs over an arena.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    /// The arena.
+    pub arena: Arena,
+    /// What is computed.
+    pub outputs: Vec<Expr>,
+}
+
+/// A kernel that solves: outputs are coordinate rates, accelerations, multipliers.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// The terms of the formulation.
+    pub terms: Terms,
+    /// How Euler parameters are read.
+    pub reading: Reading,
+    /// Outputs, and behind them the relative pivots in the order of `checks`.
+    pub kernel: Kernel,
+    /// The pivots to check.
+    pub checks: Vec<PivotCheck>,
+}
+
+/// A pivot that is checked at run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PivotCheck {
+    /// The joint; the output is the pivot over what it was before other rows were eliminated.
+    Relative(usize),
+    /// The joint; the output is a pivot that nothing was subtracted from, so that only zero is bad.
+    Nonzero(usize),
+}
+
+/// Factorisation and back-substitution; both over one arena.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    /// The terms of the formulation: plain or compliant.
+    pub terms: Terms,
+    /// The arena.
+    pub arena: Arena,
+    /// The relative pivots.
+    pub pivots: Vec<Expr>,
+    /// The pivots to check.
+    pub checks: Vec<PivotCheck>,
+    /// Accelerations and multipliers for a given right-hand side.
+    pub solution: Vec<Expr>,
+}
+
+/// A block of the Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The joint.
+    pub joint: usize,
+    /// The body.
+    pub body: usize,
+    /// Where its values start.
+    pub offset: usize,
+}
+
+/// Everything that is generated for a mechanism.
+#[derive(Clone, Debug)]
+pub struct Kernels {
+    /// `Phi`.
+    pub constraints: Kernel,
+    /// `Phi'`.
+    pub constraint_rates: Kernel,
+    /// `D`, block by block.
+    pub jacobian: Kernel,
+    /// The blocks of `D`.
+    pub blocks: Vec<Block>,
+    /// `gamma`.
+    pub gamma: Kernel,
+    /// The diagonal of the mass matrix.
+    pub mass: Kernel,
+    /// `g`.
+    pub forces: Kernel,
+    /// Kinetic energy.
+    pub kinetic_energy: Kernel,
+    /// Potential energy.
+    pub potential_energy: Kernel,
+    /// `q'`.
+    pub coordinate_rates: Kernel,
+    /// Coordinates, then velocities, of the described state.
+    pub initial_state: Kernel,
+    /// Cosine, sine and rate of the angle of each joint that has one.
+    pub angles: Vec<(usize, Kernel)>,
+    /// The reaction point of each joint on each of its bodies.
+    pub points: Vec<(usize, usize, Kernel)>,
+    /// Masses and moments of inertia, axes squared: what `prepare` checks, per body.
+    pub evaluations: Vec<Evaluation>,
+    /// Factorisation and back-substitution.
+    pub solvers: Vec<Solver>,
+    /// The plan of the solutions.
+    pub plan: Plan,
+}
+
+impl Kernels {
+    /// Builds all kernels of a model.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        let (plan, _) = choose(model);
+        let evaluations = [Reading::Raw, Reading::Normalised]
+            .into_iter()
+            .flat_map(|reading| Terms::ALL.map(|terms| (reading, terms)))
+            .map(|(reading, terms)| evaluation(model, &plan, reading, terms))
+            .collect();
+        let solvers = [Terms::Plain, Terms::Compliant]
+            .map(|terms| solver(model, &plan, terms))
+            .into();
+        let (jacobian, blocks) = jacobian(model);
+        let minus = -Arena::ONE;
+        let (one, zero) = (Arena::ONE, Arena::ZERO);
+        Self {
+            constraints: rows(model, [one, zero, zero]),
+            constraint_rates: rows(model, [zero, one, zero]),
+            gamma: rows(model, [zero, zero, minus]),
+            jacobian,
+            blocks,
+            mass: mass(model),
+            forces: with_scene(model, |scene| applied_forces(scene, &kinds(model))),
+            kinetic_energy: kinetic_energy(model),
+            potential_energy: potential_energy(model),
+            coordinate_rates: with_scene(model, |scene| coordinate_rates(scene, model)),
+            initial_state: initial_state(model),
+            angles: angles(model),
+            points: points(model),
+            evaluations,
+            solvers,
+            plan,
+        }
+    }
+}
+
+fn kinds(model: &Model) -> Vec<BodyKind> {
+    model.bodies.iter().map(|body| body.kind).collect()
+}
+
+fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<Expr>) -> Kernel {
+    let mut scene = Scene::new(model, Reading::Raw);
+    let outputs = outputs(&mut scene);
+    Kernel {
+        arena: scene.space.arena,
+        outputs,
+    }
+}
+
+fn rows(model: &Model, factors: [Expr; 3]) -> Kernel {
+    with_scene(model, |scene| {
+        (0..scene.constraints.len())
+            .flat_map(|place| scene.combination(place, Frame::Global, factors))
+            .collect()
+    })
+}
+
+fn jacobian(model: &Model) -> (Kernel, Vec<Block>) {
+    let mut scene = Scene::new(model, Reading::Raw);
+    let mut outputs = Vec::new();
+    let mut blocks = Vec::new();
+    for (joint, described) in model.joints.iter().enumerate() {
+        let mut bodies: Vec<usize> = described.bodies.iter().copied().flatten().collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        let own: Vec<usize> = (0..scene.constraints.len())
+            .filter(|&c| scene.constraints[c].joint == joint)
+            .collect();
+        for body in bodies {
+            blocks.push(Block {
+                joint,
+                body,
+                offset: outputs.len(),
+            });
+            for &place in &own {
+                for gradient in scene.gradients(place, Frame::Global) {
+                    let force = gradient.force(&mut scene.space, body);
+                    outputs.extend(scene.space.components(force, Frame::Global));
+                    if model.bodies[body].kind == BodyKind::Rigid {
+                        let moment = gradient.moment(&mut scene.space, body);
+                        outputs.extend(scene.space.components(moment, Frame::Body(body)));
+                    }
+                }
+            }
+        }
+    }
+    (
+        Kernel {
+            arena: scene.space.arena,
+            outputs,
+        },
+        blocks,
+    )
+}
+
+fn mass(model: &Model) -> Kernel {
+    with_scene(model, |scene| {
+        let mut diagonal = Vec::new();
+        for (body, kind) in kinds(model).into_iter().enumerate() {
+            diagonal.extend([scene.mass[body]; 3]);
+            if kind == BodyKind::Rigid {
+                diagonal.extend(scene.inertia[body]);
+            }
+        }
+        diagonal
+    })
+}
+
+fn kinetic_energy(model: &Model) -> Kernel {
+    with_scene(model, |scene| {
+        let mut sum = Arena::ZERO;
+        for body in 0..model.bodies.len() {
+            let v = scene
+                .space
+                .components(scene.motion.velocity[body], Frame::Global);
+            let (w, j, m) = (
+                scene.motion.spin_components[body],
+                scene.inertia[body],
+                scene.mass[body],
+            );
+            let arena = &mut scene.space.arena;
+            let squares = v.map(|component| arena.square(component));
+            let speed = arena.sum(squares);
+            let translation = arena.mul(m, speed);
+            let rotation = [0, 1, 2].map(|k| {
+                let square = arena.square(w[k]);
+                arena.mul(j[k], square)
+            });
+            let rotation = arena.sum(rotation);
+            let both = arena.add(translation, rotation);
+            sum = arena.add(sum, both);
+        }
+        let half = scene.space.arena.constant(0.5);
+        vec![scene.space.arena.mul(half, sum)]
+    })
+}
+
+fn potential_energy(model: &Model) -> Kernel {
+    with_scene(model, |scene| {
+        let mut sum = Arena::ZERO;
+        let gravity = scene.space.native(Frame::Global, scene.gravity);
+        for body in 0..model.bodies.len() {
+            let height = scene.space.dot(gravity, scene.motion.position[body]);
+            let energy = scene.space.arena.mul(scene.mass[body], height);
+            sum = scene.space.arena.sub(sum, energy);
+        }
+        vec![sum]
+    })
+}
+
+/// `r' = v`, `p' = 1/2 L(p)^T w` (Nikravesh 1988, eq. 6.111, body axes).
+fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
+    let mut rates = Vec::new();
+    for body in 0..model.bodies.len() {
+        rates.extend(
+            scene
+                .space
+                .components(scene.motion.velocity[body], Frame::Global),
+        );
+        let Some(Orientation { p, factor }) = scene.orientation[body] else {
+            continue;
+        };
+        let arena = &mut scene.space.arena;
+        let w = scene.motion.spin_components[body].map(|component| arena.mul(factor, component));
+        let mut combination = |terms: [(usize, usize, bool); 3]| {
+            let mut sum = Arena::ZERO;
+            for (k, l, minus) in terms {
+                let product = arena.mul(p[k], w[l]);
+                sum = arena.add(sum, if minus { -product } else { product });
+            }
+            sum
+        };
+        rates.extend([
+            combination([(1, 0, true), (2, 1, true), (3, 2, true)]),
+            combination([(0, 0, false), (2, 2, false), (3, 1, true)]),
+            combination([(0, 1, false), (3, 0, false), (1, 2, true)]),
+            combination([(0, 2, false), (1, 1, false), (2, 0, true)]),
+        ]);
+    }
+    rates
+}
+
+/// The state that the attributes describe: coordinates, then velocities.
+pub fn initial_state(model: &Model) -> Kernel {
+    let mut arena = Arena::new();
+    let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
+    for body in &model.bodies {
+        coordinates.extend(triple(&mut arena, body.position));
+        velocities.extend(triple(&mut arena, body.velocity));
+        if body.kind == BodyKind::Rigid {
+            coordinates.extend(initial_orientation(&mut arena, body));
+            let user = triple(&mut arena, body.angular_velocity);
+            let turn = crate::model::inertia::rotation(body.user_axes);
+            velocities.extend(turn.map(|row| {
+                let row: Triple = row.map(|entry| arena.constant(entry));
+                crate::symbolic::vector::dot(&mut arena, row, user)
+            }));
+        }
+    }
+    coordinates.extend(velocities);
+    Kernel {
+        arena,
+        outputs: coordinates,
+    }
+}
+
+/// The angle of the second body against the first: with axis `a` and normals `n1`, `n2` on either body,
+/// `cosine = n1(i) . n1(j)`, `sine = n2(i) . n1(j)`, rate `a(i) . (w(j) - w(i))`.
+fn angles(model: &Model) -> Vec<(usize, Kernel)> {
+    let mut angles = Vec::new();
+    for (place, joint) in model.joints.iter().enumerate() {
+        let Some(angle) = model.definition(joint).angle else {
+            continue;
+        };
+        let kernel = with_scene(model, |scene| {
+            let Some(copies) = scene.copies[place][angle.axis].clone() else {
+                return Vec::new();
+            };
+            let (i, j) = (joint.bodies[0], joint.bodies[1]);
+            let frame = |body: Option<usize>| body.map_or(Frame::Global, Frame::Body);
+            let space = &mut scene.space;
+            let [n1, n2] = copies.normals[0].map(|n| space.native(frame(i), n));
+            let moving = space.native(frame(j), copies.normals[1][0]);
+            let axis = space.native(frame(i), copies.vector[0]);
+            let spin = |body: Option<usize>| -> Option<VectorId> {
+                body.map(|body| scene.motion.spin[body])
+            };
+            let (cosine, sine) = (space.dot(n1, moving), space.dot(n2, moving));
+            let mut rate = Arena::ZERO;
+            for (body, sign) in [(j, Arena::ONE), (i, -Arena::ONE)] {
+                if let Some(spin) = spin(body) {
+                    let along = space.dot(axis, spin);
+                    let signed = space.arena.mul(sign, along);
+                    rate = space.arena.add(rate, signed);
+                }
+            }
+            vec![cosine, sine, rate]
+        });
+        angles.push((place, kernel));
+    }
+    angles
+}
+
+fn points(model: &Model) -> Vec<(usize, usize, Kernel)> {
+    let mut points = Vec::new();
+    for (place, joint) in model.joints.iter().enumerate() {
+        let Some(parameter) = model.definition(joint).reaction_point() else {
+            continue;
+        };
+        for body in 0..joint.bodies.len() {
+            let kernel = with_scene(model, |scene| {
+                scene.copies[place][parameter]
+                    .as_ref()
+                    .map_or(vec![Arena::ZERO; 3], |copies| copies.vector[body].into())
+            });
+            points.push((place, body, kernel));
+        }
+    }
+    points
+}
+
+fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotCheck>) {
+    let joint_of = |scene: &Scene, row: usize| {
+        scene
+            .constraints
+            .iter()
+            .rev()
+            .find(|c| c.row <= row)
+            .map_or(0, |c| c.joint)
+    };
+    let mut pivots = Vec::new();
+    let mut checks = Vec::new();
+    for Check {
+        unknown,
+        pivot,
+        before,
+    } in system.checks(scene)
+    {
+        let joint = joint_of(scene, unknown);
+        if pivot == before {
+            pivots.push(pivot);
+            checks.push(PivotCheck::Nonzero(joint));
+        } else {
+            pivots.push(scene.space.arena.div(pivot, before));
+            checks.push(PivotCheck::Relative(joint));
+        }
+    }
+    (pivots, checks)
+}
+
+fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) -> Evaluation {
+    let mut scene = Scene::for_solution(model, reading);
+    let (solution, system) = equations_of_motion(&mut scene, model, plan.clone(), terms);
+    let mut outputs = coordinate_rates(&mut scene, model);
+    outputs.extend(solution.accelerations);
+    outputs.extend(solution.multipliers);
+    let (pivots, checks) = relative_pivots(&mut scene, &system);
+    outputs.extend(pivots);
+    Evaluation {
+        terms,
+        reading,
+        kernel: Kernel {
+            arena: scene.space.arena,
+            outputs,
+        },
+        checks,
+    }
+}
+
+fn solver(model: &Model, plan: &Plan, terms: Terms) -> Solver {
+    let mut scene = Scene::for_solution(model, Reading::Raw);
+    let kinds = kinds(model);
+    let system = System::new(&mut scene, &kinds, plan.clone(), terms);
+    let (pivots, checks) = relative_pivots(&mut scene, &system);
+    let right = system.given(&mut scene);
+    let upper: Vec<Expr> = (0..scene.layout.velocities)
+        .map(|k| {
+            scene
+                .space
+                .arena
+                .input(crate::symbolic::arena::Input::Upper(k as u32))
+        })
+        .collect();
+    let solution = system.solve(&mut scene, &right, &upper);
+    let solution = solution
+        .accelerations
+        .into_iter()
+        .chain(solution.multipliers)
+        .collect();
+    Solver {
+        terms,
+        arena: scene.space.arena,
+        pivots,
+        checks,
+        solution,
+    }
+}

@@ -1,0 +1,54 @@
+//! The plan of a solution: the axes of the unknowns, and the order in which they are eliminated.
+//!
+//! Candidates are worked out in full and counted; the cheapest is taken. Fill-in alone would not tell, because most of what
+//! is saved is saved by constants that fold.
+
+pub mod candidates;
+pub mod eliminate;
+pub mod kernels;
+pub mod system;
+
+use crate::symbolic::vector::Frame;
+
+/// A pivot: one unknown, or a body's acceleration together with the multiplier that carries it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pivot {
+    /// An acceleration. The block of accelerations stays positive definite through safe eliminations, so
+    /// that no check is needed.
+    Acceleration(usize),
+    /// The saddle block `[m c; c -e]` of an acceleration and a row with `c = 1` or `-1`: never singular.
+    Saddle(usize, usize),
+    /// The saddle block `[A C^T; C 0]` of two accelerations and the two rows that determine them, first to last: the
+    /// motion that a joint forbids its body. `C` is safe on the constraints, where its determinant stays near to what it is
+    /// at the start; checked at run time.
+    Forbidden([usize; 2], [usize; 2]),
+    /// A multiplier. Safe only where rows are independent: checked at run time unless there is a compliance.
+    Multiplier(usize),
+}
+
+impl Pivot {
+    /// The unknowns that it eliminates.
+    #[must_use]
+    pub fn unknowns(self) -> Vec<usize> {
+        match self {
+            Self::Acceleration(k) | Self::Multiplier(k) => vec![k],
+            Self::Saddle(k, l) => vec![k, l],
+            Self::Forbidden([k, l], [m, n]) => vec![k, l, m, n],
+        }
+    }
+}
+
+/// The axes of the unknowns, and the order of elimination.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// The axes of each body's translational acceleration.
+    pub translation: Vec<Frame>,
+    /// The axes of each constraint's rows; of no meaning for a single row.
+    pub rows: Vec<Frame>,
+    /// Pivots, first to last. Unknowns are numbered like velocities, then rows.
+    pub pivots: Vec<Pivot>,
+    /// The same for a system with compliance, where the rows have a diagonal of their own.
+    pub compliant_pivots: Vec<Pivot>,
+    /// The determinant of `C` of each [`Pivot::Forbidden`] at the start, in order.
+    pub determinants: Vec<f64>,
+}

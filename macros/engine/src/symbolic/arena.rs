@@ -1,0 +1,533 @@
+//! The scalar level: a hash-consed arena of operations.
+//!
+//! Equal expressions are one node, so what is computed twice is computed once. Constants fold when a node is made; signs
+//! stand outside the nodes, so that `a - b` and `b - a` are one node and negation costs nothing. Ids are topological
+//! by construction: operands come before the node, and no pass needs recursion.
+
+use std::collections::HashMap;
+
+/// A signed reference to a node: its value, or the value with the other sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Expr(u32);
+
+impl Expr {
+    const fn new(node: u32, negative: bool) -> Self {
+        Self(node << 1 | negative as u32)
+    }
+
+    /// The place of the node in the arena.
+    #[must_use]
+    pub const fn node(self) -> usize {
+        (self.0 >> 1) as usize
+    }
+
+    /// Whether the sign is turned.
+    #[must_use]
+    pub const fn is_negative(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    /// The reference without its sign.
+    #[must_use]
+    pub const fn abs(self) -> Self {
+        Self(self.0 & !1)
+    }
+
+    /// The other sign where asked for. Zero, the first node, has no sign.
+    const fn with_sign_of(self, negative: bool) -> Self {
+        if self.0 >> 1 == 0 {
+            Self(0)
+        } else {
+            Self(self.0 ^ negative as u32)
+        }
+    }
+}
+
+impl std::ops::Neg for Expr {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self.with_sign_of(true)
+    }
+}
+
+/// A number that is known only when the generated code runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Input {
+    /// A number of the description that the macro cannot see.
+    Symbol(u32),
+    /// `2 a`, the factor of `Phi'` in `gamma*`.
+    RateGain,
+    /// `b^2`, the factor of `Phi` in `gamma*`.
+    PositionGain,
+    /// `e`, the compliance.
+    Compliance,
+    /// An element of the coordinates.
+    Coordinate(u32),
+    /// An element of the velocities.
+    Velocity(u32),
+    /// An element of the upper right-hand side (forces).
+    Upper(u32),
+    /// An element of the lower right-hand side (rows).
+    Lower(u32),
+}
+
+/// When a number is known: a node is as late as the latest of its operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// At expansion.
+    Literal,
+    /// Once per mechanism, in `prepare`.
+    Parameter,
+    /// Once per formulation, in `coefficients`.
+    Coefficient,
+    /// At every evaluation.
+    State,
+    /// With the right-hand side, after the factorisation.
+    RightHandSide,
+}
+
+impl Input {
+    /// When the input is known.
+    #[must_use]
+    pub const fn stage(self) -> Stage {
+        match self {
+            Self::Symbol(_) => Stage::Parameter,
+            Self::RateGain | Self::PositionGain | Self::Compliance => Stage::Coefficient,
+            Self::Coordinate(_) | Self::Velocity(_) => Stage::State,
+            Self::Upper(_) | Self::Lower(_) => Stage::RightHandSide,
+        }
+    }
+}
+
+/// An operation. Constants are positive; the first operand of a sum and both factors of a product are unsigned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A positive number (or zero), as bits.
+    Constant(u64),
+    /// A number known later.
+    Input(Input),
+    /// A sum or a difference.
+    Add(Expr, Expr),
+    /// A product.
+    Multiply(Expr, Expr),
+    /// `1 / x`.
+    Reciprocal(Expr),
+    /// The square root.
+    SquareRoot(Expr),
+    /// -1 where the operand is negative, else 1.
+    Sign(Expr),
+}
+
+impl Node {
+    /// The operands.
+    pub fn operands(self) -> impl Iterator<Item = Expr> {
+        let (first, second) = match self {
+            Self::Constant(_) | Self::Input(_) => (None, None),
+            Self::Add(a, b) | Self::Multiply(a, b) => (Some(a), Some(b)),
+            Self::Reciprocal(a) | Self::SquareRoot(a) | Self::Sign(a) => (Some(a), None),
+        };
+        first.into_iter().chain(second)
+    }
+
+    /// Whether the node costs an operation.
+    #[must_use]
+    pub const fn is_operation(self) -> bool {
+        !matches!(self, Self::Constant(_) | Self::Input(_) | Self::Sign(_))
+    }
+}
+
+/// A place in the history of an arena, to come back to.
+#[derive(Clone, Copy, Debug)]
+pub struct Mark(usize);
+
+/// All nodes of one kernel.
+#[derive(Clone, Debug)]
+pub struct Arena {
+    nodes: Vec<Node>,
+    stages: Vec<Stage>,
+    index: HashMap<Node, u32>,
+    identities: HashMap<Node, Expr>,
+    labels: HashMap<u32, String>,
+}
+
+impl Default for Arena {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Arena {
+    /// Zero, which every arena holds.
+    pub const ZERO: Expr = Expr::new(0, false);
+    /// One, which every arena holds.
+    pub const ONE: Expr = Expr::new(1, false);
+
+    /// An arena with zero and one.
+    #[must_use]
+    pub fn new() -> Self {
+        let mut arena = Self {
+            nodes: Vec::new(),
+            stages: Vec::new(),
+            index: HashMap::new(),
+            identities: HashMap::new(),
+            labels: HashMap::new(),
+        };
+        arena.intern(Node::Constant(0.0_f64.to_bits()));
+        arena.intern(Node::Constant(1.0_f64.to_bits()));
+        arena
+    }
+
+    /// The operation behind a reference.
+    #[must_use]
+    pub fn get(&self, expr: Expr) -> Node {
+        self.nodes[expr.node()]
+    }
+
+    /// When the value is known.
+    #[must_use]
+    pub fn stage(&self, expr: Expr) -> Stage {
+        self.stages[expr.node()]
+    }
+
+    /// The number of nodes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether the arena holds no operation.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() <= 2
+    }
+
+    /// The value where it is known at expansion.
+    #[must_use]
+    pub fn literal(&self, expr: Expr) -> Option<f64> {
+        match self.get(expr) {
+            Node::Constant(bits) => {
+                let value = f64::from_bits(bits);
+                Some(if expr.is_negative() { -value } else { value })
+            }
+            _ => None,
+        }
+    }
+
+    /// The name given to a node.
+    #[must_use]
+    pub fn label(&self, node: usize) -> Option<&str> {
+        self.labels.get(&(node as u32)).map(String::as_str)
+    }
+
+    /// Names a node after its origin; the first name stays.
+    pub fn name(&mut self, expr: Expr, label: impl FnOnce() -> String) {
+        if self.get(expr).is_operation() {
+            self.labels.entry(expr.node() as u32).or_insert_with(label);
+        }
+    }
+
+    /// The present place, for [`Arena::rollback`].
+    #[must_use]
+    pub fn mark(&self) -> Mark {
+        Mark(self.nodes.len())
+    }
+
+    /// Forgets every node made since the mark.
+    pub fn rollback(&mut self, mark: Mark) {
+        for (place, node) in self.nodes.drain(mark.0..).enumerate() {
+            self.index.remove(&node);
+            self.labels.remove(&((mark.0 + place) as u32));
+        }
+        self.stages.truncate(mark.0);
+    }
+
+    /// The operations among the nodes made since the mark that are not known before the state is.
+    #[must_use]
+    pub fn operations_since(&self, mark: Mark) -> usize {
+        (mark.0..self.nodes.len())
+            .filter(|&node| self.stages[node] >= Stage::State && self.nodes[node].is_operation())
+            .count()
+    }
+
+    /// Declares that a node, wherever it is made from now on, is another expression.
+    pub fn identify(&mut self, expr: Expr, with: Expr) {
+        let node = self.get(expr);
+        if node.is_operation() && expr.node() != with.node() {
+            self.identities
+                .insert(node, with.with_sign_of(expr.is_negative()));
+        }
+    }
+
+    fn intern(&mut self, node: Node) -> Expr {
+        if let Some(&known) = self.identities.get(&node) {
+            return known;
+        }
+        if let Some(&place) = self.index.get(&node) {
+            return Expr::new(place, false);
+        }
+        let place = u32::try_from(self.nodes.len()).expect("fewer than 2^31 nodes");
+        let stage = match node {
+            Node::Constant(_) => Stage::Literal,
+            Node::Input(input) => input.stage(),
+            _ => node
+                .operands()
+                .map(|operand| self.stage(operand))
+                .max()
+                .unwrap_or(Stage::Literal),
+        };
+        self.nodes.push(node);
+        self.stages.push(stage);
+        self.index.insert(node, place);
+        Expr::new(place, false)
+    }
+
+    /// A number known at expansion. It must not be NaN.
+    pub fn constant(&mut self, value: f64) -> Expr {
+        debug_assert!(!value.is_nan(), "constants are numbers");
+        let magnitude = self.intern(Node::Constant(value.abs().to_bits()));
+        magnitude.with_sign_of(value < 0.0)
+    }
+
+    /// A number known later.
+    pub fn input(&mut self, input: Input) -> Expr {
+        self.intern(Node::Input(input))
+    }
+
+    /// `a + b`.
+    pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
+        if a == Self::ZERO {
+            return b;
+        }
+        if b == Self::ZERO {
+            return a;
+        }
+        if a == -b {
+            return Self::ZERO;
+        }
+        if a == b {
+            let two = self.constant(2.0);
+            return self.mul(two, a);
+        }
+        if let (Some(x), Some(y)) = (self.literal(a), self.literal(b)) {
+            return self.constant(x + y);
+        }
+        if let Some(folded) = self
+            .merge_constant_sum(a, b)
+            .or_else(|| self.merge_constant_sum(b, a))
+        {
+            return folded;
+        }
+        let (first, second) = if a.node() < b.node() { (a, b) } else { (b, a) };
+        let negative = first.is_negative();
+        let sum = self.intern(Node::Add(first.abs(), second.with_sign_of(negative)));
+        sum.with_sign_of(negative)
+    }
+
+    /// `c1 + (c2 + x)` is `(c1 + c2) + x`.
+    fn merge_constant_sum(&mut self, constant: Expr, sum: Expr) -> Option<Expr> {
+        let outer = self.literal(constant)?;
+        let Node::Add(x, y) = self.get(sum) else {
+            return None;
+        };
+        let (inner, rest) = match (self.literal(x), self.literal(y)) {
+            (Some(inner), _) => (inner, y),
+            (_, Some(inner)) => (inner, x),
+            _ => return None,
+        };
+        let sign = sum.is_negative();
+        let inner = self.constant(outer + if sign { -inner } else { inner });
+        Some(self.add(inner, rest.with_sign_of(sign)))
+    }
+
+    /// `a - b`.
+    pub fn sub(&mut self, a: Expr, b: Expr) -> Expr {
+        self.add(a, -b)
+    }
+
+    /// `a b`.
+    pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
+        let negative = a.is_negative() != b.is_negative();
+        let (a, b) = (a.abs(), b.abs());
+        if a == Self::ZERO || b == Self::ZERO {
+            return Self::ZERO;
+        }
+        if a == Self::ONE {
+            return b.with_sign_of(negative);
+        }
+        if b == Self::ONE {
+            return a.with_sign_of(negative);
+        }
+        if let (Some(x), Some(y)) = (self.literal(a), self.literal(b)) {
+            return self.constant(x * y).with_sign_of(negative);
+        }
+        let product = self
+            .merge_constant_product(a, b)
+            .or_else(|| self.merge_constant_product(b, a))
+            .unwrap_or_else(|| {
+                let (first, second) = if a.node() < b.node() { (a, b) } else { (b, a) };
+                self.intern(Node::Multiply(first, second))
+            });
+        product.with_sign_of(negative)
+    }
+
+    /// `c1 (c2 x)` is `(c1 c2) x`.
+    fn merge_constant_product(&mut self, constant: Expr, product: Expr) -> Option<Expr> {
+        let outer = self.literal(constant)?;
+        let Node::Multiply(x, y) = self.get(product) else {
+            return None;
+        };
+        let (inner, rest) = match (self.literal(x), self.literal(y)) {
+            (Some(inner), _) => (inner, y),
+            (_, Some(inner)) => (inner, x),
+            _ => return None,
+        };
+        let merged = self.constant(outer * inner);
+        Some(self.mul(merged, rest))
+    }
+
+    /// `a^2`.
+    pub fn square(&mut self, a: Expr) -> Expr {
+        self.mul(a, a)
+    }
+
+    /// `1 / a`.
+    pub fn reciprocal(&mut self, a: Expr) -> Expr {
+        let negative = a.is_negative();
+        let a = a.abs();
+        let result = match self.get(a) {
+            Node::Constant(bits) if f64::from_bits(bits) != 0.0 => {
+                self.constant(1.0 / f64::from_bits(bits))
+            }
+            Node::Reciprocal(inner) => inner,
+            _ => self.intern(Node::Reciprocal(a)),
+        };
+        result.with_sign_of(negative)
+    }
+
+    /// `a / b`: one reciprocal per divisor, shared by all dividends.
+    pub fn div(&mut self, a: Expr, b: Expr) -> Expr {
+        if a == b {
+            return Self::ONE;
+        }
+        let reciprocal = self.reciprocal(b);
+        self.mul(a, reciprocal)
+    }
+
+    /// The square root.
+    pub fn sqrt(&mut self, a: Expr) -> Expr {
+        match self.literal(a) {
+            Some(value) if value >= 0.0 => self.constant(value.sqrt()),
+            _ => self.intern(Node::SquareRoot(a)),
+        }
+    }
+
+    /// -1 where `a` is negative, else 1.
+    pub fn sign(&mut self, a: Expr) -> Expr {
+        match self.literal(a) {
+            Some(value) => self.constant(if value < 0.0 { -1.0 } else { 1.0 }),
+            None => self.intern(Node::Sign(a)),
+        }
+    }
+
+    /// The sum of some terms, from left to right.
+    pub fn sum(&mut self, terms: impl IntoIterator<Item = Expr>) -> Expr {
+        terms
+            .into_iter()
+            .fold(Self::ZERO, |sum, term| self.add(sum, term))
+    }
+
+    /// The nodes that the outputs need and that are known no earlier than `from`, in order of computation.
+    #[must_use]
+    pub fn live(&self, outputs: &[Expr], from: Stage) -> Vec<usize> {
+        let mut needed = vec![false; self.nodes.len()];
+        for output in outputs {
+            needed[output.node()] = true;
+        }
+        let mut live = Vec::new();
+        for node in (0..self.nodes.len()).rev() {
+            if needed[node] && self.stages[node] >= from {
+                live.push(node);
+                for operand in self.nodes[node].operands() {
+                    needed[operand.node()] = true;
+                }
+            }
+        }
+        live.reverse();
+        live
+    }
+
+    /// The node at a place.
+    #[must_use]
+    pub fn node(&self, place: usize) -> Node {
+        self.nodes[place]
+    }
+
+    /// The stage of the node at a place.
+    #[must_use]
+    pub fn stage_of(&self, place: usize) -> Stage {
+        self.stages[place]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arena, Input, Node, Stage};
+
+    fn two_inputs(arena: &mut Arena) -> (super::Expr, super::Expr) {
+        (
+            arena.input(Input::Coordinate(0)),
+            arena.input(Input::Coordinate(1)),
+        )
+    }
+
+    #[test]
+    fn a_difference_and_its_opposite_share_a_node() {
+        let mut arena = Arena::new();
+        let (x, y) = two_inputs(&mut arena);
+        let forth = arena.sub(x, y);
+        let back = arena.sub(y, x);
+        assert_eq!(forth, -back);
+    }
+
+    #[test]
+    fn constants_fold_and_merge() {
+        let mut arena = Arena::new();
+        let (x, _) = two_inputs(&mut arena);
+        let three = arena.constant(3.0);
+        let minus_two = arena.constant(-2.0);
+        let inner = arena.mul(minus_two, x);
+        let outer = arena.mul(three, inner);
+        let six = arena.constant(6.0);
+        let expected = arena.mul(six, x);
+        assert_eq!(outer, -expected);
+        let sum = arena.add(three, x);
+        let back = arena.sub(sum, three);
+        assert_eq!(back, x);
+        let opposite = arena.sub(three, sum);
+        assert_eq!(opposite, -x);
+    }
+
+    #[test]
+    fn a_rollback_forgets_what_was_tried() {
+        let mut arena = Arena::new();
+        let (x, y) = two_inputs(&mut arena);
+        let mark = arena.mark();
+        let tried = arena.mul(x, y);
+        assert_eq!(arena.operations_since(mark), 1);
+        arena.rollback(mark);
+        let sum = arena.add(x, y);
+        assert_eq!(tried.node(), sum.node(), "the place is free again");
+        assert!(matches!(arena.get(sum), Node::Add(..)));
+    }
+
+    #[test]
+    fn a_product_is_as_late_as_its_latest_factor() {
+        let mut arena = Arena::new();
+        let (x, _) = two_inputs(&mut arena);
+        let gain = arena.input(Input::RateGain);
+        let product = arena.mul(gain, x);
+        assert_eq!(arena.stage(product), Stage::State);
+        assert_eq!(arena.stage(gain), Stage::Coefficient);
+    }
+}

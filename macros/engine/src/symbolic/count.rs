@@ -1,0 +1,51 @@
+//! What expressions cost. One of `+ - * / sqrt` is one operation; signs are free.
+
+use super::arena::{Arena, Expr, Node, Stage};
+
+/// Operations by kind, and the longest chain of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Additions and subtractions.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Reciprocals.
+    pub divisions: usize,
+    /// Square roots.
+    pub square_roots: usize,
+    /// The longest chain of dependent operations.
+    pub depth: usize,
+}
+
+impl Count {
+    /// All operations together.
+    #[must_use]
+    pub const fn total(&self) -> usize {
+        self.additions + self.multiplications + self.divisions + self.square_roots
+    }
+}
+
+/// The operations that the outputs need, of the given stage or later.
+#[must_use]
+pub fn count(arena: &Arena, outputs: &[Expr], from: Stage) -> Count {
+    let mut count = Count::default();
+    let mut depth = vec![0_usize; arena.len()];
+    for place in arena.live(outputs, from) {
+        let node = arena.node(place);
+        match node {
+            Node::Constant(_) | Node::Input(_) | Node::Sign(_) => continue,
+            Node::Add(..) => count.additions += 1,
+            Node::Multiply(..) => count.multiplications += 1,
+            Node::Reciprocal(_) => count.divisions += 1,
+            Node::SquareRoot(_) => count.square_roots += 1,
+        }
+        let before = node
+            .operands()
+            .map(|operand| depth[operand.node()])
+            .max()
+            .unwrap_or(0);
+        depth[place] = before + 1;
+        count.depth = count.depth.max(before + 1);
+    }
+    count
+}

@@ -1,0 +1,34 @@
+//! The value of expressions at a given state, for decisions at expansion.
+
+use super::arena::{Arena, Expr, Input, Node, Stage};
+
+/// The values of the outputs; `None` where an input is not known.
+pub fn evaluate(
+    arena: &Arena,
+    outputs: &[Expr],
+    input: impl Fn(Input) -> Option<f64>,
+) -> Vec<Option<f64>> {
+    let mut values: Vec<Option<f64>> = vec![None; arena.len()];
+    let signed = |values: &[Option<f64>], expr: Expr| {
+        values[expr.node()].map(|value| if expr.is_negative() { -value } else { value })
+    };
+    for place in arena.live(outputs, Stage::Literal) {
+        values[place] = match arena.node(place) {
+            Node::Constant(bits) => Some(f64::from_bits(bits)),
+            Node::Input(known) => input(known),
+            Node::Add(a, b) => signed(&values, a)
+                .zip(signed(&values, b))
+                .map(|(a, b)| a + b),
+            Node::Multiply(a, b) => signed(&values, a)
+                .zip(signed(&values, b))
+                .map(|(a, b)| a * b),
+            Node::Reciprocal(a) => signed(&values, a).map(f64::recip),
+            Node::SquareRoot(a) => signed(&values, a).map(f64::sqrt),
+            Node::Sign(a) => signed(&values, a).map(|a| if a < 0.0 { -1.0 } else { 1.0 }),
+        };
+    }
+    outputs
+        .iter()
+        .map(|&output| signed(&values, output))
+        .collect()
+}

@@ -1,0 +1,461 @@
+//! A mechanism in symbols: bodies with their motion, joints with their constraints bound to the bodies.
+
+use super::arena::{Arena, Expr, Input};
+use super::fixed::{Copies, copies, number, triple};
+use super::twist::{Gradient, Motion, ScalarExpr, VectorExpr};
+use super::vector::{Frame, Space, Triple};
+use crate::model::mechanism::Layout;
+use crate::model::{Binding, BodyKind, JointUse, Model, Number, Row, Term};
+
+/// How Euler parameters are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Reading {
+    /// `A(p)` is `|p|^2` times a rotation.
+    Raw,
+    /// `p / |p|` takes the place of `p`.
+    Normalised,
+}
+
+/// One constraint of a mechanism.
+#[derive(Clone, Debug)]
+pub enum Constraint {
+    /// One equation.
+    Scalar(ScalarExpr),
+    /// Three equations, in whatever axes.
+    Vector(VectorExpr),
+}
+
+/// A constraint and where its rows stand.
+#[derive(Clone, Debug)]
+pub struct Constrained {
+    /// The joint.
+    pub joint: usize,
+    /// The first row among all rows.
+    pub row: usize,
+    /// The equations.
+    pub constraint: Constraint,
+}
+
+impl Constrained {
+    /// The number of equations.
+    #[must_use]
+    pub fn equations(&self) -> usize {
+        match self.constraint {
+            Constraint::Scalar(_) => 1,
+            Constraint::Vector(_) => 3,
+        }
+    }
+}
+
+/// The Euler parameters of a body, and what `L(p)^T w` is to be multiplied by for their rates: one half, over `|p|` where they
+/// are normalised.
+#[derive(Clone, Copy, Debug)]
+pub struct Orientation {
+    /// As stored.
+    pub p: [Expr; 4],
+    /// One half, or less.
+    pub factor: Expr,
+}
+
+/// A mechanism in symbols.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// All vectors and scalars.
+    pub space: Space,
+    /// Position and rates of the bodies.
+    pub motion: Motion,
+    /// The constraints of all joints, in order.
+    pub constraints: Vec<Constrained>,
+    /// Euler parameters, `None` for a particle.
+    pub orientation: Vec<Option<Orientation>>,
+    /// Masses.
+    pub mass: Vec<Expr>,
+    /// Principal moments of inertia.
+    pub inertia: Vec<Triple>,
+    /// Gravity, global axes.
+    pub gravity: Triple,
+    /// Where things stand.
+    pub layout: Layout,
+    /// The vector parameters of all joints, `None` for scalars.
+    pub copies: Vec<Vec<Option<Copies>>>,
+}
+
+/// `(e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, row by row: `|p|^2` times a rotation (Nikravesh 1988, eq. 6.18). 26 operations.
+pub fn homogeneous_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
+    let doubled = [1, 2, 3].map(|k| arena.add(p[k], p[k]));
+    let [ww, xx, yy, zz] = p.map(|e| arena.square(e));
+    let (sum_x, sum_yz) = (arena.add(ww, xx), arena.add(yy, zz));
+    let (difference_x, difference_yz) = (arena.sub(ww, xx), arena.sub(yy, zz));
+    let diagonal = [
+        arena.sub(sum_x, sum_yz),
+        arena.add(difference_x, difference_yz),
+        arena.sub(difference_x, difference_yz),
+    ];
+    with_diagonal(arena, p, doubled, diagonal)
+}
+
+/// The rotation of `p / |p|`, row by row, and `|p|^2`. The vector part is doubled and divided by `p.p` at once, so that
+/// no square root stands in the way. 33 operations.
+fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> ([Triple; 3], Expr) {
+    let squares = p.map(|e| arena.square(e));
+    let (first, second) = (
+        arena.add(squares[0], squares[1]),
+        arena.add(squares[2], squares[3]),
+    );
+    let norm = arena.add(first, second);
+    let reciprocal = arena.reciprocal(norm);
+    let scale = arena.add(reciprocal, reciprocal);
+    let doubled = [1, 2, 3].map(|k| arena.mul(scale, p[k]));
+    let [xx, yy, zz] = [0, 1, 2].map(|k| arena.mul(doubled[k], p[k + 1]));
+    let diagonal = [(yy, zz), (zz, xx), (xx, yy)].map(|(a, b)| {
+        let sum = arena.add(a, b);
+        arena.sub(Arena::ONE, sum)
+    });
+    (with_diagonal(arena, p, doubled, diagonal), norm)
+}
+
+fn with_diagonal(
+    arena: &mut Arena,
+    p: [Expr; 4],
+    doubled: Triple,
+    diagonal: Triple,
+) -> [Triple; 3] {
+    let [x2, y2, z2] = doubled;
+    let (xy, xz, yz) = (
+        arena.mul(x2, p[2]),
+        arena.mul(x2, p[3]),
+        arena.mul(y2, p[3]),
+    );
+    let (wx, wy, wz) = (
+        arena.mul(x2, p[0]),
+        arena.mul(y2, p[0]),
+        arena.mul(z2, p[0]),
+    );
+    [
+        [diagonal[0], arena.sub(xy, wz), arena.add(xz, wy)],
+        [arena.add(xy, wz), diagonal[1], arena.sub(yz, wx)],
+        [arena.sub(xz, wy), arena.add(yz, wx), diagonal[2]],
+    ]
+}
+
+impl Scene {
+    /// The scene of a model.
+    #[must_use]
+    pub fn new(model: &Model, reading: Reading) -> Self {
+        let layout = model.layout();
+        let mut arena = Arena::new();
+        let mut rotations = Vec::new();
+        let mut orientation = vec![None; model.bodies.len()];
+        let mut inputs = Vec::new();
+        for (place, body) in model.bodies.iter().enumerate() {
+            let at = |k: usize| Input::Coordinate((layout.coordinate[place] + k) as u32);
+            let rate = |k: usize| Input::Velocity((layout.velocity[place] + k) as u32);
+            let r = [0, 1, 2].map(|k| arena.input(at(k)));
+            let v = [0, 1, 2].map(|k| arena.input(rate(k)));
+            let (w, rotation) = match body.kind {
+                BodyKind::Particle => (super::vector::ZERO, None),
+                BodyKind::Rigid => {
+                    let p = [3, 4, 5, 6].map(|k| arena.input(at(k)));
+                    let half = arena.constant(0.5);
+                    let (matrix, factor) = match reading {
+                        Reading::Raw => (homogeneous_rotation(&mut arena, p), half),
+                        Reading::Normalised => {
+                            let (matrix, square) = normalised_rotation(&mut arena, p);
+                            let norm = arena.sqrt(square);
+                            (matrix, arena.div(half, norm))
+                        }
+                    };
+                    orientation[place] = Some(Orientation { p, factor });
+                    for (k, row) in matrix.iter().enumerate() {
+                        for (l, entry) in row.iter().enumerate() {
+                            arena.name(*entry, || format!("{}_a{}{}", body.name, k + 1, l + 1));
+                        }
+                    }
+                    ([3, 4, 5].map(|k| arena.input(rate(k))), Some(matrix))
+                }
+            };
+            rotations.push(rotation);
+            inputs.push((r, v, w));
+        }
+        let mass = model
+            .bodies
+            .iter()
+            .map(|body| number(&mut arena, body.mass))
+            .collect();
+        let inertia = model
+            .bodies
+            .iter()
+            .map(|body| triple(&mut arena, body.inertia))
+            .collect();
+        let gravity = triple(&mut arena, model.gravity);
+        let copies = joint_copies(&mut arena, model);
+        let mut space = Space::new(arena, rotations);
+        let motion = Motion {
+            position: inputs
+                .iter()
+                .map(|(r, _, _)| space.native(Frame::Global, *r))
+                .collect(),
+            velocity: inputs
+                .iter()
+                .map(|(_, v, _)| space.native(Frame::Global, *v))
+                .collect(),
+            spin: inputs
+                .iter()
+                .enumerate()
+                .map(|(body, (_, _, w))| space.native(Frame::Body(body), *w))
+                .collect(),
+            spin_components: inputs.iter().map(|(_, _, w)| *w).collect(),
+        };
+        let mut constraints = Vec::new();
+        for (place, joint) in model.joints.iter().enumerate() {
+            let mut row = layout.row[place];
+            let binder = Binder {
+                joint,
+                copies: &copies[place],
+            };
+            for definition in &model.definition(joint).rows {
+                let constraint = match definition {
+                    Row::Scalar(term) => Constraint::Scalar(binder.scalar(&mut space.arena, term)),
+                    Row::Vector(term) => Constraint::Vector(binder.vector(&mut space.arena, term)),
+                };
+                constraints.push(Constrained {
+                    joint: place,
+                    row,
+                    constraint,
+                });
+                row += definition.equations();
+            }
+        }
+        Self {
+            space,
+            motion,
+            constraints,
+            orientation,
+            mass,
+            inertia,
+            gravity,
+            layout,
+            copies,
+        }
+    }
+
+    /// The scene of a model for a solution of its equations: every entry of a rotation matrix is its own cofactor.
+    ///
+    /// Exact for `p` of length 1; elsewhere, where `A` is read raw, it differs by the drift of `|p|`, as `A^T A = I` does.
+    #[must_use]
+    pub fn for_solution(model: &Model, reading: Reading) -> Self {
+        let mut scene = Self::new(model, reading);
+        for body in 0..model.bodies.len() {
+            let Some(a) = scene.space.rotation(body).copied() else {
+                continue;
+            };
+            let arena = &mut scene.space.arena;
+            for k in 0..3 {
+                for l in 0..3 {
+                    let (k1, k2, l1, l2) = ((k + 1) % 3, (k + 2) % 3, (l + 1) % 3, (l + 2) % 3);
+                    let forth = arena.mul(a[k1][l1], a[k2][l2]);
+                    let back = arena.mul(a[k1][l2], a[k2][l1]);
+                    let cofactor = arena.sub(forth, back);
+                    arena.identify(cofactor, a[k][l]);
+                }
+            }
+        }
+        scene
+    }
+
+    /// The gradients of a constraint's rows, in the given axes.
+    pub fn gradients(&mut self, constraint: usize, frame: Frame) -> Vec<Gradient> {
+        let Self {
+            space,
+            motion,
+            constraints,
+            ..
+        } = self;
+        match &constraints[constraint].constraint {
+            Constraint::Scalar(scalar) => {
+                let mut gradient = Gradient::default();
+                scalar.pull_back(space, motion, Arena::ONE, &mut gradient);
+                vec![gradient]
+            }
+            Constraint::Vector(vector) => [0, 1, 2]
+                .map(|k| {
+                    let mut unit = super::vector::ZERO;
+                    unit[k] = Arena::ONE;
+                    let covector = space.native(frame, unit);
+                    let mut gradient = Gradient::default();
+                    vector.pull_back(space, motion, Arena::ONE, covector, &mut gradient);
+                    gradient
+                })
+                .into(),
+        }
+    }
+
+    /// `value * Phi + rate * Phi' + quadratic * (Phi'' without accelerations)` of a constraint, in the given axes.
+    pub fn combination(
+        &mut self,
+        constraint: usize,
+        frame: Frame,
+        [value, rate, quadratic]: [Expr; 3],
+    ) -> Vec<Expr> {
+        let Self {
+            space,
+            motion,
+            constraints,
+            ..
+        } = self;
+        let wanted = |factor: Expr| factor != Arena::ZERO;
+        match &constraints[constraint].constraint {
+            Constraint::Scalar(scalar) => {
+                let mut sum = Arena::ZERO;
+                let mut add = |space: &mut Space, factor: Expr, term: Expr| {
+                    let product = space.arena.mul(factor, term);
+                    sum = space.arena.add(sum, product);
+                };
+                if wanted(quadratic) {
+                    let term = scalar.quadratic(space, motion);
+                    add(space, quadratic, term);
+                }
+                if wanted(rate) {
+                    let term = scalar.rate(space, motion);
+                    add(space, rate, term);
+                }
+                if wanted(value) {
+                    let term = scalar.value(space, motion);
+                    add(space, value, term);
+                }
+                vec![sum]
+            }
+            Constraint::Vector(vector) => {
+                let mut terms = Vec::new();
+                if wanted(quadratic) {
+                    terms.push((quadratic, vector.quadratic(space, motion)));
+                }
+                if wanted(rate) {
+                    terms.push((rate, vector.rate(space, motion)));
+                }
+                if wanted(value) {
+                    terms.push((value, vector.value(space, motion)));
+                }
+                let sum = space.sum(terms);
+                space.components(sum, frame).into()
+            }
+        }
+    }
+
+    /// The gyroscopic moment `-w x J w` of a body, principal axes (Euler's equations).
+    pub fn gyroscopic_moment(&mut self, body: usize) -> Triple {
+        let (w, j) = (self.motion.spin_components[body], self.inertia[body]);
+        let arena = &mut self.space.arena;
+        [(1, 2), (2, 0), (0, 1)].map(|(k, l)| {
+            let difference = arena.sub(j[k], j[l]);
+            let product = arena.mul(w[k], w[l]);
+            arena.mul(difference, product)
+        })
+    }
+}
+
+fn joint_copies(arena: &mut Arena, model: &Model) -> Vec<Vec<Option<Copies>>> {
+    model
+        .joints
+        .iter()
+        .map(|joint| {
+            let parameters = &model.definition(joint).parameters;
+            parameters
+                .iter()
+                .zip(&joint.bindings)
+                .map(|(parameter, binding)| {
+                    parameter
+                        .kind
+                        .is_vector()
+                        .then(|| copies(arena, model, joint, parameter.kind, binding))
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Replaces formal bodies and parameters of a definition by those of a joint.
+struct Binder<'a> {
+    joint: &'a JointUse,
+    copies: &'a [Option<Copies>],
+}
+
+impl Binder<'_> {
+    fn copy(&self, parameter: usize, body: usize) -> Triple {
+        self.copies[parameter]
+            .as_ref()
+            .map_or(super::vector::ZERO, |copies| copies.vector[body])
+    }
+
+    fn vector(&self, arena: &mut Arena, term: &Term) -> VectorExpr {
+        match term {
+            Term::Point { body, parameter } => {
+                VectorExpr::Point(self.joint.bodies[*body], self.copy(*parameter, *body))
+            }
+            Term::Fixed { body, parameter } => {
+                VectorExpr::Fixed(self.joint.bodies[*body], self.copy(*parameter, *body))
+            }
+            Term::Normal {
+                body,
+                parameter,
+                which,
+            } => {
+                let normal = self.copies[*parameter]
+                    .as_ref()
+                    .map_or(super::vector::ZERO, |copies| copies.normals[*body][*which]);
+                VectorExpr::Fixed(self.joint.bodies[*body], normal)
+            }
+            Term::Origin(body) => VectorExpr::Point(self.joint.bodies[*body], super::vector::ZERO),
+            Term::Sum(terms) => VectorExpr::Sum(
+                terms
+                    .iter()
+                    .map(|(minus, term)| (signed_one(*minus), self.vector(arena, term)))
+                    .collect(),
+            ),
+            Term::Product(scalar, vector) => VectorExpr::Scaled(
+                Box::new(self.scalar(arena, scalar)),
+                Box::new(self.vector(arena, vector)),
+            ),
+            Term::Cross(a, b) => VectorExpr::Cross(
+                Box::new(self.vector(arena, a)),
+                Box::new(self.vector(arena, b)),
+            ),
+            // Shapes were checked where the joint is defined.
+            Term::Number(_) | Term::Scalar(_) | Term::Dot(..) => {
+                VectorExpr::Fixed(None, super::vector::ZERO)
+            }
+        }
+    }
+
+    fn scalar(&self, arena: &mut Arena, term: &Term) -> ScalarExpr {
+        match term {
+            Term::Number(value) => ScalarExpr::Constant(arena.constant(*value)),
+            Term::Scalar(parameter) => {
+                let value = match self.joint.bindings[*parameter] {
+                    Binding::Scalar(value) => value,
+                    _ => Number::ZERO,
+                };
+                ScalarExpr::Constant(number(arena, value))
+            }
+            Term::Sum(terms) => ScalarExpr::Sum(
+                terms
+                    .iter()
+                    .map(|(minus, term)| (signed_one(*minus), self.scalar(arena, term)))
+                    .collect(),
+            ),
+            Term::Product(a, b) => ScalarExpr::Product(
+                Box::new(self.scalar(arena, a)),
+                Box::new(self.scalar(arena, b)),
+            ),
+            Term::Dot(a, b) => ScalarExpr::Dot(
+                Box::new(self.vector(arena, a)),
+                Box::new(self.vector(arena, b)),
+            ),
+            _ => ScalarExpr::Constant(Arena::ZERO),
+        }
+    }
+}
+
+fn signed_one(minus: bool) -> Expr {
+    if minus { -Arena::ONE } else { Arena::ONE }
+}

@@ -1,0 +1,262 @@
+//! The annotated struct.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::ToTokens;
+use syn::{Attribute, Data, DeriveInput, Fields, Type};
+
+use super::List;
+use crate::diag::Faults;
+
+/// What a field is described as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// `#[body(..)]`.
+    Body,
+    /// `#[joint(..)]`.
+    Joint,
+}
+
+/// A field of the struct.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Its name.
+    pub name: Ident,
+    /// Its type as written.
+    pub ty: Type,
+    /// What it is described as, and the attribute's word.
+    pub role: Option<(Role, syn::Path)>,
+    /// The list of its attribute.
+    pub list: List,
+}
+
+/// An annotated struct as written.
+#[derive(Clone, Debug)]
+pub struct MechanismSyntax {
+    /// The name of the struct.
+    pub name: Ident,
+    /// Its generic parameters, which it must not have.
+    pub generics: syn::Generics,
+    /// The list of `#[mechanism(..)]`.
+    pub list: List,
+    /// Its fields.
+    pub fields: Vec<Field>,
+    /// Whether it is a struct with named fields and without parameters; if not, that was reported.
+    pub is_plain: bool,
+}
+
+/// Parses the struct; what can be understood of a faulty one is kept.
+pub fn parse(input: &DeriveInput, faults: &mut Faults) -> MechanismSyntax {
+    let mut result = MechanismSyntax {
+        name: input.ident.clone(),
+        generics: input.generics.clone(),
+        list: List::default(),
+        fields: Vec::new(),
+        is_plain: true,
+    };
+    if let Some((tokens, message)) = shape(input) {
+        result.is_plain = false;
+        faults.at(tokens, message);
+    }
+    if !input.generics.params.is_empty() {
+        result.is_plain = false;
+        faults.at(
+            &input.generics,
+            "a mechanism takes no generic parameters; its kernels are generic over the scalar by themselves",
+        );
+    }
+    let mut seen = false;
+    for attribute in &input.attrs {
+        if attribute.path().is_ident("mechanism") {
+            if seen {
+                faults.at(
+                    attribute.path(),
+                    "`#[mechanism(..)]` stands here twice; write one list",
+                );
+            }
+            seen = true;
+            let list = super::list(attribute, faults);
+            result.list.pairs.extend(list.pairs);
+            result.list.unreadable |= list.unreadable;
+        } else if role(attribute).is_some() {
+            let word = attribute.path().to_token_stream();
+            faults.at(
+                attribute.path(),
+                format!("`#[{word}(..)]` describes a field, not the struct"),
+            );
+        }
+    }
+    for field in named_fields(input) {
+        if let Some(name) = field.ident.clone() {
+            result.fields.push(parse_field(name, field, faults));
+        }
+    }
+    result
+}
+
+/// What is wrong with the shape of an item that is not a struct with named fields.
+fn shape(input: &DeriveInput) -> Option<(TokenStream, String)> {
+    let name = &input.ident;
+    let expected = "a mechanism is a struct with a named field for every body and joint";
+    let (tokens, found) = match &input.data {
+        Data::Struct(data) => match &data.fields {
+            Fields::Named(_) => return None,
+            Fields::Unnamed(fields) => {
+                let message = format!("the fields of `{name}` have no names; {expected}");
+                return Some((fields.to_token_stream(), message));
+            }
+            Fields::Unit => {
+                return Some((
+                    name.to_token_stream(),
+                    format!("`{name}` has no fields; {expected}"),
+                ));
+            }
+        },
+        Data::Enum(data) => (data.enum_token.to_token_stream(), "an enum"),
+        Data::Union(data) => (data.union_token.to_token_stream(), "a union"),
+    };
+    Some((tokens, format!("`{name}` is {found}; {expected}")))
+}
+
+/// The fields of a struct with named fields; none of anything else.
+fn named_fields(input: &DeriveInput) -> impl Iterator<Item = &syn::Field> {
+    match &input.data {
+        Data::Struct(data) => match &data.fields {
+            Fields::Named(fields) => Some(fields.named.iter()),
+            _ => None,
+        },
+        _ => None,
+    }
+    .into_iter()
+    .flatten()
+}
+
+fn role(attribute: &Attribute) -> Option<Role> {
+    if attribute.path().is_ident("body") {
+        Some(Role::Body)
+    } else if attribute.path().is_ident("joint") {
+        Some(Role::Joint)
+    } else {
+        None
+    }
+}
+
+fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
+    let mut result = Field {
+        name,
+        ty: field.ty.clone(),
+        role: None,
+        list: List::default(),
+    };
+    for attribute in &field.attrs {
+        if attribute.path().is_ident("mechanism") {
+            faults.at(
+                attribute.path(),
+                "`#[mechanism(..)]` describes the struct, not a field",
+            );
+        }
+        let Some(role) = role(attribute) else {
+            continue;
+        };
+        if result.role.is_some() {
+            faults.at(
+                attribute.path(),
+                format!(
+                    "`{}` is described twice; one `#[body(..)]` or `#[joint(..)]` is accepted",
+                    result.name
+                ),
+            );
+            continue;
+        }
+        result.role = Some((role, attribute.path().clone()));
+        result.list = super::list(attribute, faults);
+    }
+    result
+}
+
+/// The distinct types of described fields, as paths without generic arguments: bodies first, then joints, each in the
+/// order of the fields.
+///
+/// The derive calls each of them as a macro. A carrier asks of the next whether it is a body or a joint, so that
+/// what is surely one comes first.
+#[must_use]
+pub fn carrier_paths(input: &DeriveInput) -> Vec<TokenStream> {
+    let mut paths: Vec<TokenStream> = Vec::new();
+    let Data::Struct(data) = &input.data else {
+        return paths;
+    };
+    for wanted in [Role::Body, Role::Joint] {
+        for field in &data.fields {
+            if field.attrs.iter().find_map(role) != Some(wanted) || is_parameter(&field.ty, input) {
+                continue;
+            }
+            if let Some(path) = carrier_path(&field.ty) {
+                let text = path.to_string();
+                if paths.iter().all(|known| known.to_string() != text) {
+                    paths.push(path);
+                }
+            }
+        }
+    }
+    paths
+}
+
+/// Whether a type is a generic parameter of the struct.
+fn is_parameter(ty: &Type, input: &DeriveInput) -> bool {
+    let Type::Path(path) = ty else { return false };
+    input
+        .generics
+        .type_params()
+        .any(|parameter| path.path.is_ident(&parameter.ident))
+}
+
+/// The path by which a type's carrier is called; `None` for a type that cannot be that of a joint or body.
+#[must_use]
+pub fn carrier_path(ty: &Type) -> Option<TokenStream> {
+    // What is surely neither: calling it as a macro would only hide our own sentence.
+    const OTHERS: [&str; 28] = [
+        "Arc",
+        "Box",
+        "Cell",
+        "HashMap",
+        "Option",
+        "PhantomData",
+        "Rc",
+        "RefCell",
+        "Result",
+        "String",
+        "Vec",
+        "bool",
+        "char",
+        "f32",
+        "f64",
+        "i128",
+        "i16",
+        "i32",
+        "i64",
+        "i8",
+        "isize",
+        "str",
+        "u128",
+        "u16",
+        "u32",
+        "u64",
+        "u8",
+        "usize",
+    ];
+    match ty {
+        Type::Group(group) => carrier_path(&group.elem),
+        Type::Paren(paren) => carrier_path(&paren.elem),
+        Type::Path(path) if path.qself.is_none() => {
+            let last = path.path.segments.last()?;
+            if OTHERS.iter().any(|other| last.ident == other) {
+                return None;
+            }
+            let mut path = path.path.clone();
+            for segment in &mut path.segments {
+                segment.arguments = syn::PathArguments::None;
+            }
+            Some(path.into_token_stream())
+        }
+        _ => None,
+    }
+}

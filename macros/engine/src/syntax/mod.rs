@@ -1,0 +1,202 @@
+//! What was written: tokens with their spans, no meaning yet.
+
+pub mod joint;
+pub mod mechanism;
+
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+use syn::parse::{Parse, ParseStream, Parser};
+use syn::{Ident, Token};
+
+use crate::diag::Faults;
+
+/// Tokens between two separators.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// The tokens, without the separator.
+    pub tokens: TokenStream,
+    /// Where the piece ends: its separator, or its last token.
+    pub end: Span,
+}
+
+impl Piece {
+    /// Parses the whole piece. What is missing at its end is reported at its last token.
+    pub fn parse<P: Parser>(&self, parser: P, faults: &mut Faults) -> Option<P::Output> {
+        const PREFIX: &str = "unexpected end of input, ";
+        let result = parser.parse2(self.tokens.clone());
+        faults.accept(result.map_err(|error| {
+            if self.tokens.is_empty() {
+                let message = error.to_string();
+                return syn::Error::new(self.end, message.strip_prefix(PREFIX).unwrap_or(&message));
+            }
+            let Some(rest) = error
+                .to_string()
+                .strip_prefix(PREFIX)
+                .map(ToString::to_string)
+            else {
+                return error;
+            };
+            let last = self.tokens.clone().into_iter().last();
+            syn::Error::new(
+                last.map_or(self.end, |token| token.span()),
+                format!("{rest} behind this"),
+            )
+        }))
+    }
+}
+
+/// Splits tokens at a separator, so that one faulty piece does not hide the others. An empty last piece is left out.
+#[must_use]
+pub fn split(tokens: TokenStream, separator: char) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let mut piece = TokenStream::new();
+    let mut end = Span::call_site();
+    for token in tokens {
+        end = token.span();
+        match &token {
+            TokenTree::Punct(punct) if punct.as_char() == separator => {
+                let tokens = std::mem::take(&mut piece);
+                pieces.push(Piece { tokens, end });
+            }
+            _ => piece.extend([token]),
+        }
+    }
+    if !piece.is_empty() {
+        pieces.push(Piece { tokens: piece, end });
+    }
+    pieces
+}
+
+/// Takes invisible groups, which `macro_rules` leave around fragments, away.
+#[must_use]
+pub fn ungroup(expr: &syn::Expr) -> &syn::Expr {
+    match expr {
+        syn::Expr::Group(group) => ungroup(&group.expr),
+        syn::Expr::Paren(paren) => ungroup(&paren.expr),
+        other => other,
+    }
+}
+
+/// The list of an attribute such as `#[body(..)]`.
+#[derive(Clone, Debug, Default)]
+pub struct List {
+    /// Its pairs.
+    pub pairs: Vec<KeyValue>,
+    /// Whether a piece could not be read: what seems to be missing may be in it.
+    pub unreadable: bool,
+}
+
+/// `key` or `key = value`.
+#[derive(Clone, Debug)]
+pub struct KeyValue {
+    /// The key.
+    pub key: Ident,
+    /// What stands behind it.
+    pub value: Value,
+}
+
+/// What stands behind a key.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// Nothing.
+    None,
+    /// An expression.
+    Expr(Box<syn::Expr>),
+    /// Something that was reported.
+    Faulty,
+}
+
+/// A key and the rest of its piece.
+struct Keyed {
+    key: Ident,
+    rest: TokenStream,
+}
+
+impl Parse for Keyed {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let key = input.parse::<Ident>().map_err(|error| {
+            let message = "expected an attribute's name, as in `mass = 7.02`";
+            syn::Error::new(error.span(), message)
+        })?;
+        Ok(Self {
+            key,
+            rest: input.parse()?,
+        })
+    }
+}
+
+/// The list of an attribute; a faulty pair is reported.
+pub fn list(attribute: &syn::Attribute, faults: &mut Faults) -> List {
+    let mut list = List::default();
+    let tokens = match &attribute.meta {
+        syn::Meta::Path(_) => return list,
+        syn::Meta::List(found) if delimiter(found) == Delimiter::Parenthesis => {
+            found.tokens.clone()
+        }
+        other => {
+            let word = other
+                .path()
+                .get_ident()
+                .map_or_else(String::new, ToString::to_string);
+            let example = match word.as_str() {
+                "body" => "#[body(mass = 7.02, ..)]",
+                "joint" => "#[joint(between = [ground, rod], ..)]",
+                _ => "#[mechanism(gravity = [0.0, 0.0, -9.81])]",
+            };
+            faults.at(
+                other,
+                format!("expected a list in parentheses, as in `{example}`"),
+            );
+            list.unreadable = true;
+            return list;
+        }
+    };
+    for piece in split(tokens, ',') {
+        if piece.tokens.is_empty() {
+            faults.at_span(piece.end, "one `,` is too many here");
+            continue;
+        }
+        let Some(Keyed { key, rest }) = piece.parse(Keyed::parse, faults) else {
+            list.unreadable = true;
+            continue;
+        };
+        let rest = Piece {
+            tokens: rest,
+            end: piece.end,
+        };
+        let value = value(&key, &rest, faults);
+        // Where a `,` is missing, the next key is hidden in this value.
+        list.unreadable |= matches!(value, Value::Faulty);
+        list.pairs.push(KeyValue { key, value });
+    }
+    list
+}
+
+fn value(key: &Ident, piece: &Piece, faults: &mut Faults) -> Value {
+    let parser = |input: ParseStream<'_>| {
+        if input.is_empty() {
+            return Ok(Value::None);
+        }
+        if !input.peek(Token![=]) {
+            return Err(input.error(format!("expected `=` or `,` behind `{key}`")));
+        }
+        let equals: Token![=] = input.parse()?;
+        if input.is_empty() {
+            let message = format!("`{key}` needs a value behind `=`");
+            return Err(syn::Error::new(equals.span, message));
+        }
+        let value = input.parse()?;
+        if !input.is_empty() {
+            return Err(input.error(format!("expected `,` behind the value of `{key}`")));
+        }
+        Ok(Value::Expr(Box::new(value)))
+    };
+    piece.parse(parser, faults).unwrap_or(Value::Faulty)
+}
+
+fn delimiter(list: &syn::MetaList) -> Delimiter {
+    match list.delimiter {
+        syn::MacroDelimiter::Paren(_) => Delimiter::Parenthesis,
+        syn::MacroDelimiter::Brace(_) => Delimiter::Brace,
+        syn::MacroDelimiter::Bracket(_) => Delimiter::Bracket,
+    }
+}

@@ -1,0 +1,177 @@
+//! How a definition travels from the crate that defines a joint to the crate that uses it.
+//!
+//! Every joint is a type and a macro of one name. The macro, the carrier, takes a queue of further carriers, the
+//! definitions gathered so far and the annotated struct; it appends its own definition and calls the next carrier, after
+//! asking by a trait whether the next is a body or a joint at all, and the
+//! last one calls `assemble!` through its own `$crate`. Bodies carry in the same way. So nobody guesses the name of a
+//! crate, renames and re-exports work, and no state lives between invocations.
+//!
+//! The word behind `@` names the version of this protocol; it changes with every incompatible change.
+
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
+use quote::{format_ident, quote};
+use syn::parse::{ParseStream, Parser};
+
+use crate::syntax::joint::JointSyntax;
+
+/// The version of the protocol.
+#[must_use]
+pub fn version() -> Ident {
+    Ident::new("holonom1", Span::call_site())
+}
+
+/// The call of the first carrier.
+pub fn call(paths: &[TokenStream], payload: &TokenStream) -> TokenStream {
+    let version = version();
+    match paths {
+        [] => TokenStream::new(),
+        [first, rest @ ..] => quote! {
+            #first! { @ #version [ #( [ #rest ] )* ] [] { #payload } }
+        },
+    }
+}
+
+/// The carrier of a joint.
+pub fn carrier(
+    joint: &JointSyntax,
+    facade: &TokenStream,
+    fingerprint: u64,
+    sound: bool,
+) -> TokenStream {
+    let name = &joint.name;
+    let place = place(name.span());
+    let carrier = format_ident!(
+        "__holonom_joint_{}_{:016x}",
+        name,
+        fingerprint ^ place,
+        span = Span::call_site()
+    );
+    let version = version();
+    let body = &joint.body;
+    let definition = if sound {
+        quote!([joint { #body }])
+    } else {
+        quote!([faulty])
+    };
+    let exported = matches!(joint.visibility, syn::Visibility::Public(_));
+    let export = exported.then(|| quote!(#[macro_export]));
+    let visibility = &joint.visibility;
+    let message = format!(
+        "`{name}` is a joint: name it as the type of a field in a struct with `#[derive(Mechanism)]`"
+    );
+    quote! {
+        #[doc(hidden)]
+        #export
+        macro_rules! #carrier {
+            (@ #version [] [$($definitions:tt)*] $payload:tt) => {
+                #facade::__private::assemble! { [#facade] [$($definitions)* #definition] $payload }
+            };
+            (@ #version [[$($next:tt)+] $($rest:tt)*] [$($definitions:tt)*] $payload:tt) => {
+                const _: () = #facade::__private::part::<$($next)+>();
+                $($next)+ ! { @ #version [$($rest)*] [$($definitions)* #definition] $payload }
+            };
+            (@ $($other:tt)*) => {
+                ::core::compile_error! {
+                    "this joint was defined with another version of holonom; use one version throughout"
+                }
+            };
+            ($($other:tt)*) => { ::core::compile_error! { #message } };
+        }
+        #[doc(hidden)]
+        #[allow(unused_imports, clippy::pub_use, clippy::useless_attribute)]
+        #visibility use #carrier as #name;
+    }
+}
+
+/// Tells places in the source apart: exported macros live at the root of their crate, where the carriers of equal joints
+/// in two modules must not meet.
+fn place(span: Span) -> u64 {
+    let start = span.start();
+    hash(format!("{}:{}:{}", span.file(), start.line, start.column).bytes())
+}
+
+/// FNV-1a.
+pub fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// What a carrier says of its type.
+#[derive(Clone, Debug)]
+pub enum Carried {
+    /// A rigid body.
+    Body,
+    /// A particle.
+    Particle,
+    /// A joint: what stands behind the word `joint`.
+    Joint(TokenStream),
+    /// A joint with faults, reported where it is defined.
+    Faulty,
+}
+
+/// What reaches `assemble!`.
+#[derive(Clone, Debug)]
+pub struct Delivery {
+    /// The path of the run-time crate.
+    pub facade: TokenStream,
+    /// The definitions in the order of the carriers.
+    pub carried: Vec<Carried>,
+    /// The annotated struct.
+    pub payload: TokenStream,
+}
+
+/// Unpacks what reaches `assemble!`.
+///
+/// # Errors
+/// If the tokens do not follow the protocol.
+pub fn unpack(tokens: TokenStream) -> syn::Result<Delivery> {
+    let parser = |input: ParseStream<'_>| {
+        let facade = group(input, Delimiter::Bracket)?.stream();
+        let definitions = group(input, Delimiter::Bracket)?.stream();
+        let payload = group(input, Delimiter::Brace)?.stream();
+        Ok(Delivery {
+            facade,
+            carried: unpack_definitions(definitions)?,
+            payload,
+        })
+    };
+    parser.parse2(tokens)
+}
+
+fn group(input: ParseStream<'_>, delimiter: Delimiter) -> syn::Result<Group> {
+    match input.parse::<TokenTree>()? {
+        TokenTree::Group(group) if group.delimiter() == delimiter => Ok(group),
+        // A fragment of `macro_rules` may come in an invisible group.
+        TokenTree::Group(outer) if outer.delimiter() == Delimiter::None => {
+            (|input: ParseStream<'_>| group(input, delimiter)).parse2(outer.stream())
+        }
+        other => Err(syn::Error::new(
+            other.span(),
+            "this macro is called by holonom's own macros only",
+        )),
+    }
+}
+
+fn unpack_definitions(tokens: TokenStream) -> syn::Result<Vec<Carried>> {
+    let parser = |input: ParseStream<'_>| {
+        let mut carried = Vec::new();
+        while !input.is_empty() {
+            let definition = group(input, Delimiter::Bracket)?;
+            carried.push(unpack_definition.parse2(definition.stream())?);
+        }
+        Ok(carried)
+    };
+    parser.parse2(tokens)
+}
+
+fn unpack_definition(input: ParseStream<'_>) -> syn::Result<Carried> {
+    let kind: Ident = input.parse()?;
+    match kind.to_string().as_str() {
+        "body" => Ok(Carried::Body),
+        "particle" => Ok(Carried::Particle),
+        "faulty" => Ok(Carried::Faulty),
+        "joint" => Ok(Carried::Joint(group(input, Delimiter::Brace)?.stream())),
+        _ => Err(syn::Error::new(kind.span(), "unknown definition")),
+    }
+}
