@@ -1,0 +1,24 @@
+//! The procedural macros of `holonom`: a shim over `holonom-engine`. Depend on `holonom`, which hands them on.
+#![forbid(unsafe_code)]
+
+use proc_macro::TokenStream;
+
+/// Generates the kernels of the mechanism that the struct describes. See the documentation of `holonom`.
+#[proc_macro_derive(Mechanism, attributes(mechanism, body, joint))]
+pub fn derive_mechanism(input: TokenStream) -> TokenStream {
+    holonom_engine::derive(input.into()).into()
+}
+
+/// Defines a joint; called by `holonom::joint!`.
+#[doc(hidden)]
+#[proc_macro]
+pub fn joint_impl(input: TokenStream) -> TokenStream {
+    holonom_engine::joint(input.into()).into()
+}
+
+/// Puts a mechanism together; called by the carriers of its field types.
+#[doc(hidden)]
+#[proc_macro]
+pub fn assemble(input: TokenStream) -> TokenStream {
+    holonom_engine::assemble(input.into()).into()
+}

@@ -1,0 +1,198 @@
+//! Poses and velocities by handle, in the axes that the user gave.
+
+use nalgebra::{Quaternion, Vector3};
+
+use crate::array::{Array, StateParts};
+use crate::error::{Fault, ParameterError};
+use crate::handle::BodyHandle;
+use crate::mechanism::Mechanism;
+use crate::project::{Correction, Projection};
+use crate::rotation::{conjugate, cross, normalised, product, read, rotate, rotate_back, write};
+use crate::scalar::{Real, Scalar};
+
+/// Where a body is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<S: Scalar> {
+    /// The centre of mass (m, global).
+    pub position: Vector3<S>,
+    /// The rotation from the user's body axes to the global axes, of length 1.
+    pub orientation: Quaternion<S>,
+}
+
+/// Access to the state of a mechanism by handle.
+///
+/// A state stores the orientation and the angular velocity of a body in principal axes; these functions speak the
+/// axes in which the user described the body. With `A(p)` from principal to global axes and `A(c)` from the user's to the
+/// principal axes ([`Mechanism::user_axes`]), the user's axes are turned by `A(p) A(c)`, and an angular velocity `w`
+/// along principal axes is `A(c)^T w` along the user's.
+///
+/// A particle has no orientation: its axes are the global ones, its angular velocity is zero, and what is set is
+/// ignored.
+pub trait MechanismExt: Mechanism {
+    /// The state that the attributes of the bodies describe.
+    ///
+    /// # Errors
+    /// A parameter that is not acceptable.
+    fn described_state<S: Scalar>(&self) -> Result<Self::State<S>, ParameterError> {
+        Ok(Self::initial_state(&Self::prepare(
+            &self.parameters::<S>(),
+        )?))
+    }
+
+    /// Corrects positions and velocities so that they satisfy the constraints at a time, see [`Projection`].
+    ///
+    /// # Errors
+    /// A parameter that is not acceptable, or no convergence; the state is then as before.
+    fn assemble<S: Real>(
+        &self,
+        time: S,
+        state: &mut Self::State<S>,
+    ) -> Result<Correction<S>, Fault> {
+        let constants = Self::prepare(&self.parameters::<S>())?;
+        Projection::default().correct::<Self>(&constants, time, state)
+    }
+
+    /// The Euler parameters (scalar first, of length 1) of the rotation from the user's body axes to the global axes.
+    fn orientation<S: Scalar>(state: &Self::State<S>, body: BodyHandle<Self>) -> [S; 4] {
+        match body.orientation() {
+            Some((_, place)) => {
+                let p = normalised(&read(state.coordinates().as_slice(), place));
+                product(&p, &Self::user_axes(body.index()).map(S::constant))
+            }
+            None => [S::one(), S::zero(), S::zero(), S::zero()],
+        }
+    }
+
+    /// Position and orientation of a body.
+    fn pose<S: Scalar>(state: &Self::State<S>, body: BodyHandle<Self>) -> Pose<S> {
+        let [e0, e1, e2, e3] = Self::orientation(state, body);
+        Pose {
+            position: Vector3::from(position(state, body)),
+            orientation: Quaternion::new(e0, e1, e2, e3),
+        }
+    }
+
+    /// Sets position and orientation of a body; the orientation may have any length but zero.
+    fn set_pose<S: Scalar>(state: &mut Self::State<S>, body: BodyHandle<Self>, pose: Pose<S>) {
+        let Some(info) = body.info() else { return };
+        let coordinates = state.coordinates_mut().as_mut_slice();
+        write(coordinates, info.coordinate, pose.position.into());
+        if let Some((_, place)) = body.orientation() {
+            let [x, y, z, w] = pose.orientation.coords.into();
+            let axes = Self::user_axes(body.index()).map(S::constant);
+            let p = product(&normalised(&[w, x, y, z]), &conjugate(&axes));
+            write(coordinates, place, p);
+        }
+    }
+
+    /// The velocity of the centre of mass (m/s, global).
+    fn velocity<S: Scalar>(state: &Self::State<S>, body: BodyHandle<Self>) -> Vector3<S> {
+        Vector3::from(velocity(state, body))
+    }
+
+    /// Sets the velocity of the centre of mass (m/s, global).
+    fn set_velocity<S: Scalar>(
+        state: &mut Self::State<S>,
+        body: BodyHandle<Self>,
+        velocity: Vector3<S>,
+    ) {
+        if let Some(info) = body.info() {
+            write(
+                state.velocities_mut().as_mut_slice(),
+                info.velocity,
+                velocity.into(),
+            );
+        }
+    }
+
+    /// The angular velocity (rad/s) along the user's body axes.
+    fn angular_velocity<S: Scalar>(state: &Self::State<S>, body: BodyHandle<Self>) -> Vector3<S> {
+        let axes = Self::user_axes(body.index()).map(S::constant);
+        Vector3::from(rotate_back(&axes, &spin(state, body)))
+    }
+
+    /// Sets the angular velocity (rad/s) along the user's body axes.
+    fn set_angular_velocity<S: Scalar>(
+        state: &mut Self::State<S>,
+        body: BodyHandle<Self>,
+        angular_velocity: Vector3<S>,
+    ) {
+        if let Some((info, _)) = body.orientation() {
+            let axes = Self::user_axes(body.index()).map(S::constant);
+            let w = rotate(&axes, &angular_velocity.into());
+            write(state.velocities_mut().as_mut_slice(), info.velocity + 3, w);
+        }
+    }
+
+    /// The angular velocity (rad/s) along the global axes.
+    fn angular_velocity_global<S: Scalar>(
+        state: &Self::State<S>,
+        body: BodyHandle<Self>,
+    ) -> Vector3<S> {
+        Vector3::from(global_spin(state, body))
+    }
+
+    /// Sets the angular velocity (rad/s) along the global axes, for the present orientation.
+    fn set_angular_velocity_global<S: Scalar>(
+        state: &mut Self::State<S>,
+        body: BodyHandle<Self>,
+        angular_velocity: Vector3<S>,
+    ) {
+        let turned = rotate_back(&Self::orientation(state, body), &angular_velocity.into());
+        Self::set_angular_velocity(state, body, Vector3::from(turned));
+    }
+
+    /// A point of a body (m, global), given from the centre of mass along the user's body axes (m).
+    fn point<S: Scalar>(
+        state: &Self::State<S>,
+        body: BodyHandle<Self>,
+        point: Vector3<S>,
+    ) -> Vector3<S> {
+        let [x, y, z] = position(state, body);
+        let [sx, sy, sz] = rotate(&Self::orientation(state, body), &point.into());
+        Vector3::new(x + sx, y + sy, z + sz)
+    }
+
+    /// The velocity of a point of a body (m/s, global), given from the centre of mass along the user's body axes (m).
+    fn point_velocity<S: Scalar>(
+        state: &Self::State<S>,
+        body: BodyHandle<Self>,
+        point: Vector3<S>,
+    ) -> Vector3<S> {
+        let arm = rotate(&Self::orientation(state, body), &point.into());
+        let [x, y, z] = velocity(state, body);
+        let [sx, sy, sz] = cross(&global_spin(state, body), &arm);
+        Vector3::new(x + sx, y + sy, z + sz)
+    }
+}
+
+impl<M: Mechanism> MechanismExt for M {}
+
+/// `r` (m, global).
+pub(crate) fn position<S: Scalar, M: Mechanism>(
+    state: &M::State<S>,
+    body: BodyHandle<M>,
+) -> [S; 3] {
+    let place = body.info().map_or(usize::MAX, |info| info.coordinate);
+    read(state.coordinates().as_slice(), place)
+}
+
+/// `v` (m/s, global).
+fn velocity<S: Scalar, M: Mechanism>(state: &M::State<S>, body: BodyHandle<M>) -> [S; 3] {
+    let place = body.info().map_or(usize::MAX, |info| info.velocity);
+    read(state.velocities().as_slice(), place)
+}
+
+/// `w` (rad/s, principal axes).
+fn spin<S: Scalar, M: Mechanism>(state: &M::State<S>, body: BodyHandle<M>) -> [S; 3] {
+    let place = body
+        .orientation()
+        .map_or(usize::MAX, |(info, _)| info.velocity + 3);
+    read(state.velocities().as_slice(), place)
+}
+
+/// `A(p) w` (rad/s, global).
+fn global_spin<S: Scalar, M: Mechanism>(state: &M::State<S>, body: BodyHandle<M>) -> [S; 3] {
+    let w = M::angular_velocity(state, body);
+    rotate(&M::orientation(state, body), &w.into())
+}

@@ -1,0 +1,250 @@
+//! Fixed-size arrays of scalars, and the state of a mechanism.
+
+use crate::scalar::{Real, Scalar};
+
+/// A fixed-size array of scalars: multipliers, accelerations, blocks of the Jacobian.
+pub trait Array<S: Scalar>: Copy + core::fmt::Debug + PartialEq {
+    /// The array with zero in every place.
+    fn zeros() -> Self;
+
+    /// The elements.
+    fn as_slice(&self) -> &[S];
+
+    /// The elements, to be written.
+    fn as_mut_slice(&mut self) -> &mut [S];
+}
+
+impl<S: Scalar, const N: usize> Array<S> for [S; N] {
+    #[inline(always)]
+    fn zeros() -> Self {
+        [S::zero(); N]
+    }
+
+    #[inline(always)]
+    fn as_slice(&self) -> &[S] {
+        self
+    }
+
+    #[inline(always)]
+    fn as_mut_slice(&mut self) -> &mut [S] {
+        self
+    }
+}
+
+/// What an integrator moves: a vector with addition and scaling, element by element.
+///
+/// The derivative of a state has the same type. The two sums that integrators need have a default body, so that a
+/// vector of another kind (on the heap, say) has two functions to write.
+pub trait Vector<S: Scalar>: Clone {
+    /// `f(self[k], other[k])` for every element.
+    #[must_use]
+    fn zip(&self, other: &Self, f: impl FnMut(S, S) -> S) -> Self;
+
+    /// Calls `f` with every element, in order.
+    fn for_each(&self, f: impl FnMut(S));
+
+    /// `self + sum of factor * direction`, element by element.
+    #[must_use]
+    fn plus<const N: usize>(&self, terms: [(S, &Self); N]) -> Self {
+        let mut result = self.clone();
+        for (factor, direction) in terms {
+            result = result.zip(direction, |x, slope| slope.fused(factor, x));
+        }
+        result
+    }
+
+    /// `max over k of |sum of factor * direction[k]| / max(|self[k]|, |other[k]|, floor)`: an increment, relative
+    /// to the larger of two vectors. NaN if any element is NaN.
+    #[must_use]
+    fn relative_norm<const N: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); N]) -> S
+    where
+        S: Real,
+    {
+        let increment = self.zip(self, |_, _| S::zero()).plus(terms);
+        let scale = self.zip(other, |x, y| x.abs().max(y.abs()).max(floor));
+        let mut norm = S::zero();
+        let ratio = increment.zip(&scale, |x, scale| x.abs().quotient(scale));
+        ratio.for_each(|ratio| norm = norm.max(ratio));
+        norm
+    }
+}
+
+impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
+    #[inline(always)]
+    fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {
+        let mut result = *self;
+        for (element, other) in result.iter_mut().zip(other) {
+            *element = f(*element, *other);
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn for_each(&self, f: impl FnMut(S)) {
+        self.iter().copied().for_each(f);
+    }
+
+    #[inline(always)]
+    fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
+        let mut result = *self;
+        for (factor, direction) in terms {
+            for (element, slope) in result.iter_mut().zip(direction) {
+                *element = slope.fused(factor, *element);
+            }
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn relative_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
+    where
+        S: Real,
+    {
+        let mut ratio = [S::zero(); N].plus(terms);
+        for ((ratio, x), y) in ratio.iter_mut().zip(self).zip(other) {
+            let scale = greater(greater(x.abs(), y.abs()), floor);
+            *ratio = ratio.abs().quotient(scale);
+        }
+        greatest(&ratio)
+    }
+}
+
+/// The greater of two numbers; the first if either is NaN.
+#[inline(always)]
+fn greater<S: Real>(a: S, b: S) -> S {
+    if a < b { b } else { a }
+}
+
+/// The greatest of non-negative numbers; NaN if one is NaN.
+///
+/// Four places at once, and NaN looked for apart, so that the comparisons do not wait for each other.
+#[inline(always)]
+fn greatest<S: Real>(elements: &[S]) -> S {
+    let mut lanes = [S::zero(); 4];
+    let mut ordered = true;
+    for chunk in elements.chunks(4) {
+        for (lane, &element) in lanes.iter_mut().zip(chunk) {
+            ordered &= element >= S::zero();
+            *lane = greater(*lane, element);
+        }
+    }
+    let [a, b, c, d] = lanes;
+    if ordered {
+        greater(greater(a, b), greater(c, d))
+    } else {
+        S::constant(f64::NAN)
+    }
+}
+
+/// Whether every element is finite.
+#[inline(always)]
+pub(crate) fn finite<S: Real, X: Vector<S>>(vector: &X) -> bool {
+    let mut finite = true;
+    vector.for_each(|element| finite &= element.is_finite());
+    finite
+}
+
+/// The state of a mechanism: coordinates and velocities of its bodies, in an order that the mechanism knows.
+///
+/// The elements are read and written by handle, see [`crate::Mechanism`]; the order of the raw arrays is, body by
+/// body, `[r (m, global), p (Euler parameters, scalar first, principal axes)]` and `[v (m/s, global), w (rad/s,
+/// principal axes)]`; a particle has `r` and `v` only. The same type holds the rates of a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<S, const Q: usize, const U: usize> {
+    coordinates: [S; Q],
+    velocities: [S; U],
+}
+
+impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
+    #[inline(always)]
+    fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {
+        Self {
+            coordinates: Vector::zip(&self.coordinates, &other.coordinates, &mut f),
+            velocities: Vector::zip(&self.velocities, &other.velocities, &mut f),
+        }
+    }
+
+    #[inline(always)]
+    fn for_each(&self, mut f: impl FnMut(S)) {
+        Vector::for_each(&self.coordinates, &mut f);
+        Vector::for_each(&self.velocities, &mut f);
+    }
+
+    #[inline(always)]
+    fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
+        Self {
+            coordinates: self
+                .coordinates
+                .plus(terms.map(|(factor, x)| (factor, &x.coordinates))),
+            velocities: self
+                .velocities
+                .plus(terms.map(|(factor, x)| (factor, &x.velocities))),
+        }
+    }
+
+    #[inline(always)]
+    fn relative_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
+    where
+        S: Real,
+    {
+        let coordinates = terms.map(|(factor, x)| (factor, &x.coordinates));
+        let velocities = terms.map(|(factor, x)| (factor, &x.velocities));
+        self.coordinates
+            .relative_norm(&other.coordinates, floor, coordinates)
+            .max(
+                self.velocities
+                    .relative_norm(&other.velocities, floor, velocities),
+            )
+    }
+}
+
+/// Access to the two parts of a state, for code that is generic over the mechanism.
+pub trait StateParts<S: Scalar>: Vector<S> + Copy + core::fmt::Debug + PartialEq {
+    /// Coordinates `q` (and auxiliary variables).
+    type Coordinates: Array<S>;
+    /// Velocities `u`.
+    type Velocities: Array<S>;
+
+    /// A state of the two parts.
+    fn from_parts(coordinates: Self::Coordinates, velocities: Self::Velocities) -> Self;
+
+    /// Coordinates `q` (and auxiliary variables).
+    fn coordinates(&self) -> &Self::Coordinates;
+
+    /// Velocities `u`.
+    fn velocities(&self) -> &Self::Velocities;
+
+    /// Coordinates `q`, to be written.
+    fn coordinates_mut(&mut self) -> &mut Self::Coordinates;
+
+    /// Velocities `u`, to be written.
+    fn velocities_mut(&mut self) -> &mut Self::Velocities;
+}
+
+impl<S: Scalar, const Q: usize, const U: usize> StateParts<S> for State<S, Q, U> {
+    type Coordinates = [S; Q];
+    type Velocities = [S; U];
+
+    fn from_parts(coordinates: [S; Q], velocities: [S; U]) -> Self {
+        Self {
+            coordinates,
+            velocities,
+        }
+    }
+
+    fn coordinates(&self) -> &[S; Q] {
+        &self.coordinates
+    }
+
+    fn velocities(&self) -> &[S; U] {
+        &self.velocities
+    }
+
+    fn coordinates_mut(&mut self) -> &mut [S; Q] {
+        &mut self.coordinates
+    }
+
+    fn velocities_mut(&mut self) -> &mut [S; U] {
+        &mut self.velocities
+    }
+}

@@ -1,0 +1,149 @@
+//! What can go wrong at run time. Small enums, no strings; the last good state travels with them.
+
+use core::fmt;
+
+/// A number of the description that the macro could not see is not acceptable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterError {
+    /// The field of the mechanism.
+    pub field: &'static str,
+    /// The attribute.
+    pub attribute: &'static str,
+    /// What is wrong with it.
+    pub fault: ParameterFault,
+}
+
+/// What is wrong with a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u64)] // as for `Fault`
+pub enum ParameterFault {
+    /// NaN or infinite.
+    NotFinite,
+    /// Zero or negative where a positive number is needed.
+    NotPositive,
+    /// Principal moments of inertia of which one exceeds the sum of the others.
+    TriangleInequality,
+    /// A vector of length zero where a direction is needed.
+    ZeroLength,
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fault = match self.fault {
+            ParameterFault::NotFinite => "must be finite",
+            ParameterFault::NotPositive => "must be positive",
+            ParameterFault::TriangleInequality => {
+                "must satisfy the triangle inequality: no principal moment exceeds the sum of the others"
+            }
+            ParameterFault::ZeroLength => "must not be the zero vector",
+        };
+        write!(f, "`{}` of `{}` {fault}", self.attribute, self.field)
+    }
+}
+
+impl core::error::Error for ParameterError {}
+
+/// Why an evaluation, a step or a correction could not be done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+// Whole words: rates come back as `Result<_, Fault>`, and single bytes of a fault would split the numbers in their place
+// when they are moved, 3 ns an evaluation.
+#[repr(u64)]
+pub enum Fault {
+    /// The state holds NaN or infinity.
+    StateNotFinite,
+    /// The rates came out as NaN or infinity: forces beyond the range of numbers, or a singular system.
+    RatesNotFinite,
+    /// The constraints depend on each other here: at this joint the pivot vanishes.
+    Singular {
+        /// The index of the joint in [`crate::Report::joints`].
+        joint: usize,
+        /// The joint's field.
+        name: &'static str,
+        /// The relative pivot, see [`crate::Pivot`].
+        relative_pivot: f64,
+    },
+    /// The iteration of the augmented Lagrangian, or of a correction, did not converge.
+    NotConverged {
+        /// The iterations done.
+        iterations: usize,
+        /// The last change (augmented Lagrangian) or the violation left (correction).
+        residual: f64,
+    },
+    /// The step size fell below what the time's own digits resolve.
+    StepSizeUnderflow {
+        /// The step asked for (s).
+        step: f64,
+    },
+    /// A tolerance, a step, an interval or a coefficient that is not finite and positive.
+    Setting {
+        /// Which one.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A parameter of the mechanism is not acceptable.
+    Parameter(ParameterError),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::StateNotFinite => write!(f, "the state holds a number that is not finite"),
+            Self::RatesNotFinite => write!(f, "the rates of the state are not finite"),
+            Self::Singular {
+                name,
+                relative_pivot,
+                ..
+            } => write!(
+                f,
+                "the constraints depend on each other at joint `{name}` (relative pivot {relative_pivot:e})"
+            ),
+            Self::NotConverged {
+                iterations,
+                residual,
+            } => {
+                write!(
+                    f,
+                    "no convergence after {iterations} iterations (residual {residual:e})"
+                )
+            }
+            Self::StepSizeUnderflow { step } => {
+                write!(
+                    f,
+                    "the step size {step:e} s is below the resolution of the time"
+                )
+            }
+            Self::Setting { name, value } => {
+                write!(f, "`{name}` must be finite and positive, not {value:e}")
+            }
+            Self::Parameter(error) => error.fmt(f),
+        }
+    }
+}
+
+impl From<ParameterError> for Fault {
+    fn from(error: ParameterError) -> Self {
+        Self::Parameter(error)
+    }
+}
+
+impl core::error::Error for Fault {}
+
+/// A run or a step that could not go on: when, why, and the last good state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulationError<X> {
+    /// The time of the last good state (s).
+    pub time: f64,
+    /// Why it stopped.
+    pub fault: Fault,
+    /// The last good state.
+    pub state: X,
+}
+
+impl<X> fmt::Display for SimulationError<X> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at {} s: {}", self.time, self.fault)
+    }
+}
+
+impl<X: fmt::Debug> core::error::Error for SimulationError<X> {}

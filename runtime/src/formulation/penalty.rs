@@ -1,0 +1,58 @@
+//! The penalty formulation.
+
+use super::Formulation;
+use crate::error::Fault;
+use crate::integrate::positive;
+use crate::mechanism::{Compliant, Stabilisation};
+use crate::scalar::Real;
+
+/// The penalty formulation: `lambda = alpha (Phi'' + 2 mu omega Phi' + omega^2 Phi)`.
+///
+/// Every constraint is a spring, a damper and a mass on the violation. Solvable where constraints are redundant or
+/// the configuration is singular; the motion has a bias of the order `1 / alpha`. Bayo, Garcia de Jalon and Serna, *A modified
+/// Lagrangian formulation for the dynamic analysis of constrained mechanical systems*, Comput. Methods Appl. Mech.
+/// Eng. 71 (1988), 183-195; Flores 2015, chapter 13.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penalty<S> {
+    /// `alpha`, positive: kg for a constraint in metres.
+    pub alpha: S,
+    /// `omega` (rad/s), positive: the frequency of the violation.
+    pub omega: S,
+    /// `mu`, positive: the damping ratio of the violation, 1 for critical damping.
+    pub mu: S,
+}
+
+impl<S> Penalty<S> {
+    /// The formulation with its three coefficients.
+    #[must_use]
+    pub const fn new(alpha: S, omega: S, mu: S) -> Self {
+        Self { alpha, omega, mu }
+    }
+}
+
+/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15.
+impl<S: Real> Default for Penalty<S> {
+    fn default() -> Self {
+        Self::new(S::constant(1e7), S::constant(10.0), S::one())
+    }
+}
+
+impl<S: Real> Formulation<S> for Penalty<S> {
+    type Terms = Compliant;
+
+    fn stabilisation(&self) -> Result<Stabilisation<S>, Fault> {
+        stabilisation(self.alpha, self.omega, self.mu)
+    }
+}
+
+/// `2 omega mu`, `omega^2` and `1 / alpha`.
+pub(super) fn stabilisation<S: Real>(alpha: S, omega: S, mu: S) -> Result<Stabilisation<S>, Fault> {
+    let alpha = positive("alpha of the penalty", alpha)?;
+    let omega = positive("omega of the penalty", omega)?;
+    let mu = positive("mu of the penalty", mu)?;
+    Ok(Stabilisation {
+        rate: (omega + omega) * mu,
+        position: omega * omega,
+        compliance: alpha.reciprocal(),
+    })
+}

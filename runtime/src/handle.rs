@@ -1,0 +1,141 @@
+//! Typed names of bodies and joints.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use crate::mechanism::Mechanism;
+use crate::report::{BodyInfo, BodyKind, JointInfo};
+
+/// A joint as a type: its equations and the bodies that it connects.
+///
+/// `joint!` implements it; a field of this type in a mechanism stands for one such joint.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a joint",
+    label = "not defined with `joint!`",
+    note = "a joint is defined with `holonom::joint!`; ready-made ones are in `holonom::joints`"
+)]
+pub trait Joint {
+    /// The name of the joint's type.
+    const NAME: &'static str;
+    /// The number of constraint equations.
+    const EQUATIONS: usize;
+    /// The number of bodies that it connects, the ground among them.
+    const BODIES: usize;
+    /// A number made of the definition, so that two versions of it cannot be mixed.
+    const FINGERPRINT: u64;
+}
+
+/// A joint whose definition has an angle.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no angle",
+    label = "the definition of this joint names no angle",
+    note = "an angle can be read from joints with one rotation, such as `Revolute`"
+)]
+pub trait HasAngle: Joint {}
+
+/// A body of the mechanism `M`.
+pub struct BodyHandle<M> {
+    index: usize,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+impl<M> BodyHandle<M> {
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        Self {
+            index,
+            mechanism: PhantomData,
+        }
+    }
+
+    /// The place in [`Report::bodies`](crate::Report::bodies).
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index
+    }
+}
+
+impl<M: Mechanism> BodyHandle<M> {
+    /// The name of the field.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.info().map_or("", |info| info.name)
+    }
+
+    /// Kind and places of the body.
+    pub(crate) fn info(self) -> Option<&'static BodyInfo> {
+        M::REPORT.bodies.get(self.index)
+    }
+
+    /// Kind and places of the body, and the place of its Euler parameters; nothing for a particle.
+    pub(crate) fn orientation(self) -> Option<(&'static BodyInfo, usize)> {
+        let info = self.info()?;
+        (info.kind == BodyKind::Rigid).then_some((info, info.coordinate + 3))
+    }
+}
+
+/// A joint of the mechanism `M`, of the type `J`.
+pub struct JointHandle<M, J> {
+    index: usize,
+    types: PhantomData<fn() -> (M, J)>,
+}
+
+impl<M, J> JointHandle<M, J> {
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        Self {
+            index,
+            types: PhantomData,
+        }
+    }
+
+    /// The place in [`Report::joints`](crate::Report::joints).
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index
+    }
+}
+
+impl<M: Mechanism, J> JointHandle<M, J> {
+    /// The name of the field.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.info().map_or("", |info| info.name)
+    }
+
+    /// Rows and bodies of the joint.
+    pub(crate) fn info(self) -> Option<&'static JointInfo> {
+        M::REPORT.joints.get(self.index)
+    }
+}
+
+macro_rules! handle {
+    ($name:ident<$($parameter:ident),*>) => {
+        impl<$($parameter),*> Clone for $name<$($parameter),*> {
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+
+        impl<$($parameter),*> Copy for $name<$($parameter),*> {}
+
+        impl<$($parameter),*> PartialEq for $name<$($parameter),*> {
+            fn eq(&self, other: &Self) -> bool {
+                self.index == other.index
+            }
+        }
+
+        impl<$($parameter),*> Eq for $name<$($parameter),*> {}
+
+        impl<$($parameter),*> fmt::Debug for $name<$($parameter),*> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.debug_tuple(stringify!($name)).field(&self.index).finish()
+            }
+        }
+    };
+}
+
+handle!(BodyHandle<M>);
+handle!(JointHandle<M, J>);

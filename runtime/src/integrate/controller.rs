@@ -1,0 +1,96 @@
+//! The step control of MATLAB's `ode45`, as pure functions.
+
+use super::{Span, positive};
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// The error to be allowed in a step: `relative * max(|y|, absolute / relative)` for every element of the state.
+///
+/// Both are finite and positive. A relative tolerance below `100 EPSILON` of the number type counts as that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance<S> {
+    /// Relative to the element.
+    pub relative: S,
+    /// In the unit of the element: what counts where the element is near zero.
+    pub absolute: S,
+}
+
+/// `relative = 1e-6`, `absolute = 1e-9`.
+impl<S: Real> Default for Tolerance<S> {
+    fn default() -> Self {
+        Self {
+            relative: S::constant(1e-6),
+            absolute: S::constant(1e-9),
+        }
+    }
+}
+
+/// The settings of the control.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Controller<S> {
+    relative: S,
+    /// `absolute / relative`: the element below which the absolute tolerance counts.
+    pub(super) floor: S,
+    largest: S,
+}
+
+impl<S: Real> Controller<S> {
+    pub(super) fn new(tolerance: Tolerance<S>, span: &Span<S>) -> Result<Self, Fault> {
+        let relative = positive("relative tolerance", tolerance.relative)?;
+        let absolute = positive("absolute tolerance", tolerance.absolute)?;
+        let duration = positive("end of the interval less its start", span.end - span.start)?;
+        positive("time to the first output", span.first_output)?;
+        let relative = relative.max(S::constant(100.0) * S::EPSILON);
+        let largest = S::constant(0.1) * duration;
+        Ok(Self {
+            relative,
+            floor: absolute.quotient(relative),
+            largest,
+        })
+    }
+
+    /// The smallest step at a time.
+    pub(super) fn smallest(time: S) -> S {
+        S::constant(16.0) * time.ulp()
+    }
+
+    /// The first step; `slope` is `max |f0| / max(|y0|, floor)`.
+    pub(super) fn first(&self, span: &Span<S>, slope: S) -> S {
+        let rate = slope.quotient(S::constant(0.8) * self.relative.powf(0.2));
+        let step = self.largest.min(span.first_output);
+        let step = if step * rate > S::one() {
+            rate.reciprocal()
+        } else {
+            step
+        };
+        step.max(Self::smallest(span.start))
+    }
+
+    /// A step within its limits.
+    pub(super) fn limited(&self, time: S, step: S) -> S {
+        self.largest.min(Self::smallest(time).max(step))
+    }
+
+    /// Whether a trial with this error is accepted; not if the error is NaN.
+    pub(super) fn accepts(&self, error: S) -> bool {
+        error <= self.relative
+    }
+
+    /// The step after an accepted one that had not been rejected before.
+    pub(super) fn grown(&self, step: S, error: S) -> S {
+        let factor = S::constant(1.25) * error.quotient(self.relative).powf(0.2);
+        if factor > S::constant(0.2) {
+            step.quotient(factor)
+        } else {
+            S::constant(5.0) * step
+        }
+    }
+
+    /// The step after a first rejection.
+    pub(super) fn shrunk(&self, step: S, error: S) -> S {
+        let factor = S::constant(0.8) * self.relative.quotient(error).powf(0.2);
+        let least = S::constant(0.1);
+        // An error of NaN or infinity takes the least factor.
+        step * if factor > least { factor } else { least }
+    }
+}

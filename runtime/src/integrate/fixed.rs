@@ -1,0 +1,159 @@
+//! A scheme at a fixed step.
+
+use super::{Counted, Counts, Course, Integrator, Scheme, Span, Start, Stride, System, positive};
+use crate::array::{Vector, finite};
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// A [`Scheme`] at a fixed step: times `t0 + k h`, the last step shortened to the end of the interval.
+///
+/// Steps do not depend on output times; output between steps is by the interpolant of the scheme.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedStep<S, K> {
+    /// The step `h` (s).
+    pub step: S,
+    /// The method.
+    pub scheme: K,
+}
+
+impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
+    type Course<X: Vector<S>> = FixedCourse<S, X, K>;
+
+    fn start<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        span: Span<S>,
+        state: Y::State,
+    ) -> Result<FixedCourse<S, Y::State, K>, Fault> {
+        let step = positive("step", self.step)?;
+        positive("end of the interval less its start", span.end - span.start)?;
+        let mut counts = Counts::default();
+        let last = Counted {
+            system,
+            counts: &mut counts,
+        }
+        .rates(span.start, &state)?;
+        Ok(FixedCourse {
+            scheme: self.scheme,
+            nominal: step,
+            origin: span.start,
+            end: span.end,
+            counts,
+            time: span.start,
+            from: state.clone(),
+            first: last.clone(),
+            stages: self.scheme.stages(&last),
+            state,
+            last,
+            known: true,
+            start: span.start,
+            step: S::zero(),
+        })
+    }
+}
+
+/// An integration with a [`FixedStep`] under way.
+pub struct FixedCourse<S: Real, X: Vector<S>, K: Scheme<S>> {
+    scheme: K,
+    nominal: S,
+    origin: S,
+    end: S,
+    counts: Counts,
+    time: S,
+    state: X,
+    /// The slope at `state`, if it is known.
+    last: X,
+    known: bool,
+    /// The last step: its start, its size, the slopes within.
+    start: S,
+    step: S,
+    from: X,
+    first: X,
+    stages: K::Stages<X>,
+}
+
+impl<S: Real, X: Vector<S>, K: Scheme<S>> FixedCourse<S, X, K> {
+    /// Computes the slope at the state that was reached, once.
+    fn slope<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+        if !self.known {
+            let mut system = Counted {
+                system,
+                counts: &mut self.counts,
+            };
+            self.last = system.rates(self.time, &self.state)?;
+            self.known = true;
+        }
+        Ok(())
+    }
+}
+
+impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> {
+    fn time(&self) -> S {
+        self.time
+    }
+
+    fn state(&self) -> &X {
+        &self.state
+    }
+
+    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+        self.slope(system)?;
+        let index = S::constant((self.counts.accepted + 1) as f64);
+        let mut end = index.fused(self.nominal, self.origin);
+        let mut step = self.nominal;
+        if end + S::constant(8.0) * self.end.ulp() >= self.end {
+            end = self.end;
+            step = end - self.time;
+        }
+        if end <= self.time {
+            return Err(Fault::StepSizeUnderflow {
+                step: step.to_f64(),
+            });
+        }
+        let mut system = Counted {
+            system,
+            counts: &mut self.counts,
+        };
+        let start = Start {
+            time: self.time,
+            state: &self.state,
+            slope: &self.last,
+        };
+        let state = self
+            .scheme
+            .stride(&mut system, start, step, &mut self.stages)?;
+        if !finite(&state) {
+            return Err(Fault::StateNotFinite);
+        }
+        self.counts.accepted += 1;
+        core::mem::swap(&mut self.first, &mut self.last);
+        self.known = false;
+        self.from = core::mem::replace(&mut self.state, state);
+        self.start = core::mem::replace(&mut self.time, end);
+        self.step = step;
+        Ok(())
+    }
+
+    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
+        self.slope(system)?;
+        let theta = (time - self.start).quotient(self.time - self.start);
+        let stride = Stride {
+            step: self.step,
+            from: &self.from,
+            first: &self.first,
+            stages: &self.stages,
+            to: &self.state,
+            last: &self.last,
+        };
+        Ok(self.scheme.interpolate(stride, theta))
+    }
+
+    fn replace(&mut self, state: X) {
+        self.state = state;
+        self.known = false;
+    }
+
+    fn counts(&self) -> Counts {
+        self.counts
+    }
+}

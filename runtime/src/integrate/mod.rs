@@ -1,0 +1,238 @@
+//! Integrators: they move the state of a [`System`] through time and know nothing of mechanisms.
+//!
+//! | what a user writes | method | evaluations |
+//! |---|---|---|
+//! | [`Rk4::every(h)`](Rk4::every) | classical Runge-Kutta of order 4, fixed step | 4 a step |
+//! | [`DormandPrince::every(h)`](DormandPrince::every) | Dormand-Prince of order 5, fixed step | 6 a step |
+//! | [`DormandPrince::new(tolerance)`](DormandPrince::new) | Dormand-Prince 5(4), the step control of MATLAB's `ode45` | 6 a trial, and 1 |
+//!
+//! [`Scheme::step`] takes one step at a time, for loops that somebody else owns; [`Integrator::start`] begins a
+//! [`Course`] over an interval, with output at any time within the last step.
+
+mod adaptive;
+mod controller;
+mod dense;
+mod dormand_prince;
+mod fixed;
+mod rk4;
+mod tableau;
+#[cfg(test)]
+mod tests;
+
+pub use adaptive::AdaptiveCourse;
+pub use controller::Tolerance;
+pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
+pub use fixed::{FixedCourse, FixedStep};
+pub use rk4::{Rk4, Rk4Stages};
+
+use core::fmt::Debug;
+
+use crate::array::{Vector, finite};
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// A system of ordinary differential equations of first order: `y' = f(t, y)`.
+///
+/// ```
+/// use holonom::{Fault, Rk4, Scheme, System};
+///
+/// /// y' = -y
+/// struct Decay;
+///
+/// impl System<f64> for Decay {
+///     type State = [f64; 1];
+///     fn rates(&mut self, _time: f64, state: &[f64; 1]) -> Result<[f64; 1], Fault> {
+///         Ok([-state[0]])
+///     }
+/// }
+///
+/// let mut state = [1.0];
+/// for step in 0..100 {
+///     Rk4.step(&mut Decay, 0.01 * f64::from(step), &mut state, 0.01)?;
+/// }
+/// assert!((state[0] - (-1.0_f64).exp()).abs() < 1e-10);
+/// # Ok::<(), Fault>(())
+/// ```
+pub trait System<S: Real> {
+    /// The state; its rates have the same type.
+    type State: Vector<S>;
+
+    /// The rates of the state: `f(t, y)`.
+    ///
+    /// # Errors
+    /// Rates that are not finite, and what else keeps the system from having rates here.
+    fn rates(&mut self, time: S, state: &Self::State) -> Result<Self::State, Fault>;
+}
+
+/// A method that integrates over an interval and decides on its steps.
+pub trait Integrator<S: Real>: Copy + Debug {
+    /// An integration under way, with all the memory that it needs.
+    type Course<X: Vector<S>>: Course<S, X>;
+
+    /// Begins an integration.
+    ///
+    /// # Errors
+    /// A setting that is not finite and positive; a fault of the system at the start.
+    fn start<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        span: Span<S>,
+        state: Y::State,
+    ) -> Result<Self::Course<Y::State>, Fault>;
+}
+
+/// An integration under way.
+pub trait Course<S: Real, X: Vector<S>> {
+    /// The time that was reached.
+    fn time(&self) -> S;
+
+    /// The state at that time.
+    fn state(&self) -> &X;
+
+    /// Goes on by one accepted step, at most to the end of the interval.
+    ///
+    /// # Errors
+    /// Why it cannot go on. Time and state are then as before; the course is over.
+    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault>;
+
+    /// The state at a time within the last step, by the interpolant of the method.
+    ///
+    /// # Errors
+    /// A fault of the system, where the interpolant needs an evaluation at the end of the step.
+    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault>;
+
+    /// Puts a corrected state in the place of [`Course::state`]. Call [`Course::at`] before, not after.
+    fn replace(&mut self, state: X);
+
+    /// What it has cost so far.
+    fn counts(&self) -> Counts;
+}
+
+/// A one-step method of fixed coefficients.
+pub trait Scheme<S: Real>: Copy + Debug {
+    /// The memory of a step: slopes at the inner stages.
+    type Stages<X: Vector<S>>;
+
+    /// Memory for states like this one.
+    fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X>;
+
+    /// The state after one step, from the slope at its start.
+    ///
+    /// # Errors
+    /// A fault of the system at a stage.
+    fn stride<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        start: Start<'_, S, Y::State>,
+        step: S,
+        stages: &mut Self::Stages<Y::State>,
+    ) -> Result<Y::State, Fault>;
+
+    /// The state at the fraction `theta` (from 0 to 1) of a step.
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X;
+
+    /// One step of the size `step` from `time`, without control of the error.
+    ///
+    /// # Errors
+    /// A fault of the system. The state is then as before.
+    #[inline]
+    fn step<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        time: S,
+        state: &mut Y::State,
+        step: S,
+    ) -> Result<(), Fault> {
+        let slope = system.rates(time, state)?;
+        let mut stages = self.stages(&slope);
+        let start = Start {
+            time,
+            state: &*state,
+            slope: &slope,
+        };
+        let next = self.stride(system, start, step, &mut stages)?;
+        if !finite(&next) {
+            return Err(Fault::StateNotFinite);
+        }
+        *state = next;
+        Ok(())
+    }
+}
+
+/// Where a step starts.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a, S, X> {
+    /// The time.
+    pub time: S,
+    /// The state.
+    pub state: &'a X,
+    /// The rates of the state.
+    pub slope: &'a X,
+}
+
+/// A step that was done, as the interpolant sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Stride<'a, S, X, K> {
+    /// The size of the step.
+    pub step: S,
+    /// The state at its start.
+    pub from: &'a X,
+    /// The slope at its start.
+    pub first: &'a X,
+    /// The slopes at the inner stages.
+    pub stages: &'a K,
+    /// The state at its end.
+    pub to: &'a X,
+    /// The slope at its end.
+    pub last: &'a X,
+}
+
+/// The interval of an integration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span<S> {
+    /// Where it starts (s).
+    pub start: S,
+    /// Where it ends (s), later than the start.
+    pub end: S,
+    /// The time from the start to the first output (s); a step control may begin with it, as `ode45` does.
+    pub first_output: S,
+}
+
+/// What an integration has cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Evaluations of the rates.
+    pub evaluations: usize,
+    /// Steps that were accepted.
+    pub accepted: usize,
+    /// Steps that were tried and rejected.
+    pub rejected: usize,
+}
+
+/// A system that counts its evaluations.
+struct Counted<'a, Y> {
+    system: &'a mut Y,
+    counts: &'a mut Counts,
+}
+
+impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
+    type State = Y::State;
+
+    #[inline(always)]
+    fn rates(&mut self, time: S, state: &Y::State) -> Result<Y::State, Fault> {
+        self.counts.evaluations += 1;
+        self.system.rates(time, state)
+    }
+}
+
+/// Refuses a setting that is not finite and positive.
+pub(crate) fn positive<S: Real>(name: &'static str, value: S) -> Result<S, Fault> {
+    if value.is_finite() && value > S::zero() {
+        Ok(value)
+    } else {
+        Err(Fault::Setting {
+            name,
+            value: value.to_f64(),
+        })
+    }
+}

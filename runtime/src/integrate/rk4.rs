@@ -1,0 +1,67 @@
+//! The classical Runge-Kutta method.
+
+use super::{FixedStep, Scheme, Start, Stride, System, dense};
+use crate::array::Vector;
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// The classical Runge-Kutta method of order 4: four evaluations a step, no estimate of the error.
+///
+/// Kutta 1901; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2. Output within
+/// a step is by the cubic through states and slopes at both ends.
+///
+/// A step of Euler parameters at a constant angular velocity `w` multiplies `|p|^2` by `1 - z^6/72 + z^8/576` with
+/// `z = |w| h / 2`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rk4;
+
+impl Rk4 {
+    /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
+    #[must_use]
+    pub const fn every<S>(step: S) -> FixedStep<S, Self> {
+        FixedStep { step, scheme: Self }
+    }
+}
+
+/// No memory: the inner slopes are not needed after the step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rk4Stages;
+
+impl<S: Real> Scheme<S> for Rk4 {
+    type Stages<X: Vector<S>> = Rk4Stages;
+
+    fn stages<X: Vector<S>>(&self, _like: &X) -> Rk4Stages {
+        Rk4Stages
+    }
+
+    #[inline]
+    fn stride<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        start: Start<'_, S, Y::State>,
+        step: S,
+        _stages: &mut Rk4Stages,
+    ) -> Result<Y::State, Fault> {
+        let Start {
+            time,
+            state,
+            slope: first,
+        } = start;
+        let half = S::constant(0.5) * step;
+        let sixth = S::constant(1.0 / 6.0) * step;
+        let third = sixth + sixth;
+        let second = system.rates(time + half, &state.plus([(half, first)]))?;
+        let third_slope = system.rates(time + half, &state.plus([(half, &second)]))?;
+        let fourth = system.rates(time + step, &state.plus([(step, &third_slope)]))?;
+        Ok(state.plus([
+            (sixth, first),
+            (third, &second),
+            (third, &third_slope),
+            (sixth, &fourth),
+        ]))
+    }
+
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Rk4Stages>, theta: S) -> X {
+        dense::cubic(&stride, theta)
+    }
+}

@@ -1,0 +1,270 @@
+//! Order, counts and failures of the integrators on equations with closed solutions.
+
+mod failures;
+
+use super::*;
+use crate::scalar::Real;
+
+/// An equation from a closure.
+struct Equation<G>(G);
+
+impl<S: Real, const N: usize, G: FnMut(S, &[S; N]) -> [S; N]> System<S> for Equation<(G, [S; N])> {
+    type State = [S; N];
+
+    fn rates(&mut self, time: S, state: &[S; N]) -> Result<[S; N], Fault> {
+        Ok((self.0.0)(time, state))
+    }
+}
+
+fn equation<S: Real, const N: usize, G: FnMut(S, &[S; N]) -> [S; N]>(
+    rates: G,
+) -> Equation<(G, [S; N])> {
+    Equation((rates, [S::zero(); N]))
+}
+
+/// `y' = y cos t`, `z' = -2 t z^2`: `y = exp(sin t)`, `z = 1 / (1 + t^2)`.
+fn curved(time: f64, &[y, z]: &[f64; 2]) -> [f64; 2] {
+    [y * time.cos(), -2.0 * time * z * z]
+}
+
+fn curve(time: f64) -> [f64; 2] {
+    [time.sin().exp(), 1.0 / (1.0 + time * time)]
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
+}
+
+fn span(end: f64, first_output: f64) -> Span<f64> {
+    Span {
+        start: 0.0,
+        end,
+        first_output,
+    }
+}
+
+/// The largest error at the ends of steps and at five times within each.
+fn errors<K: Scheme<f64>>(method: FixedStep<f64, K>) -> (f64, f64) {
+    let mut system = equation(curved);
+    let mut course = method
+        .start(&mut system, span(2.0, 2.0), curve(0.0))
+        .unwrap();
+    let (mut at_ends, mut within) = (0.0_f64, 0.0_f64);
+    while course.time() < 2.0 {
+        let start = course.time();
+        course.advance(&mut system).unwrap();
+        at_ends = at_ends.max(distance(*course.state(), curve(course.time())));
+        for part in 1..6 {
+            let time = start + (course.time() - start) * f64::from(part) / 6.0;
+            let state = course.at(&mut system, time).unwrap();
+            within = within.max(distance(state, curve(time)));
+        }
+    }
+    (at_ends, within)
+}
+
+fn order((coarse, fine): (f64, f64)) -> f64 {
+    (coarse / fine).log2()
+}
+
+#[test]
+fn runge_kutta_has_order_four_at_and_within_steps() {
+    let (coarse, fine) = (errors(Rk4::every(0.02)), errors(Rk4::every(0.01)));
+    assert!(
+        (order((coarse.0, fine.0)) - 4.0).abs() < 0.1,
+        "{coarse:?} {fine:?}"
+    );
+    assert!(
+        (order((coarse.1, fine.1)) - 4.0).abs() < 0.1,
+        "{coarse:?} {fine:?}"
+    );
+}
+
+#[test]
+fn dormand_prince_has_order_five_and_an_interpolant_of_order_four() {
+    let coarse = errors(DormandPrince::every(0.04));
+    let fine = errors(DormandPrince::every(0.02));
+    // The leading coefficients of the error are small: the next order shows.
+    let order_at_ends = order((coarse.0, fine.0));
+    assert!((4.8..5.4).contains(&order_at_ends), "{coarse:?} {fine:?}");
+    // The error of the free interpolant within a step is of order h^5, as that of the steps together.
+    assert!(order((coarse.1, fine.1)) > 4.5, "{coarse:?} {fine:?}");
+}
+
+#[test]
+fn the_fixed_step_ends_at_the_end() {
+    let mut system = equation(curved);
+    let mut course = Rk4::every(0.3)
+        .start(&mut system, span(1.0, 1.0), curve(0.0))
+        .unwrap();
+    while course.time() < 1.0 {
+        course.advance(&mut system).unwrap();
+    }
+    assert_eq!(course.time(), 1.0);
+    assert_eq!(
+        course.counts(),
+        Counts {
+            evaluations: 16,
+            accepted: 4,
+            rejected: 0
+        }
+    );
+    assert!(distance(*course.state(), curve(1.0)) < 1e-3);
+}
+
+#[test]
+fn single_steps_agree_with_a_course() {
+    let mut system = equation(curved);
+    let mut course = DormandPrince::every(0.25)
+        .start(&mut system, span(1.0, 1.0), curve(0.0))
+        .unwrap();
+    let mut state = curve(0.0);
+    for step in 0..4 {
+        course.advance(&mut system).unwrap();
+        DormandPrince5
+            .step(&mut system, 0.25 * f64::from(step), &mut state, 0.25)
+            .unwrap();
+        assert_eq!(*course.state(), state);
+    }
+    assert_eq!(course.counts().evaluations, 24);
+}
+
+#[test]
+fn the_adaptive_method_counts_six_evaluations_a_trial_and_one() {
+    let tolerance = Tolerance {
+        relative: 1e-6,
+        absolute: 1e-9,
+    };
+    let mut calls = 0;
+    // A pulse that the step control notices late: some trials are rejected.
+    let mut system = equation(|time: f64, &[y]: &[f64; 1]| {
+        calls += 1;
+        [-y + 50.0 * (-200.0 * (time - 3.0) * (time - 3.0)).exp()]
+    });
+    let integrator = DormandPrince::new(tolerance);
+    let mut course = integrator
+        .start(&mut system, span(10.0, 10.0), [1.0])
+        .unwrap();
+    while course.time() < 10.0 {
+        course.advance(&mut system).unwrap();
+    }
+    let Counts {
+        evaluations,
+        accepted,
+        rejected,
+    } = course.counts();
+    assert!(rejected > 2);
+    assert_eq!(evaluations, 6 * (accepted + rejected) + 1);
+    assert_eq!(evaluations, calls);
+}
+
+#[test]
+fn the_first_step_is_that_of_ode45() {
+    let mut times = [0.0; 16];
+    let mut calls = 0;
+    let mut system = equation(|time: f64, &[y]: &[f64; 1]| {
+        if let Some(place) = times.get_mut(calls) {
+            *place = time;
+        }
+        calls += 1;
+        [-100.0 * y]
+    });
+    let integrator = DormandPrince::new(Tolerance {
+        relative: 1e-6,
+        absolute: 1e-9,
+    });
+    let mut course = integrator
+        .start(&mut system, span(10.0, 0.02), [1.0])
+        .unwrap();
+    course.advance(&mut system).unwrap();
+    // 0.8 rtol^(1/5) / 100, at the sixth stage.
+    let expected = 0.8 * 1e-6_f64.powf(0.2) / 100.0;
+    assert!((times[5] - expected).abs() < 1e-17);
+}
+
+#[test]
+fn the_adaptive_method_keeps_its_tolerance() {
+    for relative in [1e-4, 1e-7, 1e-10] {
+        let integrator = DormandPrince::new(Tolerance {
+            relative,
+            absolute: 1e-3 * relative,
+        });
+        let mut system = equation(curved);
+        let mut course = integrator
+            .start(&mut system, span(5.0, 5.0), curve(0.0))
+            .unwrap();
+        let mut worst = 0.0_f64;
+        while course.time() < 5.0 {
+            let start = course.time();
+            course.advance(&mut system).unwrap();
+            let middle = 0.5 * (start + course.time());
+            worst = worst.max(distance(
+                course.at(&mut system, middle).unwrap(),
+                curve(middle),
+            ));
+            worst = worst.max(distance(*course.state(), curve(course.time())));
+        }
+        assert_eq!(course.time(), 5.0);
+        assert!(worst < 30.0 * relative, "{worst:e} at {relative:e}");
+    }
+}
+
+#[test]
+fn single_precision_works_with_a_tolerance_beyond_its_digits() {
+    let integrator = DormandPrince::new(Tolerance {
+        relative: 1e-9_f32,
+        absolute: 1e-9,
+    });
+    let mut system = equation(|_: f32, &[y]: &[f32; 1]| [-y]);
+    let span = Span {
+        start: 0.0,
+        end: 1.0,
+        first_output: 1.0,
+    };
+    let mut course = integrator.start(&mut system, span, [1.0]).unwrap();
+    while course.time() < 1.0 {
+        course.advance(&mut system).unwrap();
+    }
+    assert!((course.state()[0] - (-1.0_f32).exp()).abs() < 1e-5);
+}
+
+#[test]
+fn a_replaced_state_is_evaluated_anew() {
+    let mut system = equation(|_: f64, &[y]: &[f64; 1]| [-y]);
+    let mut course = DormandPrince::<f64>::default()
+        .start(&mut system, span(1.0, 0.1), [1.0])
+        .unwrap();
+    course.advance(&mut system).unwrap();
+    let evaluations = course.counts().evaluations;
+    course.replace([2.0]);
+    let start = course.time();
+    course.advance(&mut system).unwrap();
+    assert_eq!(course.counts().evaluations, evaluations + 7);
+    assert!((course.state()[0] - 2.0 * (start - course.time()).exp()).abs() < 1e-6);
+}
+
+/// Problem C03: a step of RK4 at a constant angular velocity multiplies `|p|^2` by `1 - z^6/72 + z^8/576`.
+#[test]
+fn euler_parameters_lose_length_at_the_known_rate() {
+    for (speed, drift) in [
+        (10.0, -2.170_132_1e-12),
+        (100.0, -2.169_458_367e-6),
+        (1000.0, -0.877_854_591),
+    ] {
+        let half = 0.5 * speed;
+        let mut system =
+            equation(|_, &[a, b, c, d]: &[f64; 4]| [-half * b, half * a, half * d, -half * c]);
+        let (mut p, step) = ([0.6, 0.0, 0.8, 0.0], 1e-3);
+        let z: f64 = half * step;
+        let factor = 1.0 - z.powi(6) / 72.0 + z.powi(8) / 576.0;
+        let mut expected = 1.0;
+        for index in 0..10_000 {
+            Rk4.step(&mut system, step * f64::from(index), &mut p, step)
+                .unwrap();
+            expected *= factor;
+        }
+        let square: f64 = p.iter().map(|e| e * e).sum();
+        assert!((square - expected).abs() < 2e-12, "{square} {expected}");
+        assert!((square - 1.0 - drift).abs() < 2e-12 + 1e-9 * drift.abs());
+    }
+}

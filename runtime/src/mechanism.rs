@@ -1,0 +1,323 @@
+//! The trait that `#[derive(Mechanism)]` implements: a mechanism as a set of kernels.
+
+use core::fmt::Debug;
+
+use crate::array::{Array, StateParts};
+use crate::error::ParameterError;
+use crate::report::Report;
+use crate::scalar::Scalar;
+
+/// A mechanism whose kernels were generated at compile time.
+///
+/// Notation: `r` position of a centre of mass (m, global), `p` Euler parameters (scalar first, from body to
+/// global axes), `v = r'` (m/s, global), `w` angular velocity (rad/s, body axes), `q = (r, p)` and `u = (v, w)` of all
+/// bodies; a prime is the time derivative. Body axes are here the *principal* axes about the centre of mass, which
+/// are the user's own axes unless a full inertia tensor was given; access by handle
+/// ([`MechanismExt`](crate::MechanismExt)) speaks the user's axes.
+///
+/// Equations (Nikravesh 1988, chapter 8; Flores 2015, chapter 11), with compliance `e` and `gamma*` from
+/// [`Stabilisation`]:
+///
+/// ```text
+/// [ M   D^T ] [ u'     ]   [ g                           ]      Phi(q, t) = 0,  Phi' = D u + Phi_t
+/// [ D  -e I ] [ lambda ] = [ gamma* - e lambda_previous  ]      reaction on the bodies = -D^T lambda
+/// ```
+///
+/// Kernels neither branch on data nor fail. A singular system shows in the [`Pivot`] that comes with the result.
+pub trait Mechanism: Sized + 'static {
+    /// The state: coordinates and velocities. The rates of a state have the same type.
+    type State<S: Scalar>: StateParts<S, Velocities = Self::Velocities<S>>;
+    /// One number per velocity: accelerations `u'` (m/s^2 global, rad/s^2 body axes), forces (N global) and
+    /// moments (N m, body axes, about the centre of mass).
+    type Velocities<S: Scalar>: Array<S>;
+    /// One number per constraint equation: multipliers, `Phi`, `Phi'`, `gamma`.
+    type Multipliers<S: Scalar>: Array<S>;
+    /// The blocks of the Jacobian one after the other, see [`Report::blocks`].
+    type Jacobian<S: Scalar>: Array<S>;
+    /// Values that are set once per mechanism.
+    type Parameters<S: Scalar>: Copy + Debug;
+    /// What depends on parameters alone; without elements where everything folds at compile time.
+    type Constants<S: Scalar>: Copy + Debug;
+    /// What depends on constants and on the coefficients of the formulation.
+    type Coefficients<S: Scalar>: Copy + Debug;
+    /// The factorised saddle system, to be used by [`Mechanism::solve`].
+    type Factors<S: Scalar>: Copy + Debug;
+    /// A struct with one handle per field of the mechanism, under the field's name.
+    type Handles: Copy + Debug;
+
+    /// One handle per field of the mechanism, under the field's name.
+    const HANDLES: Self::Handles;
+    /// Sizes, names, operation counts.
+    const REPORT: Report;
+
+    /// The parameters of this value.
+    fn parameters<S: Scalar>(&self) -> Self::Parameters<S>;
+
+    /// Computes once what depends on parameters only, and checks what the macro could not see.
+    ///
+    /// # Errors
+    /// A mass or an inertia that is not positive, an axis of length zero, a number that is not finite.
+    fn prepare<S: Scalar>(
+        parameters: &Self::Parameters<S>,
+    ) -> Result<Self::Constants<S>, ParameterError>;
+
+    /// Computes once what depends on the coefficients of a formulation.
+    fn coefficients<S: Scalar>(
+        constants: &Self::Constants<S>,
+        stabilisation: &Stabilisation<S>,
+    ) -> Self::Coefficients<S>;
+
+    /// The state that the attributes of the bodies describe.
+    fn initial_state<S: Scalar>(constants: &Self::Constants<S>) -> Self::State<S>;
+
+    /// `Phi(q, t)`.
+    fn constraints<S: Scalar>(
+        constants: &Self::Constants<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> Self::Multipliers<S>;
+
+    /// `Phi' = D u + Phi_t`.
+    fn constraint_rates<S: Scalar>(
+        constants: &Self::Constants<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> Self::Multipliers<S>;
+
+    /// The Jacobian `D` with `Phi' = D u + Phi_t`, by blocks.
+    fn jacobian<S: Scalar>(
+        constants: &Self::Constants<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> Self::Jacobian<S>;
+
+    /// `gamma` with `D u' = gamma`.
+    fn gamma<S: Scalar>(
+        constants: &Self::Constants<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> Self::Multipliers<S>;
+
+    /// The diagonal of the mass matrix: `(m, m, m, J1, J2, J3)` for a body.
+    fn mass<S: Scalar>(constants: &Self::Constants<S>) -> Self::Velocities<S>;
+
+    /// `g`: gravity, forces of the language, and the gyroscopic moment `-w x J w`.
+    fn forces<S: Scalar>(
+        constants: &Self::Constants<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> Self::Velocities<S>;
+
+    /// Kinetic energy (J).
+    fn kinetic_energy<S: Scalar>(constants: &Self::Constants<S>, state: &Self::State<S>) -> S;
+
+    /// Potential energy of gravity (J), zero where all centres of mass are at the global origin.
+    fn potential_energy<S: Scalar>(
+        constants: &Self::Constants<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> S;
+
+    /// The rates of the coordinates: `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is.
+    fn coordinate_rates<S: Scalar>(
+        state: &Self::State<S>,
+    ) -> <Self::State<S> as StateParts<S>>::Coordinates;
+
+    /// The whole right-hand side in one straight line: rates of the state and multipliers, from the saddle system
+    /// with `lambda_previous = 0` and without applied forces of a user.
+    ///
+    /// `T` names the terms that the formulation has, `P` how Euler parameters are read.
+    fn evaluate<S: Scalar, T: Terms, P: Orientation>(
+        constants: &Self::Constants<S>,
+        coefficients: &Self::Coefficients<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> Evaluation<S, Self>;
+
+    /// Factorises the matrix of the saddle system; with compliance where `T::COMPLIANT`. `p` is read as it is.
+    fn factor<S: Scalar, T: Terms>(
+        constants: &Self::Constants<S>,
+        coefficients: &Self::Coefficients<S>,
+        time: S,
+        state: &Self::State<S>,
+    ) -> (Self::Factors<S>, Pivot<S>);
+
+    /// Solves `[M D^T; D -e I] (a, lambda) = (upper, lower)` with factors of the same `T`.
+    fn solve<S: Scalar, T: Terms>(
+        constants: &Self::Constants<S>,
+        coefficients: &Self::Coefficients<S>,
+        factors: &Self::Factors<S>,
+        upper: &Self::Velocities<S>,
+        lower: &Self::Multipliers<S>,
+    ) -> (Self::Velocities<S>, Self::Multipliers<S>);
+
+    /// The angle of a joint by its index, zero in the configuration that the attributes describe.
+    ///
+    /// For a joint without an angle `cosine = 1`, `sine = rate = 0`.
+    fn joint_angle<S: Scalar>(
+        constants: &Self::Constants<S>,
+        state: &Self::State<S>,
+        joint: usize,
+    ) -> AngleParts<S>;
+
+    /// The joint's point on one of its bodies, by its place in `between`: from the centre of mass to the point, in
+    /// principal body axes (m); in global axes from the origin for the ground.
+    fn joint_point<S: Scalar>(constants: &Self::Constants<S>, joint: usize, place: usize)
+    -> [S; 3];
+
+    /// The user's body axes, as Euler parameters `c` (scalar first, unit) of the rotation from the user's to the
+    /// principal axes: `A(c)` takes components along the user's axes to components along the principal axes, so that
+    /// the user's axes are turned against the global ones by `A(p) A(c)`, with Euler parameters `p c` (quaternion
+    /// product). `(1, 0, 0, 0)` where the user gave principal moments, and for a particle.
+    fn user_axes(body: usize) -> [f64; 4];
+}
+
+/// Rates of the state, multipliers and the verdict on the pivots.
+pub struct Evaluation<S: Scalar, M: Mechanism> {
+    /// `(q', u')`.
+    pub rates: M::State<S>,
+    /// `lambda`, one per equation; the reaction on the bodies is `-D^T lambda`.
+    pub multipliers: M::Multipliers<S>,
+    /// The smallest relative pivot.
+    pub pivot: Pivot<S>,
+}
+
+impl<S: Scalar, M: Mechanism> Clone for Evaluation<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Evaluation<S, M> {}
+
+impl<S: Scalar, M: Mechanism> Debug for Evaluation<S, M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Evaluation")
+            .field("rates", &self.rates)
+            .field("multipliers", &self.multipliers)
+            .field("pivot", &self.pivot)
+            .finish()
+    }
+}
+
+/// The smallest relative pivot of a factorisation and its joint, per lane.
+///
+/// A relative pivot is a pivot over the same diagonal element before other rows were eliminated: 1 for a row that
+/// is orthogonal to the others (in the metric of the inverse mass matrix), 0 for a row that depends on them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pivot<S> {
+    /// In `0..=1`; 1 where no pivot had to be checked.
+    pub relative: S,
+    /// The index of the joint, as a number.
+    pub joint: S,
+}
+
+impl<S: Scalar> Pivot<S> {
+    /// No pivot needed a check.
+    #[must_use]
+    pub fn unchecked() -> Self {
+        Self {
+            relative: S::one(),
+            joint: S::zero(),
+        }
+    }
+
+    /// Takes a pivot into account from which nothing was subtracted: only zero is bad.
+    #[inline(always)]
+    #[must_use]
+    pub fn and_nonzero(self, pivot: S, joint: usize) -> Self {
+        let tiny = S::constant(1e-30);
+        self.and(pivot.abs().select(tiny, S::zero(), S::one()), joint)
+    }
+
+    /// Takes another relative pivot into account.
+    #[inline(always)]
+    #[must_use]
+    pub fn and(self, relative: S, joint: usize) -> Self {
+        Self {
+            relative: self.relative.min(relative),
+            joint: relative.select(self.relative, S::constant(joint as f64), self.joint),
+        }
+    }
+}
+
+/// Cosine and sine of a joint angle, and its rate (rad/s).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AngleParts<S> {
+    /// The cosine; not normalised where the joint is violated.
+    pub cosine: S,
+    /// The sine; not normalised where the joint is violated.
+    pub sine: S,
+    /// The rate of the angle (rad/s).
+    pub rate: S,
+}
+
+/// The coefficients of a formulation: `gamma* = gamma - 2 a Phi' - b^2 Phi` and the compliance `e`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stabilisation<S> {
+    /// `2 a` (1/s), the factor of `Phi'`.
+    pub rate: S,
+    /// `b^2` (1/s^2), the factor of `Phi`.
+    pub position: S,
+    /// `e`, zero for rigid constraints; `1 / alpha` for a penalty `alpha`.
+    pub compliance: S,
+}
+
+/// Which terms a formulation has: a type-level choice, so that a formulation pays for its own terms only.
+pub trait Terms: Copy + Debug + 'static {
+    /// Terms of `Phi` and `Phi'`.
+    const STABILISED: bool;
+    /// A compliance `e > 0`. Implies [`Terms::STABILISED`].
+    const COMPLIANT: bool;
+}
+
+/// Neither stabilisation nor compliance.
+#[derive(Clone, Copy, Debug)]
+pub struct Plain;
+
+/// Terms of `Phi` and `Phi'`, rigid.
+#[derive(Clone, Copy, Debug)]
+pub struct Stabilised;
+
+/// Terms of `Phi` and `Phi'`, and a compliance.
+#[derive(Clone, Copy, Debug)]
+pub struct Compliant;
+
+impl Terms for Plain {
+    const STABILISED: bool = false;
+    const COMPLIANT: bool = false;
+}
+
+impl Terms for Stabilised {
+    const STABILISED: bool = true;
+    const COMPLIANT: bool = false;
+}
+
+impl Terms for Compliant {
+    const STABILISED: bool = true;
+    const COMPLIANT: bool = true;
+}
+
+/// How Euler parameters are read inside an evaluation.
+pub trait Orientation: Copy + Debug + Default + 'static {
+    /// Whether `A(p)` is evaluated at `p / |p|`.
+    const NORMALISED: bool;
+}
+
+/// `A(p)` from `p` as it is, `A = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, which is `|p|^2` times a rotation: cheapest,
+/// for integrations whose drift of `|p|` is below the accuracy asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Raw;
+
+/// `p / |p|` in the place of `p`, in `A(p)` and in `p' = 1/2 L(p)^T w`: a rotation to round-off for any `p` but zero, at some ten
+/// operations a body more.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Normalised;
+
+impl Orientation for Raw {
+    const NORMALISED: bool = false;
+}
+
+impl Orientation for Normalised {
+    const NORMALISED: bool = true;
+}

@@ -1,0 +1,273 @@
+//! Correction of positions and velocities onto the constraints.
+
+use crate::array::{Array, StateParts, finite};
+use crate::error::Fault;
+use crate::mechanism::{Compliant, Mechanism, Stabilisation};
+use crate::report::BodyKind;
+use crate::rotation::{
+    from_rotation_vector, normalised, product, read, with_unit_orientations, write,
+};
+use crate::scalar::Real;
+use crate::view::square;
+
+/// The correction of a state onto the constraints, by the least movement in the metric of the mass.
+///
+/// Positions by Newton's method: the displacement `d` (m, and rad along body axes) of least `d^T M d` with `D d = -Phi` comes from
+/// the saddle system of the dynamics,
+///
+/// ```text
+/// [ M   D^T ] [ d      ]   [  0   ]
+/// [ D  -e I ] [ lambda ] = [ -Phi ]
+/// ```
+///
+/// then `r + d` and a finite rotation of `p`, which keeps length 1; a step that does not lessen `Phi` is halved. Velocities by the
+/// same system with `-Phi'`. The compliance `e` is small against the diagonal of `D M^-1 D^T`: `sqrt(EPSILON)` of its
+/// least element, at least `16 EPSILON` of its largest. It keeps the system solvable where equations are redundant or the configuration is
+/// singular, and does not limit the accuracy, because the corrections are repeated as long as they help.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projection<S> {
+    /// The largest `|Phi|` and `|Phi'|` that count as corrected, times `1 + |q|^2` and `1 + |u|` (largest
+    /// elements, SI units). The iteration goes on below it as long as it helps.
+    pub tolerance: S,
+    /// How many steps of Newton's method may be done.
+    pub max_iterations: usize,
+}
+
+/// A tolerance of 1e-10, at least `1000 EPSILON`, and 50 iterations.
+impl<S: Real> Default for Projection<S> {
+    fn default() -> Self {
+        let tolerance = S::constant(1e-10).max(S::constant(1e3) * S::EPSILON);
+        Self {
+            tolerance,
+            max_iterations: 50,
+        }
+    }
+}
+
+/// What a correction did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correction<S> {
+    /// Steps of Newton's method for the positions.
+    pub iterations: usize,
+    /// `Phi^T Phi` before, as given.
+    pub violation_before: S,
+    /// `Phi^T Phi` after.
+    pub violation_after: S,
+    /// `Phi'^T Phi'` before, as given.
+    pub velocity_violation_before: S,
+    /// `Phi'^T Phi'` after.
+    pub velocity_violation_after: S,
+}
+
+impl<S: Real> Projection<S> {
+    /// Corrects positions, then velocities; Euler parameters come out at length 1.
+    ///
+    /// # Errors
+    /// [`Fault::NotConverged`] with the largest `|Phi|` or `|Phi'|` left, or [`Fault::StateNotFinite`]; the state
+    /// is then as before.
+    pub fn correct<M: Mechanism>(
+        &self,
+        constants: &M::Constants<S>,
+        time: S,
+        state: &mut M::State<S>,
+    ) -> Result<Correction<S>, Fault> {
+        if !finite(state) {
+            return Err(Fault::StateNotFinite);
+        }
+        let phi = |state: &M::State<S>| M::constraints(constants, time, state);
+        let phi_rate = |state: &M::State<S>| M::constraint_rates(constants, time, state);
+        let (position_before, velocity_before) = (phi(state), phi_rate(state));
+        let mut corrected = with_unit_orientations::<S, M>(state);
+        let iterations = self.correct_positions::<M>(constants, time, &mut corrected)?;
+        self.correct_velocities::<M>(constants, time, &mut corrected)?;
+        *state = corrected;
+        Ok(Correction {
+            iterations,
+            violation_before: square(position_before.as_slice()),
+            violation_after: square(phi(state).as_slice()),
+            velocity_violation_before: square(velocity_before.as_slice()),
+            velocity_violation_after: square(phi_rate(state).as_slice()),
+        })
+    }
+
+    fn correct_positions<M: Mechanism>(
+        &self,
+        constants: &M::Constants<S>,
+        time: S,
+        state: &mut M::State<S>,
+    ) -> Result<usize, Fault> {
+        let size = largest(state.coordinates().as_slice());
+        let scale = size.fused(size, S::one());
+        let round_off = S::constant(4.0) * S::EPSILON * scale;
+        let mut phi = M::constraints(constants, time, state);
+        let mut rest = largest(phi.as_slice());
+        let mut iterations = 0;
+        while iterations < self.max_iterations && rest > round_off {
+            let step = correction::<S, M>(constants, time, state, &phi);
+            let Some((moved, moved_phi)) = descend::<S, M>(constants, time, state, &step, rest)
+            else {
+                break;
+            };
+            iterations += 1;
+            *state = moved;
+            phi = moved_phi;
+            rest = largest(phi.as_slice());
+        }
+        self.verdict(rest, scale, iterations)
+    }
+
+    fn correct_velocities<M: Mechanism>(
+        &self,
+        constants: &M::Constants<S>,
+        time: S,
+        state: &mut M::State<S>,
+    ) -> Result<usize, Fault> {
+        let scale = S::one() + largest(state.velocities().as_slice());
+        let round_off = S::constant(4.0) * S::EPSILON * scale;
+        let mut phi_rate = M::constraint_rates(constants, time, state);
+        let mut rest = largest(phi_rate.as_slice());
+        let mut iterations = 0;
+        while iterations < self.max_iterations && rest > round_off {
+            let step = correction::<S, M>(constants, time, state, &phi_rate);
+            let mut moved = *state;
+            let velocities = moved.velocities_mut().as_mut_slice();
+            for (velocity, &step) in velocities.iter_mut().zip(step.as_slice()) {
+                *velocity = *velocity + step;
+            }
+            phi_rate = M::constraint_rates(constants, time, &moved);
+            let moved_rest = largest(phi_rate.as_slice());
+            if !less(moved_rest, rest) {
+                break;
+            }
+            iterations += 1;
+            *state = moved;
+            rest = moved_rest;
+        }
+        self.verdict(rest, scale, iterations)
+    }
+
+    fn verdict(&self, rest: S, scale: S, iterations: usize) -> Result<usize, Fault> {
+        if rest <= self.tolerance * scale {
+            Ok(iterations)
+        } else {
+            Err(Fault::NotConverged {
+                iterations,
+                residual: rest.to_f64(),
+            })
+        }
+    }
+}
+
+/// The `d` of least `d^T M d` with `D d = -violation`.
+fn correction<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+    violation: &M::Multipliers<S>,
+) -> M::Velocities<S> {
+    let compliance = compliance::<S, M>(constants, time, state);
+    let stabilisation = Stabilisation {
+        rate: S::zero(),
+        position: S::zero(),
+        compliance,
+    };
+    let coefficients = M::coefficients(constants, &stabilisation);
+    let (factors, _) = M::factor::<S, Compliant>(constants, &coefficients, time, state);
+    let mut lower = *violation;
+    for element in lower.as_mut_slice() {
+        *element = -*element;
+    }
+    let upper = M::Velocities::<S>::zeros();
+    M::solve::<S, Compliant>(constants, &coefficients, &factors, &upper, &lower).0
+}
+
+/// `e`: `sqrt(EPSILON)` of the least positive element on the diagonal of `D M^-1 D^T`, at least `16 EPSILON` of the
+/// largest.
+fn compliance<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> S {
+    let jacobian = M::jacobian(constants, time, state);
+    let mass = M::mass(constants);
+    let mut diagonal = M::Multipliers::<S>::zeros();
+    for block in M::REPORT.blocks {
+        let values = jacobian.as_slice().get(block.offset..).unwrap_or(&[]);
+        let rows = diagonal
+            .as_mut_slice()
+            .iter_mut()
+            .skip(block.row)
+            .take(block.rows);
+        for (sum, row) in rows.zip(values.chunks(block.columns.max(1))) {
+            for (&value, &mass) in row.iter().zip(mass.as_slice().iter().skip(block.column)) {
+                *sum = *sum + (value * value).quotient(mass);
+            }
+        }
+    }
+    let mut least = None;
+    let mut greatest = S::zero();
+    for &element in diagonal
+        .as_slice()
+        .iter()
+        .filter(|&&element| element > S::zero())
+    {
+        least = Some(least.map_or(element, |least: S| least.min(element)));
+        greatest = greatest.max(element);
+    }
+    let least = least.unwrap_or(S::one()) * S::EPSILON.sqrt();
+    least.max(S::constant(16.0) * S::EPSILON * greatest)
+}
+
+/// The state moved by a step, or by the first of its halves that lessens the violation, and `Phi` there.
+fn descend<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+    step: &M::Velocities<S>,
+    rest: S,
+) -> Option<(M::State<S>, M::Multipliers<S>)> {
+    let mut factor = S::one();
+    for _ in 0..12 {
+        let moved = displaced::<S, M>(state, step, factor);
+        let phi = M::constraints(constants, time, &moved);
+        if less(largest(phi.as_slice()), rest) {
+            return Some((moved, phi));
+        }
+        factor = factor * S::constant(0.5);
+    }
+    None
+}
+
+/// The state moved by `factor d`: positions by addition, orientations by a rotation along body axes.
+fn displaced<S: Real, M: Mechanism>(
+    state: &M::State<S>,
+    step: &M::Velocities<S>,
+    factor: S,
+) -> M::State<S> {
+    let mut moved = *state;
+    let coordinates = moved.coordinates_mut().as_mut_slice();
+    for body in M::REPORT.bodies {
+        let scaled = |place| read::<S, 3>(step.as_slice(), place).map(|d| factor * d);
+        let [x, y, z] = read(coordinates, body.coordinate);
+        let [dx, dy, dz] = scaled(body.velocity);
+        write(coordinates, body.coordinate, [x + dx, y + dy, z + dz]);
+        if body.kind == BodyKind::Rigid {
+            let turn = from_rotation_vector(&scaled(body.velocity + 3));
+            let p = product(&read(coordinates, body.coordinate + 3), &turn);
+            write(coordinates, body.coordinate + 3, normalised(&p));
+        }
+    }
+    moved
+}
+
+/// The largest absolute value; NaN if an element is NaN.
+fn largest<S: Real>(elements: &[S]) -> S {
+    elements
+        .iter()
+        .fold(S::zero(), |largest, element| largest.max(element.abs()))
+}
+
+/// Whether a violation became less by more than round-off would.
+fn less<S: Real>(new: S, old: S) -> bool {
+    new < S::constant(0.9) * old
+}

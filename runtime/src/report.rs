@@ -1,0 +1,129 @@
+//! What the generator found out about a mechanism, as constants.
+
+/// Sizes, names and operation counts of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// The name of the annotated struct.
+    pub name: &'static str,
+    /// The bodies in the order of the fields, without the ground.
+    pub bodies: &'static [BodyInfo],
+    /// The joints in the order of the fields.
+    pub joints: &'static [JointInfo],
+    /// The blocks of the Jacobian, in the order of [`crate::Mechanism::jacobian`].
+    pub blocks: &'static [Block],
+    /// Coordinates `q`: seven a body, three a particle.
+    pub coordinates: usize,
+    /// Velocities `u`: six a body, three a particle.
+    pub velocities: usize,
+    /// Constraint equations.
+    pub equations: usize,
+    /// Velocities less equations (Gruebler's count; dependent equations are not looked for).
+    pub degrees_of_freedom: isize,
+    /// What the kernels cost, one evaluation each.
+    pub kernels: &'static [Kernel],
+    /// The order of elimination and the frames of the multiplier rows, in words.
+    pub plan: &'static str,
+}
+
+impl Report {
+    /// The operations of a kernel by its name, such as `"evaluate standard"`.
+    #[must_use]
+    pub fn operations(&self, kernel: &str) -> Option<Operations> {
+        self.kernels
+            .iter()
+            .find(|k| k.name == kernel)
+            .map(|k| k.operations)
+    }
+}
+
+/// A body and where its coordinates stand in the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BodyInfo {
+    /// The name of the field.
+    pub name: &'static str,
+    /// Body or particle.
+    pub kind: BodyKind,
+    /// The place of `r` in the coordinates; `p` stands three places further.
+    pub coordinate: usize,
+    /// The place of `v` in the velocities; `w` stands three places further.
+    pub velocity: usize,
+}
+
+/// Whether a body has an orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyKind {
+    /// Position and orientation: 7 coordinates, 6 velocities.
+    Rigid,
+    /// Position only: 3 coordinates, 3 velocities.
+    Particle,
+}
+
+/// A joint, its rows and its bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointInfo {
+    /// The name of the field.
+    pub name: &'static str,
+    /// The name of the joint's type.
+    pub kind: &'static str,
+    /// Its first row in `Phi` and in the multipliers.
+    pub row: usize,
+    /// The number of its rows.
+    pub rows: usize,
+    /// The bodies in the order of `between`; `None` is the ground.
+    pub bodies: &'static [Option<usize>],
+    /// Whether the joint's definition has an angle.
+    pub has_angle: bool,
+}
+
+/// A block of the Jacobian `D`: the rows of one joint against the velocities of one body.
+///
+/// Its values stand row by row from `offset` on in the array that [`crate::Mechanism::jacobian`] returns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The joint.
+    pub joint: usize,
+    /// The body.
+    pub body: usize,
+    /// The first row of the block in `D`.
+    pub row: usize,
+    /// The number of rows.
+    pub rows: usize,
+    /// The first column of the block in `D`, a place in the velocities.
+    pub column: usize,
+    /// The number of columns: 6, or 3 for a particle.
+    pub columns: usize,
+    /// Where the values of the block start.
+    pub offset: usize,
+}
+
+/// The cost of one kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    /// What it computes, for instance `"evaluate standard"` or `"evaluate standard, normalised"`.
+    pub name: &'static str,
+    /// What one call costs.
+    pub operations: Operations,
+}
+
+/// A count of operations. One of `+ - * / sqrt` is one operation, a fused multiply-add is two, signs are free.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Additions and subtractions.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Divisions and reciprocals.
+    pub divisions: usize,
+    /// Square roots.
+    pub square_roots: usize,
+    /// The longest chain of dependent operations.
+    pub depth: usize,
+}
+
+impl Operations {
+    /// All operations together.
+    #[must_use]
+    pub const fn total(&self) -> usize {
+        self.additions + self.multiplications + self.divisions + self.square_roots
+    }
+}

@@ -1,0 +1,114 @@
+//! Euler parameters and vectors as plain arrays.
+//!
+//! Euler parameters are `(e0, e1, e2, e3)`, scalar first; `A(p)` takes components along body axes to components along global
+//! axes. Nikravesh, *Computer-Aided Analysis of Mechanical Systems* (1988), chapter 6.
+
+use crate::array::{Array, StateParts};
+use crate::mechanism::Mechanism;
+use crate::report::BodyKind;
+use crate::scalar::{Real, Scalar};
+
+/// `N` elements from a place on; zeros where the slice ends before.
+pub(crate) fn read<S: Scalar, const N: usize>(slice: &[S], place: usize) -> [S; N] {
+    slice
+        .get(place..)
+        .and_then(|rest| rest.first_chunk())
+        .copied()
+        .unwrap_or([S::zero(); N])
+}
+
+/// Writes `N` elements from a place on, as far as the slice goes.
+pub(crate) fn write<S: Scalar, const N: usize>(slice: &mut [S], place: usize, values: [S; N]) {
+    for (element, value) in slice.iter_mut().skip(place).zip(values) {
+        *element = value;
+    }
+}
+
+/// `a x b`.
+pub(crate) fn cross<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
+    let [a1, a2, a3] = *a;
+    let [b1, b2, b3] = *b;
+    [a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1]
+}
+
+/// `a - b`.
+pub(crate) fn minus<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
+    let [a1, a2, a3] = *a;
+    let [b1, b2, b3] = *b;
+    [a1 - b1, a2 - b2, a3 - b3]
+}
+
+/// `A(p) s = (e0^2 - e.e) s + 2 (e.s) e + 2 e0 e x s`.
+pub(crate) fn rotate<S: Scalar>(p: &[S; 4], s: &[S; 3]) -> [S; 3] {
+    let [e0, e1, e2, e3] = *p;
+    let [s1, s2, s3] = *s;
+    let along = e1 * s1 + e2 * s2 + e3 * s3;
+    let direct = e0 * e0 - (e1 * e1 + e2 * e2 + e3 * e3);
+    let [c1, c2, c3] = cross(&[e1, e2, e3], s);
+    let component = |s: S, e: S, c: S| {
+        let half = along * e + e0 * c;
+        direct.fused(s, half + half)
+    };
+    [
+        component(s1, e1, c1),
+        component(s2, e2, c2),
+        component(s3, e3, c3),
+    ]
+}
+
+/// `A(p)^T s`.
+pub(crate) fn rotate_back<S: Scalar>(p: &[S; 4], s: &[S; 3]) -> [S; 3] {
+    rotate(&conjugate(p), s)
+}
+
+/// The opposite rotation, `(e0, -e1, -e2, -e3)`.
+pub(crate) fn conjugate<S: Scalar>(p: &[S; 4]) -> [S; 4] {
+    let [e0, e1, e2, e3] = *p;
+    [e0, -e1, -e2, -e3]
+}
+
+/// The product `p q` with `A(p q) = A(p) A(q)`.
+pub(crate) fn product<S: Scalar>(p: &[S; 4], q: &[S; 4]) -> [S; 4] {
+    let [a0, a1, a2, a3] = *p;
+    let [b0, b1, b2, b3] = *q;
+    [
+        a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3,
+        a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2,
+        a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1,
+        a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0,
+    ]
+}
+
+/// `p / |p|`.
+pub(crate) fn normalised<S: Scalar>(p: &[S; 4]) -> [S; 4] {
+    let [e0, e1, e2, e3] = *p;
+    let scale = (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3).sqrt().reciprocal();
+    [e0 * scale, e1 * scale, e2 * scale, e3 * scale]
+}
+
+/// The Euler parameters of a rotation vector (rad): a turn about its direction by its length.
+pub(crate) fn from_rotation_vector<S: Real>(vector: &[S; 3]) -> [S; 4] {
+    let [x, y, z] = *vector;
+    let angle = (x * x + y * y + z * z).sqrt();
+    let (sine, cosine) = (S::constant(0.5) * angle).sin_cos();
+    let factor = if angle > S::zero() {
+        sine.quotient(angle)
+    } else {
+        S::constant(0.5)
+    };
+    [cosine, x * factor, y * factor, z * factor]
+}
+
+/// The state with the Euler parameters of every body scaled to length 1.
+pub(crate) fn with_unit_orientations<S: Scalar, M: Mechanism>(state: &M::State<S>) -> M::State<S> {
+    let mut unit = *state;
+    for body in M::REPORT.bodies {
+        if body.kind == BodyKind::Rigid {
+            let place = body.coordinate + 3;
+            let slice = unit.coordinates_mut().as_mut_slice();
+            let p = normalised(&read(slice, place));
+            write(slice, place, p);
+        }
+    }
+    unit
+}

@@ -1,0 +1,119 @@
+//! What an observer of a run sees.
+
+use core::cell::OnceCell;
+use core::ops::Deref;
+
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::handle::{BodyHandle, JointHandle};
+use crate::load::AppliedForces;
+use crate::mechanism::{Evaluation, Mechanism, Orientation};
+use crate::reaction::Wrench;
+use crate::scalar::Real;
+use crate::view::View;
+
+/// A state at a reporting time: a [`View`], and what takes an evaluation.
+///
+/// Accelerations, multipliers and reactions are computed when they are first asked for, by one evaluation that the
+/// run does not count.
+pub struct Sample<'a, S: Real, M: Mechanism> {
+    view: View<'a, S, M>,
+    dynamics: &'a dyn Evaluate<S, M>,
+    evaluation: OnceCell<Result<Evaluation<S, M>, Fault>>,
+}
+
+/// [`Dynamics`] without its formulation and forces in the type.
+pub(crate) trait Evaluate<S: Real, M: Mechanism> {
+    fn evaluation(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault>;
+}
+
+impl<S, M, F, P, A> Evaluate<S, M> for Dynamics<S, M, F, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+{
+    fn evaluation(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
+        self.evaluate(time, state).map(|(evaluation, _)| evaluation)
+    }
+}
+
+impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
+    pub(crate) fn new(view: View<'a, S, M>, dynamics: &'a dyn Evaluate<S, M>) -> Self {
+        Self {
+            view,
+            dynamics,
+            evaluation: OnceCell::new(),
+        }
+    }
+
+    /// Rates of the state, and multipliers.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn evaluation(&self) -> Result<&Evaluation<S, M>, Fault> {
+        let evaluate = || self.dynamics.evaluation(self.time(), self.state());
+        self.evaluation
+            .get_or_init(evaluate)
+            .as_ref()
+            .map_err(|fault| *fault)
+    }
+
+    /// The multipliers, one per equation.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn multipliers(&self) -> Result<M::Multipliers<S>, Fault> {
+        Ok(self.evaluation()?.multipliers)
+    }
+
+    /// What a joint exerts on one of its bodies, see [`View::reaction`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn reaction<J>(
+        &self,
+        joint: JointHandle<M, J>,
+        body: BodyHandle<M>,
+    ) -> Result<Wrench<S>, Fault> {
+        Ok(self
+            .view
+            .reaction(&self.evaluation()?.multipliers, joint, body))
+    }
+
+    /// What a joint exerts on the body at a place of its `between`, see [`View::reaction_on_place`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn reaction_on_place<J>(
+        &self,
+        joint: JointHandle<M, J>,
+        place: usize,
+    ) -> Result<Wrench<S>, Fault> {
+        Ok(self
+            .view
+            .reaction_on_place(&self.evaluation()?.multipliers, joint, place))
+    }
+
+    /// The violation of the constraints by the accelerations: the square of `D u' - gamma`.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn acceleration_violation(&self) -> Result<S, Fault> {
+        use crate::array::StateParts;
+        Ok(self
+            .view
+            .acceleration_violation(self.evaluation()?.rates.velocities()))
+    }
+}
+
+impl<'a, S: Real, M: Mechanism> Deref for Sample<'a, S, M> {
+    type Target = View<'a, S, M>;
+
+    fn deref(&self) -> &View<'a, S, M> {
+        &self.view
+    }
+}

@@ -1,0 +1,164 @@
+//! Steps for a loop that somebody else owns.
+
+use crate::array::finite;
+use crate::dynamics::{Dynamics, Iterations};
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::Scheme;
+use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::mechanism::{Mechanism, Normalised, Orientation};
+use crate::project::Projection;
+use crate::scalar::Real;
+use crate::view::View;
+
+/// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
+///
+/// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4, [`DormandPrince5`](crate::DormandPrince5) 6), allocates
+/// nothing and does not panic.
+pub struct Stepper<S: Real, M: Mechanism, F: Formulation<S>, K, P = Normalised, A = NoForces> {
+    dynamics: Dynamics<S, M, F, P, A>,
+    scheme: K,
+    time: S,
+    projection: Option<Projection<S>>,
+}
+
+impl<S: Real, M: Mechanism, F: Formulation<S>, K: Scheme<S>> Stepper<S, M, F, K> {
+    /// Prepares the kernels; the time begins at zero.
+    ///
+    /// # Errors
+    /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
+    pub fn new(mechanism: &M, formulation: F, scheme: K) -> Result<Self, Fault> {
+        let dynamics = Dynamics::new(mechanism, formulation)?;
+        Ok(Self {
+            dynamics,
+            scheme,
+            time: S::zero(),
+            projection: None,
+        })
+    }
+}
+
+impl<S, M, F, K, P, A> Stepper<S, M, F, K, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K: Scheme<S>,
+    P: Orientation,
+{
+    /// Begins at a time (s).
+    #[must_use]
+    pub fn starting_at(mut self, time: S) -> Self {
+        self.time = time;
+        self
+    }
+
+    /// Corrects the state onto the constraints after every step.
+    #[must_use]
+    pub fn projection(mut self, projection: Projection<S>) -> Self {
+        self.projection = Some(projection);
+        self
+    }
+
+    /// Reads Euler parameters in another way: `.orientation::<Raw>()`.
+    #[must_use]
+    pub fn orientation<P2: Orientation>(self) -> Stepper<S, M, F, K, P2, A> {
+        let Self {
+            dynamics,
+            scheme,
+            time,
+            projection,
+        } = self;
+        Stepper {
+            dynamics: dynamics.orientation(),
+            scheme,
+            time,
+            projection,
+        }
+    }
+
+    /// Applies forces as a function of time and state, see [`Loads`].
+    #[must_use]
+    pub fn forces<G>(self, law: G) -> Stepper<S, M, F, K, P, ForceLaw<G>>
+    where
+        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+    {
+        let Self {
+            dynamics,
+            scheme,
+            time,
+            projection,
+        } = self;
+        Stepper {
+            dynamics: dynamics.forces(law),
+            scheme,
+            time,
+            projection,
+        }
+    }
+
+    /// The time that was reached (s).
+    #[must_use]
+    pub fn time(&self) -> S {
+        self.time
+    }
+
+    /// Takes the present inputs and parameters of the mechanism, to be called between steps.
+    ///
+    /// # Errors
+    /// A parameter that is not acceptable; the former ones then stay.
+    pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
+        self.dynamics.update(mechanism)
+    }
+
+    /// Readable access to a state at the time that was reached.
+    #[must_use]
+    pub fn view<'a>(&'a self, state: &'a M::State<S>) -> View<'a, S, M> {
+        self.dynamics.view(self.time, state)
+    }
+
+    /// The prepared dynamics, for evaluations outside a step.
+    #[must_use]
+    pub fn dynamics(&self) -> &Dynamics<S, M, F, P, A> {
+        &self.dynamics
+    }
+
+    /// How often the augmented Lagrangian solved its system; zero for other formulations.
+    #[must_use]
+    pub fn iterations(&self) -> Iterations {
+        self.dynamics.iterations()
+    }
+}
+
+impl<S, M, F, K, P, A> Stepper<S, M, F, K, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K: Scheme<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+{
+    /// Moves the state by one step of `dt` (s).
+    ///
+    /// # Errors
+    /// Why the step could not be done. State and time are then as before.
+    pub fn step(&mut self, state: &mut M::State<S>, dt: S) -> Result<(), Fault> {
+        let end = self.time + dt;
+        if !(dt.is_finite() && end > self.time) {
+            return Err(Fault::StepSizeUnderflow { step: dt.to_f64() });
+        }
+        if !finite(state) {
+            return Err(Fault::StateNotFinite);
+        }
+        let mut next = *state;
+        self.scheme
+            .step(&mut self.dynamics, self.time, &mut next, dt)?;
+        if let Some(projection) = self.projection {
+            projection.correct::<M>(self.dynamics.constants(), end, &mut next)?;
+        }
+        *state = next;
+        self.time = end;
+        Ok(())
+    }
+}

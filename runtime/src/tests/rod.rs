@@ -1,0 +1,318 @@
+//! The rod of Flores 2015, chapter 15, hinged to the ground about x, with dense kernels written by hand.
+//!
+//! The multipliers come from `(D M^-1 D^T + e I) lambda = D M^-1 g - gamma*` by Cholesky's method. The user's axes are chosen
+//! turned by 90 degrees about x against the principal axes, so that access by handle has something to do.
+
+use core::array::from_fn;
+
+use crate::rotation::{cross, rotate, rotate_back};
+use crate::*;
+
+/// The rod; its mass is a parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rod {
+    pub(super) mass: f64,
+}
+
+/// A revolute joint as a type.
+pub(super) struct Hinge;
+
+impl Joint for Hinge {
+    const NAME: &'static str = "Hinge";
+    const EQUATIONS: usize = 5;
+    const BODIES: usize = 2;
+    const FINGERPRINT: u64 = 0;
+}
+
+impl HasAngle for Hinge {}
+
+pub(super) const ROD: BodyHandle<Rod> = BodyHandle::new(0);
+pub(super) const PIVOT: JointHandle<Rod, Hinge> = JointHandle::new(0);
+pub(super) const GRAVITY: f64 = 9.81;
+const INERTIA: [f64; 3] = [0.5855265, 0.0010530, 0.5855265];
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Factors<S> {
+    jacobian: [S; 30],
+    /// The lower triangle of Cholesky's factor, with the reciprocals of its diagonal.
+    lower: [[S; 5]; 5],
+}
+
+fn split<S: Scalar>(state: &State<S, 7, 6>) -> ([S; 3], [S; 4], [S; 3], [S; 3]) {
+    let [x, y, z, e0, e1, e2, e3] = *state.coordinates();
+    let [vx, vy, vz, wx, wy, wz] = *state.velocities();
+    ([x, y, z], [e0, e1, e2, e3], [vx, vy, vz], [wx, wy, wz])
+}
+
+fn vector<S: Scalar>(v: [f64; 3]) -> [S; 3] {
+    v.map(S::constant)
+}
+
+fn dot<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// From the centre of mass to the hinge.
+const ARM: [f64; 3] = [0.0, -0.5, 0.0];
+const AXIS: [f64; 3] = [1.0, 0.0, 0.0];
+const NORMALS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl Mechanism for Rod {
+    type State<S: Scalar> = State<S, 7, 6>;
+    type Velocities<S: Scalar> = [S; 6];
+    type Multipliers<S: Scalar> = [S; 5];
+    type Jacobian<S: Scalar> = [S; 30];
+    type Parameters<S: Scalar> = f64;
+    type Constants<S: Scalar> = [S; 6];
+    type Coefficients<S: Scalar> = Stabilisation<S>;
+    type Factors<S: Scalar> = Factors<S>;
+    type Handles = ();
+
+    const HANDLES: () = ();
+    const REPORT: Report = Report {
+        name: "Rod",
+        bodies: &[BodyInfo {
+            name: "rod",
+            kind: BodyKind::Rigid,
+            coordinate: 0,
+            velocity: 0,
+        }],
+        joints: &[JointInfo {
+            name: "pivot",
+            kind: "Hinge",
+            row: 0,
+            rows: 5,
+            bodies: &[None, Some(0)],
+            has_angle: true,
+        }],
+        blocks: &[Block {
+            joint: 0,
+            body: 0,
+            row: 0,
+            rows: 5,
+            column: 0,
+            columns: 6,
+            offset: 0,
+        }],
+        coordinates: 7,
+        velocities: 6,
+        equations: 5,
+        degrees_of_freedom: 1,
+        kernels: &[],
+        plan: "",
+    };
+
+    fn parameters<S: Scalar>(&self) -> f64 {
+        self.mass
+    }
+
+    fn prepare<S: Scalar>(mass: &f64) -> Result<[S; 6], ParameterError> {
+        if !mass.is_finite() || *mass <= 0.0 {
+            let fault = ParameterFault::NotPositive;
+            return Err(ParameterError {
+                field: "rod",
+                attribute: "mass",
+                fault,
+            });
+        }
+        let [j1, j2, j3] = INERTIA;
+        Ok([*mass, *mass, *mass, j1, j2, j3].map(S::constant))
+    }
+
+    fn coefficients<S: Scalar>(_: &[S; 6], stabilisation: &Stabilisation<S>) -> Stabilisation<S> {
+        *stabilisation
+    }
+
+    fn initial_state<S: Scalar>(_: &[S; 6]) -> State<S, 7, 6> {
+        let coordinates = [0.0, 0.5, 0.0, 1.0, 0.0, 0.0, 0.0].map(S::constant);
+        State::from_parts(coordinates, [S::zero(); 6])
+    }
+
+    fn constraints<S: Scalar>(_: &[S; 6], _: S, state: &State<S, 7, 6>) -> [S; 5] {
+        let (r, p, _, _) = split(state);
+        let arm = rotate(&p, &vector(ARM));
+        let axis = rotate(&p, &vector(AXIS));
+        let [y, z] = NORMALS.map(|n| dot(&vector(n), &axis));
+        [r[0] + arm[0], r[1] + arm[1], r[2] + arm[2], y, z]
+    }
+
+    fn constraint_rates<S: Scalar>(c: &[S; 6], time: S, state: &State<S, 7, 6>) -> [S; 5] {
+        let d = Self::jacobian(c, time, state);
+        let u = state.velocities();
+        from_fn(|i| (0..6).fold(S::zero(), |sum, k| sum + d[6 * i + k] * u[k]))
+    }
+
+    fn jacobian<S: Scalar>(_: &[S; 6], _: S, state: &State<S, 7, 6>) -> [S; 30] {
+        let (_, p, _, _) = split(state);
+        let mut d = [S::zero(); 30];
+        for axis in 0..3 {
+            d[6 * axis + axis] = S::one();
+            let unit: [S; 3] = from_fn(|k| if k == axis { S::one() } else { S::zero() });
+            // n . A (w x s) = w . (s x A^T n)
+            let row = cross(&vector(ARM), &rotate_back(&p, &unit));
+            d[6 * axis + 3..6 * axis + 6].copy_from_slice(&row);
+        }
+        for (place, normal) in NORMALS.iter().enumerate() {
+            let row = cross(&vector(AXIS), &rotate_back(&p, &vector(*normal)));
+            d[21 + 6 * place..24 + 6 * place].copy_from_slice(&row);
+        }
+        d
+    }
+
+    fn gamma<S: Scalar>(_: &[S; 6], _: S, state: &State<S, 7, 6>) -> [S; 5] {
+        let (_, p, _, w) = split(state);
+        let turned = |s: [f64; 3]| rotate(&p, &cross(&w, &cross(&w, &vector(s))));
+        let [x, y, z] = turned(ARM);
+        let axis = turned(AXIS);
+        let [n1, n2] = NORMALS.map(|n| dot(&vector(n), &axis));
+        [-x, -y, -z, -n1, -n2]
+    }
+
+    fn mass<S: Scalar>(c: &[S; 6]) -> [S; 6] {
+        *c
+    }
+
+    fn forces<S: Scalar>(c: &[S; 6], _: S, state: &State<S, 7, 6>) -> [S; 6] {
+        let (_, _, _, w) = split(state);
+        let [mx, my, mz] = cross(&w, &[c[3] * w[0], c[4] * w[1], c[5] * w[2]]);
+        [
+            S::zero(),
+            S::zero(),
+            -c[0] * S::constant(GRAVITY),
+            -mx,
+            -my,
+            -mz,
+        ]
+    }
+
+    fn kinetic_energy<S: Scalar>(c: &[S; 6], state: &State<S, 7, 6>) -> S {
+        let u = state.velocities();
+        S::constant(0.5) * (0..6).fold(S::zero(), |sum, k| sum + c[k] * u[k] * u[k])
+    }
+
+    fn potential_energy<S: Scalar>(c: &[S; 6], _: S, state: &State<S, 7, 6>) -> S {
+        c[2] * S::constant(GRAVITY) * state.coordinates()[2]
+    }
+
+    fn coordinate_rates<S: Scalar>(state: &State<S, 7, 6>) -> [S; 7] {
+        let (_, p, [x, y, z], [w1, w2, w3]) = split(state);
+        let half = S::constant(0.5);
+        let rates = rotation::product(&p, &[S::zero(), half * w1, half * w2, half * w3]);
+        [x, y, z, rates[0], rates[1], rates[2], rates[3]]
+    }
+
+    fn evaluate<S: Scalar, T: Terms, P: Orientation>(
+        c: &[S; 6],
+        coefficients: &Stabilisation<S>,
+        time: S,
+        state: &State<S, 7, 6>,
+    ) -> Evaluation<S, Self> {
+        let unit = rotation::with_unit_orientations::<S, Self>(state);
+        let read = if P::NORMALISED { &unit } else { state };
+        let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
+        let mut lower = Self::gamma(c, time, read);
+        if T::STABILISED {
+            let phi = Self::constraints(c, time, read);
+            let phi_rate = Self::constraint_rates(c, time, read);
+            for k in 0..5 {
+                lower[k] =
+                    lower[k] - coefficients.rate * phi_rate[k] - coefficients.position * phi[k];
+            }
+        }
+        let upper = Self::forces(c, time, read);
+        let (accelerations, multipliers) =
+            Self::solve::<S, T>(c, coefficients, &factors, &upper, &lower);
+        let rates = State::from_parts(Self::coordinate_rates(read), accelerations);
+        Evaluation {
+            rates,
+            multipliers,
+            pivot,
+        }
+    }
+
+    fn factor<S: Scalar, T: Terms>(
+        c: &[S; 6],
+        coefficients: &Stabilisation<S>,
+        time: S,
+        state: &State<S, 7, 6>,
+    ) -> (Factors<S>, Pivot<S>) {
+        let d = Self::jacobian(c, time, state);
+        let mut lower = [[S::zero(); 5]; 5];
+        let mut pivot = Pivot::unchecked();
+        for i in 0..5 {
+            for j in 0..=i {
+                let mut sum = (0..6).fold(S::zero(), |sum, k| {
+                    sum + d[6 * i + k] * d[6 * j + k] * c[k].reciprocal()
+                });
+                if T::COMPLIANT && i == j {
+                    sum = sum + coefficients.compliance;
+                }
+                let full = sum;
+                sum = (0..j).fold(sum, |sum, k| sum - lower[i][k] * lower[j][k]);
+                if i == j {
+                    pivot = pivot.and(sum * full.reciprocal(), 0);
+                    lower[i][i] = sum.sqrt().reciprocal();
+                } else {
+                    lower[i][j] = sum * lower[j][j];
+                }
+            }
+        }
+        (Factors { jacobian: d, lower }, pivot)
+    }
+
+    fn solve<S: Scalar, T: Terms>(
+        c: &[S; 6],
+        _: &Stabilisation<S>,
+        factors: &Factors<S>,
+        upper: &[S; 6],
+        lower: &[S; 5],
+    ) -> ([S; 6], [S; 5]) {
+        let Factors {
+            jacobian: d,
+            lower: l,
+        } = factors;
+        let mut x: [S; 5] = from_fn(|i| {
+            let sum = (0..6).map(|k| d[6 * i + k] * c[k].reciprocal() * upper[k]);
+            sum.fold(-lower[i], |sum, term| sum + term)
+        });
+        for i in 0..5 {
+            x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) * l[i][i];
+        }
+        for i in (0..5).rev() {
+            x[i] = (i + 1..5).fold(x[i], |sum, k| sum - l[k][i] * x[k]) * l[i][i];
+        }
+        let a = from_fn(|k| {
+            let sum = (0..5).fold(upper[k], |sum, i| sum - d[6 * i + k] * x[i]);
+            sum * c[k].reciprocal()
+        });
+        (a, x)
+    }
+
+    fn joint_angle<S: Scalar>(_: &[S; 6], state: &State<S, 7, 6>, _: usize) -> AngleParts<S> {
+        let (_, p, _, w) = split(state);
+        let along = rotate(&p, &vector([0.0, 1.0, 0.0]));
+        AngleParts {
+            cosine: along[1],
+            sine: along[2],
+            rate: w[0],
+        }
+    }
+
+    fn joint_point<S: Scalar>(_: &[S; 6], _: usize, place: usize) -> [S; 3] {
+        if place == 1 {
+            vector(ARM)
+        } else {
+            [S::zero(); 3]
+        }
+    }
+
+    fn user_axes(_: usize) -> [f64; 4] {
+        let half = core::f64::consts::FRAC_1_SQRT_2;
+        [half, half, 0.0, 0.0]
+    }
+}
+
+/// The rod of the book.
+pub(super) fn rod() -> Rod {
+    Rod { mass: 7.02 }
+}

@@ -1,0 +1,218 @@
+//! A state at a time, to be read.
+
+use nalgebra::Vector3;
+
+use crate::access::{MechanismExt, Pose};
+use crate::array::Array;
+use crate::handle::{BodyHandle, HasAngle, JointHandle};
+use crate::mechanism::{Mechanism, Orientation};
+use crate::reaction::{Wrench, wrench};
+use crate::rotation::with_unit_orientations;
+use crate::scalar::{Real, Scalar};
+
+/// A state at a time, with everything that can be read from it by handle.
+pub struct View<'a, S: Scalar, M: Mechanism> {
+    constants: &'a M::Constants<S>,
+    time: S,
+    state: &'a M::State<S>,
+    normalised: bool,
+}
+
+impl<S: Scalar, M: Mechanism> Clone for View<'_, S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for View<'_, S, M> {}
+
+impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
+    /// A view of a state; for the kernels it is read with Euler parameters of length 1.
+    #[must_use]
+    pub fn new(constants: &'a M::Constants<S>, time: S, state: &'a M::State<S>) -> Self {
+        Self {
+            constants,
+            time,
+            state,
+            normalised: true,
+        }
+    }
+
+    pub(crate) fn reading<P: Orientation>(self) -> Self {
+        Self {
+            normalised: P::NORMALISED,
+            ..self
+        }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn time(&self) -> S {
+        self.time
+    }
+
+    /// The state.
+    #[must_use]
+    pub fn state(&self) -> &'a M::State<S> {
+        self.state
+    }
+
+    /// Position (m, global) of the centre of mass, and orientation from the user's body axes to the global axes.
+    #[must_use]
+    pub fn pose(&self, body: BodyHandle<M>) -> Pose<S> {
+        M::pose(self.state, body)
+    }
+
+    /// The velocity of the centre of mass (m/s, global).
+    #[must_use]
+    pub fn velocity(&self, body: BodyHandle<M>) -> Vector3<S> {
+        M::velocity(self.state, body)
+    }
+
+    /// The angular velocity (rad/s) along the user's body axes.
+    #[must_use]
+    pub fn angular_velocity(&self, body: BodyHandle<M>) -> Vector3<S> {
+        M::angular_velocity(self.state, body)
+    }
+
+    /// The angular velocity (rad/s) along the global axes.
+    #[must_use]
+    pub fn angular_velocity_global(&self, body: BodyHandle<M>) -> Vector3<S> {
+        M::angular_velocity_global(self.state, body)
+    }
+
+    /// A point of a body (m, global), given from the centre of mass along the user's body axes (m).
+    #[must_use]
+    pub fn point(&self, body: BodyHandle<M>, point: Vector3<S>) -> Vector3<S> {
+        M::point(self.state, body, point)
+    }
+
+    /// The velocity of a point of a body (m/s, global), given as in [`View::point`].
+    #[must_use]
+    pub fn point_velocity(&self, body: BodyHandle<M>, point: Vector3<S>) -> Vector3<S> {
+        M::point_velocity(self.state, body, point)
+    }
+
+    /// The angle of a joint (rad, from `-pi` to `pi`), zero in the configuration that the attributes describe,
+    /// positive as the second body turns about the joint's axis against the first.
+    #[must_use]
+    pub fn angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S
+    where
+        S: Real,
+    {
+        let parts = M::joint_angle(self.constants, self.state, joint.index());
+        parts.sine.atan2(parts.cosine)
+    }
+
+    /// The rate of the angle of a joint (rad/s), with the sign of [`View::angle`].
+    #[must_use]
+    pub fn angle_rate<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
+        M::joint_angle(self.constants, self.state, joint.index()).rate
+    }
+
+    /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the joint's point on
+    /// that body, from the multipliers at this state. Zero on a body that is not of the joint.
+    #[must_use]
+    pub fn reaction<J>(
+        &self,
+        multipliers: &M::Multipliers<S>,
+        joint: JointHandle<M, J>,
+        body: BodyHandle<M>,
+    ) -> Wrench<S> {
+        let bodies = joint.info().map_or(&[][..], |info| info.bodies);
+        let place = bodies.iter().position(|&b| b == Some(body.index()));
+        self.reaction_on_place(multipliers, joint, place.unwrap_or(usize::MAX))
+    }
+
+    /// The same by the place of the body in `between`: 0 is the first, which may be the ground.
+    #[must_use]
+    pub fn reaction_on_place<J>(
+        &self,
+        multipliers: &M::Multipliers<S>,
+        joint: JointHandle<M, J>,
+        place: usize,
+    ) -> Wrench<S> {
+        let state = self.state_of_kernels();
+        wrench::<S, M>(
+            self.constants,
+            self.time,
+            &state,
+            multipliers,
+            joint.index(),
+            place,
+        )
+    }
+
+    /// Kinetic energy (J).
+    #[must_use]
+    pub fn kinetic_energy(&self) -> S {
+        M::kinetic_energy(self.constants, self.state)
+    }
+
+    /// Potential energy (J), see [`Mechanism::potential_energy`].
+    #[must_use]
+    pub fn potential_energy(&self) -> S {
+        M::potential_energy(self.constants, self.time, self.state)
+    }
+
+    /// Kinetic and potential energy together (J).
+    #[must_use]
+    pub fn energy(&self) -> S {
+        self.kinetic_energy() + self.potential_energy()
+    }
+
+    /// `Phi`, one element per equation, with the Euler parameters as they are stored.
+    #[must_use]
+    pub fn constraints(&self) -> M::Multipliers<S> {
+        M::constraints(self.constants, self.time, self.state)
+    }
+
+    /// The violation of the constraints: `Phi^T Phi`.
+    #[must_use]
+    pub fn violation(&self) -> S {
+        square(self.constraints().as_slice())
+    }
+
+    /// The violation of the constraints by the velocities: `Phi'^T Phi'`.
+    #[must_use]
+    pub fn velocity_violation(&self) -> S {
+        square(M::constraint_rates(self.constants, self.time, self.state).as_slice())
+    }
+
+    /// The violation of the constraints by accelerations: the square of `D u' - gamma`.
+    #[must_use]
+    pub fn acceleration_violation(&self, accelerations: &M::Velocities<S>) -> S {
+        let state = self.state_of_kernels();
+        let jacobian = M::jacobian(self.constants, self.time, &state);
+        let mut rest = M::gamma(self.constants, self.time, &state);
+        for block in M::REPORT.blocks {
+            let values = jacobian.as_slice().get(block.offset..).unwrap_or(&[]);
+            let rows = rest
+                .as_mut_slice()
+                .iter_mut()
+                .skip(block.row)
+                .take(block.rows);
+            for (rest, row) in rows.zip(values.chunks(block.columns.max(1))) {
+                let columns = accelerations.as_slice().iter().skip(block.column);
+                for (&value, &acceleration) in row.iter().zip(columns) {
+                    *rest = *rest - value * acceleration;
+                }
+            }
+        }
+        square(rest.as_slice())
+    }
+
+    /// The state as the kernels of the saddle system read it.
+    fn state_of_kernels(&self) -> M::State<S> {
+        if self.normalised {
+            with_unit_orientations::<S, M>(self.state)
+        } else {
+            *self.state
+        }
+    }
+}
+
+/// The sum of squares.
+pub(crate) fn square<S: Scalar>(elements: &[S]) -> S {
+    elements.iter().fold(S::zero(), |sum, &x| x.fused(x, sum))
+}
