@@ -1,0 +1,24 @@
+//! The heavy top.
+
+use holonom::joints::Spherical;
+use holonom::prelude::*;
+
+/// A fast top on a ball joint at the origin, its axis in the horizontal at the start, gravity along -z.
+///
+/// Brüls, Cardona and Arnold, *Lie group generalized-alpha time integration of constrained flexible multibody systems*,
+/// Mechanism and Machine Theory 48 (2012): `m = 15` kg, `J = (0.234375, 0.46875, 0.234375)` kg m^2 about the centre of
+/// mass, which is 1 m from the fixed point; the top spins at 150 rad/s about its axis.
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81])]
+pub struct HeavyTop {
+    #[body(
+        mass = 15.0,
+        inertia = [0.234375, 0.46875, 0.234375],
+        position = [0.0, 1.0, 0.0],
+        velocity = [4.61538, 0.0, 0.0],
+        angular_velocity = [0.0, 150.0, -4.61538]
+    )]
+    top: Body,
+    #[joint(between = [ground, top], point = [0.0, 0.0, 0.0])]
+    tip: Spherical,
+}
