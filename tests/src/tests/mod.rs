@@ -1,0 +1,51 @@
+//! The assembler judged by automatic differentiation, by closed forms and by its own other forms.
+
+mod formulations;
+mod kernels;
+mod motion;
+mod solvers;
+
+use nalgebra::Vector3;
+
+use crate::assembler::Assembler;
+use crate::bodies::{Body, GROUND, Orientation};
+use crate::joints::Joint;
+
+/// Both readings of Euler parameters.
+const ORIENTATIONS: [Orientation; 2] = [Orientation::Raw, Orientation::Normalised];
+
+/// Every joint between every sort of body, nothing along an axis.
+fn everything() -> Assembler {
+    let mut scene = Assembler::new([0.3, -0.7, -9.81]);
+    let first = scene.add_body(
+        Body::rigid(2.0, [0.3, 0.4, 0.5], [0.1, 0.4, -0.2])
+            .with_euler([0.5, 0.5, -0.5, 0.5])
+            .with_velocity([0.1, 0.2, 0.3], [1.0, -2.0, 0.5]),
+    );
+    let second = scene.add_body(
+        Body::rigid(0.7, [0.02, 0.05, 0.04], [0.6, 0.9, 0.3]).with_euler([0.1, 0.7, 0.5, 0.5]),
+    );
+    let bead = scene.add_body(Body::particle(0.4, [1.2, 0.3, 0.1]));
+    scene.add_revolute([GROUND, first], [0.2, 0.1, 0.3], [1.0, 2.0, -0.5]);
+    scene.add_spherical([first, second], [0.4, 0.6, 0.1]);
+    scene.add_revolute([second, first], [0.3, 0.5, 0.2], [-0.2, 0.4, 1.0]);
+    scene.add_spherical([bead, GROUND], [1.2, 0.3, 0.1]);
+    let points = [Vector3::new(0.1, 0.2, 0.3), Vector3::zeros()];
+    scene.add_joint(Joint::Distance {
+        between: [second, bead],
+        points,
+        length: 0.8,
+    });
+    scene.add_joint(Joint::Distance {
+        between: [GROUND, second],
+        points: [points[0], points[0]],
+        length: 0.8,
+    });
+    for between in [[first, second], [second, GROUND], [bead, first]] {
+        scene.add_joint(Joint::Perpendicular {
+            between,
+            vectors: [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.1, -2.0, 0.4)],
+        });
+    }
+    scene
+}

@@ -1,0 +1,9 @@
+//! Refusals, word for word.
+
+#[test]
+fn refusals() {
+    let cases = trybuild::TestCases::new();
+    for feature in ["body", "definition", "joint", "mechanism", "types"] {
+        cases.compile_fail(format!("tests/ui/{feature}/*.rs"));
+    }
+}
