@@ -1,0 +1,6 @@
+//! What the benches and the program `study` share: the opponents of the generated kernels, and the terminal.
+
+#![forbid(unsafe_code)]
+
+pub mod opponents;
+pub mod terminal;

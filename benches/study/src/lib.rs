@@ -1,0 +1,29 @@
+//! Measures what a formulation and an integrator cost and what they buy, for any mechanism of [`holonom`].
+//!
+//! | what | where |
+//! |---|---|
+//! | one run with everything that can be read from it, or bare to be timed | [`run`] |
+//! | time per evaluation of several contestants in turn | [`timing`], [`statistics`] |
+//! | the closed form of a rigid pendulum | [`pendulum`], [`elliptic`] |
+//! | results as tables and charts, as a page and as files | [`document`], [`chart`], [`page`], [`files`] |
+//! | chapter 15 of Flores (2015): four formulations on one pendulum | [`chapter15`] |
+//!
+//! Units are SI, angles are in radians.
+
+#![forbid(unsafe_code)]
+
+pub mod chapter15;
+pub mod chart;
+pub mod document;
+pub mod elliptic;
+mod error;
+pub mod files;
+pub mod format;
+pub mod page;
+pub mod pendulum;
+pub mod run;
+pub mod statistics;
+pub mod target;
+pub mod timing;
+
+pub use error::StudyError;

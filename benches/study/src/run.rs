@@ -1,0 +1,210 @@
+//! Single runs: recorded with everything that can be read from them, or bare, to be timed.
+
+use std::hint::black_box;
+use std::ops::ControlFlow;
+
+use holonom::{
+    Counts, Course as _, Fault, Formulation, Integrator, Iterations, Mechanism, Sample, Simulation,
+    Span, System, every,
+};
+
+use crate::error::StudyError;
+use crate::timing::Contestant;
+
+/// What a run came to, and what was read from it at the reporting times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording<T> {
+    /// Evaluations of the equations of motion.
+    pub evaluations: u64,
+    /// Steps that were accepted.
+    pub accepted: u64,
+    /// Steps that were tried and rejected.
+    pub rejected: u64,
+    /// How often the augmented Lagrangian solved its system; zero for other formulations.
+    pub iterations: Iterations,
+    /// What was read at the start, at the reporting times and at the end.
+    pub reports: Vec<T>,
+}
+
+/// Runs a mechanism over `span` and reads what `read` wants at its start, at every multiple of `span.first_output` after it,
+/// and at its end. Euler parameters are normalised inside the evaluation.
+///
+/// # Errors
+/// [`StudyError::Run`] under `name` where the run or a reading stops.
+pub fn record<M, F, I, T>(
+    name: &str,
+    mechanism: &M,
+    (formulation, integrator): (F, I),
+    span: Span<f64>,
+    mut read: impl FnMut(&Sample<'_, f64, M>) -> Result<T, Fault>,
+) -> Result<Recording<T>, StudyError>
+where
+    M: Mechanism,
+    F: Formulation<f64>,
+    I: Integrator<f64>,
+{
+    let stopped = |reason: String| StudyError::Run {
+        name: name.to_owned(),
+        reason,
+    };
+    let (mut reports, mut fault) = (Vec::new(), None);
+    let simulation = Simulation::new(mechanism, formulation, integrator);
+    let run = simulation.run(
+        span.start..=span.end,
+        every(span.first_output),
+        |sample| match read(sample) {
+            Ok(report) => {
+                reports.push(report);
+                ControlFlow::Continue(())
+            }
+            Err(error) => {
+                fault = Some(format!("at {} s: {error}", sample.time()));
+                ControlFlow::Break(())
+            }
+        },
+    );
+    let run = run.map_err(|error| stopped(error.to_string()))?;
+    match fault {
+        Some(reason) => Err(stopped(reason)),
+        None => Ok(Recording {
+            evaluations: run.evaluations as u64,
+            accepted: run.accepted as u64,
+            rejected: run.rejected as u64,
+            iterations: run.iterations,
+            reports,
+        }),
+    }
+}
+
+/// A bare run over `span`, with dense output at the reporting times, as a contestant of a [race](crate::timing::race).
+pub fn contestant<'a, Y, I>(
+    name: impl Into<String>,
+    mut system: Y,
+    integrator: I,
+    span: Span<f64>,
+    start: Y::State,
+) -> Contestant<'a>
+where
+    Y: System<f64> + 'a,
+    I: Integrator<f64> + 'a,
+{
+    let name = name.into();
+    Contestant::new(name.clone(), move || {
+        let report = |_, state: &Y::State| {
+            black_box(state);
+        };
+        let run = integrate(
+            &mut system,
+            &integrator,
+            span,
+            black_box(start.clone()),
+            report,
+        );
+        let counts = run.map_err(|fault| StudyError::Run {
+            name: name.clone(),
+            reason: fault.to_string(),
+        })?;
+        Ok(counts.evaluations as u64)
+    })
+}
+
+/// Integrates over `span` and reports the state at its start, at every multiple of `span.first_output` after it, and at
+/// its end. Returns what the integration has cost.
+///
+/// # Errors
+/// A fault of the system or of the integrator.
+pub fn integrate<Y, I>(
+    system: &mut Y,
+    integrator: &I,
+    span: Span<f64>,
+    state: Y::State,
+    mut report: impl FnMut(f64, &Y::State),
+) -> Result<Counts, Fault>
+where
+    Y: System<f64>,
+    I: Integrator<f64>,
+{
+    report(span.start, &state);
+    let mut course = integrator.start(system, span, state)?;
+    let mut reports = 1;
+    while course.time() < span.end {
+        course.advance(system)?;
+        while let Some(time) = reporting_time(&span, reports).filter(|&t| t <= course.time()) {
+            report(time, &course.at(system, time)?);
+            reports += 1;
+        }
+    }
+    Ok(course.counts())
+}
+
+/// The time of a report by its number, the start being number zero; `None` after the end.
+fn reporting_time(span: &Span<f64>, number: u32) -> Option<f64> {
+    // The end is reported once, also where round-off puts a multiple beside it.
+    let margin = 1e-9 * span.first_output;
+    let time = |number: u32| span.start + f64::from(number) * span.first_output;
+    if time(number) < span.end - margin {
+        Some(time(number))
+    } else {
+        (number == 0 || time(number - 1) < span.end - margin).then_some(span.end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::integrate;
+    use holonom::{DormandPrince, Fault, Rk4, Span, System, Tolerance};
+
+    /// `y' = -y`
+    struct Decay;
+
+    impl System<f64> for Decay {
+        type State = [f64; 1];
+
+        fn rates(&mut self, _time: f64, state: &[f64; 1]) -> Result<[f64; 1], Fault> {
+            Ok([-state[0]])
+        }
+    }
+
+    fn times(end: f64, first_output: f64) -> Vec<f64> {
+        let span = Span {
+            start: 0.0,
+            end,
+            first_output,
+        };
+        let mut times = Vec::new();
+        let integrator = DormandPrince::new(Tolerance {
+            relative: 1e-8,
+            absolute: 1e-12,
+        });
+        integrate(&mut Decay, &integrator, span, [1.0], |time, state| {
+            assert!((state[0] - (-time).exp()).abs() < 1e-7);
+            times.push(time);
+        })
+        .unwrap();
+        times
+    }
+
+    #[test]
+    fn start_and_end_are_reported_once() {
+        let times_of_chapter_15 = times(10.0, 0.02);
+        assert_eq!(times_of_chapter_15.len(), 501);
+        assert_eq!(
+            (times_of_chapter_15[0], times_of_chapter_15[500]),
+            (0.0, 10.0)
+        );
+        assert_eq!(times(1.0, 0.4), [0.0, 0.4, 0.8, 1.0]);
+        assert_eq!(times(1.0, 5.0), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn evaluations_are_counted() {
+        let span = Span {
+            start: 0.0,
+            end: 1.0,
+            first_output: 1.0,
+        };
+        let counts = integrate(&mut Decay, &Rk4::every(0.1), span, [1.0], |_, _| ()).unwrap();
+        assert_eq!((counts.accepted, counts.rejected), (10, 0));
+        assert!(counts.evaluations >= 40);
+    }
+}
