@@ -58,6 +58,73 @@ mod bodies;
 pub mod joints;
 
 pub use bodies::{Body, Particle};
+/// Describes a mechanism: every field is a body or a joint.
+///
+/// ```
+/// use holonom::joints::{Revolute, Spherical};
+/// use holonom::prelude::*;
+///
+/// const LENGTH: f64 = 0.8;
+///
+/// /// An arm on a hinge, and a bob on a ball joint at its end.
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81])]
+/// struct Swing {
+///     #[body(mass = 2.0, inertia = [0.1, 0.01, 0.1], position = [0.0, LENGTH / 2.0, 0.0])]
+///     arm: Body,
+///     #[body(
+///         mass = 1.0,
+///         inertia = [[0.02, 0.001, 0.0], [0.001, 0.03, 0.0], [0.0, 0.0, 0.02]],
+///         position = [0.0, LENGTH, -0.3],
+///         orientation = rotation([0.0, 0.0, 1.0], deg(30.0)),
+///         angular_velocity = [0.0, 0.0, 3.0],
+///     )]
+///     bob: Body,
+///     #[joint(between = [ground, arm], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     hinge: Revolute,
+///     #[joint(between = [arm, bob], point = local([0.0, LENGTH / 2.0, 0.0], [0.0, 0.0, 0.3]))]
+///     ball: Spherical,
+/// }
+///
+/// let swing = Swing::default();
+/// let handles = Swing::HANDLES;
+/// let formulation = StandardLagrange;
+/// let report = Simulation::new(&swing, formulation, DormandPrince::new(Tolerance::default()))
+///     .projection(Projection::default())
+///     .run(0.0..=1.0, every(0.1), |sample| {
+///         let on_bob = sample.reaction(handles.ball, handles.bob).expect("no singular position");
+///         println!("{:.3} s: hinge {:.3} rad, ball {:.3} N", sample.time(), sample.angle(handles.hinge), on_bob.force.norm());
+///         ControlFlow::Continue(())
+///     })?;
+/// assert!(report.worst_violation < 1e-24);
+/// assert_eq!(Swing::REPORT.degrees_of_freedom, 4);
+/// # Ok::<(), SimulationError<<Swing as Mechanism>::State<f64>>>(())
+/// ```
+///
+/// # Attributes
+///
+/// `#[mechanism(gravity = [x, y, z])]` on the struct: the acceleration of free fall (m/s^2, global); none if left out.
+///
+/// `#[body(..)]` on a field of type [`Body`] or [`Particle`]: see there.
+///
+/// `#[joint(between = [i, j], ..)]` on a field whose type is a joint: `between` names its bodies in the order of the joint's
+/// definition, fields of the struct or `ground`; the other keys are the parameters of the joint, see [`joints`] and [`joint!`]. Points and
+/// axes are given once, **in global axes at the described configuration**, and the macro makes the copies that are fixed on the bodies;
+/// so the described configuration satisfies the joint. Or one for each body in its own axes, points from its centre of mass:
+/// `point = local([..], [..])` (the ground's axes are the global ones); the joint may then be violated at the start,
+/// which [`MechanismExt::assemble`] mends.
+///
+/// # Numbers
+///
+/// Literals, `+ - * /`, `sqrt(..)`, `sin(..)`, `cos(..)`, `tan(..)`, `exp(..)`, `deg(..)` (degrees to radians), `PI`, `TAU`, and paths of
+/// constants of type `f64`. The macro evaluates what it can see; a path is a value that it cannot see: it is checked by the compiler or
+/// in [`Mechanism::prepare`](trait@Mechanism), and does not fold.
+///
+/// # What is generated
+///
+/// An implementation of [`trait@Mechanism`], and `Default`. `T::HANDLES` is a struct with a handle for every field, under the field's name;
+/// `T::REPORT` holds sizes, names, the plan of the solution and the operations of every kernel, which the documentation of
+/// the implementation shows as well.
 pub use holonom_macros::Mechanism;
 
 pub use access::{MechanismExt, Pose};

@@ -14,7 +14,8 @@ use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
 use crate::symbolic::evaluate::evaluate;
 use crate::symbolic::scene::{Constraint, Reading, Scene};
-use crate::symbolic::vector::Frame;
+use crate::symbolic::twist::{ScalarExpr, VectorExpr};
+use crate::symbolic::vector::{Frame, Triple};
 
 /// Bodies from the leaves to the ground with the joint towards the ground, and the joints left over.
 struct Tree {
@@ -287,7 +288,18 @@ impl Order<'_> {
             .collect()
     }
 
+    fn prescribed(&self, row: usize, body: usize) -> Option<(Triple, Option<usize>)> {
+        let constrained = self.scene.constraints.iter().find(|c| c.row == row)?;
+        match &constrained.constraint {
+            Constraint::Scalar(scalar) => prescribed(scalar, body),
+            Constraint::Vector(_) => None,
+        }
+    }
+
     /// The two single rows of a joint that determine two components of a body's angular acceleration.
+    ///
+    /// The rows must prescribe the scalar products of one vector `h` on the body with two vectors `a`, `b` on another: then
+    /// the determinant is `(a x b) . h`, whose size the constraints fix.
     fn forbidden_motion(&self, joint: usize, body: usize) -> Option<(Pivot, f64)> {
         if self.kinds[body] != BodyKind::Rigid {
             return None;
@@ -300,6 +312,9 @@ impl Order<'_> {
             .map(|c| c.row)
             .collect();
         let [m, n] = rows[..] else { return None };
+        if self.prescribed(m, body)? != self.prescribed(n, body)? {
+            return None;
+        }
         let first = self.scene.layout.velocity[body] + 3;
         let on_body = |row: usize| -> Vec<(usize, Expr)> {
             let own = first - 3..first + 3;
@@ -338,6 +353,32 @@ impl Order<'_> {
             Pivot::Forbidden([k, l], [velocities + m, velocities + n]),
             determinant,
         ))
+    }
+}
+
+/// For a scalar product of a vector on `body` with one on another body, plus constants: that vector, and the other body.
+fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>)> {
+    match scalar {
+        ScalarExpr::Dot(a, b) => {
+            let (VectorExpr::Fixed(i, u), VectorExpr::Fixed(j, v)) = (&**a, &**b) else {
+                return None;
+            };
+            match (*i == Some(body), *j == Some(body)) {
+                (true, false) => Some((*u, *j)),
+                (false, true) => Some((*v, *i)),
+                _ => None,
+            }
+        }
+        ScalarExpr::Sum(terms) => {
+            let mut changing = terms
+                .iter()
+                .filter(|(_, t)| !matches!(t, ScalarExpr::Constant(_)));
+            match (changing.next(), changing.next()) {
+                (Some((_, only)), None) => prescribed(only, body),
+                _ => None,
+            }
+        }
+        ScalarExpr::Constant(_) | ScalarExpr::Product(..) => None,
     }
 }
 
