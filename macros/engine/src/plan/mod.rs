@@ -6,6 +6,7 @@
 pub mod candidates;
 pub mod eliminate;
 pub mod kernels;
+mod order;
 pub mod system;
 
 use crate::symbolic::vector::Frame;
