@@ -2,6 +2,7 @@
 
 use crate::array::{Array, StateParts, finite};
 use crate::error::Fault;
+use crate::integrate::positive;
 use crate::mechanism::{Compliant, Mechanism, Stabilisation};
 use crate::report::BodyKind;
 use crate::rotation::{
@@ -63,14 +64,15 @@ impl<S: Real> Projection<S> {
     /// Corrects positions, then velocities; Euler parameters come out at length 1.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] with the largest `|Phi|` or `|Phi'|` left, or [`Fault::StateNotFinite`]; the state
-    /// is then as before.
+    /// [`Fault::NotConverged`] with the largest `|Phi|` or `|Phi'|` left, [`Fault::StateNotFinite`], or [`Fault::Setting`] for a
+    /// tolerance that is not finite and positive; the state is then as before.
     pub fn correct<M: Mechanism>(
         &self,
         constants: &M::Constants<S>,
         time: S,
         state: &mut M::State<S>,
     ) -> Result<Correction<S>, Fault> {
+        positive("tolerance of the projection", self.tolerance)?;
         if !finite(state) {
             return Err(Fault::StateNotFinite);
         }

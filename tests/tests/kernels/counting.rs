@@ -1,0 +1,144 @@
+//! A scalar that counts confirms the report, operation by operation.
+
+use holonom::{
+    Compliant, Mechanism, Normalised, Operations, Orientation, Plain, Raw, Scalar, Stabilisation,
+    Stabilised, Terms,
+};
+use holonom_models::RodPendulum;
+
+use crate::scalars::{Counted, counted};
+use crate::scene::{Scene, constants, state};
+
+/// What the kernels of a mechanism are called with.
+struct Call<M: Scene> {
+    constants: M::Constants<Counted>,
+    coefficients: M::Coefficients<Counted>,
+    state: M::State<Counted>,
+}
+
+impl<M: Scene> Call<M> {
+    fn new() -> Self {
+        let constants = constants::<Counted, M>();
+        let stabilisation = Stabilisation {
+            rate: Counted::constant(10.0),
+            position: Counted::constant(25.0),
+            compliance: Counted::constant(1e-7),
+        };
+        Self {
+            coefficients: M::coefficients(&constants, &stabilisation),
+            constants,
+            state: state::<Counted, M>(M::assembler().initial_state().as_slice()),
+        }
+    }
+
+    fn evaluation<T: Terms, P: Orientation>(&self) -> Operations {
+        counted(|| {
+            M::evaluate::<Counted, T, P>(
+                &self.constants,
+                &self.coefficients,
+                Counted::zero(),
+                &self.state,
+            )
+        })
+    }
+
+    fn back_substitution<T: Terms>(&self) -> Operations {
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        let (time, state) = (Counted::zero(), &self.state);
+        let (factors, _) = M::factor::<Counted, T>(constants, coefficients, time, state);
+        let upper = M::forces(constants, time, state);
+        let lower = M::gamma(constants, time, state);
+        counted(|| M::solve::<Counted, T>(constants, coefficients, &factors, &upper, &lower))
+    }
+
+    /// What a kernel of the report does when it is called.
+    fn operations(&self, kernel: &str) -> Operations {
+        let (constants, time, state) = (&self.constants, Counted::zero(), &self.state);
+        match kernel {
+            "evaluate standard" => self.evaluation::<Plain, Raw>(),
+            "evaluate baumgarte" => self.evaluation::<Stabilised, Raw>(),
+            "evaluate penalty" => self.evaluation::<Compliant, Raw>(),
+            "evaluate standard, normalised" => self.evaluation::<Plain, Normalised>(),
+            "evaluate baumgarte, normalised" => self.evaluation::<Stabilised, Normalised>(),
+            "evaluate penalty, normalised" => self.evaluation::<Compliant, Normalised>(),
+            "constraints" => counted(|| M::constraints(constants, time, state)),
+            "constraint rates" => counted(|| M::constraint_rates(constants, time, state)),
+            "jacobian" => counted(|| M::jacobian(constants, time, state)),
+            "gamma" => counted(|| M::gamma(constants, time, state)),
+            "forces" => counted(|| M::forces(constants, time, state)),
+            "kinetic energy" => counted(|| M::kinetic_energy(constants, state)),
+            "potential energy" => counted(|| M::potential_energy(constants, time, state)),
+            "coordinate rates" => counted(|| M::coordinate_rates(state)),
+            "solve" => self.back_substitution::<Plain>(),
+            "solve, compliant" => self.back_substitution::<Compliant>(),
+            other => panic!("the report names a kernel that is not known here: {other}"),
+        }
+    }
+}
+
+/// The kernels that a report has at least.
+const KERNELS: [&str; 16] = [
+    "evaluate standard",
+    "evaluate baumgarte",
+    "evaluate penalty",
+    "evaluate standard, normalised",
+    "evaluate baumgarte, normalised",
+    "evaluate penalty, normalised",
+    "constraints",
+    "constraint rates",
+    "jacobian",
+    "gamma",
+    "forces",
+    "kinetic energy",
+    "potential energy",
+    "coordinate rates",
+    "solve",
+    "solve, compliant",
+];
+
+fn reported<M: Mechanism>(kernel: &str) -> Operations {
+    let found = M::REPORT.operations(kernel);
+    found.unwrap_or_else(|| panic!("no {kernel} in the report of {}", M::REPORT.name))
+}
+
+fn the_report_is_what_is_done<M: Scene>() {
+    let call = Call::<M>::new();
+    assert_eq!(M::REPORT.kernels.len(), KERNELS.len());
+    for kernel in KERNELS {
+        let (done, reported) = (call.operations(kernel), reported::<M>(kernel));
+        println!("{kernel}: {}, depth {}", done.total(), done.depth);
+        assert_eq!(done, reported, "{kernel} of {}", M::REPORT.name);
+    }
+}
+
+/// What reading `p / |p|` in the place of `p` may cost a body.
+const NORMALISATION: usize = 13;
+
+fn normalisation_is_cheap<M: Scene>() {
+    for terms in ["standard", "baumgarte", "penalty"] {
+        let raw = reported::<M>(&format!("evaluate {terms}")).total();
+        let normalised = reported::<M>(&format!("evaluate {terms}, normalised")).total();
+        let bodies = M::REPORT.bodies.len();
+        println!("{terms}: {raw} raw, {normalised} normalised, {bodies} bodies");
+        assert!(normalised <= raw + NORMALISATION * bodies);
+    }
+}
+
+#[test]
+fn the_pendulum_is_as_cheap_as_asked_for() {
+    /// With multipliers, `p` as it is.
+    const STANDARD: usize = 170;
+    const BAUMGARTE: usize = 230;
+    assert!(reported::<RodPendulum>("evaluate standard").total() <= STANDARD);
+    assert!(reported::<RodPendulum>("evaluate baumgarte").total() <= BAUMGARTE);
+}
+
+mod the_report_is_what_is_done {
+    every_independent_mechanism! { the_report_is_what_is_done }
+    every_redundant_mechanism! { the_report_is_what_is_done }
+}
+
+mod normalisation_is_cheap {
+    every_independent_mechanism! { normalisation_is_cheap }
+    every_redundant_mechanism! { normalisation_is_cheap }
+}

@@ -1,0 +1,162 @@
+//! Euler parameters off the unit sphere, in both modes.
+
+use holonom::{Array, Compliant, Normalised, Plain, Raw, Stabilised, Terms};
+use holonom_tests::bodies::{Kind, Orientation};
+use holonom_tests::saddle::Coefficients;
+use holonom_tests::states::Spread;
+use nalgebra::DVector;
+
+use crate::comparison::{DOUBLE, SOLUTION, Worst, distance};
+use crate::scene::{Scene, constants, dense, off, state, values};
+use crate::solutions::{Reference, evaluated};
+
+/// Near the constraints, `|p|` up to this much from 1.
+const fn drifted(norm: f64) -> Spread {
+    Spread {
+        position: 0.01,
+        angle: 0.01,
+        velocity: 1.0,
+        rate: 2.0,
+        norm,
+    }
+}
+
+const STATES: usize = 300;
+
+/// The largest deviation of the kernels from the assembler's, `|p|` up to `norm` from 1.
+fn of_raw_kernels<M: Scene>(norm: f64) -> f64 {
+    let scene = M::read_as(Orientation::Raw);
+    let constants = constants::<f64, M>();
+    let mut worst = Worst::default();
+    for x in off(&scene, STATES, 12, drifted(norm)) {
+        let x = x.as_slice();
+        let state = state::<f64, M>(x);
+        let jacobian = M::jacobian(&constants, 0.0, &state);
+        let jacobian = dense::<f64, M>(jacobian.as_slice());
+        for (what, computed, reference) in [
+            (
+                "Phi",
+                values(M::constraints(&constants, 0.0, &state).as_slice()),
+                scene.constraints(x).as_slice(),
+            ),
+            (
+                "Phi'",
+                values(M::constraint_rates(&constants, 0.0, &state).as_slice()),
+                scene.constraint_rates(x).as_slice(),
+            ),
+            (
+                "gamma",
+                values(M::gamma(&constants, 0.0, &state).as_slice()),
+                scene.gamma(x).as_slice(),
+            ),
+            (
+                "D",
+                jacobian.as_slice().to_vec(),
+                scene.jacobian(x).as_slice(),
+            ),
+            (
+                "q'",
+                values(M::coordinate_rates(&state).as_slice()),
+                scene.coordinate_rates(x).as_slice(),
+            ),
+        ] {
+            worst.take(what, distance(&computed, reference, 1.0), f64::MAX);
+        }
+    }
+    worst.0
+}
+
+fn raw_kernels_take_p_as_it_is<M: Scene>() {
+    /// What a drift may be magnified by: four factors of `|p|^2`.
+    const FACTOR: f64 = 8.0;
+    let [near, far] = [1e-6, 0.05].map(of_raw_kernels::<M>);
+    println!("raw kernels: {near:e} at a drift of 1e-6, {far:e} at 0.05");
+    if M::EXACT_FOR_ANY_LENGTH {
+        assert!(near <= DOUBLE && far <= DOUBLE);
+    } else {
+        assert!(near <= FACTOR * 1e-6 && far <= FACTOR * 0.05);
+    }
+}
+
+/// The state with Euler parameters of length 1.
+fn unit<M: Scene>(x: &DVector<f64>) -> DVector<f64> {
+    let mut x = x.clone();
+    for (body, q, _) in M::assembler().bodies() {
+        if body.kind == Kind::Rigid {
+            x.fixed_rows_mut::<4>(q + 3).normalize_mut();
+        }
+    }
+    x
+}
+
+fn normalised<M: Scene, T: Terms>(what: &str, coefficients: Coefficients) {
+    let scene = M::read_as(Orientation::Normalised);
+    let mut worst = Worst::default();
+    for x in off(&scene, STATES, 13, drifted(0.05)) {
+        let reference = Reference::new(&scene, coefficients, x.as_slice());
+        let (solution, rates) = evaluated::<f64, M, T, Normalised>(coefficients, x.as_slice());
+        let deviation = reference.deviation(&solution, SOLUTION);
+        worst.take(what, deviation, SOLUTION);
+        let reference = scene.coordinate_rates(unit::<M>(&x).as_slice());
+        worst.take("q'", distance(&rates, reference.as_slice(), 0.0), DOUBLE);
+    }
+    println!(
+        "normalised, {what}: largest deviation {:e} of the condition",
+        worst.0
+    );
+}
+
+const BAUMGARTE: Coefficients = Coefficients {
+    a: 5.0,
+    b: 7.0,
+    eps: 0.0,
+};
+const PENALTY: Coefficients = Coefficients {
+    a: 10.0,
+    b: 10.0,
+    eps: 1e-7,
+};
+
+fn a_normalised_evaluation_reads_p_over_its_length<M: Scene>() {
+    normalised::<M, Plain>("standard", Coefficients::default());
+    normalised::<M, Stabilised>("baumgarte", BAUMGARTE);
+    normalised::<M, Compliant>("penalty", PENALTY);
+}
+
+/// The largest deviation of the raw solution from the normalised one.
+fn raw_against_normalised<M: Scene, T: Terms>(norm: f64, coefficients: Coefficients) -> f64 {
+    let scene = M::assembler();
+    let mut worst = Worst::default();
+    for x in off(&scene, STATES, 14, drifted(norm)) {
+        let (raw, _) = evaluated::<f64, M, T, Raw>(coefficients, x.as_slice());
+        let (reference, _) = evaluated::<f64, M, T, Normalised>(coefficients, x.as_slice());
+        worst.take("raw", distance(&raw, &reference, 0.0), f64::MAX);
+    }
+    worst.0
+}
+
+fn a_raw_evaluation_is_off_by_the_drift<M: Scene>() {
+    let (near, far) = (
+        raw_against_normalised::<M, Plain>(1e-8, Coefficients::default()),
+        raw_against_normalised::<M, Plain>(1e-5, Coefficients::default()),
+    );
+    println!("raw against normalised: {near:e} at a drift of 1e-8, {far:e} at 1e-5");
+    assert!(
+        near <= far * 1.1e-3 + 1e-12,
+        "not of first order in the drift"
+    );
+    assert!(far <= 1e-2, "the drift is magnified");
+}
+
+mod raw_kernels_take_p_as_it_is {
+    every_independent_mechanism! { raw_kernels_take_p_as_it_is }
+    every_redundant_mechanism! { raw_kernels_take_p_as_it_is }
+}
+
+mod a_normalised_evaluation_reads_p_over_its_length {
+    every_independent_mechanism! { a_normalised_evaluation_reads_p_over_its_length }
+}
+
+mod a_raw_evaluation_is_off_by_the_drift {
+    every_independent_mechanism! { a_raw_evaluation_is_off_by_the_drift }
+}

@@ -1,0 +1,9 @@
+//! Numbers that kernels were not made for: dual numbers, and numbers that count what is done with them.
+//!
+//! Their operations are not inlined: a kernel of thousands of them would take minutes to compile.
+
+mod counting;
+mod dual;
+
+pub(crate) use counting::{Counted, counted};
+pub(crate) use dual::Dual;

@@ -1,0 +1,158 @@
+//! A mechanism beside its assembler, and states for both.
+
+use holonom::{Array, Mechanism, Real, Scalar, StateParts};
+use holonom_tests::assembler::Assembler;
+use holonom_tests::bodies::{Kind, Orientation};
+use holonom_tests::states::{Spread, displace, generator, make_consistent};
+use nalgebra::{DMatrix, DVector};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+/// A mechanism that is also described for the run-time assembler.
+pub(crate) trait Scene: Mechanism + Default {
+    /// Whether the kernels take Euler parameters of any length exactly as they are. Where equations multiply vectors of two
+    /// moving bodies, the kernels use that rotation matrices are orthogonal, and are off by the drift of `|p|`.
+    const EXACT_FOR_ANY_LENGTH: bool = true;
+
+    /// The same mechanism, put together at run time.
+    fn assembler() -> Assembler;
+
+    /// The same with another reading of Euler parameters.
+    fn read_as(orientation: Orientation) -> Assembler {
+        Self::assembler().with_orientation(orientation)
+    }
+}
+
+/// `x = (q, u)` as a state over any scalar.
+pub(crate) fn state<S: Scalar, M: Mechanism>(x: &[f64]) -> M::State<S> {
+    let mut state = M::State::<S>::from_parts(Array::zeros(), Array::zeros());
+    let (q, u) = x.split_at(M::REPORT.coordinates);
+    fill(state.coordinates_mut().as_mut_slice(), q);
+    fill(state.velocities_mut().as_mut_slice(), u);
+    state
+}
+
+fn fill<S: Scalar>(target: &mut [S], values: &[f64]) {
+    assert_eq!(
+        target.len(),
+        values.len(),
+        "the assembler has other coordinates"
+    );
+    for (element, value) in target.iter_mut().zip(values) {
+        *element = S::constant(*value);
+    }
+}
+
+/// A state as `x = (q, u)`.
+pub(crate) fn flat<S: Real, M: Mechanism>(state: &M::State<S>) -> Vec<f64> {
+    let parts = [
+        state.coordinates().as_slice(),
+        state.velocities().as_slice(),
+    ];
+    parts.into_iter().flat_map(values).collect()
+}
+
+/// The values of scalars.
+pub(crate) fn values<S: Real>(elements: &[S]) -> Vec<f64> {
+    elements.iter().map(|element| element.to_f64()).collect()
+}
+
+/// `x` as the number type sees it.
+pub(crate) fn rounded<S: Real>(x: &[f64]) -> Vec<f64> {
+    x.iter().map(|value| S::constant(*value).to_f64()).collect()
+}
+
+/// The constants of a mechanism that has no parameters to refuse.
+pub(crate) fn constants<S: Scalar, M: Scene>() -> M::Constants<S> {
+    M::prepare(&M::default().parameters::<S>()).expect("the parameters are acceptable")
+}
+
+/// The Jacobian as a dense matrix, equations by velocities.
+pub(crate) fn dense<S: Real, M: Mechanism>(blocks: &[S]) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(M::REPORT.equations, M::REPORT.velocities);
+    for block in M::REPORT.blocks {
+        for row in 0..block.rows {
+            for column in 0..block.columns {
+                let value = blocks[block.offset + row * block.columns + column];
+                matrix[(block.row + row, block.column + column)] += value.to_f64();
+            }
+        }
+    }
+    matrix
+}
+
+/// How many states of a kind are tried.
+pub(crate) const STATES: usize = 1000;
+
+/// How far one state on the constraints is from the one before.
+const STRIDE: Spread = Spread {
+    position: 0.1,
+    angle: 0.4,
+    velocity: 1.0,
+    rate: 2.0,
+    norm: 0.0,
+};
+
+/// States on the constraints, in position and velocity: a walk that starts in the initial configuration and gets far
+/// from it without leaving its branch, each corrected by the assembler's own Newton method.
+pub(crate) fn consistent(scene: &Assembler, count: usize, seed: u64) -> Vec<DVector<f64>> {
+    let mut rng = generator(seed);
+    let mut states = Vec::with_capacity(count);
+    let mut at = scene.initial_state();
+    while states.len() < count {
+        let mut x = moved(scene, &at, STRIDE, &mut rng);
+        if make_consistent(scene, x.as_mut_slice()).is_some() {
+            states.push(x.clone());
+            at = x;
+        }
+    }
+    states
+}
+
+/// States up to 0.1 rad and 0.1 m off the constraints with Euler parameters of length 1: those of [`consistent`], every body
+/// moved by itself.
+pub(crate) fn violated(scene: &Assembler, count: usize, seed: u64) -> Vec<DVector<f64>> {
+    off(scene, count, seed, Spread::default())
+}
+
+/// States off the constraints by a given amount.
+pub(crate) fn off(scene: &Assembler, count: usize, seed: u64, spread: Spread) -> Vec<DVector<f64>> {
+    let mut rng = generator(seed.wrapping_add(1));
+    consistent(scene, count, seed)
+        .iter()
+        .map(|x| moved(scene, x, spread, &mut rng))
+        .collect()
+}
+
+/// A state with every body moved by a random displacement, its Euler parameters scaled, and with random velocities.
+fn moved(
+    scene: &Assembler,
+    x: &DVector<f64>,
+    spread: Spread,
+    rng: &mut ChaCha8Rng,
+) -> DVector<f64> {
+    let mut any = |size: f64| size * rng.random_range(-1.0..=1.0);
+    let mut x = x.clone();
+    let mut motion = DVector::zeros(scene.velocities());
+    for (body, _, n) in scene.bodies() {
+        let u = scene.coordinates() + n;
+        for k in 0..body.kind.velocities() {
+            // A rotation vector with components up to a / sqrt(3) is no longer than a.
+            let turns = k >= 3;
+            motion[n + k] = any(if turns {
+                spread.angle / 3_f64.sqrt()
+            } else {
+                spread.position
+            });
+            x[u + k] = any(if turns { spread.rate } else { spread.velocity });
+        }
+    }
+    displace(scene, x.as_mut_slice(), motion.as_slice());
+    for (body, q, _) in scene.bodies() {
+        if body.kind == Kind::Rigid {
+            x.fixed_rows_mut::<4>(q + 3)
+                .scale_mut(1.0 + any(spread.norm));
+        }
+    }
+    x
+}

@@ -1,0 +1,15 @@
+//! Whole runs, judged by closed forms, by published references and by what must not happen.
+
+#![forbid(unsafe_code)]
+
+mod chapter15;
+mod faults;
+mod forces;
+mod observer;
+mod order;
+mod pendulum;
+mod reactions;
+mod references;
+mod refusals;
+mod single_precision;
+mod steps;

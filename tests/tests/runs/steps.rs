@@ -1,0 +1,133 @@
+//! Single steps, for a loop of one's own, do what a run with a fixed step does.
+
+use holonom::prelude::*;
+use holonom::{DormandPrince5, Fault, FixedStep, Scheme};
+use holonom_models::RodPendulum;
+use holonom_tests::accuracy::assert_close;
+
+use crate::pendulum::flat;
+
+/// Adds up without rounding.
+const STEP: f64 = 1.0 / 128.0;
+
+fn by_steps<F: Formulation<f64>, K: Scheme<f64>>(method: F, scheme: K) -> Vec<f64> {
+    let rod = RodPendulum::default();
+    let mut stepper = Stepper::new(&rod, method, scheme).expect("acceptable");
+    let mut state = rod.described_state().expect("described");
+    for _ in 0..128 {
+        stepper.step(&mut state, STEP).expect("solvable");
+    }
+    assert_eq!(stepper.time(), 1.0);
+    flat::<f64, RodPendulum>(&state)
+}
+
+fn by_a_run<F: Formulation<f64>, K: Scheme<f64>>(
+    method: F,
+    integrator: FixedStep<f64, K>,
+) -> Vec<f64> {
+    let rod = RodPendulum::default();
+    let report = Simulation::new(&rod, method, integrator)
+        .run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()))
+        .expect("solvable");
+    assert_eq!((report.accepted, report.rejected), (128, 0));
+    flat::<f64, RodPendulum>(&report.state)
+}
+
+#[test]
+fn single_steps_equal_a_run() {
+    assert_eq!(
+        by_steps(StandardLagrange, Rk4),
+        by_a_run(StandardLagrange, Rk4::every(STEP))
+    );
+    assert_eq!(
+        by_steps(Baumgarte::default(), Rk4),
+        by_a_run(Baumgarte::default(), Rk4::every(STEP))
+    );
+    assert_eq!(
+        by_steps(Penalty::default(), DormandPrince5),
+        by_a_run(Penalty::default(), DormandPrince::every(STEP))
+    );
+    assert_eq!(
+        by_steps(AugmentedLagrangian::default(), DormandPrince5),
+        by_a_run(AugmentedLagrangian::default(), DormandPrince::every(STEP))
+    );
+}
+
+#[test]
+fn a_run_with_another_start_and_a_stepper_there_agree() {
+    let rod = RodPendulum::default();
+    let handles = RodPendulum::HANDLES;
+    let mut state = rod.described_state().expect("described");
+    RodPendulum::set_angular_velocity(
+        &mut state,
+        handles.rod,
+        nalgebra::Vector3::new(-2.0, 0.0, 0.0),
+    );
+    rod.assemble(5.0, &mut state).expect("assembles");
+    let report = Simulation::new(&rod, StandardLagrange, Rk4::every(STEP))
+        .initial_state(state)
+        .run(5.0..=5.25, every_step(), |_| ControlFlow::Continue(()))
+        .expect("solvable");
+    let mut stepper = Stepper::new(&rod, StandardLagrange, Rk4)
+        .expect("acceptable")
+        .starting_at(5.0);
+    for _ in 0..32 {
+        stepper.step(&mut state, STEP).expect("solvable");
+    }
+    assert_eq!(stepper.time(), 5.25);
+    assert_eq!(report.state, state);
+}
+
+#[test]
+fn both_readings_of_euler_parameters_agree_to_the_order_of_the_method() {
+    /// At 1/128 s and 5 rad/s. `|p|^2` differs from 1 by `z^2 = 4e-4`, `z = w h / 2`, at the inner stages of a step, which
+    /// cancels to the order of the method, and by `z^6 / 72 = 1e-12` after it.
+    const TRUNCATION: f64 = 1e-7;
+    let rod = RodPendulum::default();
+    let mut stepper = Stepper::new(&rod, StandardLagrange, Rk4)
+        .expect("acceptable")
+        .orientation::<Raw>();
+    let mut state = rod.described_state().expect("described");
+    for _ in 0..128 {
+        stepper.step(&mut state, STEP).expect("solvable");
+    }
+    let raw = flat::<f64, RodPendulum>(&state);
+    assert_close("raw", &raw, &by_steps(StandardLagrange, Rk4), TRUNCATION);
+}
+
+#[test]
+fn a_step_that_fails_leaves_state_and_time() {
+    let rod = RodPendulum::default();
+    let mut stepper = Stepper::new(&rod, StandardLagrange, Rk4).expect("acceptable");
+    let mut state = rod.described_state().expect("described");
+    stepper.step(&mut state, 0.125).expect("solvable");
+    let before = state;
+    for dt in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-20] {
+        let fault = stepper.step(&mut state, dt).expect_err("no step");
+        assert!(matches!(fault, Fault::StepSizeUnderflow { .. }), "{fault}");
+        assert_eq!((stepper.time(), state), (0.125, before));
+    }
+    // So long that the numbers overflow.
+    let fault = stepper.step(&mut state, 1e200).expect_err("overflow");
+    assert!(
+        matches!(fault, Fault::RatesNotFinite | Fault::StateNotFinite),
+        "{fault}"
+    );
+    assert_eq!((stepper.time(), state), (0.125, before));
+    stepper.step(&mut state, 0.125).expect("it still works");
+}
+
+#[test]
+fn corrected_steps_stay_on_the_constraints() {
+    let rod = RodPendulum::default();
+    let mut stepper = Stepper::new(&rod, StandardLagrange, Rk4)
+        .expect("acceptable")
+        .projection(Projection::default());
+    let mut state = rod.described_state().expect("described");
+    for _ in 0..200 {
+        stepper.step(&mut state, 0.02).expect("solvable");
+        let view = stepper.view(&state);
+        // Round-off of 1 m and 5 m/s, squared.
+        assert!(view.violation() <= 1e-29 && view.velocity_violation() <= 1e-27);
+    }
+}
