@@ -202,11 +202,12 @@ impl<S: Scalar, M: Mechanism> Debug for Evaluation<S, M> {
 
 /// The smallest relative pivot of a factorisation and its joint, per lane.
 ///
-/// A relative pivot is a pivot over the same diagonal element before other rows were eliminated: 1 for a row that
-/// is orthogonal to the others (in the metric of the inverse mass matrix), 0 for a row that depends on them.
+/// A relative pivot is the pivot of a row over what it would be without the other rows: 1 for a row that is orthogonal to the
+/// others (in the metric of the inverse mass matrix), 0 for a row that depends on them. Where two rows determine two components of an
+/// angular acceleration, it is their determinant over that of the described configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pivot<S> {
-    /// In `0..=1`; 1 where no pivot had to be checked.
+    /// About 1 or less; 1 where no pivot had to be checked.
     pub relative: S,
     /// The index of the joint, as a number.
     pub joint: S,
@@ -234,6 +235,8 @@ impl<S: Scalar> Pivot<S> {
     #[inline(always)]
     #[must_use]
     pub fn and(self, relative: S, joint: usize) -> Self {
+        // Zero over zero is a row that vanishes.
+        let relative = relative.select(S::constant(f64::INFINITY), relative, S::zero());
         Self {
             relative: self.relative.min(relative),
             joint: relative.select(self.relative, S::constant(joint as f64), self.joint),

@@ -28,9 +28,7 @@ fn states<M: Scene>(count: usize) -> Vec<DVector<f64>> {
     let scene = M::assembler();
     let mut states = consistent(&scene, count, 7);
     states.extend(violated(&scene, count, 8));
-    if M::EXACT_FOR_ANY_LENGTH {
-        states.extend(off(&scene, count, 9, DRIFTED));
-    }
+    states.extend(off(&scene, count, 9, DRIFTED));
     states
 }
 

@@ -67,15 +67,9 @@ fn of_raw_kernels<M: Scene>(norm: f64) -> f64 {
 }
 
 fn raw_kernels_take_p_as_it_is<M: Scene>() {
-    /// What a drift may be magnified by: four factors of `|p|^2`.
-    const FACTOR: f64 = 8.0;
     let [near, far] = [1e-6, 0.05].map(of_raw_kernels::<M>);
     println!("raw kernels: {near:e} at a drift of 1e-6, {far:e} at 0.05");
-    if M::EXACT_FOR_ANY_LENGTH {
-        assert!(near <= DOUBLE && far <= DOUBLE);
-    } else {
-        assert!(near <= FACTOR * 1e-6 && far <= FACTOR * 0.05);
-    }
+    assert!(near <= DOUBLE && far <= DOUBLE);
 }
 
 /// The state with Euler parameters of length 1.

@@ -10,10 +10,6 @@ use rand_chacha::ChaCha8Rng;
 
 /// A mechanism that is also described for the run-time assembler.
 pub(crate) trait Scene: Mechanism + Default {
-    /// Whether the kernels take Euler parameters of any length exactly as they are. Where equations multiply vectors of two
-    /// moving bodies, the kernels use that rotation matrices are orthogonal, and are off by the drift of `|p|`.
-    const EXACT_FOR_ANY_LENGTH: bool = true;
-
     /// The same mechanism, put together at run time.
     fn assembler() -> Assembler;
 

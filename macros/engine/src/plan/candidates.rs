@@ -102,7 +102,7 @@ fn plan(model: &Model, tree: &super::order::Tree, strategy: Strategy) -> Plan {
     let translation = (0..model.bodies.len())
         .map(|body| frame_of(body, strategy.body_accelerations))
         .collect();
-    let mut scene = Scene::new(model, Reading::Raw);
+    let mut scene = Scene::for_solution(model, Reading::Raw);
     let last_body = |joint: usize| {
         model.joints[joint]
             .bodies

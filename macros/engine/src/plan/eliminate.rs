@@ -43,6 +43,21 @@ impl Symmetric {
         self.set(k, l, sum);
     }
 
+    /// `-sum_l a_kl^2 / a_ll` over some unknowns: in the system as assembled, what the diagonal element of a multiplier becomes
+    /// by accelerations that do not know of each other.
+    fn schur_diagonal(&self, arena: &mut Arena, k: usize, over: &[usize]) -> Expr {
+        let mut sum = Arena::ZERO;
+        for (&l, &entry) in self.rows[k]
+            .iter()
+            .filter(|(l, _)| **l != k && over.contains(l))
+        {
+            let scaled = arena.div(entry, self.get(l, l));
+            let term = arena.mul(entry, scaled);
+            sum = arena.sub(sum, term);
+        }
+        sum
+    }
+
     fn neighbours(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
         self.rows[k].keys().copied()
     }
@@ -112,14 +127,15 @@ impl Inverse {
     }
 }
 
-/// A multiplier's pivot before and after other rows were eliminated.
+/// A pivot that depends on the state, and what it is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Check {
     /// The unknown.
     pub unknown: usize,
     /// The pivot.
     pub pivot: Expr,
-    /// The same diagonal element before any multiplier was eliminated.
+    /// What it is compared with: for a multiplier its diagonal element of `D M^-1 D^T` over the bodies eliminated so far, for
+    /// a forbidden motion the determinant at the start.
     pub before: Expr,
 }
 
@@ -143,13 +159,14 @@ pub fn factorise(
     let mut determinants = determinants.iter();
     let mut steps = Vec::new();
     let mut checks = Vec::new();
-    let mut before: BTreeMap<usize, Expr> = BTreeMap::new();
+    let original = matrix.clone();
+    let mut eliminated: Vec<usize> = Vec::new();
     for &pivot in pivots {
         let unknowns = pivot.unknowns();
         if let Pivot::Multiplier(k) = pivot {
             let value = matrix.get(k, k);
             if arena.literal(value).is_none_or(|value| value == 0.0) {
-                let before = before.get(&k).copied().unwrap_or(value);
+                let before = original.schur_diagonal(arena, k, &eliminated);
                 checks.push(Check {
                     unknown: k,
                     pivot: value,
@@ -195,15 +212,13 @@ pub fn factorise(
                     let product = arena.mul(row[p], matrix.get(j, unknown));
                     update = arena.add(update, product);
                 }
-                if matches!(pivot, Pivot::Multiplier(_)) && *i == j && update != Arena::ZERO {
-                    before.entry(j).or_insert(matrix.get(j, j));
-                }
                 matrix.add(arena, *i, j, -update);
             }
         }
         for &unknown in &unknowns {
             matrix.remove(unknown);
         }
+        eliminated.extend(&unknowns);
         steps.push(Step {
             unknowns,
             inverse,

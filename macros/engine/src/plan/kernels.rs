@@ -35,7 +35,7 @@ pub struct Evaluation {
 /// A pivot that is checked at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PivotCheck {
-    /// The joint; the output is the pivot over what it was before other rows were eliminated.
+    /// The joint; the output is the pivot over what it is compared with.
     Relative(usize),
     /// The joint; the output is a pivot that nothing was subtracted from, so that only zero is bad.
     Nonzero(usize),
@@ -146,7 +146,7 @@ fn kinds(model: &Model) -> Vec<BodyKind> {
 }
 
 fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<Expr>) -> Kernel {
-    let mut scene = Scene::new(model, Reading::Raw);
+    let mut scene = Scene::new(model);
     let outputs = outputs(&mut scene);
     Kernel {
         arena: scene.space.arena,
@@ -163,7 +163,7 @@ fn rows(model: &Model, factors: [Expr; 3]) -> Kernel {
 }
 
 fn jacobian(model: &Model) -> (Kernel, Vec<Block>) {
-    let mut scene = Scene::new(model, Reading::Raw);
+    let mut scene = Scene::new(model);
     let mut outputs = Vec::new();
     let mut blocks = Vec::new();
     for (joint, described) in model.joints.iter().enumerate() {
@@ -384,7 +384,7 @@ fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotC
     } in system.checks(scene)
     {
         let joint = joint_of(scene, unknown);
-        if pivot == before {
+        if pivot.abs() == before.abs() {
             pivots.push(pivot);
             checks.push(PivotCheck::Nonzero(joint));
         } else {

@@ -139,9 +139,13 @@ fn with_diagonal(
 }
 
 impl Scene {
-    /// The scene of a model.
+    /// The scene of a model with Euler parameters as they are, exact for any length of them.
     #[must_use]
-    pub fn new(model: &Model, reading: Reading) -> Self {
+    pub fn new(model: &Model) -> Self {
+        Self::build(model, Reading::Raw, true)
+    }
+
+    fn build(model: &Model, reading: Reading, exact: bool) -> Self {
         let layout = model.layout();
         let mut arena = Arena::new();
         let mut rotations = Vec::new();
@@ -190,6 +194,9 @@ impl Scene {
         let gravity = triple(&mut arena, model.gravity);
         let copies = joint_copies(&mut arena, model);
         let mut space = Space::new(arena, rotations);
+        if exact {
+            space = space.exact();
+        }
         let motion = Motion {
             position: inputs
                 .iter()
@@ -239,12 +246,13 @@ impl Scene {
         }
     }
 
-    /// The scene of a model for a solution of its equations: every entry of a rotation matrix is its own cofactor.
+    /// The scene of a model for a solution of its equations: vectors are computed in whatever axes are cheapest, and every
+    /// entry of a rotation matrix is its own cofactor.
     ///
     /// Exact for `p` of length 1; elsewhere, where `A` is read raw, it differs by the drift of `|p|`, as `A^T A = I` does.
     #[must_use]
     pub fn for_solution(model: &Model, reading: Reading) -> Self {
-        let mut scene = Self::new(model, reading);
+        let mut scene = Self::build(model, reading, false);
         for body in 0..model.bodies.len() {
             let Some(a) = scene.space.rotation(body).copied() else {
                 continue;

@@ -120,7 +120,7 @@ impl VectorExpr {
             }
             Self::Cross(a, b) => {
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
-                space.cross(a, b)
+                space.cross(Frame::Global, a, b)
             }
         }
     }
@@ -131,7 +131,7 @@ impl VectorExpr {
             Self::Fixed(None, _) | Self::Point(None, _) => space.native(Frame::Global, ZERO),
             Self::Fixed(Some(body), s) => {
                 let vector = space.native(Frame::Body(*body), *s);
-                space.cross(motion.spin[*body], vector)
+                space.cross(Frame::Body(*body), motion.spin[*body], vector)
             }
             Self::Point(Some(body), s) => {
                 let arm = Self::Fixed(Some(*body), *s).rate(space, motion);
@@ -152,7 +152,10 @@ impl VectorExpr {
             Self::Cross(a, b) => {
                 let (da, db) = (a.rate(space, motion), b.rate(space, motion));
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
-                let (first, second) = (space.cross(da, b), space.cross(a, db));
+                let (first, second) = (
+                    space.cross(Frame::Global, da, b),
+                    space.cross(Frame::Global, a, db),
+                );
                 space.sum([(Arena::ONE, first), (Arena::ONE, second)])
             }
         }
@@ -189,9 +192,9 @@ impl VectorExpr {
                 let (da, db) = (a.rate(space, motion), b.rate(space, motion));
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
                 let (first, mixed, last) = (
-                    space.cross(dda, b),
-                    space.cross(da, db),
-                    space.cross(a, ddb),
+                    space.cross(Frame::Global, dda, b),
+                    space.cross(Frame::Global, da, db),
+                    space.cross(Frame::Global, a, ddb),
                 );
                 let two = space.arena.constant(2.0);
                 space.sum([(Arena::ONE, first), (two, mixed), (Arena::ONE, last)])
@@ -213,7 +216,7 @@ impl VectorExpr {
             Self::Fixed(Some(body), s) => {
                 // c . (dw x s) = dw . (s x c)
                 let vector = space.native(Frame::Body(*body), *s);
-                let moment = space.cross(vector, covector);
+                let moment = space.cross(Frame::Body(*body), vector, covector);
                 gradient
                     .moment
                     .entry(*body)
@@ -246,7 +249,10 @@ impl VectorExpr {
             Self::Cross(a, b) => {
                 // c . (da x b) = da . (b x c) and c . (a x db) = db . (c x a)
                 let (u, v) = (a.value(space, motion), b.value(space, motion));
-                let (on_a, on_b) = (space.cross(v, covector), space.cross(covector, u));
+                let (on_a, on_b) = (
+                    space.cross(Frame::Global, v, covector),
+                    space.cross(Frame::Global, covector, u),
+                );
                 a.pull_back(space, motion, factor, on_a, gradient);
                 b.pull_back(space, motion, factor, on_b, gradient);
             }

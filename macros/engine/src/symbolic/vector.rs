@@ -3,6 +3,9 @@
 //! A vector is one thing whatever axes it is written in; its components are computed on demand, once per frame, from where
 //! they are cheapest. A vector given in body axes and asked for in body axes never passes through `A A^T`: this is how
 //! `A^T A = I` holds without ever being written down.
+//!
+//! That is true where `A` is a rotation. A space that has to be exact for `A` of any scale ([`Space::exact`]) computes every
+//! vector in its home, the frame in which it is defined, and turns it from there.
 
 use std::collections::HashMap;
 
@@ -33,8 +36,8 @@ enum Vector {
     Native(Frame, Triple),
     /// A sum of multiples.
     Sum(Vec<(Expr, VectorId)>),
-    /// A cross product.
-    Cross(VectorId, VectorId),
+    /// A cross product, and the frame in which it is defined.
+    Cross(Frame, VectorId, VectorId),
 }
 
 /// A place in the history of a space, to come back to.
@@ -56,6 +59,8 @@ pub struct Space {
     history: Vec<(VectorId, Frame)>,
     /// `A` of every body, from body to global axes, row by row; `None` for a body without orientation.
     rotations: Vec<Option<[Triple; 3]>>,
+    /// Whether `A` may be any multiple of a rotation.
+    exact: bool,
 }
 
 impl Space {
@@ -67,6 +72,13 @@ impl Space {
             rotations,
             ..Self::default()
         }
+    }
+
+    /// The same space, exact where `A` is a multiple of a rotation. To be called before anything is computed.
+    #[must_use]
+    pub fn exact(mut self) -> Self {
+        self.exact = true;
+        self
     }
 
     /// The rotation matrix of a body.
@@ -174,12 +186,28 @@ impl Space {
         self.sum([(factor, vector)])
     }
 
-    /// `a x b`.
-    pub fn cross(&mut self, a: VectorId, b: VectorId) -> VectorId {
+    /// `a x b`, defined in a frame: the axes of a body for what turns with it, else global.
+    pub fn cross(&mut self, home: Frame, a: VectorId, b: VectorId) -> VectorId {
         if self.is_zero(a) || self.is_zero(b) || a == b {
             return self.native(Frame::Global, ZERO);
         }
-        self.intern(Vector::Cross(a, b))
+        self.intern(Vector::Cross(home, a, b))
+    }
+
+    /// The frame in which a vector is defined.
+    fn home(&self, vector: VectorId) -> Frame {
+        match &self.vectors[vector.0 as usize] {
+            Vector::Native(frame, _) | Vector::Cross(frame, ..) => *frame,
+            Vector::Sum(terms) => {
+                let mut homes = terms.iter().map(|&(_, term)| self.home(term));
+                let first = homes.next().unwrap_or(Frame::Global);
+                if homes.all(|home| home == first) {
+                    first
+                } else {
+                    Frame::Global
+                }
+            }
+        }
     }
 
     /// The frames in which parts of the vector are known.
@@ -196,7 +224,7 @@ impl Space {
                     self.native_frames(term, frames);
                 }
             }
-            Vector::Cross(a, b) => {
+            Vector::Cross(_, a, b) => {
                 self.native_frames(*a, frames);
                 self.native_frames(*b, frames);
             }
@@ -209,7 +237,11 @@ impl Space {
             return known;
         }
         let mut frames = vec![frame];
-        self.native_frames(vector, &mut frames);
+        if self.exact {
+            frames = vec![self.home(vector)];
+        } else {
+            self.native_frames(vector, &mut frames);
+        }
         let components = self
             .cheapest(&frames, |space, within| {
                 let components = space.components_within(vector, within);
@@ -236,7 +268,7 @@ impl Space {
                 }
                 sum
             }
-            Vector::Cross(a, b) => {
+            Vector::Cross(_, a, b) => {
                 let a = self.components(a, frame);
                 let b = self.components(b, frame);
                 cross(&mut self.arena, a, b)
@@ -274,8 +306,14 @@ impl Space {
             return Arena::ZERO;
         }
         let mut frames = Vec::new();
-        self.native_frames(a, &mut frames);
-        self.native_frames(b, &mut frames);
+        match (self.exact, self.home(a), self.home(b)) {
+            (true, first, second) if first == second => frames.push(Frame::Global),
+            (true, first, second) => frames.extend([first, second]),
+            (false, ..) => {
+                self.native_frames(a, &mut frames);
+                self.native_frames(b, &mut frames);
+            }
+        }
         self.cheapest(&frames, |space, frame| {
             let a = space.components(a, frame);
             let b = space.components(b, frame);

@@ -89,8 +89,6 @@ pub(crate) struct ObliqueChain {
 }
 
 impl Scene for ObliqueChain {
-    const EXACT_FOR_ANY_LENGTH: bool = false;
-
     fn assembler() -> Assembler {
         let mut scene = Assembler::new([0.0, 0.0, -9.81]);
         let first = scene.add_body(

@@ -50,8 +50,6 @@ pub(crate) struct Tethered {
 }
 
 impl Scene for Tethered {
-    const EXACT_FOR_ANY_LENGTH: bool = false;
-
     fn assembler() -> Assembler {
         let mut scene = Assembler::new([0.0, -1.0, -9.81]);
         let plate = scene.add_body(
