@@ -13,8 +13,8 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
     let layout = model.layout();
     let mut lines = vec![
         format!(
-            "Generated kernels: {} coordinates, {} velocities, {} constraint equations, {} degrees of freedom (velocities \
-             less equations).",
+            "Generated kernels: {} coordinates, {} velocities, {} constraint equations; degrees of freedom (velocities less \
+             equations): {}.",
             layout.coordinates,
             layout.velocities,
             layout.rows,
