@@ -228,7 +228,7 @@ where
 {
     type State = M::State<S>;
 
-    // Part of every stage of an integrator: rates that pass through memory on the way into the next stage cost it 15 %.
+    // Part of every stage of an integrator: rates then reach the next stage without passing through memory.
     #[inline(always)]
     fn rates(&mut self, time: S, state: &M::State<S>) -> Result<M::State<S>, Fault> {
         if !(A::PRESENT || F::ITERATED) {

@@ -15,7 +15,6 @@ pub struct ParameterError {
 
 /// What is wrong with a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u64)] // as for `Fault`
 pub enum ParameterFault {
     /// NaN or infinite.
     NotFinite,
@@ -45,9 +44,6 @@ impl core::error::Error for ParameterError {}
 
 /// Why an evaluation, a step or a correction could not be done.
 #[derive(Clone, Copy, Debug, PartialEq)]
-// Whole words: rates come back as `Result<_, Fault>`, and single bytes of a fault would split the numbers in their place
-// when they are moved, 3 ns an evaluation.
-#[repr(u64)]
 pub enum Fault {
     /// The state holds NaN or infinity.
     StateNotFinite,

@@ -144,6 +144,69 @@ fn with_a_compliance_redundant_equations_are_solved() {
     .expect("solvable");
 }
 
+/// A parallelogram of spatial hinges: three rows depend on the others.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, -9.81, 0.0])]
+struct Parallelogram {
+    #[body(mass = 1.0, inertia = [0.08, 0.001, 0.08], position = [0.0, 0.5, 0.0])]
+    left: Body,
+    #[body(mass = 1.0, inertia = [0.001, 0.08, 0.08], position = [0.5, 1.0, 0.0])]
+    top: Body,
+    #[body(mass = 1.0, inertia = [0.08, 0.001, 0.08], position = [1.0, 0.5, 0.0])]
+    right: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [left, top], point = [0.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    b: Revolute,
+    #[joint(between = [top, right], point = [1.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    c: Revolute,
+    #[joint(between = [ground, right], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    d: Revolute,
+}
+
+/// The same in an oblique plane: what cancels leaves round-off behind.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81])]
+struct ObliqueParallelogram {
+    #[body(mass = 1.0, inertia = [0.08, 0.06, 0.03], position = [0.0, 0.0, 0.5])]
+    left: Body,
+    #[body(mass = 1.3, inertia = [0.05, 0.06, 0.07], position = [0.3, 0.4, 1.0])]
+    top: Body,
+    #[body(mass = 0.9, inertia = [0.08, 0.06, 0.03], position = [0.6, 0.8, 0.5])]
+    right: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [0.8, -0.6, 0.0])]
+    a: Revolute,
+    #[joint(between = [left, top], point = [0.0, 0.0, 1.0], axis = [0.8, -0.6, 0.0])]
+    b: Revolute,
+    #[joint(between = [top, right], point = [0.6, 0.8, 1.0], axis = [0.8, -0.6, 0.0])]
+    c: Revolute,
+    #[joint(between = [ground, right], point = [0.6, 0.8, 0.0], axis = [0.8, -0.6, 0.0])]
+    d: Revolute,
+}
+
+fn names_a_joint<M: Mechanism + Default>() {
+    let error = Simulation::new(&M::default(), StandardLagrange, Rk4::every(0.01))
+        .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
+        .expect_err("3 of 20 equations are redundant");
+    assert!(
+        matches!(
+            error.fault,
+            Fault::Singular {
+                name: "a" | "b" | "c" | "d",
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert_eq!(error.time, 0.0);
+}
+
+#[test]
+fn a_redundant_loop_names_a_joint() {
+    names_a_joint::<Parallelogram>();
+    names_a_joint::<ObliqueParallelogram>();
+}
+
 #[test]
 fn a_singular_configuration_is_told_where_it_is_met() {
     let model = Bead::default();

@@ -128,8 +128,7 @@ fn load_input(input: Input) -> TokenStream {
         Input::RateGain => return field("rate"),
         Input::PositionGain => return field("position"),
         Input::Compliance => return field("compliance"),
-        // Symbols are constants: only `prepare` reads them.
-        Input::Symbol(_) => return quote!(S::constant(0.0)),
+        Input::Symbol(_) => unreachable!("symbols are constants: only `prepare` reads them"),
     };
     let (array, place) = (local(array), place as usize);
     quote!(#array[#place])
@@ -157,8 +156,7 @@ impl Environment for Preparation<'_> {
     }
 
     fn earlier(&mut self, _: &Arena, _: Expr) -> TokenStream {
-        // Nothing is earlier than a parameter but literals, which are written in place.
-        quote!(S::constant(0.0))
+        unreachable!("nothing is earlier than a parameter but literals, which are written in place")
     }
 }
 

@@ -48,9 +48,9 @@ const STRATEGIES: [Strategy; 7] = {
     ]
 };
 
-/// The cheapest plan for a model, and its operations for the standard evaluation.
+/// The cheapest plan for a model, by the operations of its standard evaluation.
 #[must_use]
-pub fn choose(model: &Model) -> (Plan, usize) {
+pub fn choose(model: &Model) -> Plan {
     let tree = tree(model);
     let mut best: Option<(Plan, usize)> = None;
     for strategy in STRATEGIES {
@@ -63,7 +63,7 @@ pub fn choose(model: &Model) -> (Plan, usize) {
             best = Some((plan, cost));
         }
     }
-    best.expect("there are strategies")
+    best.expect("there are strategies").0
 }
 
 /// The operations of the standard evaluation with a plan.

@@ -96,7 +96,7 @@ pub struct Kernels {
     pub angles: Vec<(usize, Kernel)>,
     /// The reaction point of each joint on each of its bodies.
     pub points: Vec<(usize, usize, Kernel)>,
-    /// Masses and moments of inertia, axes squared: what `prepare` checks, per body.
+    /// The fused evaluations, for all terms and both readings of Euler parameters.
     pub evaluations: Vec<Evaluation>,
     /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
@@ -108,7 +108,7 @@ impl Kernels {
     /// Builds all kernels of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        let (plan, _) = choose(model);
+        let plan = choose(model);
         let evaluations = [Reading::Raw, Reading::Normalised]
             .into_iter()
             .flat_map(|reading| Terms::ALL.map(|terms| (reading, terms)))

@@ -237,12 +237,6 @@ impl System {
         }
         forces
     }
-
-    /// The plan.
-    #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
 }
 
 /// `r'' = (F - D^T lambda) / m`.

@@ -270,11 +270,12 @@ impl Arena {
         let stage = match node {
             Node::Constant(_) => Stage::Literal,
             Node::Input(input) => input.stage(),
-            _ => node
-                .operands()
-                .map(|operand| self.stage(operand))
-                .max()
-                .unwrap_or(Stage::Literal),
+            // An operation on literals that did not fold, such as 1/0, has no number: it is left to the kernels, whose results
+            // show it.
+            _ => match node.operands().map(|operand| self.stage(operand)).max() {
+                None | Some(Stage::Literal) => Stage::State,
+                Some(stage) => stage,
+            },
         };
         self.nodes.push(node);
         self.stages.push(stage);
@@ -519,6 +520,14 @@ mod tests {
         let sum = arena.add(x, y);
         assert_eq!(tried.node(), sum.node(), "the place is free again");
         assert!(matches!(arena.get(sum), Node::Add(..)));
+    }
+
+    #[test]
+    fn what_has_no_number_is_left_to_the_kernels() {
+        let mut arena = Arena::new();
+        let infinite = arena.reciprocal(Arena::ZERO);
+        assert_eq!(arena.literal(infinite), None);
+        assert_eq!(arena.stage(infinite), Stage::State);
     }
 
     #[test]

@@ -428,9 +428,8 @@ impl Binder<'_> {
                 Box::new(self.vector(arena, a)),
                 Box::new(self.vector(arena, b)),
             ),
-            // Shapes were checked where the joint is defined.
             Term::Number(_) | Term::Scalar(_) | Term::Dot(..) => {
-                VectorExpr::Fixed(None, super::vector::ZERO)
+                unreachable!("shapes are checked where the joint is defined")
             }
         }
     }
@@ -459,7 +458,11 @@ impl Binder<'_> {
                 Box::new(self.vector(arena, a)),
                 Box::new(self.vector(arena, b)),
             ),
-            _ => ScalarExpr::Constant(Arena::ZERO),
+            Term::Point { .. }
+            | Term::Fixed { .. }
+            | Term::Normal { .. }
+            | Term::Origin(_)
+            | Term::Cross(..) => unreachable!("shapes are checked where the joint is defined"),
         }
     }
 }
