@@ -105,7 +105,8 @@ pub struct Kernel {
     pub operations: Operations,
 }
 
-/// A count of operations. One of `+ - * / sqrt` is one operation, a fused multiply-add is two, signs are free.
+/// A count of operations. One of `+ - * / sqrt` is one operation, and so is the call of a function, whatever it takes; a fused
+/// multiply-add is two; signs, comparisons and rounding to an integer are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
     /// Additions and subtractions.
@@ -116,6 +117,8 @@ pub struct Operations {
     pub divisions: usize,
     /// Square roots.
     pub square_roots: usize,
+    /// Calls of `sin`, `cos`, `exp` and `atan2`.
+    pub functions: usize,
     /// The longest chain of dependent operations.
     pub depth: usize,
 }
@@ -124,6 +127,6 @@ impl Operations {
     /// All operations together.
     #[must_use]
     pub const fn total(&self) -> usize {
-        self.additions + self.multiplications + self.divisions + self.square_roots
+        self.additions + self.multiplications + self.divisions + self.square_roots + self.functions
     }
 }

@@ -161,6 +161,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
                     multiplications: #multiplications,
                     divisions: #divisions,
                     square_roots: #square_roots,
+                    functions: 0,
                     depth: #depth,
                 },
             }

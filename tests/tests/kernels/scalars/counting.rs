@@ -12,6 +12,7 @@ thread_local! {
             multiplications: 0,
             divisions: 0,
             square_roots: 0,
+            functions: 0,
             depth: 0,
         })
     };
