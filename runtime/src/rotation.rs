@@ -90,7 +90,8 @@ pub(crate) fn normalised<S: Scalar>(p: &[S; 4]) -> [S; 4] {
 pub(crate) fn from_rotation_vector<S: Real>(vector: &[S; 3]) -> [S; 4] {
     let [x, y, z] = *vector;
     let angle = (x * x + y * y + z * z).sqrt();
-    let (sine, cosine) = (S::constant(0.5) * angle).sin_cos();
+    let half = S::constant(0.5) * angle;
+    let (sine, cosine) = (half.sin(), half.cos());
     let factor = if angle > S::zero() {
         sine.quotient(angle)
     } else {

@@ -9,7 +9,11 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 /// A number that generated kernels compute with: no branches, no conversions, no panics.
 ///
-/// NaN must travel: every operation with a NaN operand yields NaN, [`Scalar::min`] included.
+/// NaN must travel: every operation with a NaN operand yields NaN, [`Scalar::min`] and the functions included.
+///
+/// Most kernels need no function but the square root. [`Scalar::sin`], [`Scalar::cos`] and [`Scalar::exp`] are called where a definition
+/// or a mechanism writes them: drivers, force laws, functions of time. [`Scalar::atan2`] and [`Scalar::round`] make an angle that counts turns
+/// from the orientations of two bodies and from its auxiliary variable.
 pub trait Scalar:
     Copy
     + Debug
@@ -41,6 +45,21 @@ pub trait Scalar:
     /// `less` where `self < bound`, `otherwise` where not (also where the comparison fails for NaN).
     fn select(self, bound: Self, less: Self, otherwise: Self) -> Self;
 
+    /// The sine of an angle (rad); NaN for an infinite one.
+    fn sin(self) -> Self;
+
+    /// The cosine of an angle (rad); NaN for an infinite one.
+    fn cos(self) -> Self;
+
+    /// The exponential function; infinite beyond the range of numbers.
+    fn exp(self) -> Self;
+
+    /// The angle (rad) of the point `(cosine, self)`, from `-pi` to `pi`; zero for the point `(0, 0)`.
+    fn atan2(self, cosine: Self) -> Self;
+
+    /// The nearest integer, halves away from zero. Piecewise constant: a dual number has derivative zero here, at the jumps too.
+    fn round(self) -> Self;
+
     /// Zero.
     fn zero() -> Self {
         Self::constant(0.0)
@@ -62,12 +81,6 @@ pub trait Real: Scalar + PartialOrd {
 
     /// Whether the number is neither infinite nor NaN.
     fn is_finite(self) -> bool;
-
-    /// The angle of the point `(cosine, self)` in the range `-pi..=pi`.
-    fn atan2(self, cosine: Self) -> Self;
-
-    /// Sine and cosine of an angle in radians.
-    fn sin_cos(self) -> (Self, Self);
 
     /// `self` raised to a real power.
     fn powf(self, exponent: f64) -> Self;
@@ -110,6 +123,9 @@ pub(crate) mod elementary {
         (@call cos32, $x:ident) => { $x.cos() };
         (@call tan64, $x:ident) => { $x.tan() };
         (@call exp64, $x:ident) => { $x.exp() };
+        (@call exp32, $x:ident) => { $x.exp() };
+        (@call round64, $x:ident) => { $x.round() };
+        (@call round32, $x:ident) => { $x.round() };
         (@call atan2_64, $x:ident, $y:ident) => { $x.atan2($y) };
         (@call atan2_32, $x:ident, $y:ident) => { $x.atan2($y) };
         (@call pow64, $x:ident, $y:ident) => { $x.powf($y) };
@@ -124,6 +140,9 @@ pub(crate) mod elementary {
         cos32, f32, cosf, (x);
         tan64, f64, tan, (x);
         exp64, f64, exp, (x);
+        exp32, f32, expf, (x);
+        round64, f64, round, (x);
+        round32, f32, roundf, (x);
         atan2_64, f64, atan2, (x, y);
         atan2_32, f32, atan2f, (x, y);
         pow64, f64, pow, (x, y);
@@ -132,7 +151,7 @@ pub(crate) mod elementary {
 }
 
 macro_rules! real {
-    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $atan2:ident, $pow:ident) => {
+    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident) => {
         impl Scalar for $float {
             #[inline(always)]
             fn constant(value: f64) -> Self {
@@ -183,6 +202,26 @@ macro_rules! real {
             fn select(self, bound: Self, less: Self, otherwise: Self) -> Self {
                 if self < bound { less } else { otherwise }
             }
+
+            fn sin(self) -> Self {
+                elementary::$sin(self)
+            }
+
+            fn cos(self) -> Self {
+                elementary::$cos(self)
+            }
+
+            fn exp(self) -> Self {
+                elementary::$exp(self)
+            }
+
+            fn atan2(self, cosine: Self) -> Self {
+                elementary::$atan2(self, cosine)
+            }
+
+            fn round(self) -> Self {
+                elementary::$round(self)
+            }
         }
 
         impl Real for $float {
@@ -194,14 +233,6 @@ macro_rules! real {
 
             fn is_finite(self) -> bool {
                 <$float>::is_finite(self)
-            }
-
-            fn atan2(self, cosine: Self) -> Self {
-                elementary::$atan2(self, cosine)
-            }
-
-            fn sin_cos(self) -> (Self, Self) {
-                (elementary::$sin(self), elementary::$cos(self))
             }
 
             fn powf(self, exponent: f64) -> Self {
@@ -219,8 +250,8 @@ macro_rules! real {
     };
 }
 
-real!(f64, sqrt64, sin64, cos64, atan2_64, pow64);
-real!(f32, sqrt32, sin32, cos32, atan2_32, pow32);
+real!(f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64);
+real!(f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32);
 
 #[cfg(test)]
 mod tests {
@@ -232,5 +263,43 @@ mod tests {
         assert!(Scalar::min(f64::NAN, 1.0).is_nan());
         assert!(Scalar::min(1.0, f64::NAN).is_nan());
         assert!(Real::max(1.0, f64::NAN).is_nan());
+    }
+
+    fn functions_of<S: Real>(tolerance: S) {
+        let near = |a: S, b: f64| (a - S::constant(b)).abs() < tolerance;
+        let half = S::constant(0.5);
+        assert!(near(half.sin(), 0.479_425_538_604_203));
+        assert!(near(half.cos(), 0.877_582_561_890_372_8));
+        assert!(near(half.exp(), 1.648_721_270_700_128_2));
+        assert!(near(S::one().atan2(-S::one()), 2.356_194_490_192_345));
+        assert!(near((-S::one()).atan2(-S::one()), -2.356_194_490_192_345));
+        assert_eq!(S::zero().atan2(S::zero()), S::zero());
+        for (given, nearest) in [
+            (0.4, 0.0),
+            (0.5, 1.0),
+            (-0.5, -1.0),
+            (2.5, 3.0),
+            (-7.2, -7.0),
+        ] {
+            assert_eq!(S::constant(given).round(), S::constant(nearest));
+        }
+        let nan = S::constant(f64::NAN);
+        let travelled = [
+            nan.sin(),
+            nan.cos(),
+            nan.exp(),
+            nan.atan2(S::one()),
+            S::one().atan2(nan),
+            nan.round(),
+            S::constant(f64::INFINITY).sin(),
+            S::constant(f64::INFINITY).cos(),
+        ];
+        assert!(travelled.iter().all(|value| value != value));
+    }
+
+    #[test]
+    fn functions_have_their_values_and_let_nan_travel() {
+        functions_of(1e-15_f64);
+        functions_of(1e-6_f32);
     }
 }

@@ -19,6 +19,9 @@ thread_local! {
     static COMPUTATION: Cell<usize> = const { Cell::new(0) };
 }
 
+/// What a call of a function counts as.
+const FUNCTION: fn(&mut Operations) -> &mut usize = |count| &mut count.functions;
+
 /// A value, and the number of operations on the longest way to it within the computation that made it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Counted {
@@ -160,6 +163,35 @@ impl Scalar for Counted {
             less
         } else {
             otherwise
+        }
+    }
+
+    #[inline(never)]
+    fn sin(self) -> Self {
+        Self::made(self.value.sin(), [self], FUNCTION)
+    }
+
+    #[inline(never)]
+    fn cos(self) -> Self {
+        Self::made(self.value.cos(), [self], FUNCTION)
+    }
+
+    #[inline(never)]
+    fn exp(self) -> Self {
+        Self::made(self.value.exp(), [self], FUNCTION)
+    }
+
+    #[inline(never)]
+    fn atan2(self, cosine: Self) -> Self {
+        Self::made(self.value.atan2(cosine.value), [self, cosine], FUNCTION)
+    }
+
+    /// Not an operation, like a comparison.
+    #[inline(never)]
+    fn round(self) -> Self {
+        Self {
+            value: self.value.round(),
+            ..self
         }
     }
 }
