@@ -33,6 +33,25 @@ pub trait Joint {
 )]
 pub trait HasAngle: Joint {}
 
+/// A joint whose definition has a displacement.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no displacement",
+    label = "the definition of this joint names no displacement",
+    note = "a displacement can be read from joints with a translation, such as a prismatic or a cylindrical joint"
+)]
+pub trait HasDisplacement: Joint {}
+
+/// A joint whose definition drives a quantity: one of its rows is `quantity - law(time)`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` drives nothing",
+    label = "the definition of this joint has no driver",
+    note = "a driving effort can be read from joints that prescribe a motion, such as a driver of an angle"
+)]
+pub trait Driven: Joint {
+    /// The place of the driver's row among the rows of the joint.
+    const ROW: usize;
+}
+
 /// A body of the mechanism `M`.
 pub struct BodyHandle<M> {
     index: usize,

@@ -39,6 +39,7 @@ mod load;
 mod mechanism;
 mod project;
 mod reaction;
+mod readout;
 mod report;
 mod reporting;
 mod rotation;
@@ -134,7 +135,7 @@ pub use error::{Fault, ParameterError, ParameterFault, SimulationError};
 pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, Penalty, Saddle, Solution, StandardLagrange,
 };
-pub use handle::{BodyHandle, HasAngle, Joint, JointHandle};
+pub use handle::{BodyHandle, Driven, HasAngle, HasDisplacement, Joint, JointHandle};
 pub use integrate::{
     AdaptiveCourse, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages,
     FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, Stride, System,
@@ -142,12 +143,13 @@ pub use integrate::{
 };
 pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
 pub use mechanism::{
-    AngleParts, Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw,
-    Stabilisation, Stabilised, Terms,
+    Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw, Stabilisation,
+    Stabilised, Terms,
 };
 pub use nalgebra;
 pub use project::{Correction, Projection};
 pub use reaction::Wrench;
+pub use readout::{AngleParts, DisplacementParts};
 pub use report::{Block, BodyInfo, BodyKind, JointInfo, Kernel, Operations, Report};
 pub use reporting::{Reporting, every, every_step};
 pub use sample::Sample;

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::array::{Array, StateParts};
 use crate::error::ParameterError;
+use crate::readout::{AngleParts, DisplacementParts};
 use crate::report::Report;
 use crate::scalar::Scalar;
 
@@ -153,12 +154,22 @@ pub trait Mechanism: Sized + 'static {
 
     /// The angle of a joint by its index, zero in the configuration that the attributes describe.
     ///
-    /// For a joint without an angle `cosine = 1`, `sine = rate = 0`.
+    /// For a joint without an angle `cosine = 1`, `sine = rate = 0`, no count of turns.
     fn joint_angle<S: Scalar>(
         constants: &Self::Constants<S>,
         state: &Self::State<S>,
         joint: usize,
     ) -> AngleParts<S>;
+
+    /// The displacement of a joint by its index, as its definition states it, and its rate; zeros for a joint without one.
+    fn joint_displacement<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _joint: usize,
+    ) -> DisplacementParts<S> {
+        DisplacementParts::none()
+    }
 
     /// The joint's point on one of its bodies, by its place in `between`: from the centre of mass to the point, in
     /// principal body axes (m); in global axes from the origin for the ground.
@@ -242,17 +253,6 @@ impl<S: Scalar> Pivot<S> {
             joint: relative.select(self.relative, S::constant(joint as f64), self.joint),
         }
     }
-}
-
-/// Cosine and sine of a joint angle, and its rate (rad/s).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AngleParts<S> {
-    /// The cosine; not normalised where the joint is violated.
-    pub cosine: S,
-    /// The sine; not normalised where the joint is violated.
-    pub sine: S,
-    /// The rate of the angle (rad/s).
-    pub rate: S,
 }
 
 /// The coefficients of a formulation: `gamma* = gamma - 2 a Phi' - b^2 Phi` and the compliance `e`.

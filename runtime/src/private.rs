@@ -109,6 +109,12 @@ impl crate::Joint for AnyJoint {
 
 impl crate::HasAngle for AnyJoint {}
 
+impl crate::HasDisplacement for AnyJoint {}
+
+impl crate::Driven for AnyJoint {
+    const ROW: usize = 0;
+}
+
 /// The stub of a mechanism whose description has faults: it keeps further errors away and is never run.
 #[doc(hidden)]
 #[macro_export]

@@ -3,10 +3,11 @@
 use core::cell::OnceCell;
 use core::ops::Deref;
 
+use crate::array::StateParts;
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::handle::{BodyHandle, JointHandle};
+use crate::handle::{BodyHandle, Driven, JointHandle};
 use crate::load::AppliedForces;
 use crate::mechanism::{Evaluation, Mechanism, Orientation};
 use crate::reaction::Wrench;
@@ -98,12 +99,29 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
             .reaction_on_place(&self.evaluation()?.multipliers, joint, place))
     }
 
+    /// The effort of a driver (N for a length, N m for an angle), see [`View::driving_effort`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn driving_effort<J: Driven>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
+        Ok(self
+            .view
+            .driving_effort(&self.evaluation()?.multipliers, joint))
+    }
+
+    /// Accelerations `u'` (m/s^2 global; rad/s^2 principal body axes), one per velocity.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn accelerations(&self) -> Result<M::Velocities<S>, Fault> {
+        Ok(*self.evaluation()?.rates.velocities())
+    }
+
     /// The violation of the constraints by the accelerations: the square of `D u' - gamma`.
     ///
     /// # Errors
     /// The fault of the evaluation.
     pub fn acceleration_violation(&self) -> Result<S, Fault> {
-        use crate::array::StateParts;
         Ok(self
             .view
             .acceleration_violation(self.evaluation()?.rates.velocities()))

@@ -4,11 +4,11 @@ use nalgebra::Vector3;
 
 use crate::access::{MechanismExt, Pose};
 use crate::array::Array;
-use crate::handle::{BodyHandle, HasAngle, JointHandle};
+use crate::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::{Mechanism, Orientation};
 use crate::reaction::{Wrench, wrench};
 use crate::rotation::with_unit_orientations;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Scalar;
 
 /// A state at a time, with everything that can be read from it by handle.
 pub struct View<'a, S: Scalar, M: Mechanism> {
@@ -93,21 +93,43 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         M::point_velocity(self.state, body, point)
     }
 
-    /// The angle of a joint (rad, from `-pi` to `pi`), zero in the configuration that the attributes describe,
-    /// positive as the second body turns about the joint's axis against the first.
+    /// The angle of a joint (rad), zero in the configuration that the attributes describe, positive as the second body
+    /// turns about the joint's axis against the first: from `-pi` to `pi`, or without bounds where the joint's definition counts turns.
     #[must_use]
-    pub fn angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S
-    where
-        S: Real,
-    {
-        let parts = M::joint_angle(self.constants, self.state, joint.index());
-        parts.sine.atan2(parts.cosine)
+    pub fn angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
+        M::joint_angle(self.constants, self.state, joint.index()).angle()
     }
 
     /// The rate of the angle of a joint (rad/s), with the sign of [`View::angle`].
     #[must_use]
     pub fn angle_rate<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
         M::joint_angle(self.constants, self.state, joint.index()).rate
+    }
+
+    /// The displacement of a joint (m), with the zero and the sign of its definition.
+    #[must_use]
+    pub fn displacement<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
+        M::joint_displacement(self.constants, self.time, self.state, joint.index()).value
+    }
+
+    /// The rate of the displacement of a joint (m/s), with the sign of [`View::displacement`].
+    #[must_use]
+    pub fn displacement_rate<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
+        M::joint_displacement(self.constants, self.time, self.state, joint.index()).rate
+    }
+
+    /// The effort of a driver: the generalised force with which it acts on the quantity that it drives, from the
+    /// multipliers at this state; N for a length, N m for an angle. A positive effort pushes the quantity upwards, so that effort times rate is
+    /// the power that the driver puts in.
+    #[must_use]
+    pub fn driving_effort<J: Driven>(
+        &self,
+        multipliers: &M::Multipliers<S>,
+        joint: JointHandle<M, J>,
+    ) -> S {
+        let row = joint.info().map_or(usize::MAX, |info| info.row);
+        let multiplier = multipliers.as_slice().get(row.saturating_add(J::ROW));
+        -multiplier.copied().unwrap_or(S::zero())
     }
 
     /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the joint's point on

@@ -295,6 +295,7 @@ impl Mechanism for Rod {
             cosine: along[1],
             sine: along[2],
             rate: w[0],
+            turns: None,
         }
     }
 

@@ -288,7 +288,7 @@ impl Writer<'_> {
                 arms.extend(quote! {
                     #place => {
                         #statements
-                        #facade::AngleParts { cosine: #cosine, sine: #sine, rate: #rate }
+                        #facade::AngleParts { cosine: #cosine, sine: #sine, rate: #rate, turns: ::core::option::Option::None }
                     }
                 });
             }
@@ -302,7 +302,7 @@ impl Writer<'_> {
                 #unpack
                 match #joint {
                     #arms
-                    _ => #facade::AngleParts { cosine: S::one(), sine: S::zero(), rate: S::zero() },
+                    _ => #facade::AngleParts { cosine: S::one(), sine: S::zero(), rate: S::zero(), turns: ::core::option::Option::None },
                 }
             }
         }
