@@ -4,7 +4,7 @@
 use proc_macro::TokenStream;
 
 /// Generates the kernels of the mechanism that the struct describes. See the documentation of `holonom`.
-#[proc_macro_derive(Mechanism, attributes(mechanism, body, joint))]
+#[proc_macro_derive(Mechanism, attributes(mechanism, body, joint, force, param, input))]
 pub fn derive_mechanism(input: TokenStream) -> TokenStream {
     holonom_engine::derive(input.into()).into()
 }
@@ -14,6 +14,13 @@ pub fn derive_mechanism(input: TokenStream) -> TokenStream {
 #[proc_macro]
 pub fn joint_impl(input: TokenStream) -> TokenStream {
     holonom_engine::joint(input.into()).into()
+}
+
+/// Defines a force; called by `holonom::force!`.
+#[doc(hidden)]
+#[proc_macro]
+pub fn force_impl(input: TokenStream) -> TokenStream {
+    holonom_engine::force(input.into()).into()
 }
 
 /// Puts a mechanism together; called by the carriers of its field types.

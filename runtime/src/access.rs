@@ -29,14 +29,20 @@ pub struct Pose<S: Scalar> {
 /// A particle has no orientation: its axes are the global ones, its angular velocity is zero, and what is set is
 /// ignored.
 pub trait MechanismExt: Mechanism {
+    /// What depends on the parameters of this value alone, as the kernels take it.
+    ///
+    /// # Errors
+    /// A parameter that is not acceptable.
+    fn constants<S: Scalar>(&self) -> Result<Self::Constants<S>, ParameterError> {
+        Ok(Self::prepare(&self.parameters()?))
+    }
+
     /// The state that the attributes of the bodies describe.
     ///
     /// # Errors
     /// A parameter that is not acceptable.
     fn described_state<S: Scalar>(&self) -> Result<Self::State<S>, ParameterError> {
-        Ok(Self::initial_state(&Self::prepare(
-            &self.parameters::<S>(),
-        )?))
+        Ok(Self::initial_state(&self.constants()?))
     }
 
     /// Corrects positions and velocities so that they satisfy the constraints at a time, see [`Projection`].
@@ -48,7 +54,7 @@ pub trait MechanismExt: Mechanism {
         time: S,
         state: &mut Self::State<S>,
     ) -> Result<Correction<S>, Fault> {
-        let constants = Self::prepare(&self.parameters::<S>())?;
+        let constants = self.constants()?;
         Projection::default().correct::<Self>(&constants, time, state)
     }
 
@@ -73,6 +79,10 @@ pub trait MechanismExt: Mechanism {
     }
 
     /// Sets position and orientation of a body; the orientation may have any length but zero.
+    ///
+    /// Angles that count turns do not follow: their axes are among the constants of the mechanism. A run, [`MechanismExt::assemble`]
+    /// and [`Mechanism::recount`] take the whole turns from the value in the state and the rest from the orientations, so that a pose
+    /// may be set up to half a turn away.
     fn set_pose<S: Scalar>(state: &mut Self::State<S>, body: BodyHandle<Self>, pose: Pose<S>) {
         let Some(info) = body.info() else { return };
         let coordinates = state.coordinates_mut().as_mut_slice();

@@ -144,11 +144,12 @@ pub(crate) fn finite<S: Real, X: Vector<S>>(vector: &X) -> bool {
     finite
 }
 
-/// The state of a mechanism: coordinates and velocities of its bodies, in an order that the mechanism knows.
+/// The state of a mechanism: coordinates and velocities of its bodies, and auxiliary variables, in an order that the mechanism knows.
 ///
 /// The elements are read and written by handle, see [`crate::Mechanism`]; the order of the raw arrays is, body by
 /// body, `[r (m, global), p (Euler parameters, scalar first, principal axes)]` and `[v (m/s, global), w (rad/s,
-/// principal axes)]`; a particle has `r` and `v` only. The same type holds the rates of a state.
+/// principal axes)]`; a particle has `r` and `v` only. Behind the coordinates of all bodies stand the auxiliary variables of
+/// mechanisms that have some: angles that count turns (rad). The same type holds the rates of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<S, const Q: usize, const U: usize> {
     coordinates: [S; Q],

@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use crate::access::MechanismExt;
 use crate::array::{Array, StateParts, finite};
 use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle};
@@ -43,7 +44,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
         let stabilisation = formulation.stabilisation()?;
-        let constants = M::prepare(&mechanism.parameters::<S>())?;
+        let constants = mechanism.constants::<S>()?;
         Ok(Self {
             constants,
             coefficients: M::coefficients(&constants, &stabilisation),
@@ -92,7 +93,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        self.constants = M::prepare(&mechanism.parameters::<S>())?;
+        self.constants = mechanism.constants()?;
         self.coefficients = M::coefficients(&self.constants, &self.stabilisation);
         Ok(())
     }
@@ -188,7 +189,8 @@ where
             terms: PhantomData,
         };
         let solution = self.formulation.solve(&saddle)?;
-        let rates = M::State::from_parts(M::coordinate_rates(read), solution.accelerations);
+        let rates =
+            M::State::from_parts(M::coordinate_rates(constants, read), solution.accelerations);
         let multipliers = solution.multipliers;
         let evaluation = Evaluation {
             rates,

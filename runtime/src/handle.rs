@@ -4,7 +4,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::mechanism::Mechanism;
-use crate::report::{BodyInfo, BodyKind, JointInfo};
+use crate::report::{BodyInfo, BodyKind, ForceInfo, JointInfo};
 
 /// A joint as a type: its equations and the bodies that it connects.
 ///
@@ -20,6 +20,23 @@ pub trait Joint {
     /// The number of constraint equations.
     const EQUATIONS: usize;
     /// The number of bodies that it connects, the ground among them.
+    const BODIES: usize;
+    /// A number made of the definition, so that two versions of it cannot be mixed.
+    const FINGERPRINT: u64;
+}
+
+/// A force as a type.
+///
+/// `force!` implements it; a field of this type in a mechanism stands for one such force.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a force",
+    label = "not defined with `force!`",
+    note = "a force is defined with `holonom::force!`; ready-made ones are in `holonom::forces`"
+)]
+pub trait Force {
+    /// The name of the force's type.
+    const NAME: &'static str;
+    /// The number of bodies that it speaks of, the ground among them.
     const BODIES: usize;
     /// A number made of the definition, so that two versions of it cannot be mixed.
     const FINGERPRINT: u64;
@@ -130,6 +147,42 @@ impl<M: Mechanism, J> JointHandle<M, J> {
     }
 }
 
+/// A force of the mechanism `M`, of the type `F`.
+pub struct ForceHandle<M, F> {
+    index: usize,
+    types: PhantomData<fn() -> (M, F)>,
+}
+
+impl<M, F> ForceHandle<M, F> {
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        Self {
+            index,
+            types: PhantomData,
+        }
+    }
+
+    /// The place in [`Report::forces`](crate::Report::forces).
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index
+    }
+}
+
+impl<M: Mechanism, F> ForceHandle<M, F> {
+    /// The name of the field.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.info().map_or("", |info| info.name)
+    }
+
+    /// Kind and bodies of the force.
+    pub(crate) fn info(self) -> Option<&'static ForceInfo> {
+        M::REPORT.forces.get(self.index)
+    }
+}
+
 macro_rules! handle {
     ($name:ident<$($parameter:ident),*>) => {
         impl<$($parameter),*> Clone for $name<$($parameter),*> {
@@ -158,3 +211,4 @@ macro_rules! handle {
 
 handle!(BodyHandle<M>);
 handle!(JointHandle<M, J>);
+handle!(ForceHandle<M, F>);

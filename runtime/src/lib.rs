@@ -56,6 +56,7 @@ mod tests;
 #[path = "private.rs"]
 pub mod __private;
 mod bodies;
+pub mod forces;
 pub mod joints;
 
 pub use bodies::{Body, Particle};
@@ -119,7 +120,7 @@ pub use bodies::{Body, Particle};
 ///
 /// Literals, `+ - * /`, `sqrt(..)`, `sin(..)`, `cos(..)`, `tan(..)`, `exp(..)`, `deg(..)` (degrees to radians), `PI`, `TAU`, and paths of
 /// constants of type `f64`. The macro evaluates what it can see; a path is a value that it cannot see: it is checked by the compiler or
-/// in [`Mechanism::prepare`](trait@Mechanism), and does not fold.
+/// in [`Mechanism::parameters`](trait@Mechanism), and does not fold.
 ///
 /// # What is generated
 ///
@@ -135,7 +136,9 @@ pub use error::{Fault, ParameterError, ParameterFault, SimulationError};
 pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, Penalty, Saddle, Solution, StandardLagrange,
 };
-pub use handle::{BodyHandle, Driven, HasAngle, HasDisplacement, Joint, JointHandle};
+pub use handle::{
+    BodyHandle, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint, JointHandle,
+};
 pub use integrate::{
     AdaptiveCourse, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages,
     FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, Stride, System,
@@ -149,8 +152,8 @@ pub use mechanism::{
 pub use nalgebra;
 pub use project::{Correction, Projection};
 pub use reaction::Wrench;
-pub use readout::{AngleParts, DisplacementParts};
-pub use report::{Block, BodyInfo, BodyKind, JointInfo, Kernel, Operations, Report};
+pub use readout::{AngleParts, DisplacementParts, ForceParts};
+pub use report::{Block, BodyInfo, BodyKind, ForceInfo, JointInfo, Kernel, Operations, Report};
 pub use reporting::{Reporting, every, every_step};
 pub use sample::Sample;
 pub use scalar::{Real, Scalar};

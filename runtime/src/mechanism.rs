@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use crate::array::{Array, StateParts};
 use crate::error::ParameterError;
-use crate::readout::{AngleParts, DisplacementParts};
+use crate::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::report::Report;
 use crate::scalar::Scalar;
 
@@ -51,16 +51,14 @@ pub trait Mechanism: Sized + 'static {
     /// Sizes, names, operation counts.
     const REPORT: Report;
 
-    /// The parameters of this value.
-    fn parameters<S: Scalar>(&self) -> Self::Parameters<S>;
-
-    /// Computes once what depends on parameters only, and checks what the macro could not see.
+    /// The parameters of this value, checked as the `f64` that they are: here are all numbers that the macro could not see.
     ///
     /// # Errors
     /// A mass or an inertia that is not positive, an axis of length zero, a number that is not finite.
-    fn prepare<S: Scalar>(
-        parameters: &Self::Parameters<S>,
-    ) -> Result<Self::Constants<S>, ParameterError>;
+    fn parameters<S: Scalar>(&self) -> Result<Self::Parameters<S>, ParameterError>;
+
+    /// Computes once what depends on parameters only.
+    fn prepare<S: Scalar>(parameters: &Self::Parameters<S>) -> Self::Constants<S>;
 
     /// Computes once what depends on the coefficients of a formulation.
     fn coefficients<S: Scalar>(
@@ -112,17 +110,56 @@ pub trait Mechanism: Sized + 'static {
     /// Kinetic energy (J).
     fn kinetic_energy<S: Scalar>(constants: &Self::Constants<S>, state: &Self::State<S>) -> S;
 
-    /// Potential energy of gravity (J), zero where all centres of mass are at the global origin.
+    /// Potential energy (J): of gravity, zero where all centres of mass are at the global origin, and of forces with a potential.
     fn potential_energy<S: Scalar>(
         constants: &Self::Constants<S>,
         time: S,
         state: &Self::State<S>,
     ) -> S;
 
-    /// The rates of the coordinates: `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is.
+    /// The power (W) of the forces of the language that have no potential: of dampers, actuators and given forces.
+    fn power<S: Scalar>(_constants: &Self::Constants<S>, _time: S, _state: &Self::State<S>) -> S {
+        S::zero()
+    }
+
+    /// Potential energy and power of one force by its index; zeros for a force that is not there.
+    fn force_parts<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _force: usize,
+    ) -> ForceParts<S> {
+        ForceParts {
+            potential: S::zero(),
+            power: S::zero(),
+        }
+    }
+
+    /// What one force exerts on one of its bodies, by its place in `between`: force (N, global) and moment about the centre of mass
+    /// (N m, principal body axes). Zeros for the ground.
+    fn force_load<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _force: usize,
+        _place: usize,
+    ) -> [S; 6] {
+        [S::zero(); 6]
+    }
+
+    /// The rates of the coordinates: `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is; behind them the rates of the auxiliary
+    /// variables.
     fn coordinate_rates<S: Scalar>(
+        constants: &Self::Constants<S>,
         state: &Self::State<S>,
     ) -> <Self::State<S> as StateParts<S>>::Coordinates;
+
+    /// Sets every auxiliary variable to its exact value for the orientations in the state: an angle that counts turns becomes the one
+    /// that is nearest to the value it has. Without effect where there are none.
+    ///
+    /// An integrator moves an auxiliary variable along with the orientations; after a state was set or displaced otherwise, this puts
+    /// it right as long as it is off by less than half a turn.
+    fn recount<S: Scalar>(_constants: &Self::Constants<S>, _state: &mut Self::State<S>) {}
 
     /// The whole right-hand side in one straight line: rates of the state and multipliers, from the saddle system
     /// with `lambda_previous = 0` and without applied forces of a user.

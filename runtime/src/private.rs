@@ -1,6 +1,6 @@
 //! What generated code may call. Not an interface: it changes with every release.
 
-pub use holonom_macros::{assemble, joint_impl};
+pub use holonom_macros::{assemble, force_impl, joint_impl};
 
 use crate::scalar::elementary;
 
@@ -55,20 +55,29 @@ pub fn deg(x: f64) -> f64 {
 /// parameters as attributes of the same names. In the braces stand expressions that are zero, each with a `;`: a scalar
 /// gives one equation, a vector three, two vectors or two scalars (see `normals`) twice as many.
 ///
-/// | kind | what a mechanism gives | on a body |
+/// | kind | what a mechanism gives | in the definition |
 /// |---|---|---|
-/// | `Point` | a point in global axes at the initial configuration, or `local(..)`: one for each body from its centre of mass in its own axes | `i.name`: the point fixed on `i`, as it moves |
-/// | `Axis` | a direction, likewise; any length but zero, used as a unit vector | `i.name`: the unit vector fixed on `i`; `i.name.normals()`: two unit vectors on `i` perpendicular to it |
+/// | `Point` | a point in global axes in the described configuration, or `local(..)`: one for each body from its centre of mass in its own axes | `i.name`: the point fixed on `i`, as it moves |
+/// | `Axis` | a direction, likewise; any length but zero, used as a unit vector | `i.name`: the unit vector fixed on `i`; `i.name.normal()` and `i.name.binormal()`: unit vectors on `i` that make it a right-handed frame; `i.name.normals()`: both of them, twofold |
 /// | `Vector` | a vector, likewise | `i.name` |
-/// | `Length`, `Angle`, `Number` | a number (m, rad, 1) | the same for all bodies: `name` |
+/// | `Length`, `Angle`, `Number` | a number (m, rad, 1); may have a default, as in `ratio: Number = 1.0` | `name` |
+/// | `Law`, `Law(x, y)` | an expression of `time` and of the names in parentheses, such as `0.5 * sin(3.0 * time)` | `name()`, `name(a, b)`: its value |
 ///
-/// Also: `i.origin`, the centre of mass; `a + b`, `a - b`, `-a`; `x * a` for scalars and vectors; `dot(a, b)`;
-/// `cross(a, b)`; `squared(a)`, the square of a vector's length. `angle about axis;` gives the joint an angle: that of the
-/// second body against the first, right-handed about the axis, zero in the described configuration. A joint connects one
-/// or more bodies; the `ground` of a mechanism may be any of them.
+/// Expressions:
 ///
-/// Points are in m and vectors in the unit they are given in; the joint's reaction is `-D^T lambda`, whatever the units of its
-/// equations are.
+/// | | |
+/// |---|---|
+/// | vectors | `i.origin` (the centre of mass), `[x, y, z]` (global axes), `a + b`, `a - b`, `-a`, `x * a`, `a / x`, `cross(a, b)`, `fixed(i, a)`: the vector `a` as it is in the described configuration, fixed on `i` |
+/// | scalars | numbers, `PI`, `TAU`, `time`, `+ - * /`, `dot(a, b)`, `length(a)`, `squared(a)` (the square of the length), `sqrt sin cos exp (x)`, `smooth_step(x)`: 0 below 0, 1 above 1, `6 x^5 - 15 x^4 + 10 x^3` between |
+/// | | `angle(i, j, axis)`: the angle (rad) of `j` against `i` about an `Axis`, right-handed, zero in the described configuration. Turns are counted, by an auxiliary variable of the state |
+/// | | `initial(x)`: the scalar `x` as it is in the described configuration |
+///
+/// Statements beside equations: `let name = expression;`, `drive x to y;`, the equation `x - y` of a driver, whose effort can be
+/// read ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and `displacement x;`, which can be read
+/// ([`View::angle`](crate::View::angle), [`View::displacement`](crate::View::displacement)). A joint connects one or more
+/// bodies; the `ground` of a mechanism may be any of them.
+///
+/// The joint's reaction is `-D^T lambda`, whatever the units of its equations are.
 #[macro_export]
 macro_rules! joint {
     ($($definition:tt)*) => {
@@ -76,11 +85,43 @@ macro_rules! joint {
     };
 }
 
-/// A body or a joint: what the fields of a mechanism are.
+/// Defines a force: what acts on bodies, symbolically, so that mechanisms in any crate can use it.
+///
+/// ```
+/// holonom::force! {
+///     /// A spring that stiffens as it is stretched, and a damper beside it.
+///     pub force Bungee(i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0) {
+///         let stretch = length(j.tail - i.head) - initial(length(j.tail - i.head));
+///         potential 0.25 * stiffness * stretch * stretch * stretch * stretch;
+///         -damping * rate(stretch) along stretch;
+///     }
+/// }
+/// ```
+///
+/// Signature and expressions are those of [`joint!`](crate::joint!); `rate(x)` is the time derivative of a scalar. Statements:
+///
+/// | statement | what acts |
+/// |---|---|
+/// | `potential v;` | minus the gradient of the energy `v` (J), which the generator differentiates; it is part of the potential energy of the mechanism |
+/// | `f along x;` | a generalised force: for `x` a length the force `f` (N) that lengthens it, for `x` an angle the moment (N m) that enlarges it. Power `f rate(x)` |
+/// | `force a at i.point;` | the force `a` (N) at a point of a body |
+/// | `moment a on i;` | the moment `a` (N m) on a body |
+/// | `let name = expression;` | nothing |
+#[macro_export]
+macro_rules! force {
+    ($($definition:tt)*) => {
+        $crate::__private::force_impl! { [$crate] $($definition)* }
+    };
+}
+
+/// A type made by `joint!` or `force!`.
+pub trait Element {}
+
+/// A body, a joint or a force: what the fields of a mechanism are.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is neither a body nor a joint",
-    label = "described as a body or a joint",
-    note = "a body is a `Body` or a `Particle`; a joint is one of `holonom::joints`, or defined with `holonom::joint!`"
+    message = "`{Self}` is neither a body nor a joint nor a force",
+    label = "described as a body, a joint or a force",
+    note = "a body is a `Body` or a `Particle`; a joint is one of `holonom::joints`, or defined with `holonom::joint!`; a force is one of `holonom::forces`, or defined with `holonom::force!`"
 )]
 pub trait Part {}
 
@@ -91,9 +132,9 @@ impl Part for crate::Body {}
 impl Part for crate::Particle {}
 
 #[diagnostic::do_not_recommend]
-impl<J: crate::Joint> Part for J {}
+impl<E: Element> Part for E {}
 
-/// Asks whether a type is a body or a joint.
+/// Asks whether a type is a body, a joint or a force.
 pub const fn part<T: Part>() {}
 
 /// In a stub, the type of a field that is described as a joint and is none: it may be used like any joint.
@@ -121,8 +162,10 @@ impl crate::Driven for AnyJoint {
 macro_rules! __stub_mechanism {
     (@handle body) => { $crate::BodyHandle<__M> };
     (@handle joint) => { $crate::JointHandle<__M, $crate::__private::AnyJoint> };
+    (@handle force $($path:path)?) => { $crate::ForceHandle<__M, $crate::__private::AnyJoint> };
     (@handle joint $path:path) => { $crate::JointHandle<__M, $path> };
     (@value body) => { $crate::BodyHandle::new(0) };
+    (@value force $($path:path)?) => { $crate::ForceHandle::new(0) };
     (@value joint $($path:path)?) => { $crate::JointHandle::new(0) };
     (
         [$($declared:tt)*] [$mechanism:ty] [$($bounds:tt)*]
@@ -163,16 +206,18 @@ macro_rules! __stub_mechanism {
                     name: "",
                     bodies: &[],
                     joints: &[],
+                    forces: &[],
                     blocks: &[],
                     coordinates: 0,
+                    auxiliaries: 0,
                     velocities: 0,
                     equations: 0,
                     degrees_of_freedom: 0,
                     kernels: &[],
                     plan: "",
                 };
-                fn parameters<__S: $crate::Scalar>(&self) {}
-                fn prepare<__S: $crate::Scalar>(_: &()) -> ::core::result::Result<[__S; 0], $crate::ParameterError> { loop {} }
+                fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<(), $crate::ParameterError> { loop {} }
+                fn prepare<__S: $crate::Scalar>(_: &()) -> [__S; 0] { [] }
                 fn coefficients<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::Stabilisation<__S>) -> [__S; 0] { [] }
                 fn initial_state<__S: $crate::Scalar>(_: &[__S; 0]) -> Self::State<__S> { loop {} }
                 fn constraints<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> [__S; 0] { [] }
@@ -183,7 +228,7 @@ macro_rules! __stub_mechanism {
                 fn forces<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> [__S; 0] { [] }
                 fn kinetic_energy<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> __S { loop {} }
                 fn potential_energy<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> __S { loop {} }
-                fn coordinate_rates<__S: $crate::Scalar>(_: &Self::State<__S>) -> [__S; 0] { [] }
+                fn coordinate_rates<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> [__S; 0] { [] }
                 fn evaluate<__S: $crate::Scalar, __T: $crate::Terms, __P: $crate::Orientation>(
                     _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::State<__S>,
                 ) -> $crate::Evaluation<__S, Self> { loop {} }

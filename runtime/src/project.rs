@@ -21,14 +21,14 @@ use crate::view::square;
 /// [ D  -e I ] [ lambda ] = [ -Phi ]
 /// ```
 ///
-/// then `r + d` and a finite rotation of `p`, which keeps length 1; a step that does not lessen `Phi` is halved. Velocities by the
+/// then `r + d` and a finite rotation of `p`, which keeps length 1; angles that count turns follow; a step that does not lessen `Phi` is halved. Velocities by the
 /// same system with `-Phi'`. The compliance `e` is small against the diagonal of `D M^-1 D^T`: `sqrt(EPSILON)` of its
 /// least element, at least `16 EPSILON` of its largest. It keeps the system solvable where equations are redundant or the configuration is
 /// singular, and does not limit the accuracy, because the corrections are repeated as long as they help.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection<S> {
-    /// The largest `|Phi|` and `|Phi'|` that count as corrected, times `1 + |q|^2` and `1 + |u|` (largest
-    /// elements, SI units). The iteration goes on below it as long as it helps.
+    /// The largest `|Phi|` and `|Phi'|` that count as corrected, times `1 + |q|^2 + |a|` and `1 + |u|` (largest
+    /// elements, SI units; `a` the angles that count turns). The iteration goes on below it as long as it helps.
     pub tolerance: S,
     /// How many steps of Newton's method may be done.
     pub max_iterations: usize,
@@ -80,6 +80,7 @@ impl<S: Real> Projection<S> {
         let phi_rate = |state: &M::State<S>| M::constraint_rates(constants, time, state);
         let (position_before, velocity_before) = (phi(state), phi_rate(state));
         let mut corrected = with_unit_orientations::<S, M>(state);
+        M::recount(constants, &mut corrected);
         let iterations = self.correct_positions::<M>(constants, time, &mut corrected)?;
         self.correct_velocities::<M>(constants, time, &mut corrected)?;
         *state = corrected;
@@ -98,8 +99,12 @@ impl<S: Real> Projection<S> {
         time: S,
         state: &mut M::State<S>,
     ) -> Result<usize, Fault> {
-        let size = largest(state.coordinates().as_slice());
-        let scale = size.fused(size, S::one());
+        let coordinates = state.coordinates().as_slice();
+        let (bodies, auxiliaries) = coordinates
+            .split_at_checked(M::REPORT.coordinates)
+            .unwrap_or((coordinates, &[]));
+        let size = largest(bodies);
+        let scale = size.fused(size, S::one() + largest(auxiliaries));
         let round_off = S::constant(4.0) * S::EPSILON * scale;
         let mut phi = M::constraints(constants, time, state);
         let mut rest = largest(phi.as_slice());
@@ -230,7 +235,7 @@ fn descend<S: Real, M: Mechanism>(
 ) -> Option<(M::State<S>, M::Multipliers<S>)> {
     let mut factor = S::one();
     for _ in 0..12 {
-        let moved = displaced::<S, M>(state, step, factor);
+        let moved = displaced::<S, M>(constants, state, step, factor);
         let phi = M::constraints(constants, time, &moved);
         if less(largest(phi.as_slice()), rest) {
             return Some((moved, phi));
@@ -240,13 +245,19 @@ fn descend<S: Real, M: Mechanism>(
     None
 }
 
-/// The state moved by `factor d`: positions by addition, orientations by a rotation along body axes.
+/// The state moved by `factor d`: positions by addition, orientations by a rotation along body axes; angles that count turns
+/// follow.
 fn displaced<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
     state: &M::State<S>,
     step: &M::Velocities<S>,
     factor: S,
 ) -> M::State<S> {
     let mut moved = *state;
+    if M::REPORT.auxiliaries > 0 {
+        let along = M::State::from_parts(*state.coordinates(), *step);
+        advance_auxiliaries::<S, M>(constants, &along, factor, &mut moved);
+    }
     let coordinates = moved.coordinates_mut().as_mut_slice();
     for body in M::REPORT.bodies {
         let scaled = |place| read::<S, 3>(step.as_slice(), place).map(|d| factor * d);
@@ -259,7 +270,24 @@ fn displaced<S: Real, M: Mechanism>(
             write(coordinates, body.coordinate + 3, normalised(&p));
         }
     }
+    M::recount(constants, &mut moved);
     moved
+}
+
+/// Moves the auxiliary variables by `factor` times their rates in another state: without it, a turn by more than half a revolution
+/// would be counted as one the other way.
+fn advance_auxiliaries<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    along: &M::State<S>,
+    factor: S,
+    moved: &mut M::State<S>,
+) {
+    let rates = M::coordinate_rates(constants, along);
+    let coordinates = moved.coordinates_mut().as_mut_slice();
+    let places = coordinates.iter_mut().zip(rates.as_slice());
+    for (auxiliary, &rate) in places.skip(M::REPORT.coordinates) {
+        *auxiliary = rate.fused(factor, *auxiliary);
+    }
 }
 
 /// The largest absolute value; NaN if an element is NaN.

@@ -126,6 +126,15 @@ fn orientation<S: Scalar, M: Mechanism>(state: &M::State<S>, body: BodyHandle<M>
     }
 }
 
+/// Components along principal body axes, turned into global axes.
+pub(crate) fn in_global_axes<S: Scalar, M: Mechanism>(
+    state: &M::State<S>,
+    body: BodyHandle<M>,
+    components: [S; 3],
+) -> [S; 3] {
+    rotate(&orientation::<S, M>(state, body), &components)
+}
+
 fn plus<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     let [a1, a2, a3] = *a;
     let [b1, b2, b3] = *b;

@@ -88,3 +88,12 @@ mod tests {
         assert!(parts(0.1, Some(f64::NAN)).angle().is_nan());
     }
 }
+
+/// The energy of a force and what it does besides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceParts<S> {
+    /// Its potential energy (J).
+    pub potential: S,
+    /// The power (W) of what has no potential: of dampers, actuators, given forces.
+    pub power: S,
+}

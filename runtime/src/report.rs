@@ -9,10 +9,14 @@ pub struct Report {
     pub bodies: &'static [BodyInfo],
     /// The joints in the order of the fields.
     pub joints: &'static [JointInfo],
+    /// The forces in the order of the fields.
+    pub forces: &'static [ForceInfo],
     /// The blocks of the Jacobian, in the order of [`crate::Mechanism::jacobian`].
     pub blocks: &'static [Block],
-    /// Coordinates `q`: seven a body, three a particle.
+    /// Coordinates `q` of the bodies: seven a body, three a particle.
     pub coordinates: usize,
+    /// Auxiliary variables, which stand behind the coordinates of the bodies in a state: angles that count turns (rad).
+    pub auxiliaries: usize,
     /// Velocities `u`: six a body, three a particle.
     pub velocities: usize,
     /// Constraint equations.
@@ -73,6 +77,17 @@ pub struct JointInfo {
     pub bodies: &'static [Option<usize>],
     /// Whether the joint's definition has an angle.
     pub has_angle: bool,
+}
+
+/// A force and its bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ForceInfo {
+    /// The name of the field.
+    pub name: &'static str,
+    /// The name of the force's type.
+    pub kind: &'static str,
+    /// The bodies in the order of `between`; `None` is the ground.
+    pub bodies: &'static [Option<usize>],
 }
 
 /// A block of the Jacobian `D`: the rows of one joint against the velocities of one body.

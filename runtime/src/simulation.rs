@@ -193,6 +193,7 @@ where
         if !finite(&state) {
             return Err(Fault::StateNotFinite);
         }
+        M::recount(&constants, &mut state);
         if let Some(projection) = self.assemble {
             projection.correct::<M>(&constants, start, &mut state)?;
             last_good.1 = state;

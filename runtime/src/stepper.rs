@@ -154,6 +154,8 @@ where
         let mut next = *state;
         self.scheme
             .step(&mut self.dynamics, self.time, &mut next, dt)?;
+        // The counters and the orientations carry errors of their own, which must not grow apart over any number of turns.
+        M::recount(self.dynamics.constants(), &mut next);
         if let Some(projection) = self.projection {
             projection.correct::<M>(self.dynamics.constants(), end, &mut next)?;
         }

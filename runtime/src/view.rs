@@ -4,9 +4,10 @@ use nalgebra::Vector3;
 
 use crate::access::{MechanismExt, Pose};
 use crate::array::Array;
-use crate::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
+use crate::handle::{BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::{Mechanism, Orientation};
 use crate::reaction::{Wrench, wrench};
+use crate::readout::ForceParts;
 use crate::rotation::with_unit_orientations;
 use crate::scalar::Scalar;
 
@@ -175,6 +176,37 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     #[must_use]
     pub fn potential_energy(&self) -> S {
         M::potential_energy(self.constants, self.time, self.state)
+    }
+
+    /// The power (W) of the forces of the language that have no potential, see [`Mechanism::power`]: what changes the energy of a
+    /// mechanism without drivers and without a force closure.
+    #[must_use]
+    pub fn power(&self) -> S {
+        M::power(self.constants, self.time, self.state)
+    }
+
+    /// Potential energy (J) and power (W) of one force.
+    #[must_use]
+    pub fn force_parts<F>(&self, force: ForceHandle<M, F>) -> ForceParts<S> {
+        M::force_parts(self.constants, self.time, self.state, force.index())
+    }
+
+    /// What a force exerts on one of its bodies: force and moment (N, N m, global) about the body's centre of mass. Zero on a body that
+    /// it does not act on.
+    #[must_use]
+    pub fn load<F>(&self, force: ForceHandle<M, F>, body: BodyHandle<M>) -> Wrench<S> {
+        let bodies = force.info().map_or(&[][..], |info| info.bodies);
+        let place = bodies.iter().position(|&b| b == Some(body.index()));
+        let place = place.unwrap_or(usize::MAX);
+        let [fx, fy, fz, mx, my, mz] =
+            M::force_load(self.constants, self.time, self.state, force.index(), place);
+        let state = self.state_of_kernels();
+        let moment = crate::reaction::in_global_axes::<S, M>(&state, body, [mx, my, mz]);
+        Wrench {
+            force: Vector3::new(fx, fy, fz),
+            moment: Vector3::from(moment),
+            point: self.pose(body).position,
+        }
     }
 
     /// Kinetic and potential energy together (J).

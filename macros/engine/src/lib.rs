@@ -29,20 +29,32 @@ use syn::DeriveInput;
 
 use check::mechanism::{Definition, Definitions};
 use diag::Faults;
-use model::BodyKind;
+use model::{BodyKind, ElementKind};
 use wire::{Carried, Delivery};
 
 /// `joint!`: the tokens are the path of the run-time crate in brackets, then the definition.
 #[must_use]
 pub fn joint(tokens: TokenStream) -> TokenStream {
+    element(tokens, ElementKind::Joint)
+}
+
+/// `force!`: the tokens are the path of the run-time crate in brackets, then the definition.
+#[must_use]
+pub fn force(tokens: TokenStream) -> TokenStream {
+    element(tokens, ElementKind::Force)
+}
+
+fn element(tokens: TokenStream, kind: ElementKind) -> TokenStream {
     guarded(|| {
         let mut tokens = tokens.into_iter();
         let Some(proc_macro2::TokenTree::Group(facade)) = tokens.next() else {
-            return quote!(::core::compile_error! { "this macro is called by `joint!` only" });
+            return quote!(
+                ::core::compile_error! { "this macro is called by `joint!` and `force!` only" }
+            );
         };
         let facade = facade.stream();
         let mut faults = Faults::new();
-        let Some(syntax) = syntax::joint::parse(tokens.collect(), &mut faults) else {
+        let Some(syntax) = syntax::joint::parse(tokens.collect(), kind, &mut faults) else {
             return faults.into_tokens();
         };
         let definition = check::joint::check(&syntax, &mut faults);
@@ -141,16 +153,16 @@ fn resolve(
         Carried::Body => Definition::Body(BodyKind::Rigid),
         Carried::Particle => Definition::Body(BodyKind::Particle),
         Carried::Faulty => Definition::Faulty,
-        Carried::Joint(body) => {
+        Carried::Element(kind, body) => {
             // It was checked where it is defined.
             let mut known = Faults::new();
-            let joint = syntax::joint::parse_transported(body, &mut known)
+            let joint = syntax::joint::parse_transported(body, kind, &mut known)
                 .and_then(|syntax| check::joint::check(&syntax, &mut known));
             drop(known.into_tokens());
             match joint {
                 Some(joint) => {
                     definitions.push(joint);
-                    Definition::Joint(definitions.len() - 1)
+                    Definition::Element(definitions.len() - 1)
                 }
                 None => {
                     let name = diag::code(path);

@@ -12,6 +12,7 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use syn::parse::{ParseStream, Parser};
 
+use crate::model::ElementKind;
 use crate::syntax::joint::JointSyntax;
 
 /// The version of the protocol.
@@ -31,7 +32,7 @@ pub fn call(paths: &[TokenStream], payload: &TokenStream) -> TokenStream {
     }
 }
 
-/// The carrier of a joint.
+/// The carrier of a joint or force.
 pub fn carrier(
     joint: &JointSyntax,
     facade: &TokenStream,
@@ -41,15 +42,16 @@ pub fn carrier(
     let name = &joint.name;
     let place = place(name.span());
     let carrier = format_ident!(
-        "__holonom_joint_{}_{:016x}",
+        "__holonom_part_{}_{:016x}",
         name,
         fingerprint ^ place,
         span = Span::call_site()
     );
     let version = version();
     let body = &joint.body;
+    let word = format_ident!("{}", joint.kind.word());
     let definition = if sound {
-        quote!([joint { #body }])
+        quote!([#word { #body }])
     } else {
         quote!([faulty])
     };
@@ -57,7 +59,7 @@ pub fn carrier(
     let export = exported.then(|| quote!(#[macro_export]));
     let visibility = &joint.visibility;
     let message = format!(
-        "`{name}` is a joint: name it as the type of a field in a struct with `#[derive(Mechanism)]`"
+        "`{name}` is a {word}: name it as the type of a field in a struct with `#[derive(Mechanism)]`"
     );
     quote! {
         #[doc(hidden)]
@@ -104,9 +106,9 @@ pub enum Carried {
     Body,
     /// A particle.
     Particle,
-    /// A joint: what stands behind the word `joint`.
-    Joint(TokenStream),
-    /// A joint with faults, reported where it is defined.
+    /// A joint or force: what stands behind the word.
+    Element(ElementKind, TokenStream),
+    /// A joint or force with faults, reported where it is defined.
     Faulty,
 }
 
@@ -171,7 +173,14 @@ fn unpack_definition(input: ParseStream<'_>) -> syn::Result<Carried> {
         "body" => Ok(Carried::Body),
         "particle" => Ok(Carried::Particle),
         "faulty" => Ok(Carried::Faulty),
-        "joint" => Ok(Carried::Joint(group(input, Delimiter::Brace)?.stream())),
+        "joint" => Ok(Carried::Element(
+            ElementKind::Joint,
+            group(input, Delimiter::Brace)?.stream(),
+        )),
+        "force" => Ok(Carried::Element(
+            ElementKind::Force,
+            group(input, Delimiter::Brace)?.stream(),
+        )),
         _ => Err(syn::Error::new(kind.span(), "unknown definition")),
     }
 }

@@ -2,6 +2,9 @@
 
 mod access;
 mod correction;
+mod counters;
+mod crank;
+mod dense;
 mod rod;
 mod run;
 mod steps;

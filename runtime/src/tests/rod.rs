@@ -1,10 +1,11 @@
 //! The rod of Flores 2015, chapter 15, hinged to the ground about x, with dense kernels written by hand.
 //!
-//! The multipliers come from `(D M^-1 D^T + e I) lambda = D M^-1 g - gamma*` by Cholesky's method. The user's axes are chosen
+//! The user's axes are chosen
 //! turned by 90 degrees about x against the principal axes, so that access by handle has something to do.
 
 use core::array::from_fn;
 
+use super::dense;
 use crate::rotation::{cross, rotate, rotate_back};
 use crate::*;
 
@@ -31,12 +32,7 @@ pub(super) const PIVOT: JointHandle<Rod, Hinge> = JointHandle::new(0);
 pub(super) const GRAVITY: f64 = 9.81;
 const INERTIA: [f64; 3] = [0.5855265, 0.0010530, 0.5855265];
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Factors<S> {
-    jacobian: [S; 30],
-    /// The lower triangle of Cholesky's factor, with the reciprocals of its diagonal.
-    lower: [[S; 5]; 5],
-}
+type Factors<S> = dense::Factors<S, 30, 5>;
 
 fn split<S: Scalar>(state: &State<S, 7, 6>) -> ([S; 3], [S; 4], [S; 3], [S; 3]) {
     let [x, y, z, e0, e1, e2, e3] = *state.coordinates();
@@ -62,7 +58,7 @@ impl Mechanism for Rod {
     type Velocities<S: Scalar> = [S; 6];
     type Multipliers<S: Scalar> = [S; 5];
     type Jacobian<S: Scalar> = [S; 30];
-    type Parameters<S: Scalar> = f64;
+    type Parameters<S: Scalar> = S;
     type Constants<S: Scalar> = [S; 6];
     type Coefficients<S: Scalar> = Stabilisation<S>;
     type Factors<S: Scalar> = Factors<S>;
@@ -85,6 +81,7 @@ impl Mechanism for Rod {
             bodies: &[None, Some(0)],
             has_angle: true,
         }],
+        forces: &[],
         blocks: &[Block {
             joint: 0,
             body: 0,
@@ -95,6 +92,7 @@ impl Mechanism for Rod {
             offset: 0,
         }],
         coordinates: 7,
+        auxiliaries: 0,
         velocities: 6,
         equations: 5,
         degrees_of_freedom: 1,
@@ -102,21 +100,24 @@ impl Mechanism for Rod {
         plan: "",
     };
 
-    fn parameters<S: Scalar>(&self) -> f64 {
-        self.mass
+    fn parameters<S: Scalar>(&self) -> Result<S, ParameterError> {
+        let fault = if !self.mass.is_finite() {
+            ParameterFault::NotFinite
+        } else if self.mass <= 0.0 {
+            ParameterFault::NotPositive
+        } else {
+            return Ok(S::constant(self.mass));
+        };
+        Err(ParameterError {
+            field: "rod",
+            attribute: "mass",
+            fault,
+        })
     }
 
-    fn prepare<S: Scalar>(mass: &f64) -> Result<[S; 6], ParameterError> {
-        if !mass.is_finite() || *mass <= 0.0 {
-            let fault = ParameterFault::NotPositive;
-            return Err(ParameterError {
-                field: "rod",
-                attribute: "mass",
-                fault,
-            });
-        }
-        let [j1, j2, j3] = INERTIA;
-        Ok([*mass, *mass, *mass, j1, j2, j3].map(S::constant))
+    fn prepare<S: Scalar>(mass: &S) -> [S; 6] {
+        let [j1, j2, j3] = vector(INERTIA);
+        [*mass, *mass, *mass, j1, j2, j3]
     }
 
     fn coefficients<S: Scalar>(_: &[S; 6], stabilisation: &Stabilisation<S>) -> Stabilisation<S> {
@@ -194,7 +195,7 @@ impl Mechanism for Rod {
         c[2] * S::constant(GRAVITY) * state.coordinates()[2]
     }
 
-    fn coordinate_rates<S: Scalar>(state: &State<S, 7, 6>) -> [S; 7] {
+    fn coordinate_rates<S: Scalar>(_: &[S; 6], state: &State<S, 7, 6>) -> [S; 7] {
         let (_, p, [x, y, z], [w1, w2, w3]) = split(state);
         let half = S::constant(0.5);
         let rates = rotation::product(&p, &[S::zero(), half * w1, half * w2, half * w3]);
@@ -222,7 +223,7 @@ impl Mechanism for Rod {
         let upper = Self::forces(c, time, read);
         let (accelerations, multipliers) =
             Self::solve::<S, T>(c, coefficients, &factors, &upper, &lower);
-        let rates = State::from_parts(Self::coordinate_rates(read), accelerations);
+        let rates = State::from_parts(Self::coordinate_rates(c, read), accelerations);
         Evaluation {
             rates,
             multipliers,
@@ -236,28 +237,8 @@ impl Mechanism for Rod {
         time: S,
         state: &State<S, 7, 6>,
     ) -> (Factors<S>, Pivot<S>) {
-        let d = Self::jacobian(c, time, state);
-        let mut lower = [[S::zero(); 5]; 5];
-        let mut pivot = Pivot::unchecked();
-        for i in 0..5 {
-            for j in 0..=i {
-                let mut sum = (0..6).fold(S::zero(), |sum, k| {
-                    sum + d[6 * i + k] * d[6 * j + k] * c[k].reciprocal()
-                });
-                if T::COMPLIANT && i == j {
-                    sum = sum + coefficients.compliance;
-                }
-                let full = sum;
-                sum = (0..j).fold(sum, |sum, k| sum - lower[i][k] * lower[j][k]);
-                if i == j {
-                    pivot = pivot.and(sum * full.reciprocal(), 0);
-                    lower[i][i] = sum.sqrt().reciprocal();
-                } else {
-                    lower[i][j] = sum * lower[j][j];
-                }
-            }
-        }
-        (Factors { jacobian: d, lower }, pivot)
+        let compliance = T::COMPLIANT.then_some(coefficients.compliance);
+        dense::factor(Self::jacobian(c, time, state), c, compliance)
     }
 
     fn solve<S: Scalar, T: Terms>(
@@ -267,25 +248,7 @@ impl Mechanism for Rod {
         upper: &[S; 6],
         lower: &[S; 5],
     ) -> ([S; 6], [S; 5]) {
-        let Factors {
-            jacobian: d,
-            lower: l,
-        } = factors;
-        let mut x: [S; 5] = from_fn(|i| {
-            let sum = (0..6).map(|k| d[6 * i + k] * c[k].reciprocal() * upper[k]);
-            sum.fold(-lower[i], |sum, term| sum + term)
-        });
-        for i in 0..5 {
-            x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) * l[i][i];
-        }
-        for i in (0..5).rev() {
-            x[i] = (i + 1..5).fold(x[i], |sum, k| sum - l[k][i] * x[k]) * l[i][i];
-        }
-        let a = from_fn(|k| {
-            let sum = (0..5).fold(upper[k], |sum, i| sum - d[6 * i + k] * x[i]);
-            sum * c[k].reciprocal()
-        });
-        (a, x)
+        dense::solve(factors, c, upper, lower)
     }
 
     fn joint_angle<S: Scalar>(_: &[S; 6], state: &State<S, 7, 6>, _: usize) -> AngleParts<S> {

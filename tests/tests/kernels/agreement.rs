@@ -96,7 +96,7 @@ fn dynamic_kernels<M: Scene, S: Real>(count: usize) {
                 worst.take("gyroscopic moment", deviation, limit);
             }
         }
-        let rates = values(M::coordinate_rates(&state).as_slice());
+        let rates = values(M::coordinate_rates(&constants, &state).as_slice());
         let deviation = distance(&rates, scene.coordinate_rates(&x).as_slice(), 0.0);
         worst.take("q'", deviation, limit);
         let kinetic = M::kinetic_energy(&constants, &state).to_f64();

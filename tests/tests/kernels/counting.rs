@@ -68,7 +68,7 @@ impl<M: Scene> Call<M> {
             "forces" => counted(|| M::forces(constants, time, state)),
             "kinetic energy" => counted(|| M::kinetic_energy(constants, state)),
             "potential energy" => counted(|| M::potential_energy(constants, time, state)),
-            "coordinate rates" => counted(|| M::coordinate_rates(state)),
+            "coordinate rates" => counted(|| M::coordinate_rates(constants, state)),
             "solve" => self.back_substitution::<Plain>(),
             "solve, compliant" => self.back_substitution::<Compliant>(),
             other => panic!("the report names a kernel that is not known here: {other}"),

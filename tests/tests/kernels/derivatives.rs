@@ -43,10 +43,11 @@ fn curve<M: Mechanism>(x: &[f64], rates: &[f64]) -> M::State<Dual> {
 }
 
 /// The rates of the coordinates for given velocities: the kernel, at a state with these velocities.
-fn rates<M: Mechanism>(x: &[f64], velocities: &[f64]) -> Vec<f64> {
+fn rates<M: Scene>(x: &[f64], velocities: &[f64]) -> Vec<f64> {
     let mut x = x.to_vec();
     x[M::REPORT.coordinates..].copy_from_slice(velocities);
-    values(M::coordinate_rates(&state::<f64, M>(&x)).as_slice())
+    let constants = constants::<f64, M>();
+    values(M::coordinate_rates(&constants, &state::<f64, M>(&x)).as_slice())
 }
 
 fn derivatives(elements: &[Dual]) -> Vec<f64> {

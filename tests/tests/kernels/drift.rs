@@ -56,7 +56,7 @@ fn of_raw_kernels<M: Scene>(norm: f64) -> f64 {
             ),
             (
                 "q'",
-                values(M::coordinate_rates(&state).as_slice()),
+                values(M::coordinate_rates(&constants, &state).as_slice()),
                 scene.coordinate_rates(x).as_slice(),
             ),
         ] {

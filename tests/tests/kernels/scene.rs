@@ -1,6 +1,6 @@
 //! A mechanism beside its assembler, and states for both.
 
-use holonom::{Array, Mechanism, Real, Scalar, StateParts};
+use holonom::{Array, Mechanism, MechanismExt, Real, Scalar, StateParts};
 use holonom_tests::assembler::Assembler;
 use holonom_tests::bodies::{Kind, Orientation};
 use holonom_tests::states::{Spread, displace, generator, make_consistent};
@@ -60,7 +60,10 @@ pub(crate) fn rounded<S: Real>(x: &[f64]) -> Vec<f64> {
 
 /// The constants of a mechanism that has no parameters to refuse.
 pub(crate) fn constants<S: Scalar, M: Scene>() -> M::Constants<S> {
-    M::prepare(&M::default().parameters::<S>()).expect("the parameters are acceptable")
+    let mechanism = M::default();
+    mechanism
+        .constants()
+        .expect("the parameters are acceptable")
 }
 
 /// The Jacobian as a dense matrix, equations by velocities.

@@ -222,7 +222,8 @@ struct Pointless {
 }
 
 fn refused<M: Mechanism + Default>() -> ParameterError {
-    M::prepare(&M::default().parameters::<f64>()).expect_err("a bad number")
+    let mechanism = M::default();
+    mechanism.parameters::<f64>().expect_err("a bad number")
 }
 
 #[test]

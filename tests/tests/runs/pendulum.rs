@@ -63,7 +63,7 @@ pub(crate) fn final_swing<F: Formulation<f64>, I: Integrator<f64>, P: Orientatio
         .orientation::<P>()
         .run(0.0..=end, every(end), |_| ControlFlow::Continue(()))
         .expect("solvable");
-    let constants = RodPendulum::prepare::<f64>(&()).expect("acceptable");
+    let constants = rod.constants().expect("acceptable");
     let view = View::new(&constants, report.time, &report.state);
     let pivot = RodPendulum::HANDLES.pivot;
     [angle(&view, pivot), view.angle_rate(pivot)]

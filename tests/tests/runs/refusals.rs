@@ -128,7 +128,7 @@ fn an_interval_must_have_a_length() {
 #[test]
 fn a_correction_must_have_a_positive_tolerance() {
     let rod = RodPendulum::default();
-    let constants = RodPendulum::prepare::<f64>(&()).expect("acceptable");
+    let constants = rod.constants().expect("acceptable");
     for bad in BAD {
         let mut state = rod.described_state().expect("described");
         RodPendulum::set_velocity(&mut state, RodPendulum::HANDLES.rod, [0.3, 0.1, 0.7].into());

@@ -1,53 +1,26 @@
-//! Definitions of joints: names, shapes, equations.
+//! Definitions of joints and forces: names, statements.
 
 use proc_macro2::Ident;
 use quote::ToTokens;
-use syn::{BinOp, Expr, Lit, Member, UnOp};
 
-use super::number::in_range;
-use crate::diag::{Faults, code, did_you_mean, list};
-use crate::model::{AngleDef, JointDef, Parameter, ParameterKind, Row, Term};
-use crate::syntax::joint::{JointSyntax, Statement};
-use crate::syntax::ungroup;
+use super::expression::{Context, Shaped};
+use crate::diag::{Faults, did_you_mean, list};
+use crate::model::{Action, ElementKind, JointDef, Parameter, ParameterKind, Row, Term, Turn};
+use crate::syntax::joint::{JointSyntax, ParameterSyntax, Statement};
 use crate::wire;
 
 /// Names that a definition may not use for itself.
-const RESERVED: [&str; 3] = ["between", "ground", "origin"];
-
-/// Makes a term of two.
-type Make = fn(Box<Term>, Box<Term>) -> Term;
-
-/// One or two terms of one shape: the normals of an axis are two vectors, and what is made of them is twofold too.
-#[derive(Clone, Debug)]
-struct Shaped {
-    vector: bool,
-    terms: Vec<Term>,
-}
-
-impl Shaped {
-    fn scalar(term: Term) -> Self {
-        Self {
-            vector: false,
-            terms: vec![term],
-        }
-    }
-
-    fn vector(term: Term) -> Self {
-        Self {
-            vector: true,
-            terms: vec![term],
-        }
-    }
-
-    fn name(&self) -> &'static str {
-        match (self.vector, self.terms.len()) {
-            (false, 1) => "a scalar",
-            (false, _) => "two scalars",
-            (true, 1) => "a vector",
-            (true, _) => "two vectors",
-        }
-    }
-}
+const RESERVED: [&str; 9] = [
+    "PI",
+    "TAU",
+    "between",
+    "drive",
+    "ground",
+    "let",
+    "origin",
+    "potential",
+    "time",
+];
 
 /// Checks a definition. `None` if anything is wrong; the faults say what.
 pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
@@ -57,59 +30,93 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
     let before = faults.any();
     let mut fresh = Faults::new();
     let (parameters, doubtful) = signature(syntax, &mut fresh);
-    let context = Context {
-        bodies: &syntax.bodies,
-        parameters: &parameters,
-        doubtful: &doubtful,
+    let mut reader = Reader {
+        syntax,
+        context: Context {
+            kind: syntax.kind,
+            bodies: &syntax.bodies,
+            parameters: &parameters,
+            doubtful,
+            names: Vec::new(),
+        },
+        rows: Vec::new(),
+        actions: Vec::new(),
+        angle: None,
+        displacement: None,
+        drive: None,
     };
-    let mut rows = Vec::new();
-    let mut angle = None;
-    for statement in &syntax.statements {
-        match statement {
-            Statement::Zero(expr) => {
-                if let Some(shaped) = context.expression(expr, &mut fresh) {
-                    rows.extend(shaped.terms.into_iter().map(|term| {
-                        if shaped.vector {
-                            Row::Vector(term)
-                        } else {
-                            Row::Scalar(term)
-                        }
-                    }));
-                }
-            }
-            Statement::Angle { keyword, axis } => {
-                if angle.is_some() {
-                    fresh.at(keyword, "a joint has one angle; this is the second");
-                } else if syntax.bodies.len() != 2 {
-                    let (name, count) = (&syntax.name, syntax.bodies.len());
-                    fresh.at(
-                        keyword,
-                        format!("an angle needs two bodies; `{name}` has {count}"),
-                    );
-                } else {
-                    angle = context.axis(axis, &mut fresh).map(|axis| AngleDef { axis });
-                }
-            }
-        }
+    let mut defaults = Vec::new();
+    for parameter in &syntax.parameters {
+        defaults.push(reader.default(parameter, &mut fresh));
     }
-    if rows.is_empty() && !before && !fresh.any() {
+    for statement in &syntax.statements {
+        reader.statement(statement, &mut fresh);
+    }
+    let Reader {
+        rows,
+        actions,
+        angle,
+        displacement,
+        drive,
+        ..
+    } = reader;
+    if rows.is_empty() && actions.is_empty() && !before && !fresh.any() {
         let name = &syntax.name;
-        fresh.at(
-            name,
-            format!("joint `{name}` has no equation; write an expression that is zero, as in `j.origin - i.origin;`"),
-        );
+        let message = match syntax.kind {
+            ElementKind::Joint => format!(
+                "joint `{name}` has no equation; write an expression that is zero, as in `j.origin - i.origin;`"
+            ),
+            ElementKind::Force => format!(
+                "force `{name}` does nothing; write for instance `potential 0.5 * stiffness * squared(j.tail - i.head);`"
+            ),
+        };
+        fresh.at(name, message);
     }
     let sound = !fresh.any() && !before;
     faults.append(fresh);
-    sound.then(|| JointDef {
-        name: syntax.name.clone(),
-        bodies: syntax.bodies.clone(),
-        parameters,
-        rows,
-        angle,
-        fingerprint: fingerprint(&syntax.body.to_string()),
-        span: syntax.name.span(),
+    let mut parameters = parameters;
+    for (parameter, default) in parameters.iter_mut().zip(defaults) {
+        parameter.default = default;
+    }
+    sound.then(|| {
+        let mut joint = JointDef {
+            kind: syntax.kind,
+            name: syntax.name.clone(),
+            bodies: syntax.bodies.clone(),
+            parameters,
+            rows,
+            actions,
+            angle,
+            displacement,
+            drive,
+            turns: Vec::new(),
+            fingerprint: fingerprint(&syntax.body.to_string()),
+            span: syntax.name.span(),
+        };
+        joint.turns = turns(&joint);
+        joint
     })
+}
+
+/// The angles over many turns that a definition speaks of outside the described configuration, where they are zero.
+fn turns(joint: &JointDef) -> Vec<Turn> {
+    fn find(term: &Term, turns: &mut Vec<Turn>) {
+        match term {
+            Term::Angle(turn) if !turns.contains(turn) => turns.push(*turn),
+            Term::Sum(terms) => terms.iter().for_each(|(_, term)| find(term, turns)),
+            Term::Product(a, b) | Term::Dot(a, b) | Term::Cross(a, b) => {
+                find(a, turns);
+                find(b, turns);
+            }
+            Term::Components(components) => components.iter().for_each(|c| find(c, turns)),
+            Term::Function(_, term) | Term::Rate(term) => find(term, turns),
+            Term::Law { arguments, .. } => arguments.iter().for_each(|term| find(term, turns)),
+            _ => {}
+        }
+    }
+    let mut turns = Vec::new();
+    joint.terms().for_each(|term| find(term, &mut turns));
+    turns
 }
 
 /// Tells definitions apart, by their text without spaces.
@@ -117,12 +124,227 @@ fn fingerprint(text: &str) -> u64 {
     wire::hash(text.bytes().filter(|byte| !byte.is_ascii_whitespace()))
 }
 
+/// Reads the statements of a definition.
+struct Reader<'a> {
+    syntax: &'a JointSyntax,
+    context: Context<'a>,
+    rows: Vec<Row>,
+    actions: Vec<Action>,
+    angle: Option<Turn>,
+    displacement: Option<Term>,
+    drive: Option<usize>,
+}
+
+impl Reader<'_> {
+    /// What stands behind `=` in the signature.
+    fn default(&self, parameter: &ParameterSyntax, faults: &mut Faults) -> Option<Term> {
+        let expr = parameter.default.as_ref()?;
+        let name = &parameter.name;
+        let known = self.context.parameters.iter().find(|p| p.name == *name)?;
+        if !known.kind.is_number() {
+            faults.at(
+                expr,
+                format!("only a number has a default; `{name}` is none"),
+            );
+            return None;
+        }
+        let term = self.context.scalar(expr, faults)?;
+        if !is_constant(&term) {
+            faults.at(
+                expr,
+                format!(
+                    "the default of `{name}` depends on the motion; write `initial(..)` for its value in the described \
+                     configuration"
+                ),
+            );
+            return None;
+        }
+        Some(term)
+    }
+
+    fn statement(&mut self, statement: &Statement, faults: &mut Faults) {
+        match statement {
+            Statement::Let(name, expr) => self.bind(name, expr, faults),
+            Statement::Zero(expr) => {
+                if let Some(shaped) = self.context.expression(expr, faults)
+                    && self.joint_only(expr, "an equation", faults)
+                {
+                    self.rows.extend(shaped.rows());
+                }
+            }
+            Statement::Angle { keyword, axis } => self.read_angle(keyword, axis, faults),
+            Statement::Displacement(keyword, expr) => {
+                let term = self.context.scalar(expr, faults);
+                if self.displacement.is_some() {
+                    faults.at(keyword, "a joint has one displacement; this is the second");
+                } else if self.joint_only(keyword, "a displacement", faults) {
+                    self.displacement = term;
+                }
+            }
+            Statement::Drive(keyword, driven, law) => {
+                let driven = self.context.scalar(driven, faults);
+                let law = self.context.scalar(law, faults);
+                if self.drive.is_some() {
+                    faults.at(keyword, "a joint drives once; this is the second time");
+                } else if self.joint_only(keyword, "a driver", faults)
+                    && let (Some(driven), Some(law)) = (driven, law)
+                {
+                    self.drive = Some(self.rows.iter().map(Row::equations).sum());
+                    let difference = Term::Sum(vec![(false, driven), (true, law)]);
+                    self.rows.push(Row::Scalar(difference));
+                }
+            }
+            Statement::Potential(keyword, energy) => {
+                let energy = self.context.scalar(energy, faults);
+                if self.force_only(keyword, faults)
+                    && let Some(energy) = energy
+                    && !has_rate(
+                        &energy,
+                        keyword,
+                        "a potential depends on positions alone; write `-damping * rate(d) along d` for what depends on a rate",
+                        faults,
+                    )
+                {
+                    self.actions.push(Action::Potential(energy));
+                }
+            }
+            Statement::Along(effort, keyword, coordinate) => {
+                let effort = self.context.scalar(effort, faults);
+                let coordinate = self.context.scalar(coordinate, faults);
+                if self.force_only(keyword, faults)
+                    && let (Some(effort), Some(coordinate)) = (effort, coordinate)
+                    && !has_rate(
+                        &coordinate,
+                        keyword,
+                        "a force acts along a length or an angle, not along a rate",
+                        faults,
+                    )
+                {
+                    self.actions.push(Action::Along { effort, coordinate });
+                }
+            }
+            Statement::Force(keyword, vector, point) => {
+                let vector = self.context.vector(vector, faults);
+                let at = self.context.vector(point, faults);
+                if self.force_only(keyword, faults)
+                    && let (Some(vector), Some(at)) = (vector, at)
+                {
+                    if !matches!(at, Term::Point { .. } | Term::Origin(_)) {
+                        faults.at(
+                            point,
+                            "a force acts at a point of a body, such as `j.point` or `j.origin`",
+                        );
+                        return;
+                    }
+                    self.actions.push(Action::Force { vector, point: at });
+                }
+            }
+            Statement::Moment(keyword, vector, body) => {
+                let vector = self.context.vector(vector, faults);
+                let body = self.context.body(body, faults);
+                if self.force_only(keyword, faults)
+                    && let (Some(vector), Some(body)) = (vector, body)
+                {
+                    self.actions.push(Action::Moment { vector, body });
+                }
+            }
+        }
+    }
+
+    fn bind(&mut self, name: &Ident, expr: &syn::Expr, faults: &mut Faults) {
+        if RESERVED.contains(&name.to_string().as_str()) || self.context.is_known(name) {
+            faults.at(name, format!("`{name}` is taken; take another name"));
+        }
+        let value = self.context.expression(expr, faults);
+        self.context.names.push((name.clone(), value));
+    }
+
+    fn joint_only(&self, at: impl ToTokens, what: &str, faults: &mut Faults) -> bool {
+        let fits = self.syntax.kind == ElementKind::Joint;
+        if !fits {
+            faults.at(
+                at,
+                format!(
+                    "{what} belongs into `joint!`; a force is `potential ..`, `.. along ..`, `force .. at ..` or \
+                     `moment .. on ..`"
+                ),
+            );
+        }
+        fits
+    }
+
+    fn force_only(&self, at: impl ToTokens, faults: &mut Faults) -> bool {
+        let fits = self.syntax.kind == ElementKind::Force;
+        if !fits {
+            faults.at(
+                at,
+                "a joint exerts no force of its own; this belongs into `force!`",
+            );
+        }
+        fits
+    }
+
+    fn read_angle(&mut self, keyword: &Ident, axis: &Ident, faults: &mut Faults) {
+        if self.angle.is_some() {
+            faults.at(keyword, "a joint has one angle; this is the second");
+        } else if self.syntax.bodies.len() != 2 {
+            let (name, count) = (&self.syntax.name, self.syntax.bodies.len());
+            faults.at(
+                keyword,
+                format!("an angle needs two bodies; `{name}` has {count}"),
+            );
+        } else if self.joint_only(keyword, "an angle to read", faults) {
+            let axis = self.context.axis(axis, faults);
+            self.angle = axis.map(|axis| Turn {
+                from: 0,
+                to: 1,
+                axis,
+            });
+        }
+    }
+}
+
+/// Refuses a rate where it has no place.
+fn has_rate(term: &Term, at: &Ident, message: &str, faults: &mut Faults) -> bool {
+    let has = term.has(|term| matches!(term, Term::Rate(_)));
+    if has {
+        faults.at(at, message);
+    }
+    has
+}
+
+/// Whether a scalar has one value for all states.
+fn is_constant(term: &Term) -> bool {
+    match term {
+        Term::Number(_) | Term::Scalar(_) | Term::Initial(_) => true,
+        Term::Sum(terms) => terms.iter().all(|(_, term)| is_constant(term)),
+        Term::Product(a, b) => is_constant(a) && is_constant(b),
+        Term::Function(_, term) => is_constant(term),
+        _ => false,
+    }
+}
+
+impl Shaped {
+    /// The equations that it stands for.
+    fn rows(self) -> impl Iterator<Item = Row> {
+        let vector = self.vector;
+        self.terms.into_iter().map(move |term| {
+            if vector {
+                Row::Vector(term)
+            } else {
+                Row::Scalar(term)
+            }
+        })
+    }
+}
+
 /// The parameters, and the names of those whose kind is not known.
 fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter>, Vec<&'a Ident>) {
     if syntax.bodies.is_empty() {
+        let word = syntax.kind.word();
         faults.at(
             &syntax.name,
-            "a joint connects at least one body, as in `(i, j)`",
+            format!("a {word} connects at least one body, as in `(i, j)`"),
         );
     }
     let mut doubtful = Vec::new();
@@ -130,7 +352,7 @@ fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter
     for name in syntax
         .bodies
         .iter()
-        .chain(syntax.parameters.iter().map(|(name, _)| name))
+        .chain(syntax.parameters.iter().map(|parameter| &parameter.name))
     {
         if RESERVED.contains(&name.to_string().as_str()) {
             faults.at(
@@ -146,7 +368,8 @@ fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter
     let parameters = syntax
         .parameters
         .iter()
-        .map(|(name, kind)| {
+        .map(|parameter| {
+            let ParameterSyntax { name, kind, .. } = parameter;
             let found = kind.to_string();
             let known = ParameterKind::ALL.iter().find(|(word, _)| *word == found);
             if known.is_none() {
@@ -158,349 +381,19 @@ fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter
                     format!("no kind `{found}`; there are {}{near}", list(words)),
                 );
             }
-            let kind = known.map_or(ParameterKind::Number, |(_, kind)| *kind);
+            let known = known.map_or(ParameterKind::Number, |(_, kind)| *kind);
+            if known != ParameterKind::Law
+                && let Some(argument) = parameter.arguments.first()
+            {
+                faults.at(argument, "only a `Law` has arguments");
+            }
             Parameter {
                 name: name.clone(),
-                kind,
+                kind: known,
+                arguments: parameter.arguments.clone(),
+                default: None,
             }
         })
         .collect();
     (parameters, doubtful)
-}
-
-struct Context<'a> {
-    bodies: &'a [Ident],
-    parameters: &'a [Parameter],
-    doubtful: &'a [&'a Ident],
-}
-
-impl Context<'_> {
-    fn axis(&self, name: &Ident, faults: &mut Faults) -> Option<usize> {
-        let axis = self
-            .parameters
-            .iter()
-            .position(|p| p.name == *name && p.kind == ParameterKind::Axis);
-        if axis.is_none() && !self.doubtful.contains(&name) {
-            let axes = self.known(|kind| kind == ParameterKind::Axis);
-            let near = did_you_mean(&name.to_string(), axes.iter().map(String::as_str));
-            let has = if axes.is_empty() {
-                "the joint has none".into()
-            } else {
-                format!("the joint has {}", list(&axes))
-            };
-            faults.at(name, format!("no axis `{name}`; {has}{near}"));
-        }
-        axis
-    }
-
-    /// The names of the parameters of some kinds.
-    fn known(&self, wanted: impl Fn(ParameterKind) -> bool) -> Vec<String> {
-        let known = self.parameters.iter().filter(|p| wanted(p.kind));
-        known
-            .filter(|p| !self.doubtful.contains(&&p.name))
-            .map(|p| p.name.to_string())
-            .collect()
-    }
-
-    fn expression(&self, expr: &Expr, faults: &mut Faults) -> Option<Shaped> {
-        match ungroup(expr) {
-            Expr::Lit(literal) => match &literal.lit {
-                Lit::Float(f) => faults.accept(f.base10_parse()),
-                Lit::Int(i) => faults.accept(i.base10_parse()),
-                other => {
-                    faults.at(other, "expected a number");
-                    None
-                }
-            }
-            .and_then(|value| in_range(value, literal, faults))
-            .map(|value| Shaped::scalar(Term::Number(value))),
-            Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
-                let inner = self.expression(&unary.expr, faults)?;
-                let terms = inner
-                    .terms
-                    .into_iter()
-                    .map(|term| Term::Sum(vec![(true, term)]));
-                Some(Shaped {
-                    vector: inner.vector,
-                    terms: terms.collect(),
-                })
-            }
-            Expr::Binary(binary) => self.binary(binary, faults),
-            Expr::Field(field) => self.field(field, faults),
-            Expr::MethodCall(call) => self.normals(call, faults),
-            Expr::Call(call) => self.call(call, faults),
-            Expr::Path(path) => self.scalar_parameter(path, faults),
-            other => {
-                faults.at(
-                    other,
-                    "expected an expression of points, vectors and numbers: `i.point`, `+`, `-`, `*`, `dot(..)`, \
-                     `cross(..)`, `squared(..)`",
-                );
-                None
-            }
-        }
-    }
-
-    fn binary(&self, binary: &syn::ExprBinary, faults: &mut Faults) -> Option<Shaped> {
-        let left = self.expression(&binary.left, faults);
-        let right = self.expression(&binary.right, faults);
-        let (left, right) = (left?, right?);
-        match binary.op {
-            BinOp::Add(_) | BinOp::Sub(_) => {
-                if left.vector != right.vector || left.terms.len() != right.terms.len() {
-                    let word = if matches!(binary.op, BinOp::Add(_)) {
-                        "add"
-                    } else {
-                        "subtract"
-                    };
-                    faults.at(
-                        binary,
-                        format!(
-                            "cannot {word} {} and {}; both sides must have one shape",
-                            left.name(),
-                            right.name()
-                        ),
-                    );
-                    return None;
-                }
-                let minus = matches!(binary.op, BinOp::Sub(_));
-                let terms = left
-                    .terms
-                    .into_iter()
-                    .zip(right.terms)
-                    .map(|(a, b)| Term::Sum(vec![(false, a), (minus, b)]))
-                    .collect();
-                Some(Shaped {
-                    vector: left.vector,
-                    terms,
-                })
-            }
-            BinOp::Mul(_) => {
-                if left.vector && right.vector {
-                    faults.at(
-                        binary,
-                        "cannot multiply two vectors; write `dot(a, b)` or `cross(a, b)`",
-                    );
-                    return None;
-                }
-                let vector = left.vector || right.vector;
-                let (scalar, other) = if left.vector {
-                    (right, left)
-                } else {
-                    (left, right)
-                };
-                self.pairwise(binary, scalar, other, vector, faults, Term::Product)
-            }
-            op => {
-                faults.at(op, "expected `+`, `-` or `*`");
-                None
-            }
-        }
-    }
-
-    fn pairwise(
-        &self,
-        at: impl ToTokens,
-        left: Shaped,
-        right: Shaped,
-        vector: bool,
-        faults: &mut Faults,
-        make: Make,
-    ) -> Option<Shaped> {
-        let (m, n) = (left.terms.len(), right.terms.len());
-        if m != n && m != 1 && n != 1 {
-            faults.at(
-                at,
-                format!("cannot combine {} and {}", left.name(), right.name()),
-            );
-            return None;
-        }
-        let terms = (0..m.max(n))
-            .map(|k| {
-                let (a, b) = (&left.terms[k % m], &right.terms[k % n]);
-                make(Box::new(a.clone()), Box::new(b.clone()))
-            })
-            .collect();
-        Some(Shaped { vector, terms })
-    }
-
-    fn body(&self, expr: &Expr, faults: &mut Faults) -> Option<usize> {
-        if let Expr::Path(path) = ungroup(expr)
-            && let Some(name) = path.path.get_ident()
-        {
-            if let Some(place) = self.bodies.iter().position(|body| body == name) {
-                return Some(place);
-            }
-            let known: Vec<String> = self.bodies.iter().map(ToString::to_string).collect();
-            let near = did_you_mean(&name.to_string(), known.iter().map(String::as_str));
-            faults.at(
-                name,
-                format!(
-                    "no body `{name}`; the joint's bodies are {}{near}",
-                    list(known.iter())
-                ),
-            );
-            return None;
-        }
-        faults.at(
-            expr,
-            format!("expected one of the joint's bodies, {}", list(self.bodies)),
-        );
-        None
-    }
-
-    fn field(&self, field: &syn::ExprField, faults: &mut Faults) -> Option<Shaped> {
-        let body = self.body(&field.base, faults)?;
-        let Member::Named(name) = &field.member else {
-            faults.at(
-                &field.member,
-                "expected the name of a point, a vector or an axis",
-            );
-            return None;
-        };
-        if name == "origin" {
-            return Some(Shaped::vector(Term::Origin(body)));
-        }
-        if self.doubtful.contains(&name) {
-            return None;
-        }
-        let Some(parameter) = self
-            .parameters
-            .iter()
-            .position(|p| p.name == *name && p.kind.is_vector())
-        else {
-            let known = self.known(ParameterKind::is_vector);
-            let near = did_you_mean(&name.to_string(), known.iter().map(String::as_str));
-            let fixed = list(known.iter().map(String::as_str).chain(["origin"]));
-            faults.at(
-                name,
-                format!("no point or vector `{name}` on a body; it has {fixed}{near}"),
-            );
-            return None;
-        };
-        let term = match self.parameters[parameter].kind {
-            ParameterKind::Point => Term::Point { body, parameter },
-            _ => Term::Fixed { body, parameter },
-        };
-        Some(Shaped::vector(term))
-    }
-
-    fn normals(&self, call: &syn::ExprMethodCall, faults: &mut Faults) -> Option<Shaped> {
-        if call.method != "normals" || !call.args.is_empty() {
-            faults.at(
-                &call.method,
-                format!(
-                    "no `{}` here; an axis has `normals()`, two unit vectors perpendicular to it",
-                    call.method
-                ),
-            );
-            return None;
-        }
-        let base = self.expression(&call.receiver, faults)?;
-        if let [Term::Fixed { body, parameter }] = base.terms[..]
-            && self.parameters[parameter].kind == ParameterKind::Axis
-        {
-            let terms = [0, 1]
-                .map(|which| Term::Normal {
-                    body,
-                    parameter,
-                    which,
-                })
-                .into();
-            return Some(Shaped {
-                vector: true,
-                terms,
-            });
-        }
-        faults.at(
-            &call.receiver,
-            format!("only an axis has `normals()`; this is {}", base.name()),
-        );
-        None
-    }
-
-    fn call(&self, call: &syn::ExprCall, faults: &mut Faults) -> Option<Shaped> {
-        let name = code(&call.func);
-        let arguments: Vec<Option<Shaped>> = call
-            .args
-            .iter()
-            .map(|argument| self.expression(argument, faults))
-            .collect();
-        let arguments: Vec<Shaped> = arguments.into_iter().collect::<Option<_>>()?;
-        let (wanted, vector, make): (usize, bool, Make) = match name.as_str() {
-            "dot" => (2, false, Term::Dot),
-            "squared" => (1, false, Term::Dot),
-            "cross" => (2, true, Term::Cross),
-            _ => {
-                let known = ["dot", "cross", "squared"];
-                let near = did_you_mean(&name, known);
-                faults.at(
-                    &call.func,
-                    format!("no function `{name}`; there are {}{near}", list(known)),
-                );
-                return None;
-            }
-        };
-        if arguments.len() != wanted {
-            let count = arguments.len();
-            let vectors = if wanted == 1 { "vector" } else { "vectors" };
-            faults.at(
-                call,
-                format!("`{name}` takes {wanted} {vectors}, not {count}"),
-            );
-            return None;
-        }
-        for (argument, expr) in arguments.iter().zip(&call.args) {
-            if !argument.vector {
-                faults.at(
-                    expr,
-                    format!("`{name}` takes vectors; this is {}", argument.name()),
-                );
-                return None;
-            }
-        }
-        let first = arguments.first()?.clone();
-        let second = arguments.last()?.clone();
-        self.pairwise(call, first, second, vector, faults, make)
-    }
-
-    fn scalar_parameter(&self, path: &syn::ExprPath, faults: &mut Faults) -> Option<Shaped> {
-        let found = code(path);
-        let Some(name) = path.path.get_ident() else {
-            faults.at(
-                path,
-                format!("`{found}` is not known here; a definition speaks of its own parameters, which a mechanism gives"),
-            );
-            return None;
-        };
-        let place = self.parameters.iter().position(|p| p.name == *name);
-        match place {
-            _ if self.doubtful.contains(&name) => {}
-            Some(place) if !self.parameters[place].kind.is_vector() => {
-                return Some(Shaped::scalar(Term::Scalar(place)));
-            }
-            Some(_) => {
-                let body = self.bodies.first().map_or("i".into(), ToString::to_string);
-                faults.at(
-                    path,
-                    format!("`{found}` is fixed on a body; write for instance `{body}.{found}`"),
-                );
-            }
-            None if self.bodies.contains(name) => faults.at(
-                path,
-                format!("`{found}` is a body; write a point or vector of it, for instance `{found}.origin`"),
-            ),
-            None => {
-                let known = self.known(|kind| !kind.is_vector());
-                let near = did_you_mean(&found, known.iter().map(String::as_str));
-                let has = if known.is_empty() {
-                    "the joint has none".into()
-                } else {
-                    format!("the joint has {}", list(&known))
-                };
-                faults.at(path, format!("no number `{found}`; {has}{near}"));
-            }
-        }
-        None
-    }
 }

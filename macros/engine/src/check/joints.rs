@@ -1,15 +1,18 @@
-//! The joints of a mechanism: bodies by name, parameters by value.
+//! The joints and forces of a mechanism: bodies by name, parameters by value.
 
 use proc_macro2::{Ident, Span};
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::laws::LawReader;
 use super::mechanism::{Definition, Definitions, definition};
 use super::number::{Numbers, elements};
 use super::pairs::Pairs;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::number::literals;
-use crate::model::{Binding, Body, BodyKind, JointDef, JointUse, Number, ParameterKind, Row, Term};
+use crate::model::{
+    Action, Binding, Body, BodyKind, ElementKind, JointDef, JointUse, Number, ParameterKind, Term,
+};
 use crate::syntax::mechanism::{Field, carrier_path};
 use crate::syntax::{Value, ungroup};
 
@@ -20,9 +23,10 @@ pub(super) struct Mentioned {
     pub(super) is_certain: bool,
 }
 
-/// Checks one field that is described as a joint.
+/// Checks one field that is described as a joint or a force.
 pub(super) struct JointChecker<'a> {
     pub(super) field: &'a Field,
+    pub(super) kind: ElementKind,
     /// The word of its attribute.
     pub(super) word: Span,
     /// The fields that joints may name, and the bodies that they are.
@@ -41,9 +45,21 @@ impl JointChecker<'_> {
     ) -> Option<JointUse> {
         let name = &self.field.name;
         let found = code(&self.field.ty);
-        let mut pairs = Pairs::new(format!("joint `{name}`"), self.word, &self.field.list);
+        let word = self.kind.word();
+        let mut pairs = Pairs::new(format!("{word} `{name}`"), self.word, &self.field.list);
         let definition = match definition(self.field, types) {
-            Some(Definition::Joint(place)) => *place,
+            Some(Definition::Element(place)) if self.definitions[*place].kind == self.kind => {
+                *place
+            }
+            Some(Definition::Element(place)) => {
+                let other = self.definitions[*place].kind.word();
+                faults.at_span(
+                    self.word,
+                    format!("`{found}` is a {other}: describe `{name}` by `#[{other}(between = [..], ..)]`"),
+                );
+                mentioned.is_certain = false;
+                return None;
+            }
             Some(Definition::Body(_)) => {
                 faults.at_span(
                     self.word,
@@ -58,8 +74,8 @@ impl JointChecker<'_> {
                     faults.at(
                         &self.field.ty,
                         format!(
-                            "`{name}` is described as a joint, but `{found}` is none; take one of `holonom::joints`, or \
-                             define one with `joint!`"
+                            "`{name}` is described as a {word}, but `{found}` is none; take one of `holonom::{word}s`, or \
+                             define one with `{word}!`"
                         ),
                     );
                 }
@@ -90,11 +106,27 @@ impl JointChecker<'_> {
         let mut bindings = Vec::new();
         for parameter in &joint.parameters {
             let key = parameter.name.to_string();
-            let example = parameter.kind.example();
             numbers.field = name.to_string();
             numbers.attribute.clone_from(&key);
-            let expr = pairs.required(&key, example, faults);
+            if parameter.default.is_some() && !pairs.has(&key) {
+                pairs.optional(&key, faults);
+                bindings.push(Some(Binding::Default));
+                continue;
+            }
+            let expr = pairs.required(&key, parameter.kind.example(), faults);
+            numbers.no_inputs = match (self.kind, parameter.kind) {
+                (ElementKind::Joint, _) => Some("a joint is what it is for the whole run"),
+                (_, ParameterKind::Point | ParameterKind::Axis) => {
+                    Some("points and axes are fixed on their bodies")
+                }
+                _ => None,
+            };
             bindings.push(expr.and_then(|expr| {
+                if parameter.kind == ParameterKind::Law {
+                    let arguments = &parameter.arguments;
+                    let mut reader = LawReader { arguments, numbers };
+                    return reader.read(expr, faults).map(Binding::Law);
+                }
                 self.binding(
                     expr,
                     parameter.kind,
@@ -104,6 +136,7 @@ impl JointChecker<'_> {
                     faults,
                 )
             }));
+            numbers.no_inputs = None;
         }
         pairs.finish(faults);
         let bodies = bodies.filter(|bodies| bodies.len() == joint.bodies.len())?;
@@ -144,7 +177,10 @@ impl JointChecker<'_> {
                 let twice = code(element);
                 faults.at(
                     element,
-                    format!("a joint between `{twice}` and itself constrains nothing; name each body once"),
+                    format!(
+                        "a {} between `{twice}` and itself does nothing; name each body once",
+                        self.kind.word()
+                    ),
                 );
             }
             bodies.push(place);
@@ -152,7 +188,10 @@ impl JointChecker<'_> {
         if let [Some(None)] = bodies[..] {
             faults.at(
                 expr,
-                "a joint of the `ground` alone constrains nothing; name a body",
+                format!(
+                    "a {} of the `ground` alone does nothing; name a body",
+                    self.kind.word()
+                ),
             );
         }
         bodies.into_iter().collect()
@@ -308,46 +347,51 @@ impl JointChecker<'_> {
                             _ => pair.key.span(),
                         }),
                         format!(
-                            "joint `{}` fixes `{parameter}` on the particle `{}`, which has no orientation: only a point \
+                            "{} `{}` fixes `{parameter}` on the particle `{}`, which has no orientation: only a point \
                              at the particle's own position can be fixed on it",
-                            self.field.name, body.name
+                            self.kind.word(), self.field.name, body.name
                         ),
                     );
                     sound = None;
                 }
+            }
+            if turns(joint, place) {
+                faults.at_span(
+                    self.word,
+                    format!(
+                        "{} `{}` needs the orientation of `{}`, and a particle has none; make it a `Body`",
+                        self.kind.word(), self.field.name, body.name
+                    ),
+                );
+                sound = None;
             }
         }
         sound
     }
 }
 
-/// The vector parameters that the rows of a joint fix on one of its bodies.
+/// Whether a definition fixes a vector of its own on one of its bodies, or exerts a moment on it.
+fn turns(joint: &JointDef, body: usize) -> bool {
+    let moment = |action: &Action| matches!(action, Action::Moment { body: b, .. } if *b == body);
+    let onto = |term: &Term| matches!(term, Term::Onto(b, _) if *b == body);
+    joint.terms().any(|term| term.has(onto)) || joint.actions.iter().any(moment)
+}
+
+/// The vector parameters that a definition fixes on one of its bodies.
 fn uses(joint: &JointDef, body: usize) -> Vec<(usize, ParameterKind)> {
-    fn visit(term: &Term, body: usize, found: &mut Vec<usize>) {
-        match term {
-            Term::Point { body: b, parameter }
-            | Term::Fixed { body: b, parameter }
-            | Term::Normal {
-                body: b, parameter, ..
-            } if *b == body => {
-                found.push(*parameter);
-            }
-            Term::Sum(terms) => terms.iter().for_each(|(_, term)| visit(term, body, found)),
-            Term::Product(a, b) | Term::Dot(a, b) | Term::Cross(a, b) => {
-                visit(a, body, found);
-                visit(b, body, found);
-            }
-            _ => {}
-        }
-    }
     let mut found = Vec::new();
-    for row in &joint.rows {
-        match row {
-            Row::Scalar(term) | Row::Vector(term) => visit(term, body, &mut found),
-        }
-    }
+    let mut note = |term: &Term| match term {
+        Term::Point { body: b, parameter }
+        | Term::Fixed { body: b, parameter }
+        | Term::Normal {
+            body: b, parameter, ..
+        } if *b == body => found.push(*parameter),
+        Term::Angle(turn) if turn.from == body || turn.to == body => found.push(turn.axis),
+        _ => {}
+    };
+    joint.terms().for_each(|term| term.visit(&mut note));
     if let Some(angle) = joint.angle {
-        found.push(angle.axis);
+        note(&Term::Angle(angle));
     }
     found.sort_unstable();
     found.dedup();

@@ -8,7 +8,7 @@ use super::joints::{JointChecker, Mentioned};
 use super::number::Numbers;
 use super::pairs::Pairs;
 use crate::diag::{Faults, code};
-use crate::model::{BodyKind, JointDef, Model, Number};
+use crate::model::{BodyKind, ElementKind, JointDef, Model, Number};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
 
 /// What a field's type turned out to be.
@@ -16,9 +16,9 @@ use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
 pub enum Definition {
     /// A rigid body or a particle.
     Body(BodyKind),
-    /// A joint by its place among the definitions.
-    Joint(usize),
-    /// A joint with a fault in its definition, which is reported where it is defined.
+    /// A joint or force by its place among the definitions.
+    Element(usize),
+    /// A joint or force with a fault in its definition, which is reported where it is defined.
     Faulty,
 }
 
@@ -34,6 +34,7 @@ pub fn check(
     faults: &mut Faults,
 ) -> Option<Model> {
     let mut numbers = Numbers::new(facade);
+    numbers.values = super::values::values(syntax, faults);
     let gravity = gravity(syntax, &mut numbers, faults);
     let mut names: Vec<&Ident> = Vec::new();
     let mut bodies = Vec::new();
@@ -44,33 +45,41 @@ pub fn check(
         }
     }
     let mut joints = Vec::new();
+    let mut forces = Vec::new();
     let mut mentioned = Mentioned {
         bodies: vec![false; names.len()],
         is_certain: true,
     };
     for field in &syntax.fields {
-        match &field.role {
-            Some((Role::Joint, word)) => {
-                let checker = JointChecker {
-                    field,
-                    word: word.span(),
-                    names: &names,
-                    bodies: &bodies,
-                    definitions: &definitions,
-                };
-                joints.push(checker.check(types, &mut mentioned, &mut numbers, faults));
-            }
-            Some((Role::Body, _)) => {}
-            None => {
-                mentioned.is_certain = false;
-                faults.at(
-                    &field.name,
-                    format!(
-                        "field `{}` is not described; write `#[body(..)]` or `#[joint(..)]` above it",
-                        field.name
-                    ),
-                );
-            }
+        let Some((role, word)) = &field.role else {
+            mentioned.is_certain = false;
+            faults.at(
+                &field.name,
+                format!(
+                    "field `{}` is not described; write `#[body(..)]`, `#[joint(..)]`, `#[force(..)]`, `#[param]` or \
+                     `#[input]` above it",
+                    field.name
+                ),
+            );
+            continue;
+        };
+        let kind = match role {
+            Role::Joint => ElementKind::Joint,
+            Role::Force => ElementKind::Force,
+            Role::Body | Role::Param | Role::Input => continue,
+        };
+        let checker = JointChecker {
+            field,
+            kind,
+            word: word.span(),
+            names: &names,
+            bodies: &bodies,
+            definitions: &definitions,
+        };
+        let element = checker.check(types, &mut mentioned, &mut numbers, faults);
+        match kind {
+            ElementKind::Joint => joints.push(element),
+            ElementKind::Force => forces.push(element),
         }
     }
     if names.is_empty() {
@@ -95,12 +104,16 @@ pub fn check(
     }
     let bodies: Vec<_> = bodies.into_iter().collect::<Option<_>>()?;
     let joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
+    let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
+    let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
     Some(Model {
         name: syntax.name.clone(),
         gravity: gravity?,
         bodies,
         joints,
+        forces,
+        values,
         definitions,
         symbols,
     })
@@ -140,7 +153,7 @@ pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Defin
 fn may_be_body(field: &Field, types: &Definitions) -> bool {
     match (&field.role, definition(field, types)) {
         (Some((Role::Body, _)), _) | (_, Some(Definition::Body(_))) => true,
-        (Some((Role::Joint, _)), _) => false,
+        (Some(_), _) => false,
         (None, definition) => definition.is_none(),
     }
 }
@@ -158,13 +171,16 @@ fn body(
     let found = code(&field.ty);
     match definition(field, types) {
         Some(Definition::Body(kind)) => {
-            bodies::check(name, *kind, word.span(), &field.list, numbers, faults)
+            numbers.no_inputs = Some("a body is what it is for the whole run");
+            let body = bodies::check(name, *kind, word.span(), &field.list, numbers, faults);
+            numbers.no_inputs = None;
+            body
         }
-        Some(Definition::Joint(_) | Definition::Faulty) => {
+        Some(Definition::Element(_) | Definition::Faulty) => {
             faults.at(
                 word,
                 format!(
-                    "`{found}` is a joint: describe `{name}` by `#[joint(between = [..], ..)]`"
+                    "`{found}` is no body: describe `{name}` by `#[joint(between = [..], ..)]` or `#[force(between = [..], ..)]`"
                 ),
             );
             None

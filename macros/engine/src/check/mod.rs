@@ -1,8 +1,12 @@
 //! Refusals: from what was written to what it means. The only pass that says no.
 
 pub mod bodies;
+mod expression;
+mod functions;
 pub mod joint;
 mod joints;
+mod laws;
 pub mod mechanism;
 pub mod number;
 pub mod pairs;
+mod values;

@@ -8,7 +8,8 @@ use syn::spanned::Spanned;
 use syn::{BinOp, Expr, Lit, UnOp};
 
 use crate::diag::{Faults, code, did_you_mean, list};
-use crate::model::{Number, Symbol};
+use crate::emit::local;
+use crate::model::{Number, RunTimeValue, Symbol};
 use crate::syntax::ungroup;
 
 /// The size of numbers: beyond it products and reciprocals leave the range of `f64`.
@@ -31,6 +32,10 @@ const FUNCTIONS: [(&str, Function); 6] = [
 pub struct Numbers<'a> {
     /// Where the private support of the run-time crate lives.
     facade: &'a TokenStream,
+    /// The run-time values of the mechanism.
+    pub values: Vec<RunTimeValue>,
+    /// Why inputs cannot stand here; `None` where they can.
+    pub no_inputs: Option<&'static str>,
     /// Symbols met so far.
     pub symbols: Vec<Symbol>,
     /// The field that is being read.
@@ -42,22 +47,49 @@ pub struct Numbers<'a> {
 /// A number, or an expression of type `f64`.
 enum Value {
     Literal(f64),
-    Later {
-        expression: TokenStream,
-        is_const: bool,
-    },
+    Later(Later),
+}
+
+/// An expression of type `f64`.
+struct Later {
+    expression: TokenStream,
+    /// The same over `S`, where it depends on run-time values.
+    scalar: Option<TokenStream>,
+    is_const: bool,
 }
 
 impl Value {
     fn tokens(&self) -> TokenStream {
         match self {
             Self::Literal(value) => quote!(#value),
-            Self::Later { expression, .. } => expression.clone(),
+            Self::Later(later) => later.expression.clone(),
         }
     }
 
     fn is_const(&self) -> bool {
-        matches!(self, Self::Literal(_) | Self::Later { is_const: true, .. })
+        match self {
+            Self::Literal(_) => true,
+            Self::Later(later) => later.is_const,
+        }
+    }
+
+    /// The value over `S`.
+    fn scalar(&self) -> TokenStream {
+        match self {
+            Self::Later(Later {
+                scalar: Some(scalar),
+                ..
+            }) => scalar.clone(),
+            other => {
+                let value = other.tokens();
+                quote!(S::constant(#value))
+            }
+        }
+    }
+
+    /// Whether it depends on run-time values.
+    fn is_run_time(&self) -> bool {
+        matches!(self, Self::Later(later) if later.scalar.is_some())
     }
 }
 
@@ -67,6 +99,8 @@ impl<'a> Numbers<'a> {
     pub fn new(facade: &'a TokenStream) -> Self {
         Self {
             facade,
+            values: Vec::new(),
+            no_inputs: None,
             symbols: Vec::new(),
             field: String::new(),
             attribute: String::new(),
@@ -77,13 +111,14 @@ impl<'a> Numbers<'a> {
     pub fn scalar(&mut self, expr: &Expr, faults: &mut Faults) -> Option<Number> {
         match self.value(expr, faults)? {
             Value::Literal(value) => in_range(value, expr, faults).map(Number::Literal),
-            Value::Later {
+            Value::Later(Later {
                 expression,
+                scalar,
                 is_const,
-            } => {
+            }) => {
                 // A constant of another type, or an unknown one, is refused by the compiler: with one sentence, wherever the
                 // expression is used. The call changes nothing; it tells the type where that of the constant is not known.
-                let value = crate::emit::local("value");
+                let value = local("value");
                 let expression = quote! {
                     ::core::convert::identity::<f64>({ let #value: f64 = #expression; #value })
                 };
@@ -93,6 +128,7 @@ impl<'a> Numbers<'a> {
                 let place = u32::try_from(self.symbols.len()).ok()?;
                 self.symbols.push(Symbol {
                     expression,
+                    scalar,
                     is_const,
                     span: expr.span(),
                     field: self.field.clone(),
@@ -171,13 +207,15 @@ impl<'a> Numbers<'a> {
             Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
                 Some(match self.value(&unary.expr, faults)? {
                     Value::Literal(value) => Value::Literal(-value),
-                    Value::Later {
+                    Value::Later(Later {
                         expression,
+                        scalar,
                         is_const,
-                    } => Value::Later {
+                    }) => Value::Later(Later {
                         expression: quote!((-(#expression))),
+                        scalar: scalar.map(|scalar| quote!((-(#scalar)))),
                         is_const,
-                    },
+                    }),
                 })
             }
             Expr::Binary(binary) => {
@@ -200,10 +238,18 @@ impl<'a> Numbers<'a> {
                 };
                 Some(folded.unwrap_or_else(|| {
                     let (x, y, op) = (left.tokens(), right.tokens(), binary.op);
-                    Value::Later {
+                    let scalar = (left.is_run_time() || right.is_run_time()).then(|| {
+                        let (x, y) = (left.scalar(), right.scalar());
+                        match op {
+                            BinOp::Div(_) => quote!((#x * S::reciprocal(#y))),
+                            _ => quote!((#x #op #y)),
+                        }
+                    });
+                    Value::Later(Later {
                         expression: quote!((#x #op #y)),
+                        scalar,
                         is_const: left.is_const() && right.is_const(),
-                    }
+                    })
                 }))
             }
             Expr::Call(call) => self.call(call, faults),
@@ -213,12 +259,41 @@ impl<'a> Numbers<'a> {
             Expr::Path(path) if path.path.is_ident("TAU") => {
                 Some(Value::Literal(std::f64::consts::TAU))
             }
-            Expr::Path(path) => Some(Value::Later {
-                expression: path.to_token_stream(),
-                is_const: true,
-            }),
+            Expr::Path(path) => match path.path.get_ident().and_then(|name| self.place(name)) {
+                Some(place) => self.run_time_value(place, expr, faults).map(Value::Later),
+                None => Some(Value::Later(Later {
+                    expression: path.to_token_stream(),
+                    scalar: None,
+                    is_const: true,
+                })),
+            },
             _ => self.refuse(expr, faults),
         }
+    }
+
+    /// The place of a run-time value by its name.
+    fn place(&self, name: &syn::Ident) -> Option<usize> {
+        self.values.iter().position(|value| value.name == *name)
+    }
+
+    fn run_time_value(&self, place: usize, at: &Expr, faults: &mut Faults) -> Option<Later> {
+        let value = &self.values[place];
+        if value.is_input
+            && let Some(reason) = self.no_inputs
+        {
+            let name = &value.name;
+            faults.at(
+                at,
+                format!("`{name}` is an input, which may change at every step: {reason}"),
+            );
+            return None;
+        }
+        let (name, parameters) = (value_name(&value.name), local("parameters"));
+        Some(Later {
+            expression: quote!(#name),
+            scalar: Some(quote!(#parameters[#place])),
+            is_const: false,
+        })
     }
 
     fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<Value> {
@@ -248,12 +323,23 @@ impl<'a> Numbers<'a> {
         };
         Some(match self.value(argument, faults)? {
             Value::Literal(value) => Value::Literal(function(value)),
-            Value::Later { expression, .. } => {
-                let (facade, name) = (self.facade, quote::format_ident!("{name}"));
-                Value::Later {
-                    expression: quote!(#facade::__private::#name(#expression)),
+            Value::Later(Later {
+                expression, scalar, ..
+            }) => {
+                let (facade, function) = (self.facade, quote::format_ident!("{name}"));
+                let scalar = scalar.map(|x| match *name {
+                    "tan" => quote!((S::sin(#x) * S::reciprocal(S::cos(#x)))),
+                    "deg" => {
+                        let degree = std::f64::consts::PI / 180.0;
+                        quote!((#x * S::constant(#degree)))
+                    }
+                    _ => quote!(S::#function(#x)),
+                });
+                Value::Later(Later {
+                    expression: quote!(#facade::__private::#function(#expression)),
+                    scalar,
                     is_const: false,
-                }
+                })
             }
         })
     }
@@ -268,6 +354,13 @@ impl<'a> Numbers<'a> {
         );
         None
     }
+}
+
+/// The local variable that holds a run-time value as `f64`.
+#[must_use]
+pub fn value_name(field: &syn::Ident) -> syn::Ident {
+    let name = field.to_string();
+    local(&format!("value_of_{}", name.trim_start_matches("r#")))
 }
 
 /// A number that is finite, and of a size that products and reciprocals bear.

@@ -51,6 +51,12 @@ impl<'a> Pairs<'a> {
         found
     }
 
+    /// Whether a key is there.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.remaining.iter().any(|pair| pair.key == key)
+    }
+
     /// The value of a key that may be left out.
     pub fn optional(&mut self, key: &str, faults: &mut Faults) -> Option<&'a syn::Expr> {
         let pair = self.take(key, faults)?;
@@ -74,7 +80,7 @@ impl<'a> Pairs<'a> {
         example: &str,
         faults: &mut Faults,
     ) -> Option<&'a syn::Expr> {
-        if self.remaining.iter().any(|pair| pair.key == key) {
+        if self.has(key) {
             return self.optional(key, faults);
         }
         self.known.push(key.into());

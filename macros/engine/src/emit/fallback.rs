@@ -12,24 +12,48 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     let name = &syntax.name;
     let (declared, arguments, clause) = syntax.generics.split_for_impl();
     let bounds = clause.map(|clause| &clause.predicates);
-    let handles = syntax.fields.iter().map(|field| {
+    let is_part = |field: &&Field| field.role.as_ref().is_none_or(|(role, _)| role.is_part());
+    let handles = syntax.fields.iter().filter(is_part).map(|field| {
         let (name, handle) = (&field.name, handle(field, types));
         quote!(#name: #handle,)
     });
+    let parameters = syntax
+        .fields
+        .iter()
+        .filter(|field| matches!(field.role, Some((Role::Param, _))))
+        .map(|field| &field.name)
+        .collect::<Vec<_>>();
+    let construction = (!parameters.is_empty()).then(|| {
+        quote! {
+            impl #declared #name #arguments #clause {
+                #[allow(warnings, missing_docs)]
+                pub fn new(
+                    #(#parameters: f64),*
+                ) -> ::core::result::Result<Self, #facade::ParameterError> {
+                    loop {}
+                }
+            }
+        }
+    });
     quote! {
+        #construction
         #facade::__stub_mechanism! { [#declared] [#name #arguments] [#bounds] #(#handles)* }
     }
 }
 
-/// `body`, `joint` with its type, or `joint` where the type is none.
+/// `body`, `joint` or `force` with its type, or `joint` or `force` where the type is none.
 fn handle(field: &Field, types: &Definitions) -> TokenStream {
     match (definition(field, types), &field.role) {
-        (Some(Definition::Joint(_) | Definition::Faulty), _) => match carrier_path(&field.ty) {
-            Some(path) => quote!(joint #path),
-            None => quote!(joint),
-        },
         (Some(Definition::Body(_)), _) | (None, Some((Role::Body, _))) => quote!(body),
-        (None, Some((Role::Joint, _))) => quote!(joint),
+        (Some(Definition::Element(_) | Definition::Faulty), role) => {
+            let path = carrier_path(&field.ty);
+            match role {
+                Some((Role::Force, _)) => quote!(force #path),
+                _ => quote!(joint #path),
+            }
+        }
+        (None, Some((Role::Force, _))) => quote!(force),
+        (None, Some(_)) => quote!(joint),
         // Not described, and of a type that no other field has: its name is all there is to go by.
         (None, None) => {
             let text = field.ty.to_token_stream().to_string();

@@ -1,11 +1,11 @@
-//! A joint: its type, its traits, its carrier.
+//! A joint or a force: its type, its traits, its carrier.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::diag::list;
-use crate::model::{BodyKind, JointDef};
-use crate::syntax::joint::JointSyntax;
+use crate::model::{BodyKind, ElementKind, JointDef, Term};
+use crate::syntax::joint::{JointSyntax, Statement};
 use crate::wire;
 
 /// Writes a joint. A faulty definition still yields the type, so that its users see one error and not many.
@@ -24,25 +24,54 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
     let equations = joint.map_or(0, JointDef::equations);
     let bodies = syntax.bodies.len();
     let fingerprint = Literal::u64_suffixed(fingerprint);
-    let angle = syntax
-        .statements
-        .iter()
-        .any(|s| matches!(s, crate::syntax::joint::Statement::Angle { .. }))
-        .then(|| quote!(#[automatically_derived] impl #facade::HasAngle for #name {}));
+    let has = |wanted: fn(&Statement) -> bool| syntax.statements.iter().any(wanted);
+    let marker = |present: bool, marker: TokenStream| {
+        present.then(|| quote!(#[automatically_derived] impl #facade::#marker for #name {}))
+    };
+    let traits = match syntax.kind {
+        ElementKind::Force => quote! {
+            #[automatically_derived]
+            impl #facade::Force for #name {
+                const NAME: &'static str = #text;
+                const BODIES: usize = #bodies;
+                const FINGERPRINT: u64 = #fingerprint;
+            }
+        },
+        ElementKind::Joint => {
+            let angle = has(|s| matches!(s, Statement::Angle { .. }));
+            let angle = marker(angle, quote!(HasAngle));
+            let displacement = has(|s| matches!(s, Statement::Displacement(..)));
+            let displacement = marker(displacement, quote!(HasDisplacement));
+            let driven = has(|s| matches!(s, Statement::Drive(..))).then(|| {
+                let row = joint.and_then(|joint| joint.drive).unwrap_or_default();
+                quote! {
+                    #[automatically_derived]
+                    impl #facade::Driven for #name { const ROW: usize = #row; }
+                }
+            });
+            quote! {
+                #[automatically_derived]
+                impl #facade::Joint for #name {
+                    const NAME: &'static str = #text;
+                    const EQUATIONS: usize = #equations;
+                    const BODIES: usize = #bodies;
+                    const FINGERPRINT: u64 = #fingerprint;
+                }
+                #angle
+                #displacement
+                #driven
+            }
+        }
+    };
     quote! {
         #(#attributes)*
         #documentation
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         #visibility struct #name;
 
+        #traits
         #[automatically_derived]
-        impl #facade::Joint for #name {
-            const NAME: &'static str = #text;
-            const EQUATIONS: usize = #equations;
-            const BODIES: usize = #bodies;
-            const FINGERPRINT: u64 = #fingerprint;
-        }
-        #angle
+        impl #facade::__private::Element for #name {}
         #carrier
     }
 }
@@ -50,35 +79,46 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
 fn documentation(joint: &JointDef) -> TokenStream {
     let equations = joint.equations();
     let bodies = list(&joint.bodies);
+    let opening = match (joint.kind, equations) {
+        (ElementKind::Force, _) => String::new(),
+        (_, 1) => "1 equation. ".into(),
+        _ => format!("{equations} equations. "),
+    };
     let mut lines = vec![
         String::new(),
-        format!(
-            "{equations} {}. Bodies, in the order of `between`: {bodies}. Attributes:",
-            if equations == 1 {
-                "equation"
-            } else {
-                "equations"
-            }
-        ),
+        format!("{opening}Bodies, in the order of `between`: {bodies}. Attributes:"),
         String::new(),
     ];
     for parameter in &joint.parameters {
-        lines.push(format!(
-            "- `{}`: {}",
-            parameter.name,
-            parameter.kind.example()
-        ));
+        let mut line = format!("- `{}`: {}", parameter.name, parameter.kind.example());
+        if !parameter.arguments.is_empty() {
+            let arguments = parameter.arguments.iter().map(ToString::to_string);
+            let names = list(std::iter::once("time".to_string()).chain(arguments));
+            line = format!("{line}, of {names}");
+        }
+        if let Some(default) = &parameter.default {
+            line = match default {
+                Term::Number(value) => format!("{line}; {value} if left out"),
+                _ => format!("{line}; if left out, that of the described configuration"),
+            };
+        }
+        lines.push(line);
     }
     if joint.parameters.is_empty() {
         lines.push("- none".into());
     }
     if let Some(angle) = joint.angle {
         let axis = &joint.parameters[angle.axis].name;
-        let (i, j) = (&joint.bodies[0], &joint.bodies[1]);
+        let (i, j) = (&joint.bodies[angle.from], &joint.bodies[angle.to]);
+        let turns = if joint.turns.contains(&angle) {
+            "; turns are counted"
+        } else {
+            ", from `-pi` to `pi`"
+        };
         lines.push(String::new());
         lines.push(format!(
             "The angle of the joint is that of `{j}` against `{i}`, right-handed about `{axis}`, zero in the described \
-             configuration."
+             configuration{turns}."
         ));
     }
     let lines = lines.iter().map(|line| format!(" {line}"));

@@ -39,7 +39,12 @@ impl Writer<'_> {
         let (model, facade, kernels) = (self.model, self.facade, self.kernels);
         let name = &model.name;
         let layout = model.layout();
-        let (q, u, m) = (layout.coordinates, layout.velocities, layout.rows);
+        let (q, u, m) = (
+            layout.coordinates + layout.auxiliaries,
+            layout.velocities,
+            layout.rows,
+        );
+        let values = model.values.len();
         let jacobian_size = kernels.jacobian.outputs.len();
         let report = report(model, kernels, facade);
         let documentation = documentation(model, kernels);
@@ -62,6 +67,9 @@ impl Writer<'_> {
         let factor_size = plain_size.max(compliant_size);
         let angles = self.angles();
         let points = self.points();
+        let displacements = self.displacements();
+        let recount = self.recount();
+        let forces = self.force_readings();
         let user_axes = self.user_axes();
         let initial = self.initial_state();
         let coefficients = self.store.write_coefficients();
@@ -70,15 +78,11 @@ impl Writer<'_> {
         let prepared = self.store.write_constants(&model.symbols);
         let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
         let (c, k) = (self.store.constants(), self.store.coefficients());
-        let checks = parameters::checks(model, facade);
+        let parameters = parameters::parameters(model, facade);
         let assertions = parameters::assertions(model, facade);
-        let fields = model
-            .bodies
-            .iter()
-            .map(|body| &body.name)
-            .chain(model.joints.iter().map(|joint| &joint.name))
-            .collect::<Vec<_>>();
+        let construction = parameters::construction(model, facade);
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
+        let given = local("parameters");
         quote! {
             #[allow(
                 clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction,
@@ -99,7 +103,7 @@ impl Writer<'_> {
                     type Velocities<S: #facade::Scalar> = [S; #u];
                     type Multipliers<S: #facade::Scalar> = [S; #m];
                     type Jacobian<S: #facade::Scalar> = [S; #jacobian_size];
-                    type Parameters<S: #facade::Scalar> = ();
+                    type Parameters<S: #facade::Scalar> = [S; #values];
                     type Constants<S: #facade::Scalar> = [S; #c];
                     type Coefficients<S: #facade::Scalar> = [S; #k];
                     type Factors<S: #facade::Scalar> = [S; #factor_size];
@@ -108,16 +112,13 @@ impl Writer<'_> {
                     const HANDLES: __Handles = #handles;
                     const REPORT: #facade::Report = #report;
 
-                    fn parameters<S: #facade::Scalar>(&self) -> Self::Parameters<S> {
-                        #( let _ = &self.#fields; )*
-                    }
+                    #parameters
 
                     fn prepare<S: #facade::Scalar>(
-                        _: &Self::Parameters<S>,
-                    ) -> ::core::result::Result<Self::Constants<S>, #facade::ParameterError> {
-                        #checks
+                        #given: &Self::Parameters<S>,
+                    ) -> Self::Constants<S> {
                         #constant_statements
-                        ::core::result::Result::Ok([#(#constant_outputs),*])
+                        [#(#constant_outputs),*]
                     }
 
                     #[inline]
@@ -134,18 +135,16 @@ impl Writer<'_> {
                     #initial
                     #angles
                     #points
+                    #displacements
+                    #recount
+                    #forces
                     #user_axes
                 }
 
                 #evaluations
                 #solvers
 
-                #[automatically_derived]
-                impl ::core::default::Default for #name {
-                    fn default() -> Self {
-                        Self { #( #fields: ::core::default::Default::default() ),* }
-                    }
-                }
+                #construction
             };
         }
     }
@@ -174,88 +173,82 @@ impl Writer<'_> {
     fn state_kernels(&mut self) -> TokenStream {
         let facade = self.facade;
         let kernels = self.kernels;
-        let (constants, state) = (local("constants"), local("state"));
-        let unpack = Self::unpack();
+        let constants = local("constants");
         let mut tokens = TokenStream::new();
+        let (rows, velocities) = (quote!(Self::Multipliers<S>), quote!(Self::Velocities<S>));
         for (name, kernel, result) in [
-            (
-                "constraints",
-                &kernels.constraints,
-                quote!(Self::Multipliers<S>),
-            ),
-            (
-                "constraint_rates",
-                &kernels.constraint_rates,
-                quote!(Self::Multipliers<S>),
-            ),
-            ("jacobian", &kernels.jacobian, quote!(Self::Jacobian<S>)),
-            ("gamma", &kernels.gamma, quote!(Self::Multipliers<S>)),
-            ("forces", &kernels.forces, quote!(Self::Velocities<S>)),
+            ("constraints", &kernels.constraints, &rows),
+            ("constraint_rates", &kernels.constraint_rates, &rows),
+            ("jacobian", &kernels.jacobian, &quote!(Self::Jacobian<S>)),
+            ("gamma", &kernels.gamma, &rows),
+            ("forces", &kernels.forces, &velocities),
+            ("potential_energy", &kernels.potential_energy, &quote!(S)),
+            ("power", &kernels.power, &quote!(S)),
         ] {
-            let StraightLine {
-                statements,
-                outputs,
-            } = self.line(kernel);
-            let name = format_ident!("{name}");
-            tokens.extend(quote! {
-                #[inline]
-                fn #name<S: #facade::Scalar>(
-                    #constants: &Self::Constants<S>,
-                    _: S,
-                    #state: &Self::State<S>,
-                ) -> #result {
-                    #unpack
-                    #statements
-                    [#(#outputs),*]
-                }
-            });
+            let time = local("time");
+            tokens.extend(self.function(name, kernel, &quote!(#time: S,), result));
         }
-        for (name, kernel, time) in [
-            ("kinetic_energy", &kernels.kinetic_energy, None),
+        let coordinates = self.model.layout().coordinates + self.model.layout().auxiliaries;
+        for (name, kernel, result) in [
+            ("kinetic_energy", &kernels.kinetic_energy, quote!(S)),
             (
-                "potential_energy",
-                &kernels.potential_energy,
-                Some(quote!(_: S,)),
+                "coordinate_rates",
+                &kernels.coordinate_rates,
+                quote!([S; #coordinates]),
             ),
         ] {
-            let StraightLine {
-                statements,
-                outputs,
-            } = self.line(kernel);
-            let name = format_ident!("{name}");
-            tokens.extend(quote! {
-                #[inline]
-                fn #name<S: #facade::Scalar>(
-                    #constants: &Self::Constants<S>,
-                    #time
-                    #state: &Self::State<S>,
-                ) -> S {
-                    #unpack
-                    #statements
-                    #(#outputs)*
-                }
-            });
+            tokens.extend(self.function(name, kernel, &TokenStream::new(), &result));
         }
-        let mass = self.line(&kernels.mass);
-        let (statements, outputs) = (mass.statements, mass.outputs);
-        let rates = self.line(&kernels.coordinate_rates);
-        let (rate_statements, rate_outputs) = (rates.statements, rates.outputs);
-        let coordinates = self.model.layout().coordinates;
+        let (statements, value) = self.body(&kernels.mass, &velocities);
         tokens.extend(quote! {
             #[inline]
             fn mass<S: #facade::Scalar>(#constants: &Self::Constants<S>) -> Self::Velocities<S> {
                 #statements
-                [#(#outputs),*]
-            }
-
-            #[inline]
-            fn coordinate_rates<S: #facade::Scalar>(#state: &Self::State<S>) -> [S; #coordinates] {
-                #unpack
-                #rate_statements
-                [#(#rate_outputs),*]
+                #value
             }
         });
         tokens
+    }
+
+    /// Statements and value of a kernel: one number where the result is `S`, else an array.
+    fn body(&mut self, kernel: &Kernel, result: &TokenStream) -> (TokenStream, TokenStream) {
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line(kernel);
+        let value = if result.to_string() == "S" {
+            quote!(#(#outputs)*)
+        } else {
+            quote!([#(#outputs),*])
+        };
+        (statements, value)
+    }
+
+    /// A function of constants, time (if it is declared) and state.
+    fn function(
+        &mut self,
+        name: &str,
+        kernel: &Kernel,
+        time: &TokenStream,
+        result: &TokenStream,
+    ) -> TokenStream {
+        let facade = self.facade;
+        let (constants, state) = (local("constants"), local("state"));
+        let unpack = Self::unpack();
+        let (statements, value) = self.body(kernel, result);
+        let name = format_ident!("{name}");
+        quote! {
+            #[inline]
+            fn #name<S: #facade::Scalar>(
+                #constants: &Self::Constants<S>,
+                #time
+                #state: &Self::State<S>,
+            ) -> #result {
+                #unpack
+                #statements
+                #value
+            }
+        }
     }
 
     fn initial_state(&mut self) -> TokenStream {
@@ -264,71 +257,13 @@ impl Writer<'_> {
             statements,
             outputs,
         } = self.line(&self.kernels.initial_state);
-        let (coordinates, velocities) = outputs.split_at(self.model.layout().coordinates);
+        let layout = self.model.layout();
+        let (coordinates, velocities) = outputs.split_at(layout.coordinates + layout.auxiliaries);
         let constants = local("constants");
         quote! {
             fn initial_state<S: #facade::Scalar>(#constants: &Self::Constants<S>) -> Self::State<S> {
                 #statements
                 #facade::State::from_parts([#(#coordinates),*], [#(#velocities),*])
-            }
-        }
-    }
-
-    fn angles(&mut self) -> TokenStream {
-        let facade = self.facade;
-        let (constants, state, joint) = (local("constants"), local("state"), local("joint"));
-        let unpack = Self::unpack();
-        let mut arms = TokenStream::new();
-        for (place, kernel) in &self.kernels.angles {
-            let StraightLine {
-                statements,
-                outputs,
-            } = self.line(kernel);
-            if let [cosine, sine, rate] = &outputs[..] {
-                arms.extend(quote! {
-                    #place => {
-                        #statements
-                        #facade::AngleParts { cosine: #cosine, sine: #sine, rate: #rate, turns: ::core::option::Option::None }
-                    }
-                });
-            }
-        }
-        quote! {
-            fn joint_angle<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
-                #state: &Self::State<S>,
-                #joint: usize,
-            ) -> #facade::AngleParts<S> {
-                #unpack
-                match #joint {
-                    #arms
-                    _ => #facade::AngleParts { cosine: S::one(), sine: S::zero(), rate: S::zero(), turns: ::core::option::Option::None },
-                }
-            }
-        }
-    }
-
-    fn points(&mut self) -> TokenStream {
-        let facade = self.facade;
-        let (constants, joint, place) = (local("constants"), local("joint"), local("place"));
-        let mut arms = TokenStream::new();
-        for (at, body, kernel) in &self.kernels.points {
-            let StraightLine {
-                statements,
-                outputs,
-            } = self.line(kernel);
-            arms.extend(quote!((#at, #body) => { #statements [#(#outputs),*] }));
-        }
-        quote! {
-            fn joint_point<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
-                #joint: usize,
-                #place: usize,
-            ) -> [S; 3] {
-                match (#joint, #place) {
-                    #arms
-                    _ => [S::zero(); 3],
-                }
             }
         }
     }
@@ -367,6 +302,11 @@ impl Writer<'_> {
             let (field, path) = (&joint.name, &joint.path);
             declared.extend(quote!(pub #field: #facade::JointHandle<#name, #path>,));
             values.extend(quote!(#field: #facade::JointHandle::new(#place),));
+        }
+        for (place, force) in self.model.forces.iter().enumerate() {
+            let (field, path) = (&force.name, &force.path);
+            declared.extend(quote!(pub #field: #facade::ForceHandle<#name, #path>,));
+            values.extend(quote!(#field: #facade::ForceHandle::new(#place),));
         }
         let documentation = format!("The handles of [`{name}`], one per field.");
         let declared = quote! {

@@ -1,9 +1,10 @@
-//! Checks of the numbers that the macro cannot see: by the compiler where it can evaluate them, else in `prepare`.
+//! The numbers that the macro cannot see: checked by the compiler where it can evaluate them, else in `parameters`.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::model::{Model, Number, Symbol};
+use crate::check::number::value_name;
+use crate::model::{ElementKind, Model, Number, Symbol};
 
 /// Numbers that the macro could not see are checked by the compiler where it can evaluate them.
 pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
@@ -18,13 +19,18 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
             const _: () = ::core::assert!((#expression) > 0.0_f64, #message);
         });
     }
-    for joint in &model.joints {
-        let path = &joint.path;
-        let fingerprint = Literal::u64_suffixed(model.definition(joint).fingerprint);
+    for element in model.elements() {
+        let path = &element.path;
+        let definition = model.definition(element);
+        let fingerprint = Literal::u64_suffixed(definition.fingerprint);
+        let kind = match definition.kind {
+            ElementKind::Joint => quote!(Joint),
+            ElementKind::Force => quote!(Force),
+        };
         tokens.extend(quote! {
             const _: () = ::core::assert!(
-                <#path as #facade::Joint>::FINGERPRINT == #fingerprint,
-                "the type and the definition of a joint differ; is one of them shadowed?"
+                <#path as #facade::#kind>::FINGERPRINT == #fingerprint,
+                "the type and the definition of a joint or force differ; is one of them shadowed?"
             );
         });
     }
@@ -43,8 +49,84 @@ fn positive_symbols(model: &Model) -> impl Iterator<Item = &Symbol> {
     })
 }
 
-/// The checks of `prepare`.
-pub fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
+/// The function `parameters`: run-time values, checked.
+pub fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
+    let parts = parts(model);
+    let checks = checks(model, facade);
+    let fields: Vec<_> = model.values.iter().map(|value| &value.name).collect();
+    let values: Vec<_> = fields.iter().map(|field| value_name(field)).collect();
+    quote! {
+        fn parameters<S: #facade::Scalar>(
+            &self,
+        ) -> ::core::result::Result<Self::Parameters<S>, #facade::ParameterError> {
+            #( let _ = &self.#parts; )*
+            #( let #values: f64 = self.#fields; )*
+            #checks
+            ::core::result::Result::Ok([#(S::constant(#values)),*])
+        }
+    }
+}
+
+/// `Default` without parameters, else `new` with one argument for each.
+pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
+    let name = &model.name;
+    let parts = parts(model);
+    let of = |wanted: bool| {
+        let values = model.values.iter();
+        let values = values.filter(move |value| value.is_input == wanted);
+        values.map(|value| &value.name).collect::<Vec<_>>()
+    };
+    let (inputs, given) = (of(true), of(false));
+    if given.is_empty() {
+        return quote! {
+            #[automatically_derived]
+            impl ::core::default::Default for #name {
+                fn default() -> Self {
+                    Self {
+                        #( #parts: ::core::default::Default::default(), )*
+                        #( #inputs: 0.0, )*
+                    }
+                }
+            }
+        };
+    }
+    let documentation = format!(
+        " The mechanism with these parameters, in the order of its fields{}.",
+        if inputs.is_empty() {
+            ""
+        } else {
+            "; inputs are zero"
+        }
+    );
+    quote! {
+        #[automatically_derived]
+        impl #name {
+            #[doc = #documentation]
+            ///
+            /// # Errors
+            /// A number that is not finite, or a mass, inertia, axis or orientation made of it that is not acceptable.
+            pub fn new(#(#given: f64),*) -> ::core::result::Result<Self, #facade::ParameterError> {
+                let mechanism = Self {
+                    #( #parts: ::core::default::Default::default(), )*
+                    #( #given, )*
+                    #( #inputs: 0.0, )*
+                };
+                <Self as #facade::Mechanism>::parameters::<f64>(&mechanism)?;
+                ::core::result::Result::Ok(mechanism)
+            }
+        }
+    }
+}
+
+/// The fields that are bodies, joints and forces.
+fn parts(model: &Model) -> Vec<&proc_macro2::Ident> {
+    let elements = model.elements().map(|element| &element.name);
+    let bodies = model.bodies.iter().map(|body| &body.name);
+    bodies.chain(elements).collect()
+}
+
+/// The checks of `parameters`.
+fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
     let mut tokens = TokenStream::new();
     let mut refuse = |condition: TokenStream, field: &str, attribute: &str, fault: TokenStream| {
         tokens.extend(quote! {
@@ -57,6 +139,16 @@ pub fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
             }
         });
     };
+    for value in &model.values {
+        let local = value_name(&value.name);
+        let condition = quote!(!f64::is_finite(#local));
+        refuse(
+            condition,
+            &value.name.to_string(),
+            "value",
+            quote!(NotFinite),
+        );
+    }
     for symbol in &model.symbols {
         let expression = &symbol.expression;
         let condition = quote!(!f64::is_finite(#expression));
@@ -131,7 +223,7 @@ fn symbolic_directions(model: &Model) -> Vec<(String, String, Vec<TokenStream>)>
         let p = body.orientation.map(|entry| number(model, entry)).into();
         found.push((body.name.to_string(), "orientation".into(), p));
     }
-    for joint in &model.joints {
+    for joint in model.elements() {
         let parameters = &model.definition(joint).parameters;
         for (parameter, binding) in parameters.iter().zip(&joint.bindings) {
             if parameter.kind != ParameterKind::Axis {
@@ -140,7 +232,7 @@ fn symbolic_directions(model: &Model) -> Vec<(String, String, Vec<TokenStream>)>
             let vectors = match binding {
                 Binding::Global(vector) => vec![*vector],
                 Binding::Local(vectors) => vectors.clone(),
-                Binding::Scalar(_) => Vec::new(),
+                Binding::Scalar(_) | Binding::Law(_) | Binding::Default => Vec::new(),
             };
             for vector in vectors.iter().filter(|vector| symbolic(*vector)) {
                 let vector = vector.map(|entry| number(model, entry)).into();

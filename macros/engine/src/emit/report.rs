@@ -4,8 +4,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::joint::kind;
-use crate::model::Model;
 use crate::model::mechanism::Layout;
+use crate::model::{JointUse, Model};
 use crate::plan::Plan;
 use crate::plan::kernels::{Kernel, Kernels};
 use crate::plan::system::Terms;
@@ -36,6 +36,9 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
         ("coordinate rates", &kernels.coordinate_rates),
     ] {
         counts.push((name.into(), of(kernel)));
+    }
+    if !kernels.readings.energies.is_empty() {
+        counts.push(("power".into(), of(&kernels.power)));
     }
     for solver in &kernels.solvers {
         let solve = count(&solver.arena, &solver.solution, Stage::RightHandSide);
@@ -110,6 +113,14 @@ pub fn describe(model: &Model, plan: &Plan, layout: &Layout) -> String {
     )
 }
 
+/// The bodies of a joint or force, `None` for the ground.
+fn places(element: &JointUse) -> impl Iterator<Item = TokenStream> {
+    element.bodies.iter().map(|body| match body {
+        Some(body) => quote!(::core::option::Option::Some(#body)),
+        None => quote!(::core::option::Option::None),
+    })
+}
+
 /// The constant `REPORT`.
 #[must_use]
 pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenStream {
@@ -124,16 +135,21 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let definition = model.definition(joint);
         let (name, kind) = (joint.name.to_string(), definition.name.to_string());
         let (row, rows) = (layout.row[place], definition.equations());
-        let bodies = joint.bodies.iter().map(|body| match body {
-            Some(body) => quote!(::core::option::Option::Some(#body)),
-            None => quote!(::core::option::Option::None),
-        });
+        let bodies = places(joint);
         let has_angle = definition.angle.is_some();
         quote! {
             #facade::JointInfo {
                 name: #name, kind: #kind, row: #row, rows: #rows, bodies: &[#(#bodies),*], has_angle: #has_angle,
             }
         }
+    });
+    let forces = model.forces.iter().map(|force| {
+        let (name, kind) = (
+            force.name.to_string(),
+            model.definition(force).name.to_string(),
+        );
+        let bodies = places(force);
+        quote!(#facade::ForceInfo { name: #name, kind: #kind, bodies: &[#(#bodies),*] })
     });
     let blocks = kernels.blocks.iter().map(|block| {
         let crate::plan::kernels::Block { joint, body, offset } = *block;
@@ -151,6 +167,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             multiplications,
             divisions,
             square_roots,
+            functions,
             depth,
         } = count;
         quote! {
@@ -161,7 +178,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
                     multiplications: #multiplications,
                     divisions: #divisions,
                     square_roots: #square_roots,
-                    functions: 0,
+                    functions: #functions,
                     depth: #depth,
                 },
             }
@@ -169,6 +186,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     });
     let Layout {
         coordinates,
+        auxiliaries,
         velocities,
         rows,
         ..
@@ -180,8 +198,10 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             name: #name,
             bodies: &[#(#bodies),*],
             joints: &[#(#joints),*],
+            forces: &[#(#forces),*],
             blocks: &[#(#blocks),*],
             coordinates: #coordinates,
+            auxiliaries: #auxiliaries,
             velocities: #velocities,
             equations: #rows,
             degrees_of_freedom: #degrees_of_freedom,

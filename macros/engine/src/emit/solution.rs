@@ -20,9 +20,11 @@ impl Writer<'_> {
         let (name, facade) = (&self.model.name, self.facade);
         let (constants, coefficients, state) =
             (local("constants"), local("coefficients"), local("state"));
+        let time = local("time");
         quote! {
             #constants: &<#name as #facade::Mechanism>::Constants<S>,
             #coefficients: &<#name as #facade::Mechanism>::Coefficients<S>,
+            #time: S,
             #state: &<#name as #facade::Mechanism>::State<S>,
         }
     }
@@ -46,7 +48,7 @@ impl Writer<'_> {
             statements,
             outputs,
         } = self.line(&evaluation.kernel);
-        let (coordinates, rest) = outputs.split_at(layout.coordinates);
+        let (coordinates, rest) = outputs.split_at(layout.coordinates + layout.auxiliaries);
         let (velocities, rest) = rest.split_at(layout.velocities);
         let (multipliers, pivots) = rest.split_at(layout.rows);
         let pivot = self.pivots(&evaluation.checks, pivots);
@@ -73,6 +75,7 @@ impl Writer<'_> {
         let (constants, coefficients, state) =
             (local("constants"), local("coefficients"), local("state"));
         let (factors, upper, lower) = (local("factors"), local("upper"), local("lower"));
+        let time = local("time");
         let arms = self.kernels.evaluations.iter().map(|evaluation| {
             let (stabilised, compliant) = match evaluation.terms {
                 Terms::Plain => (quote!(false), quote!(false)),
@@ -81,14 +84,14 @@ impl Writer<'_> {
             };
             let normalised = evaluation.reading == Reading::Normalised;
             let function = evaluation_function(evaluation.terms, evaluation.reading);
-            quote!((#normalised, #stabilised, #compliant) => #function(#constants, #coefficients, #state),)
+            quote!((#normalised, #stabilised, #compliant) => #function(#constants, #coefficients, #time, #state),)
         });
         quote! {
             #[inline(always)]
             fn evaluate<S: #facade::Scalar, T: #facade::Terms, P: #facade::Orientation>(
                 #constants: &Self::Constants<S>,
                 #coefficients: &Self::Coefficients<S>,
-                _: S,
+                #time: S,
                 #state: &Self::State<S>,
             ) -> #facade::Evaluation<S, Self> {
                 match (P::NORMALISED, T::STABILISED, T::COMPLIANT) {
@@ -100,13 +103,13 @@ impl Writer<'_> {
             fn factor<S: #facade::Scalar, T: #facade::Terms>(
                 #constants: &Self::Constants<S>,
                 #coefficients: &Self::Coefficients<S>,
-                _: S,
+                #time: S,
                 #state: &Self::State<S>,
             ) -> (Self::Factors<S>, #facade::Pivot<S>) {
                 if T::COMPLIANT {
-                    __factor_compliant(#constants, #coefficients, #state)
+                    __factor_compliant(#constants, #coefficients, #time, #state)
                 } else {
-                    __factor_plain(#constants, #coefficients, #state)
+                    __factor_plain(#constants, #coefficients, #time, #state)
                 }
             }
 

@@ -60,6 +60,12 @@ impl Store {
                 Node::Reciprocal(a) => own.reciprocal(copy(&copies, a)),
                 Node::SquareRoot(a) => own.sqrt(copy(&copies, a)),
                 Node::Sign(a) => own.sign(copy(&copies, a)),
+                Node::Clamp(a) => own.clamp(copy(&copies, a)),
+                Node::Round(a) => own.round(copy(&copies, a)),
+                Node::Sine(a) => own.sin(copy(&copies, a)),
+                Node::Cosine(a) => own.cos(copy(&copies, a)),
+                Node::Exponential(a) => own.exp(copy(&copies, a)),
+                Node::Angle(a, b) => own.atan2(copy(&copies, a), copy(&copies, b)),
             };
             copies.insert(place, made);
         }
@@ -125,6 +131,10 @@ fn load_input(input: Input) -> TokenStream {
         Input::Velocity(place) => ("velocities", place),
         Input::Upper(place) => ("upper", place),
         Input::Lower(place) => ("lower", place),
+        Input::Time => {
+            let time = local("time");
+            return quote!(#time);
+        }
         Input::RateGain => return field("rate"),
         Input::PositionGain => return field("position"),
         Input::Compliance => return field("compliance"),
@@ -148,8 +158,12 @@ impl Environment for Preparation<'_> {
     fn input(&mut self, input: Input) -> TokenStream {
         match input {
             Input::Symbol(place) => {
-                let expression = &self.symbols[place as usize].expression;
-                quote!(S::constant(#expression))
+                let symbol = &self.symbols[place as usize];
+                let expression = &symbol.expression;
+                match &symbol.scalar {
+                    Some(scalar) => scalar.clone(),
+                    None => quote!(S::constant(#expression)),
+                }
             }
             other => load_input(other),
         }

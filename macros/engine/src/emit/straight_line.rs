@@ -110,12 +110,31 @@ impl<E: Environment> Writer<'_, E> {
                 let a = self.reference(a);
                 quote!(S::sqrt(#a))
             }
+            Node::Clamp(a) => {
+                let a = self.reference(a);
+                let (zero, one) = (quote!(S::constant(0.0)), quote!(S::constant(1.0)));
+                quote!(S::select(#a, #zero, #zero, S::select(#one, #a, #one, #a)))
+            }
+            Node::Round(a) => self.function("round", a),
+            Node::Sine(a) => self.function("sin", a),
+            Node::Cosine(a) => self.function("cos", a),
+            Node::Exponential(a) => self.function("exp", a),
+            Node::Angle(sine, cosine) => {
+                let (sine, cosine) = (self.reference(sine), self.reference(cosine));
+                quote!(S::atan2(#sine, #cosine))
+            }
             Node::Sign(a) => {
                 let a = self.reference(a);
                 quote!(S::select(#a, S::constant(0.0), S::constant(-1.0), S::constant(1.0)))
             }
         };
         self.bind(place, &value);
+    }
+
+    fn function(&mut self, name: &str, argument: Expr) -> TokenStream {
+        let name = quote::format_ident!("{name}");
+        let argument = self.reference(argument);
+        quote!(S::#name(#argument))
     }
 
     fn bind(&mut self, place: usize, value: &TokenStream) {

@@ -1,4 +1,4 @@
-//! A joint as it is defined: formal bodies, parameters, rows.
+//! A joint or a force as it is defined: formal bodies, parameters, rows, actions.
 
 use proc_macro2::{Ident, Span};
 
@@ -17,23 +17,32 @@ pub enum ParameterKind {
     Angle,
     /// A number without unit.
     Number,
+    /// A function, which the mechanism writes as an expression of the time and of the definition's arguments.
+    Law,
 }
 
 impl ParameterKind {
     /// All kinds with the names they have in a definition.
-    pub const ALL: [(&'static str, Self); 6] = [
+    pub const ALL: [(&'static str, Self); 7] = [
         ("Point", Self::Point),
         ("Axis", Self::Axis),
         ("Vector", Self::Vector),
         ("Length", Self::Length),
         ("Angle", Self::Angle),
         ("Number", Self::Number),
+        ("Law", Self::Law),
     ];
 
     /// Whether the parameter has three components and a copy on every body.
     #[must_use]
     pub const fn is_vector(self) -> bool {
         matches!(self, Self::Point | Self::Axis | Self::Vector)
+    }
+
+    /// Whether the parameter is a number.
+    #[must_use]
+    pub const fn is_number(self) -> bool {
+        matches!(self, Self::Length | Self::Angle | Self::Number)
     }
 
     /// What a mechanism writes for it, for messages.
@@ -46,17 +55,57 @@ impl ParameterKind {
             Self::Length => "a length such as `0.5`",
             Self::Angle => "an angle such as `deg(30.0)`",
             Self::Number => "a number such as `2.0`",
+            Self::Law => "an expression such as `0.5 * sin(10.0 * time)`",
         }
     }
 }
 
-/// A parameter of a joint.
+/// A parameter of a joint or a force.
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// The name, which is also the key in a mechanism's attribute.
     pub name: Ident,
     /// What it is.
     pub kind: ParameterKind,
+    /// The names of a law's arguments.
+    pub arguments: Vec<Ident>,
+    /// What a number is where the mechanism does not give it.
+    pub default: Option<Term>,
+}
+
+/// A function of one number, with two derivatives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Function {
+    /// `1 / x`.
+    Reciprocal,
+    /// The square root.
+    SquareRoot,
+    /// The sine of an angle in radians.
+    Sine,
+    /// The cosine of an angle in radians.
+    Cosine,
+    /// The exponential function.
+    Exponential,
+    /// 0 below 0, 1 above 1, `6 x^5 - 15 x^4 + 10 x^3` between: twice continuously differentiable.
+    SmoothStep,
+}
+
+impl Function {
+    /// The functions that have a name in the language.
+    pub const NAMED: [(&'static str, Self); 5] = [
+        ("sqrt", Self::SquareRoot),
+        ("sin", Self::Sine),
+        ("cos", Self::Cosine),
+        ("exp", Self::Exponential),
+        ("smooth_step", Self::SmoothStep),
+    ];
+
+    /// The function of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let known = Self::NAMED.iter().find(|(known, _)| *known == name);
+        known.map(|(_, function)| *function)
+    }
 }
 
 /// An expression of a definition; bodies and parameters by their places. Shapes agree.
@@ -66,6 +115,8 @@ pub enum Term {
     Number(f64),
     /// A scalar parameter.
     Scalar(usize),
+    /// The time (s).
+    Time,
     /// The point of a body that a parameter names.
     Point {
         /// The place of the body.
@@ -91,6 +142,10 @@ pub enum Term {
     },
     /// The centre of mass of a body.
     Origin(usize),
+    /// A vector by its components, global axes.
+    Components([Box<Term>; 3]),
+    /// A vector as it is in the described configuration, fixed on a body.
+    Onto(usize, Box<Term>),
     /// A sum with signs: `true` is minus.
     Sum(Vec<(bool, Term)>),
     /// A product of scalars, or of a scalar (first) and a vector.
@@ -99,6 +154,67 @@ pub enum Term {
     Dot(Box<Term>, Box<Term>),
     /// A cross product.
     Cross(Box<Term>, Box<Term>),
+    /// A function of a scalar.
+    Function(Function, Box<Term>),
+    /// The angle of a body against another about an axis, over many turns.
+    Angle(Turn),
+    /// A scalar as it is in the described configuration.
+    Initial(Box<Term>),
+    /// The time derivative of a scalar.
+    Rate(Box<Term>),
+    /// The value of a law.
+    Law {
+        /// The place of the parameter.
+        parameter: usize,
+        /// Its arguments, scalars.
+        arguments: Vec<Term>,
+    },
+}
+
+/// An angle of a body against another about an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Turn {
+    /// The place of the body that it is measured from.
+    pub from: usize,
+    /// The place of the body that turns.
+    pub to: usize,
+    /// The place of the axis among the parameters.
+    pub axis: usize,
+}
+
+impl Term {
+    /// Calls `f` with the term and all that it is made of.
+    pub fn visit(&self, f: &mut impl FnMut(&Self)) {
+        f(self);
+        match self {
+            Self::Number(_)
+            | Self::Scalar(_)
+            | Self::Time
+            | Self::Point { .. }
+            | Self::Fixed { .. }
+            | Self::Normal { .. }
+            | Self::Origin(_)
+            | Self::Angle(_) => {}
+            Self::Components(components) => components.iter().for_each(|term| term.visit(f)),
+            Self::Sum(terms) => terms.iter().for_each(|(_, term)| term.visit(f)),
+            Self::Product(a, b) | Self::Dot(a, b) | Self::Cross(a, b) => {
+                a.visit(f);
+                b.visit(f);
+            }
+            Self::Onto(_, term)
+            | Self::Function(_, term)
+            | Self::Initial(term)
+            | Self::Rate(term) => term.visit(f),
+            Self::Law { arguments, .. } => arguments.iter().for_each(|term| term.visit(f)),
+        }
+    }
+
+    /// Whether something in it fulfils a condition.
+    pub fn has(&self, wanted: impl Fn(&Self) -> bool) -> bool {
+        let mut found = false;
+        self.visit(&mut |term| found |= wanted(term));
+        found
+    }
 }
 
 /// One constraint, of one or three equations.
@@ -119,28 +235,100 @@ impl Row {
             Self::Vector(_) => 3,
         }
     }
+
+    /// What is zero.
+    #[must_use]
+    pub const fn term(&self) -> &Term {
+        match self {
+            Self::Scalar(term) | Self::Vector(term) => term,
+        }
+    }
 }
 
-/// The angle of a joint: of its second body against its first, about an axis.
+/// What a force does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// A potential energy (J): the force is minus its gradient.
+    Potential(Term),
+    /// A generalised force along a coordinate: power is effort times the rate of the coordinate.
+    Along {
+        /// The generalised force.
+        effort: Term,
+        /// The coordinate.
+        coordinate: Term,
+    },
+    /// A force (N) at a point.
+    Force {
+        /// The force.
+        vector: Term,
+        /// The point: a [`Term::Point`] or [`Term::Origin`].
+        point: Term,
+    },
+    /// A moment (N m) on a body.
+    Moment {
+        /// The moment.
+        vector: Term,
+        /// The place of the body.
+        body: usize,
+    },
+}
+
+impl Action {
+    /// The expressions of the action.
+    #[must_use]
+    pub fn terms(&self) -> Vec<&Term> {
+        match self {
+            Self::Potential(energy) => vec![energy],
+            Self::Along { effort, coordinate } => vec![effort, coordinate],
+            Self::Force { vector, point } => vec![vector, point],
+            Self::Moment { vector, .. } => vec![vector],
+        }
+    }
+}
+
+/// What a definition defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AngleDef {
-    /// The place of the axis among the parameters.
-    pub axis: usize,
+pub enum ElementKind {
+    /// Constraint equations.
+    Joint,
+    /// Forces and moments.
+    Force,
 }
 
-/// The definition of a joint.
+impl ElementKind {
+    /// The word of the language.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Joint => "joint",
+            Self::Force => "force",
+        }
+    }
+}
+
+/// The definition of a joint or a force.
 #[derive(Clone, Debug)]
 pub struct JointDef {
+    /// Joint or force.
+    pub kind: ElementKind,
     /// The name of its type.
     pub name: Ident,
     /// The names of its bodies.
     pub bodies: Vec<Ident>,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
-    /// Its constraints.
+    /// Its constraints; none of a force.
     pub rows: Vec<Row>,
-    /// Its angle, if it has one.
-    pub angle: Option<AngleDef>,
+    /// Its forces; none of a joint.
+    pub actions: Vec<Action>,
+    /// The angle that can be read, of its second body against its first.
+    pub angle: Option<Turn>,
+    /// The displacement that can be read.
+    pub displacement: Option<Term>,
+    /// The place of the row that drives, among its equations.
+    pub drive: Option<usize>,
+    /// The angles over many turns that it speaks of, in the order of first mention.
+    pub turns: Vec<Turn>,
     /// Tells definitions apart.
     pub fingerprint: u64,
     /// Where the name was written.
@@ -152,6 +340,13 @@ impl JointDef {
     #[must_use]
     pub fn equations(&self) -> usize {
         self.rows.iter().map(Row::equations).sum()
+    }
+
+    /// All its expressions.
+    pub fn terms(&self) -> impl Iterator<Item = &Term> {
+        let rows = self.rows.iter().map(Row::term);
+        let actions = self.actions.iter().flat_map(Action::terms);
+        rows.chain(actions).chain(&self.displacement)
     }
 
     /// The place of the parameter at whose point reactions are given.

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 
-use super::joint::JointDef;
+use super::joint::{Function, JointDef, Turn};
 use super::number::{Number, Symbol};
 
 /// Whether a body has an orientation.
@@ -68,9 +68,30 @@ pub enum Binding {
     Local(Vec<[Number; 3]>),
     /// A number.
     Scalar(Number),
+    /// A law.
+    Law(LawTerm),
+    /// What the definition says where nothing is given.
+    Default,
 }
 
-/// A joint of a mechanism.
+/// An expression of a law.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LawTerm {
+    /// A number.
+    Number(Number),
+    /// The time (s).
+    Time,
+    /// An argument by its place.
+    Argument(usize),
+    /// A sum with signs: `true` is minus.
+    Sum(Vec<(bool, LawTerm)>),
+    /// A product.
+    Product(Box<LawTerm>, Box<LawTerm>),
+    /// A function.
+    Function(Function, Box<LawTerm>),
+}
+
+/// A joint or a force of a mechanism.
 #[derive(Clone, Debug)]
 pub struct JointUse {
     /// The field.
@@ -85,6 +106,24 @@ pub struct JointUse {
     pub bindings: Vec<Binding>,
 }
 
+/// A field that holds a number for run time.
+#[derive(Clone, Debug)]
+pub struct RunTimeValue {
+    /// The field.
+    pub name: Ident,
+    /// Whether it may change at every step; if not, it is set on construction.
+    pub is_input: bool,
+}
+
+/// An angle over many turns: an auxiliary variable of the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counter {
+    /// The place of the joint, or behind the joints that of the force.
+    pub element: usize,
+    /// The angle.
+    pub turn: Turn,
+}
+
 /// A checked mechanism.
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -96,7 +135,11 @@ pub struct Model {
     pub bodies: Vec<Body>,
     /// The joints in the order of the fields.
     pub joints: Vec<JointUse>,
-    /// The definitions that the joints use.
+    /// The forces in the order of the fields.
+    pub forces: Vec<JointUse>,
+    /// Run-time values in the order of the fields.
+    pub values: Vec<RunTimeValue>,
+    /// The definitions that joints and forces use.
     pub definitions: Vec<JointDef>,
     /// Numbers that the macro cannot see.
     pub symbols: Vec<Symbol>,
@@ -109,6 +152,23 @@ impl Model {
         &self.definitions[joint.definition]
     }
 
+    /// Joints, then forces.
+    pub fn elements(&self) -> impl Iterator<Item = &JointUse> {
+        self.joints.iter().chain(&self.forces)
+    }
+
+    /// The auxiliary variables, in the order of the state.
+    #[must_use]
+    pub fn counters(&self) -> Vec<Counter> {
+        let elements = self.elements().enumerate();
+        elements
+            .flat_map(|(element, joint)| {
+                let turns = self.definition(joint).turns.iter();
+                turns.map(move |&turn| Counter { element, turn })
+            })
+            .collect()
+    }
+
     /// The place of each body's first coordinate and first velocity, and the totals.
     #[must_use]
     pub fn layout(&self) -> Layout {
@@ -119,6 +179,7 @@ impl Model {
             layout.coordinates += body.kind.coordinates();
             layout.velocities += body.kind.velocities();
         }
+        layout.auxiliaries = self.counters().len();
         for joint in &self.joints {
             layout.row.push(layout.rows);
             layout.rows += self.definition(joint).equations();
@@ -136,8 +197,10 @@ pub struct Layout {
     pub velocity: Vec<usize>,
     /// The first row of each joint.
     pub row: Vec<usize>,
-    /// All coordinates.
+    /// All coordinates of bodies.
     pub coordinates: usize,
+    /// Auxiliary variables, behind the coordinates of bodies.
+    pub auxiliaries: usize,
     /// All velocities.
     pub velocities: usize,
     /// All rows.

@@ -5,6 +5,8 @@ pub mod joint;
 pub mod mechanism;
 pub mod number;
 
-pub use joint::{AngleDef, JointDef, Parameter, ParameterKind, Row, Term};
-pub use mechanism::{Binding, Body, BodyKind, JointUse, Model};
+pub use joint::{
+    Action, ElementKind, Function, JointDef, Parameter, ParameterKind, Row, Term, Turn,
+};
+pub use mechanism::{Binding, Body, BodyKind, JointUse, LawTerm, Model, RunTimeValue};
 pub use number::{Number, Symbol};

@@ -37,11 +37,13 @@ pub fn literals<const N: usize>(numbers: &[Number; N]) -> Option<[f64; N]> {
     Some(values)
 }
 
-/// A number that the macro cannot see, because it names a constant of the user's crate.
+/// A number that the macro cannot see, because it names a constant of the user's crate or a run-time value.
 #[derive(Clone, Debug)]
 pub struct Symbol {
-    /// An expression of type `f64`; functions are written as paths below `__private`.
+    /// An expression of type `f64`; functions are written as paths below `__private`, run-time values as local variables.
     pub expression: TokenStream,
+    /// The same over the scalar `S`, where it depends on run-time values: they stand in the array `parameters`.
+    pub scalar: Option<TokenStream>,
     /// Whether the compiler can evaluate the expression in a constant.
     pub is_const: bool,
     /// Where it was written.

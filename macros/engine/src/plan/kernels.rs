@@ -3,12 +3,13 @@
 use super::Plan;
 use super::candidates::{choose, equations_of_motion};
 use super::eliminate::Check;
+use super::readings::Readings;
 use super::system::{System, Terms, applied_forces};
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::fixed::{initial_orientation, triple};
 use crate::symbolic::scene::{Orientation, Reading, Scene};
-use crate::symbolic::vector::{Frame, Triple, VectorId};
+use crate::symbolic::vector::{Frame, Triple};
 
 /// Outputs over an arena.
 #[derive(Clone, Debug)]
@@ -92,10 +93,12 @@ pub struct Kernels {
     pub coordinate_rates: Kernel,
     /// Coordinates, then velocities, of the described state.
     pub initial_state: Kernel,
-    /// Cosine, sine and rate of the angle of each joint that has one.
-    pub angles: Vec<(usize, Kernel)>,
-    /// The reaction point of each joint on each of its bodies.
-    pub points: Vec<(usize, usize, Kernel)>,
+    /// The auxiliary variables, as the angles that they count.
+    pub counters: Kernel,
+    /// The power of all forces that have no potential.
+    pub power: Kernel,
+    /// What can be read of joints and forces.
+    pub readings: Readings,
     /// The fused evaluations, for all terms and both readings of Euler parameters.
     pub evaluations: Vec<Evaluation>,
     /// Factorisation and back-substitution.
@@ -132,8 +135,13 @@ impl Kernels {
             potential_energy: potential_energy(model),
             coordinate_rates: with_scene(model, |scene| coordinate_rates(scene, model)),
             initial_state: initial_state(model),
-            angles: angles(model),
-            points: points(model),
+            counters: with_scene(model, counters),
+            power: with_scene(model, |scene| {
+                let powers = (0..model.forces.len()).map(|k| scene.energy_and_power(k)[1]);
+                let powers: Vec<Expr> = powers.collect();
+                vec![scene.space.arena.sum(powers)]
+            }),
+            readings: Readings::new(model),
             evaluations,
             solvers,
             plan,
@@ -145,7 +153,7 @@ fn kinds(model: &Model) -> Vec<BodyKind> {
     model.bodies.iter().map(|body| body.kind).collect()
 }
 
-fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<Expr>) -> Kernel {
+pub(super) fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<Expr>) -> Kernel {
     let mut scene = Scene::new(model);
     let outputs = outputs(&mut scene);
     Kernel {
@@ -251,11 +259,15 @@ fn potential_energy(model: &Model) -> Kernel {
             let energy = scene.space.arena.mul(scene.mass[body], height);
             sum = scene.space.arena.sub(sum, energy);
         }
+        for force in 0..model.forces.len() {
+            let [energy, _] = scene.energy_and_power(force);
+            sum = scene.space.arena.add(sum, energy);
+        }
         vec![sum]
     })
 }
 
-/// `r' = v`, `p' = 1/2 L(p)^T w` (Nikravesh 1988, eq. 6.111, body axes).
+/// `r' = v`, `p' = 1/2 L(p)^T w` (Nikravesh 1988, eq. 6.111, body axes), and the rates of auxiliary variables.
 fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
     let mut rates = Vec::new();
     for body in 0..model.bodies.len() {
@@ -284,10 +296,48 @@ fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
             combination([(0, 2, false), (1, 1, false), (2, 0, true)]),
         ]);
     }
+    for place in 0..scene.counters.len() {
+        rates.push(turning(scene, place));
+    }
     rates
 }
 
-/// The state that the attributes describe: coordinates, then velocities.
+/// `a . (w(j) - w(i))` of an angle over many turns.
+fn turning(scene: &mut Scene, counter: usize) -> Expr {
+    let Scene {
+        space,
+        motion,
+        counters,
+        ..
+    } = scene;
+    let counted = &counters[counter];
+    let axis = counted.axis.value(space, motion);
+    let [from, to] = counted.bodies;
+    let mut rate = Arena::ZERO;
+    for (body, sign) in [(to, Arena::ONE), (from, -Arena::ONE)] {
+        if let Some(body) = body {
+            let along = space.dot(axis, motion.spin[body]);
+            let signed = space.arena.mul(sign, along);
+            rate = space.arena.add(rate, signed);
+        }
+    }
+    rate
+}
+
+fn counters(scene: &mut Scene) -> Vec<Expr> {
+    let Scene {
+        space,
+        motion,
+        counters,
+        ..
+    } = scene;
+    counters
+        .iter()
+        .map(|counted| counted.angle.value(space, motion))
+        .collect()
+}
+
+/// The state that the attributes describe: coordinates, auxiliary variables, then velocities.
 pub fn initial_state(model: &Model) -> Kernel {
     let mut arena = Arena::new();
     let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
@@ -304,66 +354,12 @@ pub fn initial_state(model: &Model) -> Kernel {
             }));
         }
     }
+    coordinates.resize(coordinates.len() + model.layout().auxiliaries, Arena::ZERO);
     coordinates.extend(velocities);
     Kernel {
         arena,
         outputs: coordinates,
     }
-}
-
-/// The angle of the second body against the first: with axis `a` and normals `n1`, `n2` on either body,
-/// `cosine = n1(i) . n1(j)`, `sine = n2(i) . n1(j)`, rate `a(i) . (w(j) - w(i))`.
-fn angles(model: &Model) -> Vec<(usize, Kernel)> {
-    let mut angles = Vec::new();
-    for (place, joint) in model.joints.iter().enumerate() {
-        let Some(angle) = model.definition(joint).angle else {
-            continue;
-        };
-        let kernel = with_scene(model, |scene| {
-            let Some(copies) = scene.copies[place][angle.axis].clone() else {
-                return Vec::new();
-            };
-            let (i, j) = (joint.bodies[0], joint.bodies[1]);
-            let frame = |body: Option<usize>| body.map_or(Frame::Global, Frame::Body);
-            let space = &mut scene.space;
-            let [n1, n2] = copies.normals[0].map(|n| space.native(frame(i), n));
-            let moving = space.native(frame(j), copies.normals[1][0]);
-            let axis = space.native(frame(i), copies.vector[0]);
-            let spin = |body: Option<usize>| -> Option<VectorId> {
-                body.map(|body| scene.motion.spin[body])
-            };
-            let (cosine, sine) = (space.dot(n1, moving), space.dot(n2, moving));
-            let mut rate = Arena::ZERO;
-            for (body, sign) in [(j, Arena::ONE), (i, -Arena::ONE)] {
-                if let Some(spin) = spin(body) {
-                    let along = space.dot(axis, spin);
-                    let signed = space.arena.mul(sign, along);
-                    rate = space.arena.add(rate, signed);
-                }
-            }
-            vec![cosine, sine, rate]
-        });
-        angles.push((place, kernel));
-    }
-    angles
-}
-
-fn points(model: &Model) -> Vec<(usize, usize, Kernel)> {
-    let mut points = Vec::new();
-    for (place, joint) in model.joints.iter().enumerate() {
-        let Some(parameter) = model.definition(joint).reaction_point() else {
-            continue;
-        };
-        for body in 0..joint.bodies.len() {
-            let kernel = with_scene(model, |scene| {
-                scene.copies[place][parameter]
-                    .as_ref()
-                    .map_or(vec![Arena::ZERO; 3], |copies| copies.vector[body].into())
-            });
-            points.push((place, body, kernel));
-        }
-    }
-    points
 }
 
 fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotCheck>) {

@@ -7,6 +7,7 @@ pub mod candidates;
 pub mod eliminate;
 pub mod kernels;
 mod order;
+pub mod readings;
 pub mod system;
 
 use crate::symbolic::vector::Frame;

@@ -75,7 +75,7 @@ impl StartValues {
         Self {
             coordinates: values
                 .into_iter()
-                .take(model.layout().coordinates)
+                .take(model.layout().coordinates + model.layout().auxiliaries)
                 .collect(),
         }
     }
@@ -83,6 +83,7 @@ impl StartValues {
     fn input(&self, input: Input) -> Option<f64> {
         match input {
             Input::Coordinate(place) => self.coordinates[place as usize],
+            Input::Time => Some(0.0),
             _ => None,
         }
     }
@@ -252,7 +253,12 @@ fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>
                 _ => None,
             }
         }
-        ScalarExpr::Constant(_) | ScalarExpr::Product(..) => None,
+        ScalarExpr::Constant(_)
+        | ScalarExpr::Product(..)
+        | ScalarExpr::Time
+        | ScalarExpr::Function(..)
+        | ScalarExpr::Angle(_)
+        | ScalarExpr::Rate(_) => None,
     }
 }
 

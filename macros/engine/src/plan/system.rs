@@ -135,15 +135,7 @@ impl System {
 
     /// The right-hand side of the equations of motion: gravity, gyroscopic moments, `gamma*`.
     pub fn equations_of_motion(&self, scene: &mut Scene, terms: Terms) -> RightHandSide {
-        let mut right = Vec::new();
-        for (body, kind) in self.kinds.iter().enumerate() {
-            let gravity = scene.space.native(Frame::Global, scene.gravity);
-            let gravity = scene.space.components(gravity, self.plan.translation[body]);
-            right.extend(gravity.map(|g| scene.space.arena.mul(scene.mass[body], g)));
-            if *kind == BodyKind::Rigid {
-                right.extend(scene.gyroscopic_moment(body));
-            }
-        }
+        let mut right = forces(scene, &self.kinds, &self.plan.translation);
         let factors = terms.factors(&mut scene.space.arena);
         for (place, &frame) in self.plan.rows.iter().enumerate() {
             right.extend(scene.combination(place, frame, factors));
@@ -266,14 +258,27 @@ fn turn(scene: &mut Scene, values: &mut [Expr], first: usize, from: Frame, to: F
     values[first..first + 3].copy_from_slice(&turned);
 }
 
-/// `g`: gravity in global axes, the gyroscopic moment in principal axes.
+/// `g`: gravity and forces of the language in global axes; moments, the gyroscopic among them, in principal axes.
 pub fn applied_forces(scene: &mut Scene, kinds: &[BodyKind]) -> Vec<Expr> {
+    forces(scene, kinds, &vec![Frame::Global; kinds.len()])
+}
+
+/// `g` with forces in given axes.
+fn forces(scene: &mut Scene, kinds: &[BodyKind], frames: &[Frame]) -> Vec<Expr> {
+    let applied = scene.applied();
     let mut forces = Vec::new();
-    for (body, kind) in kinds.iter().enumerate() {
-        let (mass, gravity) = (scene.mass[body], scene.gravity);
-        forces.extend(gravity.map(|g| scene.space.arena.mul(mass, g)));
+    for (body, (kind, &frame)) in kinds.iter().zip(frames).enumerate() {
+        let gravity = scene.space.native(Frame::Global, scene.gravity);
+        let gravity = scene.space.components(gravity, frame);
+        let weight = gravity.map(|g| scene.space.arena.mul(scene.mass[body], g));
+        let force = applied.force(&mut scene.space, body);
+        let force = scene.space.components(force, frame);
+        forces.extend([0, 1, 2].map(|k| scene.space.arena.add(weight[k], force[k])));
         if *kind == BodyKind::Rigid {
-            forces.extend(scene.gyroscopic_moment(body));
+            let gyroscopic = scene.gyroscopic_moment(body);
+            let moment = applied.moment(&mut scene.space, body);
+            let moment = scene.space.components(moment, Frame::Body(body));
+            forces.extend([0, 1, 2].map(|k| scene.space.arena.add(gyroscopic[k], moment[k])));
         }
     }
     forces

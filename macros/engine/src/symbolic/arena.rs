@@ -62,7 +62,9 @@ pub enum Input {
     PositionGain,
     /// `e`, the compliance.
     Compliance,
-    /// An element of the coordinates.
+    /// The time.
+    Time,
+    /// An element of the coordinates, auxiliary variables behind those of bodies.
     Coordinate(u32),
     /// An element of the velocities.
     Velocity(u32),
@@ -94,7 +96,7 @@ impl Input {
         match self {
             Self::Symbol(_) => Stage::Parameter,
             Self::RateGain | Self::PositionGain | Self::Compliance => Stage::Coefficient,
-            Self::Coordinate(_) | Self::Velocity(_) => Stage::State,
+            Self::Time | Self::Coordinate(_) | Self::Velocity(_) => Stage::State,
             Self::Upper(_) | Self::Lower(_) => Stage::RightHandSide,
         }
     }
@@ -117,6 +119,18 @@ pub enum Node {
     SquareRoot(Expr),
     /// -1 where the operand is negative, else 1.
     Sign(Expr),
+    /// The operand, at least 0 and at most 1.
+    Clamp(Expr),
+    /// The nearest integer.
+    Round(Expr),
+    /// The sine.
+    Sine(Expr),
+    /// The cosine.
+    Cosine(Expr),
+    /// The exponential function.
+    Exponential(Expr),
+    /// The angle of a point, from sine and cosine.
+    Angle(Expr, Expr),
 }
 
 impl Node {
@@ -124,8 +138,15 @@ impl Node {
     pub fn operands(self) -> impl Iterator<Item = Expr> {
         let (first, second) = match self {
             Self::Constant(_) | Self::Input(_) => (None, None),
-            Self::Add(a, b) | Self::Multiply(a, b) => (Some(a), Some(b)),
-            Self::Reciprocal(a) | Self::SquareRoot(a) | Self::Sign(a) => (Some(a), None),
+            Self::Add(a, b) | Self::Multiply(a, b) | Self::Angle(a, b) => (Some(a), Some(b)),
+            Self::Reciprocal(a)
+            | Self::SquareRoot(a)
+            | Self::Sign(a)
+            | Self::Clamp(a)
+            | Self::Round(a)
+            | Self::Sine(a)
+            | Self::Cosine(a)
+            | Self::Exponential(a) => (Some(a), None),
         };
         first.into_iter().chain(second)
     }
@@ -133,7 +154,10 @@ impl Node {
     /// Whether the node costs an operation.
     #[must_use]
     pub const fn is_operation(self) -> bool {
-        !matches!(self, Self::Constant(_) | Self::Input(_) | Self::Sign(_))
+        !matches!(
+            self,
+            Self::Constant(_) | Self::Input(_) | Self::Sign(_) | Self::Clamp(_) | Self::Round(_)
+        )
     }
 }
 
@@ -429,6 +453,60 @@ impl Arena {
             Some(value) => self.constant(if value < 0.0 { -1.0 } else { 1.0 }),
             None => self.intern(Node::Sign(a)),
         }
+    }
+
+    /// `a`, at least 0 and at most 1.
+    pub fn clamp(&mut self, a: Expr) -> Expr {
+        match self.literal(a) {
+            Some(value) => self.constant(value.clamp(0.0, 1.0)),
+            None => self.intern(Node::Clamp(a)),
+        }
+    }
+
+    /// The integer nearest to `a`.
+    pub fn round(&mut self, a: Expr) -> Expr {
+        match self.literal(a) {
+            Some(value) => self.constant(value.round()),
+            None => self
+                .intern(Node::Round(a.abs()))
+                .with_sign_of(a.is_negative()),
+        }
+    }
+
+    /// `sin a`.
+    pub fn sin(&mut self, a: Expr) -> Expr {
+        match self.literal(a) {
+            Some(value) => self.constant(value.sin()),
+            None => self
+                .intern(Node::Sine(a.abs()))
+                .with_sign_of(a.is_negative()),
+        }
+    }
+
+    /// `cos a`.
+    pub fn cos(&mut self, a: Expr) -> Expr {
+        match self.literal(a) {
+            Some(value) => self.constant(value.cos()),
+            None => self.intern(Node::Cosine(a.abs())),
+        }
+    }
+
+    /// `exp a`.
+    pub fn exp(&mut self, a: Expr) -> Expr {
+        let value = self.literal(a).map(f64::exp);
+        match value.filter(|value| value.is_finite()) {
+            Some(value) => self.constant(value),
+            None => self.intern(Node::Exponential(a)),
+        }
+    }
+
+    /// The angle of the point `(cosine, sine)`, from `-pi` to `pi`.
+    pub fn atan2(&mut self, sine: Expr, cosine: Expr) -> Expr {
+        if let (Some(y), Some(x)) = (self.literal(sine), self.literal(cosine)) {
+            return self.constant(y.atan2(x));
+        }
+        self.intern(Node::Angle(sine.abs(), cosine))
+            .with_sign_of(sine.is_negative())
     }
 
     /// The sum of some terms, from left to right.

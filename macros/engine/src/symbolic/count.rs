@@ -1,4 +1,5 @@
-//! What expressions cost. One of `+ - * / sqrt` is one operation; signs are free.
+//! What expressions cost. One of `+ - * / sqrt` is one operation, and so is a call of a function; signs, comparisons and
+//! rounding are free.
 
 use super::arena::{Arena, Expr, Node, Stage};
 
@@ -13,6 +14,8 @@ pub struct Count {
     pub divisions: usize,
     /// Square roots.
     pub square_roots: usize,
+    /// Calls of `sin`, `cos`, `exp` and `atan2`.
+    pub functions: usize,
     /// The longest chain of dependent operations.
     pub depth: usize,
 }
@@ -21,7 +24,7 @@ impl Count {
     /// All operations together.
     #[must_use]
     pub const fn total(&self) -> usize {
-        self.additions + self.multiplications + self.divisions + self.square_roots
+        self.additions + self.multiplications + self.divisions + self.square_roots + self.functions
     }
 }
 
@@ -32,18 +35,23 @@ pub fn count(arena: &Arena, outputs: &[Expr], from: Stage) -> Count {
     let mut depth = vec![0_usize; arena.len()];
     for place in arena.live(outputs, from) {
         let node = arena.node(place);
-        match node {
-            Node::Constant(_) | Node::Input(_) | Node::Sign(_) => continue,
-            Node::Add(..) => count.additions += 1,
-            Node::Multiply(..) => count.multiplications += 1,
-            Node::Reciprocal(_) => count.divisions += 1,
-            Node::SquareRoot(_) => count.square_roots += 1,
-        }
         let before = node
             .operands()
             .map(|operand| depth[operand.node()])
             .max()
             .unwrap_or(0);
+        match node {
+            // Free, but part of the chain.
+            _ if !node.is_operation() => {
+                depth[place] = before;
+                continue;
+            }
+            Node::Add(..) => count.additions += 1,
+            Node::Multiply(..) => count.multiplications += 1,
+            Node::Reciprocal(_) => count.divisions += 1,
+            Node::SquareRoot(_) => count.square_roots += 1,
+            _ => count.functions += 1,
+        }
         depth[place] = before + 1;
         count.depth = count.depth.max(before + 1);
     }

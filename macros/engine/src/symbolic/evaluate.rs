@@ -25,6 +25,14 @@ pub fn evaluate(
             Node::Reciprocal(a) => signed(&values, a).map(f64::recip),
             Node::SquareRoot(a) => signed(&values, a).map(f64::sqrt),
             Node::Sign(a) => signed(&values, a).map(|a| if a < 0.0 { -1.0 } else { 1.0 }),
+            Node::Clamp(a) => signed(&values, a).map(|a| a.clamp(0.0, 1.0)),
+            Node::Round(a) => signed(&values, a).map(f64::round),
+            Node::Sine(a) => signed(&values, a).map(f64::sin),
+            Node::Cosine(a) => signed(&values, a).map(f64::cos),
+            Node::Exponential(a) => signed(&values, a).map(f64::exp),
+            Node::Angle(sine, cosine) => signed(&values, sine)
+                .zip(signed(&values, cosine))
+                .map(|(sine, cosine)| sine.atan2(cosine)),
         };
     }
     outputs

@@ -60,16 +60,16 @@ pub fn matrix(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     super::scene::homogeneous_rotation(arena, p)
 }
 
-fn transpose(m: [Triple; 3]) -> [Triple; 3] {
+pub(super) fn transpose(m: [Triple; 3]) -> [Triple; 3] {
     [0, 1, 2].map(|k| [m[0][k], m[1][k], m[2][k]])
 }
 
-fn apply(arena: &mut Arena, m: [Triple; 3], v: Triple) -> Triple {
+pub(super) fn apply(arena: &mut Arena, m: [Triple; 3], v: Triple) -> Triple {
     m.map(|row| dot(arena, row, v))
 }
 
 /// Takes components that are round-off beside `size` as zero, so that they fold.
-fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
+pub(super) fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
     v.map(|component| match arena.literal(component) {
         Some(value) if value.abs() <= 8.0 * f64::EPSILON * size => Arena::ZERO,
         Some(value) if size == 1.0 => arena.constant(snap(value)),
@@ -77,7 +77,7 @@ fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
     })
 }
 
-fn size(arena: &Arena, v: Triple) -> f64 {
+pub(super) fn size(arena: &Arena, v: Triple) -> f64 {
     v.iter()
         .filter_map(|&c| arena.literal(c))
         .fold(0.0, |m, x| m.max(x.abs()))
@@ -122,15 +122,15 @@ fn normal(arena: &mut Arena, a: Triple) -> Triple {
 
 /// Where a body stands at the start.
 #[derive(Clone, Copy, Debug)]
-struct Placement {
-    position: Triple,
+pub(super) struct Placement {
+    pub(super) position: Triple,
     /// From principal to global axes.
-    axes: [Triple; 3],
+    pub(super) axes: [Triple; 3],
     /// From the user's to principal axes.
     user_axes: [Triple; 3],
 }
 
-fn placement(arena: &mut Arena, model: &Model, body: Option<usize>) -> Placement {
+pub(super) fn placement(arena: &mut Arena, model: &Model, body: Option<usize>) -> Placement {
     let identity = rotation([1.0, 0.0, 0.0, 0.0]).map(|row| row.map(|entry| arena.constant(entry)));
     let Some(body) = body.map(|body| &model.bodies[body]) else {
         return Placement {
@@ -188,7 +188,7 @@ pub fn copies(
     for (place, at) in placements.iter().enumerate() {
         let into_body = transpose(at.axes);
         let mut vector = match binding {
-            Binding::Scalar(_) => super::vector::ZERO,
+            Binding::Scalar(_) | Binding::Law(_) | Binding::Default => super::vector::ZERO,
             Binding::Local(given) => {
                 let given = triple(
                     arena,

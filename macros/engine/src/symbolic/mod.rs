@@ -1,9 +1,13 @@
 //! From a model to expressions: vectors that know their frame above, a hash-consed arena of scalars below.
 
 pub mod arena;
+pub mod bind;
 pub mod count;
 pub mod evaluate;
 pub mod fixed;
+mod force;
+pub mod functions;
 pub mod scene;
+mod start;
 pub mod twist;
 pub mod vector;

@@ -1,11 +1,13 @@
 //! A mechanism in symbols: bodies with their motion, joints with their constraints bound to the bodies.
 
 use super::arena::{Arena, Expr, Input};
-use super::fixed::{Copies, copies, number, triple};
+use super::bind::{Binder, Effect, all_copies};
+use super::fixed::{Copies, number, triple};
+use super::functions::AngleExpr;
 use super::twist::{Gradient, Motion, ScalarExpr, VectorExpr};
 use super::vector::{Frame, Space, Triple};
 use crate::model::mechanism::Layout;
-use crate::model::{Binding, BodyKind, JointUse, Model, Number, Row, Term};
+use crate::model::{BodyKind, ElementKind, Model, Row, Term};
 
 /// How Euler parameters are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -76,8 +78,25 @@ pub struct Scene {
     pub gravity: Triple,
     /// Where things stand.
     pub layout: Layout,
-    /// The vector parameters of all joints, `None` for scalars.
+    /// The vector parameters of all joints, then forces, `None` for others.
     pub copies: Vec<Vec<Option<Copies>>>,
+    /// The effects of each force.
+    pub effects: Vec<Vec<Effect>>,
+    /// The auxiliary variables: the angles that they count.
+    pub counters: Vec<CountedAngle>,
+    /// The displacement of each joint.
+    pub displacements: Vec<Option<ScalarExpr>>,
+}
+
+/// An angle over many turns, and what moves its auxiliary variable.
+#[derive(Clone, Debug)]
+pub struct CountedAngle {
+    /// The angle.
+    pub angle: AngleExpr,
+    /// The axis, fixed on the first of the bodies.
+    pub axis: VectorExpr,
+    /// The body that it is measured from, and the one that turns.
+    pub bodies: [Option<usize>; 2],
 }
 
 /// `(e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, row by row: `|p|^2` times a rotation (Nikravesh 1988, eq. 6.18). 26 operations.
@@ -192,7 +211,8 @@ impl Scene {
             .map(|body| triple(&mut arena, body.inertia))
             .collect();
         let gravity = triple(&mut arena, model.gravity);
-        let copies = joint_copies(&mut arena, model);
+        let copies = all_copies(&mut arena, model);
+        let time = arena.input(Input::Time);
         let mut space = Space::new(arena, rotations);
         if exact {
             space = space.exact();
@@ -212,18 +232,26 @@ impl Scene {
                 .map(|(body, (_, _, w))| space.native(Frame::Body(body), *w))
                 .collect(),
             spin_components: inputs.iter().map(|(_, _, w)| *w).collect(),
+            time,
         };
         let mut constraints = Vec::new();
-        for (place, joint) in model.joints.iter().enumerate() {
-            let mut row = layout.row[place];
+        let mut effects = Vec::new();
+        let mut counters = Vec::new();
+        let mut displacements = Vec::new();
+        for (place, element) in model.elements().enumerate() {
+            let definition = model.definition(element);
             let binder = Binder {
-                joint,
+                model,
+                element,
                 copies: &copies[place],
+                first_counter: layout.coordinates + counters.len(),
             };
-            for definition in &model.definition(joint).rows {
+            let arena = &mut space.arena;
+            let mut row = layout.row.get(place).copied().unwrap_or_default();
+            for definition in &definition.rows {
                 let constraint = match definition {
-                    Row::Scalar(term) => Constraint::Scalar(binder.scalar(&mut space.arena, term)),
-                    Row::Vector(term) => Constraint::Vector(binder.vector(&mut space.arena, term)),
+                    Row::Scalar(term) => Constraint::Scalar(binder.scalar(arena, term)),
+                    Row::Vector(term) => Constraint::Vector(binder.vector(arena, term)),
                 };
                 constraints.push(Constrained {
                     joint: place,
@@ -231,6 +259,27 @@ impl Scene {
                     constraint,
                 });
                 row += definition.equations();
+            }
+            match definition.kind {
+                ElementKind::Joint => {
+                    let term = definition.displacement.as_ref();
+                    displacements.push(term.map(|term| binder.scalar(arena, term)));
+                }
+                ElementKind::Force => {
+                    let actions = definition.actions.iter();
+                    effects.push(actions.map(|action| binder.effect(arena, action)).collect());
+                }
+            }
+            for &turn in &definition.turns {
+                let axis = Term::Fixed {
+                    body: turn.from,
+                    parameter: turn.axis,
+                };
+                counters.push(CountedAngle {
+                    angle: binder.angle(arena, turn),
+                    axis: binder.vector(arena, &axis),
+                    bodies: [element.bodies[turn.from], element.bodies[turn.to]],
+                });
             }
         }
         Self {
@@ -243,6 +292,9 @@ impl Scene {
             gravity,
             layout,
             copies,
+            effects,
+            counters,
+            displacements,
         }
     }
 
@@ -360,113 +412,4 @@ impl Scene {
             arena.mul(difference, product)
         })
     }
-}
-
-fn joint_copies(arena: &mut Arena, model: &Model) -> Vec<Vec<Option<Copies>>> {
-    model
-        .joints
-        .iter()
-        .map(|joint| {
-            let parameters = &model.definition(joint).parameters;
-            parameters
-                .iter()
-                .zip(&joint.bindings)
-                .map(|(parameter, binding)| {
-                    parameter
-                        .kind
-                        .is_vector()
-                        .then(|| copies(arena, model, joint, parameter.kind, binding))
-                })
-                .collect()
-        })
-        .collect()
-}
-
-/// Replaces formal bodies and parameters of a definition by those of a joint.
-struct Binder<'a> {
-    joint: &'a JointUse,
-    copies: &'a [Option<Copies>],
-}
-
-impl Binder<'_> {
-    fn copy(&self, parameter: usize, body: usize) -> Triple {
-        self.copies[parameter]
-            .as_ref()
-            .map_or(super::vector::ZERO, |copies| copies.vector[body])
-    }
-
-    fn vector(&self, arena: &mut Arena, term: &Term) -> VectorExpr {
-        match term {
-            Term::Point { body, parameter } => {
-                VectorExpr::Point(self.joint.bodies[*body], self.copy(*parameter, *body))
-            }
-            Term::Fixed { body, parameter } => {
-                VectorExpr::Fixed(self.joint.bodies[*body], self.copy(*parameter, *body))
-            }
-            Term::Normal {
-                body,
-                parameter,
-                which,
-            } => {
-                let normal = self.copies[*parameter]
-                    .as_ref()
-                    .map_or(super::vector::ZERO, |copies| copies.normals[*body][*which]);
-                VectorExpr::Fixed(self.joint.bodies[*body], normal)
-            }
-            Term::Origin(body) => VectorExpr::Point(self.joint.bodies[*body], super::vector::ZERO),
-            Term::Sum(terms) => VectorExpr::Sum(
-                terms
-                    .iter()
-                    .map(|(minus, term)| (signed_one(*minus), self.vector(arena, term)))
-                    .collect(),
-            ),
-            Term::Product(scalar, vector) => VectorExpr::Scaled(
-                Box::new(self.scalar(arena, scalar)),
-                Box::new(self.vector(arena, vector)),
-            ),
-            Term::Cross(a, b) => VectorExpr::Cross(
-                Box::new(self.vector(arena, a)),
-                Box::new(self.vector(arena, b)),
-            ),
-            Term::Number(_) | Term::Scalar(_) | Term::Dot(..) => {
-                unreachable!("shapes are checked where the joint is defined")
-            }
-        }
-    }
-
-    fn scalar(&self, arena: &mut Arena, term: &Term) -> ScalarExpr {
-        match term {
-            Term::Number(value) => ScalarExpr::Constant(arena.constant(*value)),
-            Term::Scalar(parameter) => {
-                let value = match self.joint.bindings[*parameter] {
-                    Binding::Scalar(value) => value,
-                    _ => Number::ZERO,
-                };
-                ScalarExpr::Constant(number(arena, value))
-            }
-            Term::Sum(terms) => ScalarExpr::Sum(
-                terms
-                    .iter()
-                    .map(|(minus, term)| (signed_one(*minus), self.scalar(arena, term)))
-                    .collect(),
-            ),
-            Term::Product(a, b) => ScalarExpr::Product(
-                Box::new(self.scalar(arena, a)),
-                Box::new(self.scalar(arena, b)),
-            ),
-            Term::Dot(a, b) => ScalarExpr::Dot(
-                Box::new(self.vector(arena, a)),
-                Box::new(self.vector(arena, b)),
-            ),
-            Term::Point { .. }
-            | Term::Fixed { .. }
-            | Term::Normal { .. }
-            | Term::Origin(_)
-            | Term::Cross(..) => unreachable!("shapes are checked where the joint is defined"),
-        }
-    }
-}
-
-fn signed_one(minus: bool) -> Expr {
-    if minus { -Arena::ONE } else { Arena::ONE }
 }

@@ -6,7 +6,9 @@
 use std::collections::BTreeMap;
 
 use super::arena::{Arena, Expr};
+use super::functions::AngleExpr;
 use super::vector::{Frame, Space, Triple, VectorId, ZERO};
+use crate::model::Function;
 
 /// A vector expression of a constraint, bound to the bodies of a mechanism.
 #[derive(Clone, Debug)]
@@ -34,6 +36,14 @@ pub enum ScalarExpr {
     Sum(Vec<(Expr, ScalarExpr)>),
     /// A product.
     Product(Box<ScalarExpr>, Box<ScalarExpr>),
+    /// The time.
+    Time,
+    /// A function.
+    Function(Function, Box<ScalarExpr>),
+    /// An angle over many turns.
+    Angle(Box<AngleExpr>),
+    /// The time derivative, which has no derivative of its own.
+    Rate(Box<ScalarExpr>),
 }
 
 /// Position and rates of the bodies, as vectors.
@@ -47,6 +57,8 @@ pub struct Motion {
     pub spin: Vec<VectorId>,
     /// The components of `w` in body axes.
     pub spin_components: Vec<Triple>,
+    /// The time.
+    pub time: Expr,
 }
 
 /// The gradient of a scalar: the force and the moment on every body by which a virtual motion `(dr, dw)` is multiplied.
@@ -57,6 +69,12 @@ pub struct Gradient {
 }
 
 impl Gradient {
+    /// Adds a moment on a body.
+    pub fn add_moment(&mut self, body: usize, moment: VectorId) {
+        let moments = self.moment.entry(body).or_default();
+        moments.push((Arena::ONE, moment));
+    }
+
     /// The factor of `dr` of a body.
     pub fn force(&self, space: &mut Space, body: usize) -> VectorId {
         space.sum(self.force.get(&body).into_iter().flatten().copied())
@@ -274,6 +292,13 @@ impl ScalarExpr {
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
                 space.arena.mul(a, b)
             }
+            Self::Time => motion.time,
+            Self::Function(function, inner) => {
+                let inner = inner.value(space, motion);
+                function.value(&mut space.arena, inner)
+            }
+            Self::Angle(angle) => angle.value(space, motion),
+            Self::Rate(inner) => inner.rate(space, motion),
         }
     }
 
@@ -294,6 +319,14 @@ impl ScalarExpr {
                 let (first, second) = (space.arena.mul(da, b), space.arena.mul(a, db));
                 space.arena.add(first, second)
             }
+            Self::Time => Arena::ONE,
+            Self::Function(function, inner) => {
+                let (x, dx) = (inner.value(space, motion), inner.rate(space, motion));
+                let slope = function.slope(&mut space.arena, x);
+                space.arena.mul(slope, dx)
+            }
+            Self::Angle(angle) => angle.rate(space, motion),
+            Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
         }
     }
 
@@ -321,6 +354,18 @@ impl ScalarExpr {
                 let twice = arena.add(mixed, mixed);
                 arena.sum([first, twice, last])
             }
+            Self::Time => Arena::ZERO,
+            Self::Function(function, inner) => {
+                let (x, dx) = (inner.value(space, motion), inner.rate(space, motion));
+                let ddx = inner.quadratic(space, motion);
+                let arena = &mut space.arena;
+                let (slope, curvature) = (function.slope(arena, x), function.curvature(arena, x));
+                let square = arena.square(dx);
+                let (first, second) = (arena.mul(curvature, square), arena.mul(slope, ddx));
+                arena.add(first, second)
+            }
+            Self::Angle(angle) => angle.quadratic(space, motion),
+            Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
         }
     }
 
@@ -351,6 +396,15 @@ impl ScalarExpr {
                 a.pull_back(space, motion, on_a, gradient);
                 b.pull_back(space, motion, on_b, gradient);
             }
+            Self::Time => {}
+            Self::Function(function, inner) => {
+                let x = inner.value(space, motion);
+                let slope = function.slope(&mut space.arena, x);
+                let seed = space.arena.mul(seed, slope);
+                inner.pull_back(space, motion, seed, gradient);
+            }
+            Self::Angle(angle) => angle.pull_back(space, motion, seed, gradient),
+            Self::Rate(_) => unreachable!("only positions have a gradient in the language"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `joint!` blocks.
+//! `joint!` and `force!` blocks.
 //!
 //! ```text
 //! /// Documentation.
@@ -7,17 +7,36 @@
 //!     dot(i.axis.normals(), j.axis);       // normals are two vectors: two equations
 //!     angle about axis;                    // the joint has an angle
 //! }
+//!
+//! pub force Name(i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0) {
+//!     let d = length(j.tail - i.head);
+//!     potential 0.5 * stiffness * d * d;   // minus its gradient acts
+//!     -damping * rate(d) along d;          // a generalised force and its coordinate
+//! }
 //! ```
 
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
-use syn::parse::{Parse, ParseStream};
+use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Attribute, Token, Visibility};
 
 use super::{Piece, split};
 use crate::diag::{Faults, list};
-use crate::model::ParameterKind;
+use crate::model::{ElementKind, ParameterKind};
 
-/// A `joint!` block as written.
+/// A parameter as written.
+#[derive(Clone, Debug)]
+pub struct ParameterSyntax {
+    /// The name.
+    pub name: Ident,
+    /// The word of its kind.
+    pub kind: Ident,
+    /// The names in parentheses behind the kind.
+    pub arguments: Vec<Ident>,
+    /// What stands behind `=`.
+    pub default: Option<syn::Expr>,
+}
+
+/// A `joint!` or `force!` block as written.
 #[derive(Clone, Debug)]
 pub struct JointSyntax {
     /// Documentation and other attributes.
@@ -28,21 +47,25 @@ pub struct JointSyntax {
     pub name: Ident,
     /// Its formal bodies.
     pub bodies: Vec<Ident>,
-    /// Names and kinds of its parameters.
-    pub parameters: Vec<(Ident, Ident)>,
+    /// Its parameters.
+    pub parameters: Vec<ParameterSyntax>,
     /// What stands in the braces.
     pub statements: Vec<Statement>,
-    /// Everything behind the word `joint`, for transport.
+    /// Joint or force.
+    pub kind: ElementKind,
+    /// Everything behind the word `joint` or `force`, for transport.
     pub body: TokenStream,
     /// Whether bodies, parameters and equations could be told apart; if not, that was reported.
     pub is_complete: bool,
 }
 
-/// A statement of a `joint!` block.
+/// A statement of a block.
 #[derive(Clone, Debug)]
 pub enum Statement {
     /// An expression that is zero.
     Zero(Box<syn::Expr>),
+    /// `let name = expr`.
+    Let(Ident, Box<syn::Expr>),
     /// `angle about axis`.
     Angle {
         /// The word `angle`.
@@ -50,12 +73,25 @@ pub enum Statement {
         /// The axis.
         axis: Ident,
     },
+    /// `displacement expr`.
+    Displacement(Ident, Box<syn::Expr>),
+    /// `drive expr to expr`.
+    Drive(Ident, Box<syn::Expr>, Box<syn::Expr>),
+    /// `potential expr`.
+    Potential(Ident, Box<syn::Expr>),
+    /// `expr along expr`: effort, the word `along`, coordinate.
+    Along(Box<syn::Expr>, Ident, Box<syn::Expr>),
+    /// `force expr at expr`.
+    Force(Ident, Box<syn::Expr>, Box<syn::Expr>),
+    /// `moment expr on body`.
+    Moment(Ident, Box<syn::Expr>, Box<syn::Expr>),
 }
 
 struct Head {
     attributes: Vec<Attribute>,
     visibility: Visibility,
-    keyword: Span,
+    keyword: Option<Ident>,
+    end: Span,
     rest: TokenStream,
 }
 
@@ -63,39 +99,59 @@ impl Parse for Head {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let attributes = input.call(Attribute::parse_outer)?;
         let visibility = input.parse()?;
-        let keyword: Option<Ident> = input.parse()?;
-        if keyword.as_ref().is_none_or(|keyword| keyword != "joint") {
-            let span = keyword.map_or_else(|| input.span(), |keyword| keyword.span());
-            return Err(syn::Error::new(
-                span,
-                "expected `joint`, as in `pub joint Hinge(i, j; point: Point) { .. }`",
-            ));
-        }
-        let keyword = keyword.map_or_else(Span::call_site, |keyword| keyword.span());
         Ok(Self {
             attributes,
             visibility,
-            keyword,
+            keyword: input.parse()?,
+            end: input.span(),
             rest: input.parse()?,
         })
     }
 }
 
-/// Parses a `joint!` block; what can be understood of a faulty one is kept.
-pub fn parse(tokens: TokenStream, faults: &mut Faults) -> Option<JointSyntax> {
+/// Parses a block; what can be understood of a faulty one is kept.
+pub fn parse(tokens: TokenStream, kind: ElementKind, faults: &mut Faults) -> Option<JointSyntax> {
+    let word = kind.word();
     let head: Head = faults.accept(syn::parse2(tokens))?;
+    let keyword = match head.keyword {
+        Some(keyword) if keyword == word => keyword,
+        found => {
+            let name = found.as_ref().map_or_else(String::new, Ident::to_string);
+            let message = match (kind, name.as_str()) {
+                (_, "joint" | "force") => {
+                    format!("a `{word}` is defined here; a {name} by `{name}! {{ .. }}`")
+                }
+                (ElementKind::Joint, _) => {
+                    "expected `joint`, as in `pub joint Hinge(i, j; point: Point) { .. }`".into()
+                }
+                (ElementKind::Force, _) => {
+                    "expected `force`, as in `pub force Spring(i, j; head: Point, tail: Point) { .. }`"
+                        .into()
+                }
+            };
+            faults.at_span(found.map_or(head.end, |found| found.span()), message);
+            return None;
+        }
+    };
     if head.rest.is_empty() {
-        faults.at_span(head.keyword, "expected the joint's name behind `joint`");
+        faults.at_span(
+            keyword.span(),
+            format!("expected the {word}'s name behind `{word}`"),
+        );
         return None;
     }
-    let mut joint = parse_transported(head.rest, faults)?;
+    let mut joint = parse_transported(head.rest, kind, faults)?;
     joint.attributes = head.attributes;
     joint.visibility = head.visibility;
     Some(joint)
 }
 
-/// Parses what stands behind the word `joint`; of a faulty one at least the name is kept.
-pub fn parse_transported(body: TokenStream, faults: &mut Faults) -> Option<JointSyntax> {
+/// Parses what stands behind the word `joint` or `force`; of a faulty one at least the name is kept.
+pub fn parse_transported(
+    body: TokenStream,
+    kind: ElementKind,
+    faults: &mut Faults,
+) -> Option<JointSyntax> {
     let mut joint = JointSyntax {
         attributes: Vec::new(),
         visibility: Visibility::Inherited,
@@ -103,6 +159,7 @@ pub fn parse_transported(body: TokenStream, faults: &mut Faults) -> Option<Joint
         bodies: Vec::new(),
         parameters: Vec::new(),
         statements: Vec::new(),
+        kind,
         body: body.clone(),
         is_complete: false,
     };
@@ -187,7 +244,7 @@ fn name(input: ParseStream<'_>) -> syn::Result<Ident> {
     })
 }
 
-fn parameters(pieces: &[Piece], faults: &mut Faults) -> Vec<(Ident, Ident)> {
+fn parameters(pieces: &[Piece], faults: &mut Faults) -> Vec<ParameterSyntax> {
     let parameter = |input: ParseStream<'_>| {
         let name = name(input)?;
         if !input.peek(Token![:]) {
@@ -212,10 +269,26 @@ fn parameters(pieces: &[Piece], faults: &mut Faults) -> Vec<(Ident, Ident)> {
                 format!("expected the kind of `{name}`; there are {kinds}"),
             )
         })?;
+        let mut arguments = Vec::new();
+        if input.peek(syn::token::Paren) {
+            let inside;
+            syn::parenthesized!(inside in input);
+            arguments.extend(inside.parse_terminated(Ident::parse, Token![,])?);
+        }
+        let mut default = None;
+        if input.peek(Token![=]) {
+            let _: Token![=] = input.parse()?;
+            default = Some(input.parse()?);
+        }
         if !input.is_empty() {
             return Err(input.error("expected `,` or `)` behind the kind"));
         }
-        Ok((name, kind))
+        Ok(ParameterSyntax {
+            name,
+            kind,
+            arguments,
+            default,
+        })
     };
     pieces
         .iter()
@@ -223,41 +296,130 @@ fn parameters(pieces: &[Piece], faults: &mut Faults) -> Vec<(Ident, Ident)> {
         .collect()
 }
 
-fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
-    let Piece { tokens, end } = piece;
-    let words: Vec<Ident> = tokens
-        .clone()
-        .into_iter()
-        .map_while(|token| match token {
-            TokenTree::Ident(ident) => Some(ident),
-            _ => None,
-        })
-        .collect();
-    if let [keyword, about, rest @ ..] = words.as_slice()
-        && keyword == "angle"
-        && about == "about"
-    {
-        return match rest {
-            [axis] if tokens.clone().into_iter().count() == 3 => Some(Statement::Angle {
-                keyword: keyword.clone(),
-                axis: axis.clone(),
-            }),
-            _ => {
-                faults.at(tokens, "expected an axis, as in `angle about axis`");
-                None
+/// What stands before and behind a word, if it stands between two operands of the piece.
+fn around(piece: &Piece, word: &str) -> Option<(Piece, Ident, Piece)> {
+    let mut before = TokenStream::new();
+    let mut tokens = piece.tokens.clone().into_iter();
+    let mut behind_operand = false;
+    while let Some(token) = tokens.next() {
+        let is_infix = behind_operand;
+        behind_operand = !matches!(token, TokenTree::Punct(_));
+        match token {
+            TokenTree::Ident(found) if is_infix && found == word => {
+                let before = Piece {
+                    tokens: before,
+                    end: found.span(),
+                };
+                let behind = Piece {
+                    tokens: tokens.collect(),
+                    end: piece.end,
+                };
+                return Some((before, found, behind));
             }
-        };
+            other => before.extend([other]),
+        }
     }
-    if tokens.is_empty() {
-        faults.at_span(*end, "one `;` is too many here");
+    None
+}
+
+/// The word at the start of a piece, where an operand and no operator stands behind it, and the rest.
+fn keyword(piece: &Piece) -> Option<(Ident, Piece)> {
+    let mut tokens = piece.tokens.clone().into_iter();
+    let Some(TokenTree::Ident(keyword)) = tokens.next() else {
+        return None;
+    };
+    let rest: TokenStream = tokens.collect();
+    let operand = match rest.clone().into_iter().next() {
+        Some(TokenTree::Punct(punct)) => punct.as_char() == '-' && keyword == "potential",
+        Some(TokenTree::Group(group)) => {
+            group.delimiter() == Delimiter::Bracket || keyword == "potential"
+        }
+        other => other.is_some(),
+    };
+    let rest = Piece {
+        tokens: rest,
+        end: piece.end,
+    };
+    operand.then_some((keyword, rest))
+}
+
+fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
+    if piece.tokens.is_empty() {
+        faults.at_span(piece.end, "one `;` is too many here");
         return None;
     }
-    let equation = |input: ParseStream<'_>| {
+    if let Some((effort, word, coordinate)) = around(piece, "along") {
+        let effort = expression(&effort, faults);
+        let coordinate = expression(&coordinate, faults);
+        return Some(Statement::Along(effort?, word, coordinate?));
+    }
+    let Some((keyword, rest)) = keyword(piece) else {
+        return expression(piece, faults).map(Statement::Zero);
+    };
+    let mut pair = |word: &str, example: &str| {
+        let Some((first, _, second)) = around(&rest, word) else {
+            faults.at(
+                &keyword,
+                format!("expected `{word}` behind it, as in `{example}`"),
+            );
+            return None;
+        };
+        let (first, second) = (expression(&first, faults), expression(&second, faults));
+        Some((first?, second?))
+    };
+    match keyword.to_string().as_str() {
+        "let" => binding(&rest, faults),
+        "angle" => {
+            let about = |input: ParseStream<'_>| {
+                let about: Ident = input.parse()?;
+                let axis: Ident = input.parse()?;
+                if about != "about" || !input.is_empty() {
+                    return Err(input.error("expected an axis"));
+                }
+                Ok(axis)
+            };
+            let axis = about.parse2(rest.tokens).ok();
+            if axis.is_none() {
+                faults.at(&piece.tokens, "expected an axis, as in `angle about axis`");
+            }
+            axis.map(|axis| Statement::Angle { keyword, axis })
+        }
+        "displacement" => {
+            expression(&rest, faults).map(|expr| Statement::Displacement(keyword, expr))
+        }
+        "potential" => expression(&rest, faults).map(|expr| Statement::Potential(keyword, expr)),
+        "drive" => pair("to", "drive length(j.tail - i.head) to motion()")
+            .map(|(driven, law)| Statement::Drive(keyword, driven, law)),
+        "force" => pair("at", "force j.force at j.point")
+            .map(|(vector, point)| Statement::Force(keyword, vector, point)),
+        "moment" => pair("on", "moment j.moment on j")
+            .map(|(vector, body)| Statement::Moment(keyword, vector, body)),
+        _ => expression(piece, faults).map(Statement::Zero),
+    }
+}
+
+fn binding(rest: &Piece, faults: &mut Faults) -> Option<Statement> {
+    let parser = |input: ParseStream<'_>| {
+        let name = name(input)?;
+        let _: Token![=] = input.parse()?;
+        let tokens: TokenStream = input.parse()?;
+        Ok((name, tokens))
+    };
+    let (name, tokens) = rest.parse(parser, faults)?;
+    let value = Piece {
+        tokens,
+        end: rest.end,
+    };
+    Some(Statement::Let(name, expression(&value, faults)?))
+}
+
+fn expression(piece: &Piece, faults: &mut Faults) -> Option<Box<syn::Expr>> {
+    let parser = |input: ParseStream<'_>| {
         let expr = input.parse()?;
         if !input.is_empty() {
             return Err(input.error("expected an operator, or `;` behind the equation"));
         }
-        Ok(Statement::Zero(Box::new(expr)))
+        Ok(Box::new(expr))
     };
-    piece.parse(equation, faults)
+    piece.parse(parser, faults)
 }

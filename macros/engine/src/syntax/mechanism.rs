@@ -14,6 +14,28 @@ pub enum Role {
     Body,
     /// `#[joint(..)]`.
     Joint,
+    /// `#[force(..)]`.
+    Force,
+    /// `#[param]`.
+    Param,
+    /// `#[input]`.
+    Input,
+}
+
+impl Role {
+    const ALL: [(&'static str, Self); 5] = [
+        ("body", Self::Body),
+        ("joint", Self::Joint),
+        ("force", Self::Force),
+        ("param", Self::Param),
+        ("input", Self::Input),
+    ];
+
+    /// Whether the field's type is a body, a joint or a force.
+    #[must_use]
+    pub const fn is_part(self) -> bool {
+        matches!(self, Self::Body | Self::Joint | Self::Force)
+    }
 }
 
 /// A field of the struct.
@@ -131,13 +153,9 @@ fn named_fields(input: &DeriveInput) -> impl Iterator<Item = &syn::Field> {
 }
 
 fn role(attribute: &Attribute) -> Option<Role> {
-    if attribute.path().is_ident("body") {
-        Some(Role::Body)
-    } else if attribute.path().is_ident("joint") {
-        Some(Role::Joint)
-    } else {
-        None
-    }
+    let mut roles = Role::ALL.into_iter();
+    let known = roles.find(|(word, _)| attribute.path().is_ident(word));
+    known.map(|(_, role)| role)
 }
 
 fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
@@ -161,20 +179,28 @@ fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
             faults.at(
                 attribute.path(),
                 format!(
-                    "`{}` is described twice; one `#[body(..)]` or `#[joint(..)]` is accepted",
+                    "`{}` is described twice; one attribute says what it is",
                     result.name
                 ),
             );
             continue;
         }
         result.role = Some((role, attribute.path().clone()));
-        result.list = super::list(attribute, faults);
+        if role.is_part() {
+            result.list = super::list(attribute, faults);
+        } else if !matches!(attribute.meta, syn::Meta::Path(_)) {
+            let word = attribute.path().to_token_stream();
+            faults.at(
+                attribute,
+                format!("`#[{word}]` stands alone, above a field of type `f64`"),
+            );
+        }
     }
     result
 }
 
-/// The distinct types of described fields, as paths without generic arguments: bodies first, then joints, each in the
-/// order of the fields.
+/// The distinct types of described fields, as paths without generic arguments: bodies first, then joints, then forces,
+/// each in the order of the fields.
 ///
 /// The derive calls each of them as a macro. A carrier asks of the next whether it is a body or a joint, so that
 /// what is surely one comes first.
@@ -184,7 +210,7 @@ pub fn carrier_paths(input: &DeriveInput) -> Vec<TokenStream> {
     let Data::Struct(data) = &input.data else {
         return paths;
     };
-    for wanted in [Role::Body, Role::Joint] {
+    for wanted in [Role::Body, Role::Joint, Role::Force] {
         for field in &data.fields {
             if field.attrs.iter().find_map(role) != Some(wanted) || is_parameter(&field.ty, input) {
                 continue;

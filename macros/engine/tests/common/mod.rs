@@ -3,7 +3,7 @@
 
 use holonom_engine::check::mechanism::{Definition, Definitions};
 use holonom_engine::diag::Faults;
-use holonom_engine::model::{BodyKind, JointDef, Model};
+use holonom_engine::model::{BodyKind, ElementKind, JointDef, Model};
 use holonom_engine::{check, syntax};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -93,10 +93,10 @@ pub(crate) fn model(item: &TokenStream) -> Model {
             "Particle" => Definition::Body(BodyKind::Particle),
             path => {
                 let body = definition(path).expect("a known joint");
-                let joint = syntax::joint::parse_transported(body, &mut faults);
+                let joint = syntax::joint::parse_transported(body, ElementKind::Joint, &mut faults);
                 let joint = joint.and_then(|joint| check::joint::check(&joint, &mut faults));
                 definitions.extend(joint);
-                Definition::Joint(definitions.len() - 1)
+                Definition::Element(definitions.len() - 1)
             }
         };
         types.push((path, found));

@@ -98,7 +98,7 @@ pub fn assert_near(what: &str, place: [usize; 2], found: f64, expected: f64) {
 }
 
 fn constants<M: Mechanism>(mechanism: &M) -> M::Constants<f64> {
-    M::prepare(&mechanism.parameters()).expect("acceptable parameters")
+    mechanism.constants().expect("acceptable parameters")
 }
 
 /// An element of `D` from its blocks.

@@ -1,0 +1,228 @@
+//! Functions in the expressions of definitions.
+
+use syn::{Expr, ExprCall};
+
+use super::expression::{Context, Shaped};
+use crate::diag::{Faults, code, did_you_mean, list};
+use crate::model::{ElementKind, Function, ParameterKind, Term, Turn};
+use crate::syntax::ungroup;
+
+/// The functions of vectors and of states, beside those of numbers.
+const FUNCTIONS: [&str; 8] = [
+    "dot", "cross", "squared", "length", "angle", "fixed", "initial", "rate",
+];
+
+impl Context<'_> {
+    pub(super) fn call(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let name = code(&call.func);
+        if let Some(parameter) = self
+            .parameters
+            .iter()
+            .position(|p| p.name == name && p.kind == ParameterKind::Law)
+        {
+            return self.law(call, parameter, faults);
+        }
+        if let Some(function) = Function::named(&name) {
+            let [argument] = self.arguments::<1>(call, "one number", faults)?;
+            let argument = self.scalar(argument, faults)?;
+            return Some(Shaped::scalar(Term::Function(function, Box::new(argument))));
+        }
+        match name.as_str() {
+            "dot" | "cross" => {
+                let [a, b] = self.arguments::<2>(call, "2 vectors", faults)?;
+                let (a, b) = (
+                    self.of_vectors(&name, a, faults),
+                    self.of_vectors(&name, b, faults),
+                );
+                let vector = name == "cross";
+                let make = if vector { Term::Cross } else { Term::Dot };
+                self.pairwise(call, a?, b?, vector, faults, make)
+            }
+            "squared" | "length" => {
+                let [a] = self.arguments::<1>(call, "1 vector", faults)?;
+                let a = self.of_vectors(&name, a, faults)?;
+                let mut squared = self.pairwise(call, a.clone(), a, false, faults, Term::Dot)?;
+                if name == "length" {
+                    let root = |term| Term::Function(Function::SquareRoot, Box::new(term));
+                    squared.terms = squared.terms.into_iter().map(root).collect();
+                }
+                Some(squared)
+            }
+            "angle" => self.angle(call, faults),
+            "fixed" => {
+                let [body, vector] = self.arguments::<2>(call, "a body and a vector", faults)?;
+                let (body, vector) = (
+                    self.body(body, faults),
+                    self.of_vectors(&name, vector, faults),
+                );
+                let (body, vector) = (body?, vector?);
+                self.is_of_configuration(call, &vector, faults)?;
+                let onto = |term| Term::Onto(body, Box::new(term));
+                Some(Shaped {
+                    vector: true,
+                    terms: vector.terms.into_iter().map(onto).collect(),
+                })
+            }
+            "initial" => {
+                let [argument] = self.arguments::<1>(call, "one number", faults)?;
+                let argument = self.expression(argument, faults)?;
+                if argument.vector {
+                    faults.at(
+                        call,
+                        "`initial` takes a scalar; for a vector write `fixed(i, ..)`, which fixes it on a body",
+                    );
+                    return None;
+                }
+                self.is_of_configuration(call, &argument, faults)?;
+                let initial = |term| Term::Initial(Box::new(term));
+                Some(Shaped {
+                    vector: false,
+                    terms: argument.terms.into_iter().map(initial).collect(),
+                })
+            }
+            "rate" => {
+                let [argument] = self.arguments::<1>(call, "one number", faults)?;
+                let argument = self.scalar(argument, faults)?;
+                if self.kind == ElementKind::Joint {
+                    faults.at(
+                        call,
+                        "an equation speaks of positions and time; `rate` belongs into `force!`",
+                    );
+                    return None;
+                }
+                if argument.has(|term| matches!(term, Term::Rate(_))) {
+                    faults.at(
+                        call,
+                        "there is no rate of a rate: accelerations are what is solved for",
+                    );
+                    return None;
+                }
+                Some(Shaped::scalar(Term::Rate(Box::new(argument))))
+            }
+            _ => {
+                let laws = self
+                    .parameters
+                    .iter()
+                    .filter(|p| p.kind == ParameterKind::Law);
+                let laws: Vec<String> = laws.map(|p| p.name.to_string()).collect();
+                let known: Vec<&str> = FUNCTIONS
+                    .into_iter()
+                    .chain(Function::NAMED.map(|(name, _)| name))
+                    .chain(laws.iter().map(String::as_str))
+                    .collect();
+                let near = did_you_mean(&name, known.iter().copied());
+                faults.at(
+                    &call.func,
+                    format!("no function `{name}`; there are {}{near}", list(known)),
+                );
+                None
+            }
+        }
+    }
+
+    fn arguments<'a, const N: usize>(
+        &self,
+        call: &'a ExprCall,
+        wanted: &str,
+        faults: &mut Faults,
+    ) -> Option<[&'a Expr; N]> {
+        let arguments: Vec<&Expr> = call.args.iter().collect();
+        let found = arguments.len();
+        let arguments = arguments.try_into().ok();
+        if arguments.is_none() {
+            let name = code(&call.func);
+            faults.at(
+                call,
+                format!("`{name}` takes {wanted}; found {found} arguments"),
+            );
+        }
+        arguments
+    }
+
+    fn of_vectors(&self, name: &str, expr: &Expr, faults: &mut Faults) -> Option<Shaped> {
+        let argument = self.expression(expr, faults)?;
+        if !argument.vector {
+            faults.at(
+                expr,
+                format!("`{name}` takes vectors; this is {}", argument.name()),
+            );
+            return None;
+        }
+        Some(argument)
+    }
+
+    fn angle(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [from, to, axis] = self.arguments::<3>(
+            call,
+            "two bodies and an axis, as in `angle(i, j, axis)`",
+            faults,
+        )?;
+        let (from, to) = (self.body(from, faults), self.body(to, faults));
+        let axis = match ungroup(axis) {
+            Expr::Path(path) if path.path.get_ident().is_some() => path
+                .path
+                .get_ident()
+                .and_then(|name| self.axis(name, faults)),
+            other => {
+                faults.at(
+                    other,
+                    "expected the name of an axis, as in `angle(i, j, axis)`",
+                );
+                None
+            }
+        };
+        let turn = Turn {
+            from: from?,
+            to: to?,
+            axis: axis?,
+        };
+        if turn.from == turn.to {
+            faults.at(call, "the angle of a body against itself is zero");
+            return None;
+        }
+        Some(Shaped::scalar(Term::Angle(turn)))
+    }
+
+    fn law(&self, call: &ExprCall, parameter: usize, faults: &mut Faults) -> Option<Shaped> {
+        let names = &self.parameters[parameter].arguments;
+        if call.args.len() != names.len() {
+            let (name, found) = (code(&call.func), call.args.len());
+            let wanted = names.len();
+            faults.at(
+                call,
+                format!("`{name}` takes {wanted} numbers; found {found}"),
+            );
+            return None;
+        }
+        let arguments: Vec<Option<Term>> = call
+            .args
+            .iter()
+            .map(|argument| self.scalar(argument, faults))
+            .collect();
+        Some(Shaped::scalar(Term::Law {
+            parameter,
+            arguments: arguments.into_iter().collect::<Option<_>>()?,
+        }))
+    }
+
+    /// Refuses what has no value in the described configuration.
+    fn is_of_configuration(
+        &self,
+        call: &ExprCall,
+        argument: &Shaped,
+        faults: &mut Faults,
+    ) -> Option<()> {
+        let moving = |term: &Term| matches!(term, Term::Time | Term::Rate(_) | Term::Law { .. });
+        if argument.terms.iter().any(|term| term.has(moving)) {
+            let name = code(&call.func);
+            faults.at(
+                call,
+                format!(
+                    "`{name}` speaks of the described configuration, which has no time and no rates"
+                ),
+            );
+            return None;
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,111 @@
+//! Laws: functions that a mechanism writes, of the time and of the arguments that a definition names.
+
+use proc_macro2::Ident;
+use syn::{BinOp, Expr, UnOp};
+
+use super::number::Numbers;
+use crate::diag::{Faults, code, did_you_mean, list};
+use crate::model::{Function, LawTerm};
+use crate::syntax::ungroup;
+
+/// Reads a law.
+pub(super) struct LawReader<'a, 'b, 'c> {
+    pub(super) arguments: &'a [Ident],
+    pub(super) numbers: &'b mut Numbers<'c>,
+}
+
+impl LawReader<'_, '_, '_> {
+    pub(super) fn read(&mut self, expr: &Expr, faults: &mut Faults) -> Option<LawTerm> {
+        if !self.varies(expr) {
+            return self.numbers.scalar(expr, faults).map(LawTerm::Number);
+        }
+        match ungroup(expr) {
+            Expr::Path(path) => {
+                let name = path.path.get_ident()?;
+                let place = self.arguments.iter().position(|argument| argument == name);
+                Some(place.map_or(LawTerm::Time, LawTerm::Argument))
+            }
+            Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+                let inner = self.read(&unary.expr, faults)?;
+                Some(LawTerm::Sum(vec![(true, inner)]))
+            }
+            Expr::Binary(binary) => {
+                let left = self.read(&binary.left, faults);
+                let right = self.read(&binary.right, faults);
+                let (left, right) = (left?, right?);
+                match binary.op {
+                    BinOp::Add(_) => Some(LawTerm::Sum(vec![(false, left), (false, right)])),
+                    BinOp::Sub(_) => Some(LawTerm::Sum(vec![(false, left), (true, right)])),
+                    BinOp::Mul(_) => Some(LawTerm::Product(Box::new(left), Box::new(right))),
+                    BinOp::Div(_) => {
+                        let divisor = LawTerm::Function(Function::Reciprocal, Box::new(right));
+                        Some(LawTerm::Product(Box::new(divisor), Box::new(left)))
+                    }
+                    op => {
+                        faults.at(op, "expected `+`, `-`, `*` or `/`");
+                        None
+                    }
+                }
+            }
+            Expr::Call(call) => self.call(call, faults),
+            other => {
+                faults.at(
+                    other,
+                    format!(
+                        "expected an expression of {} and numbers: `+`, `-`, `*`, `/`, {}",
+                        self.words(),
+                        list(Function::NAMED.map(|(name, _)| name))
+                    ),
+                );
+                None
+            }
+        }
+    }
+
+    fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<LawTerm> {
+        let name = code(&call.func);
+        let Some(function) = Function::named(&name) else {
+            let known = Function::NAMED.map(|(name, _)| name);
+            let near = did_you_mean(&name, known);
+            faults.at(
+                &call.func,
+                format!(
+                    "no function `{name}` of {}; there are {}{near}",
+                    self.words(),
+                    list(known)
+                ),
+            );
+            return None;
+        };
+        let [argument] = call.args.iter().collect::<Vec<_>>()[..] else {
+            let found = call.args.len();
+            faults.at(call, format!("`{name}` takes one number, not {found}"));
+            return None;
+        };
+        let argument = self.read(argument, faults)?;
+        Some(LawTerm::Function(function, Box::new(argument)))
+    }
+
+    /// "`time` and `length`".
+    fn words(&self) -> String {
+        let arguments = self.arguments.iter().map(ToString::to_string);
+        list(std::iter::once("time".to_string()).chain(arguments))
+    }
+
+    /// Whether an expression speaks of the time or of an argument.
+    fn varies(&self, expr: &Expr) -> bool {
+        match ungroup(expr) {
+            Expr::Path(path) => path
+                .path
+                .get_ident()
+                .is_some_and(|name| name == "time" || self.arguments.contains(name)),
+            Expr::Unary(unary) => self.varies(&unary.expr),
+            Expr::Binary(binary) => self.varies(&binary.left) || self.varies(&binary.right),
+            Expr::Call(call) => {
+                call.args.iter().any(|argument| self.varies(argument))
+                    || matches!(code(&call.func).as_str(), "smooth_step")
+            }
+            _ => false,
+        }
+    }
+}

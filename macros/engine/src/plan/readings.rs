@@ -1,0 +1,151 @@
+//! What can be read of joints and forces at a state.
+
+use super::kernels::{Kernel, with_scene};
+use crate::model::mechanism::Counter;
+use crate::model::{BodyKind, Model};
+use crate::symbolic::arena::{Arena, Input};
+use crate::symbolic::twist::Gradient;
+use crate::symbolic::vector::{Frame, VectorId};
+
+/// Kernels of what can be read, by the place of joint or force.
+#[derive(Clone, Debug)]
+pub struct Readings {
+    /// Cosine, sine and rate of the angle of each joint that has one, and the auxiliary variable that counts its turns.
+    pub angles: Vec<(usize, Kernel)>,
+    /// Value and rate of the displacement of each joint that has one.
+    pub displacements: Vec<(usize, Kernel)>,
+    /// The reaction point of each joint on each of its bodies.
+    pub points: Vec<(usize, usize, Kernel)>,
+    /// The potential energy of each force, and the power of what it does besides.
+    pub energies: Vec<Kernel>,
+    /// The force (global axes) and the moment about the centre of mass (principal axes) of each force on each of its bodies.
+    pub loads: Vec<(usize, usize, Kernel)>,
+}
+
+impl Readings {
+    /// All kernels of a model.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        Self {
+            angles: angles(model),
+            displacements: displacements(model),
+            points: points(model),
+            energies: (0..model.forces.len())
+                .map(|force| with_scene(model, |scene| scene.energy_and_power(force).into()))
+                .collect(),
+            loads: loads(model),
+        }
+    }
+}
+
+/// The angle of the second body against the first: with axis `a` and normals `n1`, `n2` on either body,
+/// `cosine = n1(i) . n1(j)`, `sine = n2(i) . n1(j)`, rate `a(i) . (w(j) - w(i))`.
+fn angles(model: &Model) -> Vec<(usize, Kernel)> {
+    let mut angles = Vec::new();
+    for (place, joint) in model.joints.iter().enumerate() {
+        let Some(angle) = model.definition(joint).angle else {
+            continue;
+        };
+        let kernel = with_scene(model, |scene| {
+            let Some(copies) = scene.copies[place][angle.axis].clone() else {
+                return Vec::new();
+            };
+            let (i, j) = (joint.bodies[angle.from], joint.bodies[angle.to]);
+            let counter = Counter {
+                element: place,
+                turn: angle,
+            };
+            let counter = model.counters().iter().position(|known| *known == counter);
+            let frame = |body: Option<usize>| body.map_or(Frame::Global, Frame::Body);
+            let space = &mut scene.space;
+            let [n1, n2] = copies.normals[0].map(|n| space.native(frame(i), n));
+            let moving = space.native(frame(j), copies.normals[1][0]);
+            let axis = space.native(frame(i), copies.vector[0]);
+            let spin = |body: Option<usize>| -> Option<VectorId> {
+                body.map(|body| scene.motion.spin[body])
+            };
+            let (cosine, sine) = (space.dot(n1, moving), space.dot(n2, moving));
+            let mut rate = Arena::ZERO;
+            for (body, sign) in [(j, Arena::ONE), (i, -Arena::ONE)] {
+                if let Some(spin) = spin(body) {
+                    let along = space.dot(axis, spin);
+                    let signed = space.arena.mul(sign, along);
+                    rate = space.arena.add(rate, signed);
+                }
+            }
+            let mut outputs = vec![cosine, sine, rate];
+            outputs.extend(counter.map(|counter| {
+                let place = scene.layout.coordinates + counter;
+                space.arena.input(Input::Coordinate(place as u32))
+            }));
+            outputs
+        });
+        angles.push((place, kernel));
+    }
+    angles
+}
+
+fn points(model: &Model) -> Vec<(usize, usize, Kernel)> {
+    let mut points = Vec::new();
+    for (place, joint) in model.joints.iter().enumerate() {
+        let Some(parameter) = model.definition(joint).reaction_point() else {
+            continue;
+        };
+        for body in 0..joint.bodies.len() {
+            let kernel = with_scene(model, |scene| {
+                scene.copies[place][parameter]
+                    .as_ref()
+                    .map_or(vec![Arena::ZERO; 3], |copies| copies.vector[body].into())
+            });
+            points.push((place, body, kernel));
+        }
+    }
+    points
+}
+
+fn displacements(model: &Model) -> Vec<(usize, Kernel)> {
+    let with = (0..model.joints.len()).filter(|&joint| {
+        model
+            .definition(&model.joints[joint])
+            .displacement
+            .is_some()
+    });
+    with.map(|joint| {
+        let kernel = with_scene(model, |scene| {
+            let Some(displacement) = scene.displacements[joint].clone() else {
+                return Vec::new();
+            };
+            let (space, motion) = (&mut scene.space, &scene.motion);
+            vec![
+                displacement.value(space, motion),
+                displacement.rate(space, motion),
+            ]
+        });
+        (joint, kernel)
+    })
+    .collect()
+}
+
+fn loads(model: &Model) -> Vec<(usize, usize, Kernel)> {
+    let mut loads = Vec::new();
+    for (place, force) in model.forces.iter().enumerate() {
+        for (at, body) in force.bodies.iter().enumerate() {
+            let Some(body) = *body else { continue };
+            let kernel = with_scene(model, |scene| {
+                let mut gradient = Gradient::default();
+                scene.add_effects(place, &mut gradient);
+                let space = &mut scene.space;
+                let force = gradient.force(space, body);
+                let mut load: Vec<_> = space.components(force, Frame::Global).into();
+                if model.bodies[body].kind == BodyKind::Rigid {
+                    let moment = gradient.moment(space, body);
+                    load.extend(space.components(moment, Frame::Body(body)));
+                }
+                load.resize(6, Arena::ZERO);
+                load
+            });
+            loads.push((place, at, kernel));
+        }
+    }
+    loads
+}

@@ -1,0 +1,306 @@
+//! Definitions bound to the bodies and numbers of a mechanism.
+
+use super::arena::{Arena, Expr, Input};
+use super::fixed::{Copies, copies, number};
+use super::functions::AngleExpr;
+use super::start;
+use super::twist::{ScalarExpr, VectorExpr};
+use super::vector::{Triple, ZERO};
+use crate::model::{Action, Binding, Function, JointUse, LawTerm, Model, Number, Term, Turn};
+
+/// What a force does, bound to bodies.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// A potential energy.
+    Potential(ScalarExpr),
+    /// A generalised force along a coordinate: effort, coordinate.
+    Along(ScalarExpr, ScalarExpr),
+    /// A force at a point: force, point.
+    Force(VectorExpr, VectorExpr),
+    /// A moment on a body.
+    Moment(VectorExpr, Option<usize>),
+}
+
+/// The copies of all vector parameters of joints, then forces; `None` for the others.
+pub(super) fn all_copies(arena: &mut Arena, model: &Model) -> Vec<Vec<Option<Copies>>> {
+    model
+        .elements()
+        .map(|element| {
+            let parameters = &model.definition(element).parameters;
+            parameters
+                .iter()
+                .zip(&element.bindings)
+                .map(|(parameter, binding)| {
+                    parameter
+                        .kind
+                        .is_vector()
+                        .then(|| copies(arena, model, element, parameter.kind, binding))
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Replaces formal bodies and parameters of a definition by those of a joint or force.
+pub(super) struct Binder<'a> {
+    pub(super) model: &'a Model,
+    pub(super) element: &'a JointUse,
+    pub(super) copies: &'a [Option<Copies>],
+    /// The place of its first auxiliary variable in the state.
+    pub(super) first_counter: usize,
+}
+
+impl Binder<'_> {
+    fn copy(&self, parameter: usize, body: usize) -> Triple {
+        self.copies[parameter]
+            .as_ref()
+            .map_or(ZERO, |copies| copies.vector[body])
+    }
+
+    fn normal(&self, parameter: usize, body: usize, which: usize) -> VectorExpr {
+        let normal = self.copies[parameter]
+            .as_ref()
+            .map_or(ZERO, |copies| copies.normals[body][which]);
+        VectorExpr::Fixed(self.element.bodies[body], normal)
+    }
+
+    pub(super) fn vector(&self, arena: &mut Arena, term: &Term) -> VectorExpr {
+        match term {
+            Term::Point { body, parameter } => {
+                VectorExpr::Point(self.element.bodies[*body], self.copy(*parameter, *body))
+            }
+            Term::Fixed { body, parameter } => {
+                VectorExpr::Fixed(self.element.bodies[*body], self.copy(*parameter, *body))
+            }
+            Term::Normal {
+                body,
+                parameter,
+                which,
+            } => self.normal(*parameter, *body, *which),
+            Term::Origin(body) => VectorExpr::Point(self.element.bodies[*body], ZERO),
+            Term::Components(components) => {
+                let parts = [0, 1, 2].map(|k| self.scalar(arena, &components[k]));
+                if let [
+                    ScalarExpr::Constant(x),
+                    ScalarExpr::Constant(y),
+                    ScalarExpr::Constant(z),
+                ] = parts
+                {
+                    return VectorExpr::Fixed(None, [x, y, z]);
+                }
+                let mut k = 0;
+                VectorExpr::Sum(
+                    parts
+                        .map(|part| {
+                            let mut unit = ZERO;
+                            unit[k] = Arena::ONE;
+                            k += 1;
+                            let unit = Box::new(VectorExpr::Fixed(None, unit));
+                            (Arena::ONE, VectorExpr::Scaled(Box::new(part), unit))
+                        })
+                        .into(),
+                )
+            }
+            Term::Onto(body, vector) => {
+                let vector = self.vector(arena, vector);
+                let body = self.element.bodies[*body];
+                VectorExpr::Fixed(body, start::on_body(arena, self.model, &vector, body))
+            }
+            Term::Sum(terms) => VectorExpr::Sum(
+                terms
+                    .iter()
+                    .map(|(minus, term)| (signed_one(*minus), self.vector(arena, term)))
+                    .collect(),
+            ),
+            Term::Product(scalar, vector) => {
+                let (scalar, vector) = (self.scalar(arena, scalar), self.vector(arena, vector));
+                match scalar {
+                    ScalarExpr::Constant(factor) => VectorExpr::Sum(vec![(factor, vector)]),
+                    scalar => VectorExpr::Scaled(Box::new(scalar), Box::new(vector)),
+                }
+            }
+            Term::Cross(a, b) => VectorExpr::Cross(
+                Box::new(self.vector(arena, a)),
+                Box::new(self.vector(arena, b)),
+            ),
+            Term::Number(_)
+            | Term::Scalar(_)
+            | Term::Time
+            | Term::Dot(..)
+            | Term::Function(..)
+            | Term::Angle(_)
+            | Term::Initial(_)
+            | Term::Rate(_)
+            | Term::Law { .. } => unreachable!("shapes are checked where the definition stands"),
+        }
+    }
+
+    pub(super) fn scalar(&self, arena: &mut Arena, term: &Term) -> ScalarExpr {
+        match term {
+            Term::Number(value) => ScalarExpr::Constant(arena.constant(*value)),
+            Term::Scalar(parameter) => self.number(arena, *parameter),
+            Term::Time => ScalarExpr::Time,
+            Term::Sum(terms) => {
+                let terms = terms
+                    .iter()
+                    .map(|(minus, term)| (signed_one(*minus), self.scalar(arena, term)))
+                    .collect();
+                sum(arena, terms)
+            }
+            Term::Product(a, b) => {
+                let (a, b) = (self.scalar(arena, a), self.scalar(arena, b));
+                product(arena, a, b)
+            }
+            Term::Dot(a, b) => ScalarExpr::Dot(
+                Box::new(self.vector(arena, a)),
+                Box::new(self.vector(arena, b)),
+            ),
+            Term::Function(function, inner) => {
+                let inner = self.scalar(arena, inner);
+                of(arena, *function, inner)
+            }
+            Term::Angle(turn) => ScalarExpr::Angle(Box::new(self.angle(arena, *turn))),
+            Term::Initial(inner) => {
+                let inner = self.scalar(arena, inner);
+                ScalarExpr::Constant(start::scalar(arena, self.model, &inner))
+            }
+            Term::Rate(inner) => ScalarExpr::Rate(Box::new(self.scalar(arena, inner))),
+            Term::Law {
+                parameter,
+                arguments,
+            } => {
+                let arguments: Vec<ScalarExpr> = arguments
+                    .iter()
+                    .map(|argument| self.scalar(arena, argument))
+                    .collect();
+                match &self.element.bindings[*parameter] {
+                    Binding::Law(law) => expand(arena, law, &arguments),
+                    _ => ScalarExpr::Constant(Arena::ZERO),
+                }
+            }
+            Term::Point { .. }
+            | Term::Fixed { .. }
+            | Term::Normal { .. }
+            | Term::Origin(_)
+            | Term::Components(_)
+            | Term::Onto(..)
+            | Term::Cross(..) => unreachable!("shapes are checked where the definition stands"),
+        }
+    }
+
+    fn number(&self, arena: &mut Arena, parameter: usize) -> ScalarExpr {
+        let definition = self.model.definition(self.element);
+        match (
+            &self.element.bindings[parameter],
+            &definition.parameters[parameter].default,
+        ) {
+            (Binding::Scalar(value), _) => ScalarExpr::Constant(number(arena, *value)),
+            (_, Some(default)) => self.scalar(arena, default),
+            _ => ScalarExpr::Constant(number(arena, Number::ZERO)),
+        }
+    }
+
+    /// The angle of a body against another: with axis and normals on either, `cosine = n1(i) . n1(j)`,
+    /// `sine = n2(i) . n1(j)`.
+    pub(super) fn angle(&self, arena: &mut Arena, turn: Turn) -> AngleExpr {
+        let Turn { from, to, axis } = turn;
+        let dot = |which| {
+            ScalarExpr::Dot(
+                Box::new(self.normal(axis, from, which)),
+                Box::new(self.normal(axis, to, 0)),
+            )
+        };
+        AngleExpr {
+            sine: dot(1),
+            cosine: dot(0),
+            near: self
+                .counter(turn)
+                .map_or(Arena::ZERO, |place| arena.input(Input::Coordinate(place))),
+        }
+    }
+
+    /// The place of the auxiliary variable of an angle in the state.
+    pub(super) fn counter(&self, turn: Turn) -> Option<u32> {
+        let turns = &self.model.definition(self.element).turns;
+        let place = turns.iter().position(|known| *known == turn)?;
+        u32::try_from(self.first_counter + place).ok()
+    }
+
+    pub(super) fn effect(&self, arena: &mut Arena, action: &Action) -> Effect {
+        match action {
+            Action::Potential(energy) => Effect::Potential(self.scalar(arena, energy)),
+            Action::Along { effort, coordinate } => {
+                Effect::Along(self.scalar(arena, effort), self.scalar(arena, coordinate))
+            }
+            Action::Force { vector, point } => {
+                Effect::Force(self.vector(arena, vector), self.vector(arena, point))
+            }
+            Action::Moment { vector, body } => {
+                Effect::Moment(self.vector(arena, vector), self.element.bodies[*body])
+            }
+        }
+    }
+}
+
+/// A law with its arguments put in.
+fn expand(arena: &mut Arena, law: &LawTerm, arguments: &[ScalarExpr]) -> ScalarExpr {
+    match law {
+        LawTerm::Number(value) => ScalarExpr::Constant(number(arena, *value)),
+        LawTerm::Time => ScalarExpr::Time,
+        LawTerm::Argument(place) => arguments[*place].clone(),
+        LawTerm::Sum(terms) => {
+            let terms = terms
+                .iter()
+                .map(|(minus, term)| (signed_one(*minus), expand(arena, term, arguments)))
+                .collect();
+            sum(arena, terms)
+        }
+        LawTerm::Product(a, b) => {
+            let (a, b) = (expand(arena, a, arguments), expand(arena, b, arguments));
+            product(arena, a, b)
+        }
+        LawTerm::Function(function, inner) => {
+            let inner = expand(arena, inner, arguments);
+            of(arena, *function, inner)
+        }
+    }
+}
+
+/// A sum; a constant where all terms are.
+fn sum(arena: &mut Arena, terms: Vec<(Expr, ScalarExpr)>) -> ScalarExpr {
+    let mut total = Arena::ZERO;
+    for (factor, term) in &terms {
+        let ScalarExpr::Constant(value) = term else {
+            return ScalarExpr::Sum(terms);
+        };
+        let product = arena.mul(*factor, *value);
+        total = arena.add(total, product);
+    }
+    ScalarExpr::Constant(total)
+}
+
+/// A product; constants fold and become factors.
+fn product(arena: &mut Arena, a: ScalarExpr, b: ScalarExpr) -> ScalarExpr {
+    match (a, b) {
+        (ScalarExpr::Constant(a), ScalarExpr::Constant(b)) => ScalarExpr::Constant(arena.mul(a, b)),
+        (ScalarExpr::Constant(Arena::ZERO), _) | (_, ScalarExpr::Constant(Arena::ZERO)) => {
+            ScalarExpr::Constant(Arena::ZERO)
+        }
+        (ScalarExpr::Constant(factor), other) | (other, ScalarExpr::Constant(factor)) => {
+            ScalarExpr::Sum(vec![(factor, other)])
+        }
+        (a, b) => ScalarExpr::Product(Box::new(a), Box::new(b)),
+    }
+}
+
+/// A function of a scalar.
+fn of(arena: &mut Arena, function: Function, inner: ScalarExpr) -> ScalarExpr {
+    match inner {
+        ScalarExpr::Constant(value) => ScalarExpr::Constant(function.value(arena, value)),
+        inner => ScalarExpr::Function(function, Box::new(inner)),
+    }
+}
+
+fn signed_one(minus: bool) -> Expr {
+    if minus { -Arena::ONE } else { Arena::ONE }
+}

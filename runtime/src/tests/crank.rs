@@ -1,0 +1,259 @@
+//! The rod of [`super::rod`] with a driver: its angle, which counts turns, follows a polynomial of time.
+
+use core::array::from_fn;
+
+use super::dense;
+use super::rod::Rod;
+use crate::*;
+
+/// The angle is `start + speed t + acceleration t^2 / 2`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crank {
+    pub(super) start: f64,
+    pub(super) speed: f64,
+    pub(super) acceleration: f64,
+}
+
+/// A hinge with a driver in its last row.
+pub(super) struct DrivenHinge;
+
+impl Joint for DrivenHinge {
+    const NAME: &'static str = "DrivenHinge";
+    const EQUATIONS: usize = 6;
+    const BODIES: usize = 2;
+    const FINGERPRINT: u64 = 1;
+}
+
+impl HasAngle for DrivenHinge {}
+
+impl HasDisplacement for DrivenHinge {}
+
+impl Driven for DrivenHinge {
+    const ROW: usize = 5;
+}
+
+pub(super) const CRANK: BodyHandle<Crank> = BodyHandle::new(0);
+pub(super) const MOTOR: JointHandle<Crank, DrivenHinge> = JointHandle::new(0);
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Constants<S> {
+    rod: [S; 6],
+    law: [S; 3],
+}
+
+impl<S: Scalar> Constants<S> {
+    fn law(&self, t: S) -> [S; 3] {
+        let [start, speed, acceleration] = self.law;
+        let half = S::constant(0.5);
+        [
+            start + t * (speed + t * half * acceleration),
+            speed + t * acceleration,
+            acceleration,
+        ]
+    }
+}
+
+fn body<S: Scalar>(state: &State<S, 8, 6>) -> State<S, 7, 6> {
+    State::from_parts(from_fn(|k| state.coordinates()[k]), *state.velocities())
+}
+
+fn and<S: Copy>(rows: [S; 5], last: S) -> [S; 6] {
+    from_fn(|k| rows.get(k).copied().unwrap_or(last))
+}
+
+impl Mechanism for Crank {
+    type State<S: Scalar> = State<S, 8, 6>;
+    type Velocities<S: Scalar> = [S; 6];
+    type Multipliers<S: Scalar> = [S; 6];
+    type Jacobian<S: Scalar> = [S; 36];
+    type Parameters<S: Scalar> = [S; 3];
+    type Constants<S: Scalar> = Constants<S>;
+    type Coefficients<S: Scalar> = Stabilisation<S>;
+    type Factors<S: Scalar> = dense::Factors<S, 36, 6>;
+    type Handles = ();
+
+    const HANDLES: () = ();
+    const REPORT: Report = Report {
+        name: "Crank",
+        joints: &[JointInfo {
+            name: "motor",
+            kind: "DrivenHinge",
+            row: 0,
+            rows: 6,
+            bodies: &[None, Some(0)],
+            has_angle: true,
+        }],
+        blocks: &[Block {
+            joint: 0,
+            body: 0,
+            row: 0,
+            rows: 6,
+            column: 0,
+            columns: 6,
+            offset: 0,
+        }],
+        auxiliaries: 1,
+        equations: 6,
+        degrees_of_freedom: 0,
+        ..Rod::REPORT
+    };
+
+    fn parameters<S: Scalar>(&self) -> Result<[S; 3], ParameterError> {
+        Ok([self.start, self.speed, self.acceleration].map(S::constant))
+    }
+
+    fn prepare<S: Scalar>(law: &[S; 3]) -> Constants<S> {
+        let rod = Rod::prepare(&S::constant(7.02));
+        Constants { rod, law: *law }
+    }
+
+    fn coefficients<S: Scalar>(_: &Constants<S>, terms: &Stabilisation<S>) -> Stabilisation<S> {
+        *terms
+    }
+
+    fn initial_state<S: Scalar>(c: &Constants<S>) -> State<S, 8, 6> {
+        let rod = Rod::initial_state(&c.rod);
+        let coordinates = from_fn(|k| rod.coordinates().get(k).copied().unwrap_or(S::zero()));
+        State::from_parts(coordinates, *rod.velocities())
+    }
+
+    fn constraints<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
+        let rows = Rod::constraints(&c.rod, time, &body(state));
+        let [angle, ..] = c.law(time);
+        and(rows, Self::joint_angle(c, state, 0).angle() - angle)
+    }
+
+    fn constraint_rates<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
+        let rows = Rod::constraint_rates(&c.rod, time, &body(state));
+        let [_, rate, _] = c.law(time);
+        and(rows, state.velocities()[3] - rate)
+    }
+
+    fn jacobian<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 36] {
+        let rod = Rod::jacobian(&c.rod, time, &body(state));
+        let mut jacobian = [S::zero(); 36];
+        jacobian[..30].copy_from_slice(&rod);
+        jacobian[33] = S::one();
+        jacobian
+    }
+
+    fn gamma<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
+        let [_, _, acceleration] = c.law(time);
+        and(Rod::gamma(&c.rod, time, &body(state)), acceleration)
+    }
+
+    fn mass<S: Scalar>(c: &Constants<S>) -> [S; 6] {
+        Rod::mass(&c.rod)
+    }
+
+    fn forces<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
+        Rod::forces(&c.rod, time, &body(state))
+    }
+
+    fn kinetic_energy<S: Scalar>(c: &Constants<S>, state: &State<S, 8, 6>) -> S {
+        Rod::kinetic_energy(&c.rod, &body(state))
+    }
+
+    fn potential_energy<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> S {
+        Rod::potential_energy(&c.rod, time, &body(state))
+    }
+
+    fn coordinate_rates<S: Scalar>(c: &Constants<S>, state: &State<S, 8, 6>) -> [S; 8] {
+        let rates = Rod::coordinate_rates(&c.rod, &body(state));
+        let turning = state.velocities()[3];
+        from_fn(|k| rates.get(k).copied().unwrap_or(turning))
+    }
+
+    fn recount<S: Scalar>(c: &Constants<S>, state: &mut State<S, 8, 6>) {
+        state.coordinates_mut()[7] = Self::joint_angle(c, state, 0).angle();
+    }
+
+    fn evaluate<S: Scalar, T: Terms, P: Orientation>(
+        c: &Constants<S>,
+        coefficients: &Stabilisation<S>,
+        time: S,
+        state: &State<S, 8, 6>,
+    ) -> Evaluation<S, Self> {
+        let unit = crate::rotation::with_unit_orientations::<S, Self>(state);
+        let read = if P::NORMALISED { &unit } else { state };
+        let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
+        let mut lower = Self::gamma(c, time, read);
+        if T::STABILISED {
+            let phi = Self::constraints(c, time, read);
+            let phi_rate = Self::constraint_rates(c, time, read);
+            let Stabilisation { rate, position, .. } = *coefficients;
+            lower = from_fn(|i| lower[i] - (rate * phi_rate[i] + position * phi[i]));
+        }
+        let upper = Self::forces(c, time, read);
+        let (accelerations, multipliers) =
+            Self::solve::<S, T>(c, coefficients, &factors, &upper, &lower);
+        let rates = State::from_parts(Self::coordinate_rates(c, read), accelerations);
+        Evaluation {
+            rates,
+            multipliers,
+            pivot,
+        }
+    }
+
+    fn factor<S: Scalar, T: Terms>(
+        c: &Constants<S>,
+        coefficients: &Stabilisation<S>,
+        time: S,
+        state: &State<S, 8, 6>,
+    ) -> (Self::Factors<S>, Pivot<S>) {
+        let compliance = T::COMPLIANT.then_some(coefficients.compliance);
+        dense::factor(Self::jacobian(c, time, state), &c.rod, compliance)
+    }
+
+    fn solve<S: Scalar, T: Terms>(
+        c: &Constants<S>,
+        _: &Stabilisation<S>,
+        factors: &Self::Factors<S>,
+        upper: &[S; 6],
+        lower: &[S; 6],
+    ) -> ([S; 6], [S; 6]) {
+        dense::solve(factors, &c.rod, upper, lower)
+    }
+
+    fn joint_angle<S: Scalar>(
+        c: &Constants<S>,
+        state: &State<S, 8, 6>,
+        joint: usize,
+    ) -> AngleParts<S> {
+        AngleParts {
+            turns: Some(state.coordinates()[7]),
+            ..Rod::joint_angle(&c.rod, &body(state), joint)
+        }
+    }
+
+    /// The height of the tip above the hinge.
+    fn joint_displacement<S: Scalar>(
+        _: &Constants<S>,
+        _: S,
+        state: &State<S, 8, 6>,
+        _: usize,
+    ) -> DisplacementParts<S> {
+        let two = S::constant(2.0);
+        DisplacementParts {
+            value: two * state.coordinates()[2],
+            rate: two * state.velocities()[2],
+        }
+    }
+
+    fn joint_point<S: Scalar>(c: &Constants<S>, joint: usize, place: usize) -> [S; 3] {
+        Rod::joint_point(&c.rod, joint, place)
+    }
+
+    fn user_axes(body: usize) -> [f64; 4] {
+        Rod::user_axes(body)
+    }
+}
+
+/// A crank at a constant speed (rad/s).
+pub(super) fn crank(speed: f64) -> Crank {
+    Crank {
+        start: 0.0,
+        speed,
+        acceleration: 0.0,
+    }
+}
