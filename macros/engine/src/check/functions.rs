@@ -23,7 +23,7 @@ impl Context<'_> {
             return self.law(call, parameter, faults);
         }
         if let Some(function) = Function::named(&name) {
-            let [argument] = self.arguments::<1>(call, "one number", faults)?;
+            let [argument] = self.arguments::<1>(call, "1 number", faults)?;
             let argument = self.scalar(argument, faults)?;
             return Some(Shaped::scalar(Term::Function(function, Box::new(argument))));
         }
@@ -64,7 +64,7 @@ impl Context<'_> {
                 })
             }
             "initial" => {
-                let [argument] = self.arguments::<1>(call, "one number", faults)?;
+                let [argument] = self.arguments::<1>(call, "1 number", faults)?;
                 let argument = self.expression(argument, faults)?;
                 if argument.vector {
                     faults.at(
@@ -81,7 +81,7 @@ impl Context<'_> {
                 })
             }
             "rate" => {
-                let [argument] = self.arguments::<1>(call, "one number", faults)?;
+                let [argument] = self.arguments::<1>(call, "1 number", faults)?;
                 let argument = self.scalar(argument, faults)?;
                 if self.kind == ElementKind::Joint {
                     faults.at(
@@ -131,10 +131,7 @@ impl Context<'_> {
         let arguments = arguments.try_into().ok();
         if arguments.is_none() {
             let name = code(&call.func);
-            faults.at(
-                call,
-                format!("`{name}` takes {wanted}; found {found} arguments"),
-            );
+            faults.at(call, format!("`{name}` takes {wanted}, not {found}"));
         }
         arguments
     }
