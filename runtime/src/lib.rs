@@ -106,6 +106,10 @@ pub use bodies::{Body, Particle};
 /// # Attributes
 ///
 /// `#[mechanism(gravity = [x, y, z])]` on the struct: the acceleration of free fall (m/s^2, global); none if left out.
+/// `redundant = "drop"` or `"keep"` beside it says what is to be done with equations that follow from others (a door on two
+/// hinges), which are refused otherwise: see [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the
+/// motion is the same, reactions are those of the joints without these equations. Keep them, and
+/// only formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
 ///
 /// `#[body(..)]` on a field of type [`Body`] or [`Particle`]: see there.
 ///
@@ -153,7 +157,9 @@ pub use nalgebra;
 pub use project::{Correction, Projection};
 pub use reaction::Wrench;
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
-pub use report::{Block, BodyInfo, BodyKind, ForceInfo, JointInfo, Kernel, Operations, Report};
+pub use report::{
+    Block, BodyInfo, BodyKind, ForceInfo, JointInfo, Kernel, Operations, Rank, RedundantRow, Report,
+};
 pub use reporting::{Reporting, every, every_step};
 pub use sample::Sample;
 pub use scalar::{Real, Scalar};

@@ -212,6 +212,8 @@ macro_rules! __stub_mechanism {
                     auxiliaries: 0,
                     velocities: 0,
                     equations: 0,
+                    rank: $crate::Rank::NotDecided,
+                    redundant: &[],
                     degrees_of_freedom: 0,
                     kernels: &[],
                     plan: "",

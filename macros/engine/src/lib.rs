@@ -17,6 +17,7 @@ pub mod diag;
 pub mod emit;
 pub mod model;
 pub mod plan;
+pub mod rank;
 pub mod symbolic;
 pub mod syntax;
 pub mod wire;

@@ -95,6 +95,11 @@ impl Mechanism for Rod {
         auxiliaries: 0,
         velocities: 6,
         equations: 5,
+        rank: Rank::Decided {
+            rank: 5,
+            at_start: 5,
+        },
+        redundant: &[],
         degrees_of_freedom: 1,
         kernels: &[],
         plan: "",

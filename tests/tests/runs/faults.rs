@@ -16,7 +16,7 @@ holonom::joint! {
 
 /// A door on two hinges: 10 equations, 5 of them independent.
 #[derive(Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.66, -1.70])]
+#[mechanism(gravity = [0.0, -9.66, -1.70], redundant = "keep")]
 struct Door {
     #[body(mass = 20.0, inertia = [6.669, 1.069, 7.733], position = [0.4, 1.0, 0.0])]
     leaf: Body,
@@ -146,7 +146,7 @@ fn with_a_compliance_redundant_equations_are_solved() {
 
 /// A parallelogram of spatial hinges: three rows depend on the others.
 #[derive(Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0])]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "keep")]
 struct Parallelogram {
     #[body(mass = 1.0, inertia = [0.08, 0.001, 0.08], position = [0.0, 0.5, 0.0])]
     left: Body,
@@ -166,7 +166,7 @@ struct Parallelogram {
 
 /// The same in an oblique plane: what cancels leaves round-off behind.
 #[derive(Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81])]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "keep")]
 struct ObliqueParallelogram {
     #[body(mass = 1.0, inertia = [0.08, 0.06, 0.03], position = [0.0, 0.0, 0.5])]
     left: Body,

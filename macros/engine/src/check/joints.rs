@@ -148,6 +148,7 @@ impl JointChecker<'_> {
             definition,
             bodies,
             bindings,
+            dropped: Vec::new(),
         })
     }
 

@@ -7,8 +7,9 @@ use super::bodies;
 use super::joints::{JointChecker, Mentioned};
 use super::number::Numbers;
 use super::pairs::Pairs;
+use super::redundant;
 use crate::diag::{Faults, code};
-use crate::model::{BodyKind, ElementKind, JointDef, Model, Number};
+use crate::model::{BodyKind, ElementKind, Independence, JointDef, Model, Number, Redundant};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
 
 /// What a field's type turned out to be.
@@ -35,7 +36,7 @@ pub fn check(
 ) -> Option<Model> {
     let mut numbers = Numbers::new(facade);
     numbers.values = super::values::values(syntax, faults);
-    let gravity = gravity(syntax, &mut numbers, faults);
+    let (gravity, wish) = attributes(syntax, &mut numbers, faults);
     let mut names: Vec<&Ident> = Vec::new();
     let mut bodies = Vec::new();
     for field in &syntax.fields {
@@ -107,7 +108,7 @@ pub fn check(
     let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
-    Some(Model {
+    let mut model = Model {
         name: syntax.name.clone(),
         gravity: gravity?,
         bodies,
@@ -116,14 +117,20 @@ pub fn check(
         values,
         definitions,
         symbols,
-    })
+        independence: Independence::default(),
+    };
+    if !faults.any() {
+        redundant::check(&mut model, wish, faults);
+    }
+    Some(model)
 }
 
-fn gravity(
+/// What `#[mechanism(..)]` says: gravity, and what to do with redundant equations.
+fn attributes(
     syntax: &MechanismSyntax,
     numbers: &mut Numbers<'_>,
     faults: &mut Faults,
-) -> Option<[Number; 3]> {
+) -> (Option<[Number; 3]>, Redundant) {
     let mut pairs = Pairs::new(
         "`#[mechanism(..)]`".into(),
         syntax.name.span(),
@@ -135,8 +142,9 @@ fn gravity(
         Some(expr) => numbers.vector(expr, faults),
         None => Some([Number::ZERO; 3]),
     };
+    let wish = redundant::read(pairs.optional("redundant", faults), faults);
     pairs.finish(faults);
-    gravity
+    (gravity, wish)
 }
 
 /// What the type of a field turned out to be.

@@ -9,4 +9,5 @@ mod laws;
 pub mod mechanism;
 pub mod number;
 pub mod pairs;
+mod redundant;
 mod values;

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::report::counts;
-use crate::model::{BodyKind, Model};
+use crate::model::{BodyKind, Model, Rank};
 use crate::plan::kernels::Kernels;
 
 /// Documentation as attributes.
@@ -13,12 +13,11 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
     let layout = model.layout();
     let mut lines = vec![
         format!(
-            "Generated kernels: {} coordinates, {} velocities, {} constraint equations; degrees of freedom (velocities less \
-             equations): {}.",
+            "Generated kernels: {} coordinates, {} velocities, {} constraint equations. {}",
             layout.coordinates,
             layout.velocities,
             layout.rows,
-            layout.velocities.cast_signed() - layout.rows.cast_signed()
+            independence(model)
         ),
         String::new(),
         "| body | kind | coordinates from | velocities from |".into(),
@@ -52,7 +51,7 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
                 definition.name,
                 bodies.join(", "),
                 first,
-                first + definition.equations()
+                first + model.equations(joint)
             ));
         }
     }
@@ -72,4 +71,44 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
     }
     let lines = lines.iter().map(|line| format!(" {line}"));
     quote!(#( #[doc = #lines] )*)
+}
+
+/// The rank, the degrees of freedom, and the equations that follow from others, in words.
+fn independence(model: &Model) -> String {
+    let (layout, found) = (model.layout(), &model.independence);
+    let freedom = found.degrees_of_freedom(layout.velocities, layout.rows);
+    let mut text = match found.rank {
+        Rank::Decided { rank, .. } => {
+            format!("Degrees of freedom (velocities less the rank, {rank}): {freedom}.")
+        }
+        Rank::NotDecided => format!(
+            "Degrees of freedom (velocities less equations; the rank is not decided at expansion): {freedom}."
+        ),
+        Rank::NotAssembled => format!(
+            "Degrees of freedom (velocities less equations; the rank is not decided at expansion, because the described \
+             configuration cannot be assembled): {freedom}."
+        ),
+    };
+    if let Rank::Decided { rank, at_start } = found.rank
+        && at_start < rank
+    {
+        text += &format!(" It starts in a singular configuration, of rank {at_start}.");
+    }
+    if !found.redundant.is_empty() {
+        let rows: Vec<String> = found
+            .redundant
+            .iter()
+            .map(|redundant| {
+                let joint = &model.joints[redundant.joint].name;
+                format!("`{joint}[{}]`", redundant.row)
+            })
+            .collect();
+        let fate = if found.dropped {
+            "left out"
+        } else {
+            "kept, so that the formulation needs a compliance"
+        };
+        text += &format!(" Redundant equations, {fate}: {}.", rows.join(", "));
+    }
+    text
 }

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::joint::kind;
 use crate::model::mechanism::Layout;
-use crate::model::{JointUse, Model};
+use crate::model::{JointUse, Model, Rank};
 use crate::plan::Plan;
 use crate::plan::kernels::{Kernel, Kernels};
 use crate::plan::system::Terms;
@@ -134,7 +134,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     let joints = model.joints.iter().enumerate().map(|(place, joint)| {
         let definition = model.definition(joint);
         let (name, kind) = (joint.name.to_string(), definition.name.to_string());
-        let (row, rows) = (layout.row[place], definition.equations());
+        let (row, rows) = (layout.row[place], model.equations(joint));
         let bodies = places(joint);
         let has_angle = definition.angle.is_some();
         quote! {
@@ -153,7 +153,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     });
     let blocks = kernels.blocks.iter().map(|block| {
         let crate::plan::kernels::Block { joint, body, offset } = *block;
-        let (row, rows) = (layout.row[joint], model.definition(&model.joints[joint]).equations());
+        let (row, rows) = (layout.row[joint], model.equations(&model.joints[joint]));
         let (column, columns) = (layout.velocity[body], model.bodies[body].kind.velocities());
         quote! {
             #facade::Block {
@@ -191,7 +191,20 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         rows,
         ..
     } = layout;
-    let degrees_of_freedom = velocities.cast_signed() - rows.cast_signed();
+    let independence = &model.independence;
+    let degrees_of_freedom = independence.degrees_of_freedom(velocities, rows);
+    let rank = match independence.rank {
+        Rank::Decided { rank, at_start } => {
+            quote!(#facade::Rank::Decided { rank: #rank, at_start: #at_start })
+        }
+        Rank::NotDecided => quote!(#facade::Rank::NotDecided),
+        Rank::NotAssembled => quote!(#facade::Rank::NotAssembled),
+    };
+    let dropped = independence.dropped;
+    let redundant = independence.redundant.iter().map(|redundant| {
+        let (joint, row) = (redundant.joint, redundant.row);
+        quote!(#facade::RedundantRow { joint: #joint, row: #row, dropped: #dropped })
+    });
     let plan = describe(model, &kernels.plan, &layout);
     quote! {
         #facade::Report {
@@ -204,6 +217,8 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             auxiliaries: #auxiliaries,
             velocities: #velocities,
             equations: #rows,
+            rank: #rank,
+            redundant: &[#(#redundant),*],
             degrees_of_freedom: #degrees_of_freedom,
             kernels: &[#(#counts),*],
             plan: #plan,

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 
 use super::joint::{Function, JointDef, Turn};
 use super::number::{Number, Symbol};
+use super::rank::Independence;
 
 /// Whether a body has an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,6 +105,8 @@ pub struct JointUse {
     pub bodies: Vec<Option<usize>>,
     /// What its parameters are, in the order of the definition.
     pub bindings: Vec<Binding>,
+    /// Equations of its definition that are left out, in order.
+    pub dropped: Vec<usize>,
 }
 
 /// A field that holds a number for run time.
@@ -143,6 +146,8 @@ pub struct Model {
     pub definitions: Vec<JointDef>,
     /// Numbers that the macro cannot see.
     pub symbols: Vec<Symbol>,
+    /// Whether the equations depend on each other.
+    pub independence: Independence,
 }
 
 impl Model {
@@ -169,6 +174,12 @@ impl Model {
             .collect()
     }
 
+    /// The number of a joint's equations that are not left out.
+    #[must_use]
+    pub fn equations(&self, joint: &JointUse) -> usize {
+        self.definition(joint).equations() - joint.dropped.len()
+    }
+
     /// The place of each body's first coordinate and first velocity, and the totals.
     #[must_use]
     pub fn layout(&self) -> Layout {
@@ -182,7 +193,7 @@ impl Model {
         layout.auxiliaries = self.counters().len();
         for joint in &self.joints {
             layout.row.push(layout.rows);
-            layout.rows += self.definition(joint).equations();
+            layout.rows += self.equations(joint);
         }
         layout
     }

@@ -4,9 +4,11 @@ pub mod inertia;
 pub mod joint;
 pub mod mechanism;
 pub mod number;
+pub mod rank;
 
 pub use joint::{
     Action, ElementKind, Function, JointDef, Parameter, ParameterKind, Row, Term, Turn,
 };
 pub use mechanism::{Binding, Body, BodyKind, JointUse, LawTerm, Model, RunTimeValue};
 pub use number::{Number, Symbol};
+pub use rank::{Independence, Rank, Redundant, RedundantRow};

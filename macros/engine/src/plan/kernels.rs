@@ -162,7 +162,8 @@ pub(super) fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<
     }
 }
 
-fn rows(model: &Model, factors: [Expr; 3]) -> Kernel {
+/// A combination of `Phi`, `Phi'` and the quadratic terms of `Phi''`, row by row.
+pub(crate) fn rows(model: &Model, factors: [Expr; 3]) -> Kernel {
     with_scene(model, |scene| {
         (0..scene.constraints.len())
             .flat_map(|place| scene.combination(place, Frame::Global, factors))
@@ -170,7 +171,8 @@ fn rows(model: &Model, factors: [Expr; 3]) -> Kernel {
     })
 }
 
-fn jacobian(model: &Model) -> (Kernel, Vec<Block>) {
+/// `D`, block by block.
+pub(crate) fn jacobian(model: &Model) -> (Kernel, Vec<Block>) {
     let mut scene = Scene::new(model);
     let mut outputs = Vec::new();
     let mut blocks = Vec::new();

@@ -4,6 +4,7 @@ use super::arena::{Arena, Expr, Input};
 use super::bind::{Binder, Effect, all_copies};
 use super::fixed::{Copies, number, triple};
 use super::functions::AngleExpr;
+use super::kept::kept;
 use super::twist::{Gradient, Motion, ScalarExpr, VectorExpr};
 use super::vector::{Frame, Space, Triple};
 use crate::model::mechanism::Layout;
@@ -248,17 +249,22 @@ impl Scene {
             };
             let arena = &mut space.arena;
             let mut row = layout.row.get(place).copied().unwrap_or_default();
+            let mut place_in_definition = 0;
             for definition in &definition.rows {
                 let constraint = match definition {
                     Row::Scalar(term) => Constraint::Scalar(binder.scalar(arena, term)),
                     Row::Vector(term) => Constraint::Vector(binder.vector(arena, term)),
                 };
-                constraints.push(Constrained {
-                    joint: place,
-                    row,
-                    constraint,
-                });
-                row += definition.equations();
+                for constraint in kept(constraint, place_in_definition, &element.dropped) {
+                    let constrained = Constrained {
+                        joint: place,
+                        row,
+                        constraint,
+                    };
+                    row += constrained.equations();
+                    constraints.push(constrained);
+                }
+                place_in_definition += definition.equations();
             }
             match definition.kind {
                 ElementKind::Joint => {

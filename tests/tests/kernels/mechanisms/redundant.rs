@@ -10,7 +10,7 @@ use crate::scene::Scene;
 
 /// A door of 0.8 m x 2 m and 20 kg on two hinges: 10 equations, 5 of them independent. The edge leans 10 degrees.
 #[derive(Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81 * cos(deg(10.0)), -9.81 * sin(deg(10.0))])]
+#[mechanism(gravity = [0.0, -9.81 * cos(deg(10.0)), -9.81 * sin(deg(10.0))], redundant = "keep")]
 pub(crate) struct Door {
     #[body(
         mass = 20.0,
@@ -32,7 +32,7 @@ impl Scene for Door {
 
 /// A four-bar of four parallel hinges: 20 equations on 18 velocities, and yet it moves.
 #[derive(Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81])]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "keep")]
 pub(crate) struct PlanarFourBar {
     #[body(mass = 1.2, inertia = [0.02, 0.02, 0.001], position = [0.0, 0.0, 0.15])]
     crank: Body,

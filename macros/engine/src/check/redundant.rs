@@ -1,0 +1,98 @@
+//! Equations that follow from others: refused, left out or kept, as the user says.
+
+use syn::{Expr, ExprLit, Lit};
+
+use crate::diag::{Faults, did_you_mean, list};
+use crate::model::{Model, Redundant, RedundantRow};
+use crate::rank::judge;
+use crate::syntax::ungroup;
+
+/// The value of `redundant` in `#[mechanism(..)]`.
+pub(super) fn read(expr: Option<&Expr>, faults: &mut Faults) -> Redundant {
+    let Some(expr) = expr else {
+        return Redundant::Refuse;
+    };
+    let text = match ungroup(expr) {
+        Expr::Lit(ExprLit {
+            lit: Lit::Str(text),
+            ..
+        }) => text.value(),
+        _ => String::new(),
+    };
+    if let Some((_, wish)) = Redundant::ALL.iter().find(|(name, _)| *name == text) {
+        return *wish;
+    }
+    let near = did_you_mean(&text, Redundant::ALL.map(|(name, _)| name));
+    faults.at(
+        expr,
+        format!("`redundant` takes `\"drop\"` or `\"keep\"`{near}"),
+    );
+    // What was meant is unknown: nothing is refused on top.
+    Redundant::Keep
+}
+
+/// Finds the rank of a model that is sound otherwise, and does with redundant equations what the user wishes.
+pub(super) fn check(model: &mut Model, wish: Redundant, faults: &mut Faults) {
+    model.independence = judge(model);
+    match wish {
+        Redundant::Refuse => refuse(model, faults),
+        Redundant::Keep => {}
+        Redundant::Drop => {
+            for RedundantRow { joint, row, .. } in &model.independence.redundant {
+                model.joints[*joint].dropped.push(*row);
+            }
+            model.independence.dropped = true;
+        }
+    }
+}
+
+/// One fault for each joint with redundant equations.
+fn refuse(model: &Model, faults: &mut Faults) {
+    for (place, joint) in model.joints.iter().enumerate() {
+        let own: Vec<&RedundantRow> = model
+            .independence
+            .redundant
+            .iter()
+            .filter(|redundant| redundant.joint == place)
+            .collect();
+        if own.is_empty() {
+            continue;
+        }
+        let mut sources: Vec<usize> = own
+            .iter()
+            .flat_map(|row| row.follows_from.clone())
+            .collect();
+        sources.sort_unstable();
+        sources.dedup();
+        let name = &joint.name;
+        let (count, of) = (own.len(), model.equations(joint));
+        let (are, follow) = match count {
+            1 => ("is", "follows"),
+            _ => ("are", "follow"),
+        };
+        let from = match sources.as_slice() {
+            [] => "cannot be violated".into(),
+            several => {
+                let names = several.iter().map(|&joint| &model.joints[joint].name);
+                format!("{follow} from equations of {}", list(names))
+            }
+        };
+        let how_many = if count == of {
+            "all".into()
+        } else {
+            format!("{count} of the")
+        };
+        let rows = list(
+            own.iter()
+                .map(|redundant| format!("{name}[{}]", redundant.row)),
+        );
+        faults.at(
+            name,
+            format!(
+                "{how_many} {of} equations of `{name}` {are} redundant: {rows} {from}, so that multipliers are not unique; \
+                 leave them out by `#[mechanism(redundant = \"drop\")]`, or write `redundant = \"keep\"` for formulations \
+                 with a compliance (penalty, augmented Lagrangian)"
+            ),
+        );
+    }
+}

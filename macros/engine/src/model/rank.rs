@@ -1,0 +1,69 @@
+//! What is known about the rank of the constraints.
+
+/// What a mechanism asks for where equations depend on each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Redundant {
+    /// Nothing was said: a mechanism with redundant equations is refused.
+    #[default]
+    Refuse,
+    /// Redundant equations are left out.
+    Drop,
+    /// All equations stay, for formulations with a compliance.
+    Keep,
+}
+
+impl Redundant {
+    /// What `redundant` takes.
+    pub const ALL: [(&'static str, Self); 2] = [("drop", Self::Drop), ("keep", Self::Keep)];
+}
+
+/// The rank of `D`, if it could be found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rank {
+    /// Found at the start and at configurations near it.
+    Decided {
+        /// The largest.
+        rank: usize,
+        /// At the start: smaller in a singular configuration.
+        at_start: usize,
+    },
+    /// The constraints depend on numbers that the macro cannot see.
+    #[default]
+    NotDecided,
+    /// No configuration near the described one satisfies the constraints.
+    NotAssembled,
+}
+
+/// An equation that follows from the others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RedundantRow {
+    /// The joint.
+    pub joint: usize,
+    /// The place among the equations of the joint's definition.
+    pub row: usize,
+    /// The joints, in order, of the equations that it follows from; itself among them if so.
+    pub follows_from: Vec<usize>,
+}
+
+/// What was found out about the equations of a mechanism.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Independence {
+    /// The rank.
+    pub rank: Rank,
+    /// The equations that can go so that the others are independent and say the same.
+    pub redundant: Vec<RedundantRow>,
+    /// Whether they are gone.
+    pub dropped: bool,
+}
+
+impl Independence {
+    /// Velocities that the constraints leave free: by the rank where it is known, else by the number of equations.
+    #[must_use]
+    pub fn degrees_of_freedom(&self, velocities: usize, equations: usize) -> isize {
+        let bound = match self.rank {
+            Rank::Decided { rank, .. } => rank,
+            Rank::NotDecided | Rank::NotAssembled => equations,
+        };
+        velocities.cast_signed() - bound.cast_signed()
+    }
+}

@@ -1,0 +1,75 @@
+//! Equations that follow from others.
+
+use holonom::joints::{Revolute, Spherical};
+use holonom::prelude::*;
+
+/// A door on three hinges, one of them a ball.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, -9.81, 0.0])]
+struct Door {
+    #[body(mass = 20.0, inertia = [6.7, 1.1, 7.7], position = [0.4, 1.0, 0.0])]
+    leaf: Body,
+    #[joint(between = [ground, leaf], point = [0.0, 0.25, 0.0], axis = [0.0, 1.0, 0.0])]
+    lower: Revolute,
+    #[joint(between = [ground, leaf], point = [0.0, 1.0, 0.0])]
+    middle: Spherical,
+    #[joint(between = [ground, leaf], point = [0.0, 1.75, 0.0], axis = [0.0, 1.0, 0.0])]
+    upper: Revolute,
+}
+
+/// A four-bar of parallel hinges.
+#[derive(Mechanism)]
+struct FourBar {
+    #[body(mass = 1.2, inertia = [0.02, 0.02, 0.001], position = [0.0, 0.0, 0.15])]
+    crank: Body,
+    #[body(mass = 2.5, inertia = [0.21, 0.004, 0.21], position = [0.0, 0.5, 0.4])]
+    coupler: Body,
+    #[body(mass = 1.8, inertia = [0.04, 0.04, 0.002], position = [0.0, 1.0, 0.25])]
+    rocker: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    drive: Revolute,
+    #[joint(between = [crank, coupler], point = [0.0, 0.0, 0.3], axis = [1.0, 0.0, 0.0])]
+    near: Revolute,
+    #[joint(between = [coupler, rocker], point = [0.0, 1.0, 0.5], axis = [1.0, 0.0, 0.0])]
+    far: Revolute,
+    #[joint(between = [rocker, ground], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    support: Revolute,
+}
+
+#[derive(Mechanism)]
+#[mechanism(redundant = "dorp")]
+struct Misspelt {
+    #[body(mass = 1.0, free)]
+    bead: Particle,
+}
+
+#[derive(Mechanism)]
+#[mechanism(redundant = keep)]
+struct Word {
+    #[body(mass = 1.0, free)]
+    bead: Particle,
+}
+
+#[derive(Mechanism)]
+#[mechanism(redundant)]
+struct Bare {
+    #[body(mass = 1.0, free)]
+    bead: Particle,
+}
+
+/// Nothing is redundant: either wish is granted.
+#[derive(Mechanism)]
+#[mechanism(redundant = "drop")]
+struct Dropped {
+    #[body(mass = 1.0, free)]
+    bead: Particle,
+}
+
+#[derive(Mechanism)]
+#[mechanism(redundant = "keep")]
+struct Kept {
+    #[body(mass = 1.0, free)]
+    bead: Particle,
+}
+
+fn main() {}
