@@ -204,6 +204,16 @@ fn a_loop_that_moves_against_the_count() {
 }
 
 #[test]
+fn a_long_kernel_is_written_in_blocks() {
+    let model = bricard("redundant = \"drop\"");
+    let code = holonom_engine::emit::mechanism::emit(&model, &quote::quote!(::holonom));
+    let file: syn::File = syn::parse2(code).expect("items");
+    let text = quote::quote!(#file).to_string();
+    let blocks = text.matches(") = { let ").count();
+    assert!(blocks > 100, "{blocks}");
+}
+
+#[test]
 fn the_documentation_says_it() {
     let text = |model: &Model| {
         let code = documentation(model, &Kernels::new(model)).to_string();

@@ -31,8 +31,26 @@ struct Writer<'a, E> {
     environment: &'a mut E,
     names: HashMap<usize, Ident>,
     fused: HashSet<usize>,
-    statements: TokenStream,
+    statements: Vec<Statement>,
+    /// The statement that uses a node last.
+    last_use: HashMap<usize, usize>,
+    /// What the statement at hand refers to.
+    operands: Vec<usize>,
 }
+
+struct Statement {
+    place: usize,
+    name: Ident,
+    value: TokenStream,
+}
+
+/// The statements of one block of a long kernel.
+///
+/// Every `let` opens a scope that ends with the block it stands in. The compiler walks scopes by recursion when it writes debug
+/// information and overflows its stack after some thousands of them.
+const BLOCK: usize = 100;
+/// Kernels of up to so many statements are written without blocks.
+const LONG: usize = 1000;
 
 /// Writes the nodes that the outputs need and that are known no earlier than `from`.
 pub fn write(
@@ -48,17 +66,24 @@ pub fn write(
         environment,
         names: HashMap::new(),
         fused,
-        statements: TokenStream::new(),
+        statements: Vec::new(),
+        last_use: HashMap::new(),
+        operands: Vec::new(),
     };
     for &place in &live {
+        writer.operands.clear();
         writer.node(place);
     }
     let outputs = outputs
         .iter()
-        .map(|&output| writer.reference(output))
+        .map(|&output| {
+            let reference = writer.reference(output);
+            writer.last_use.insert(output.node(), usize::MAX);
+            reference
+        })
         .collect();
     StraightLine {
-        statements: writer.statements,
+        statements: writer.written(),
         outputs,
     }
 }
@@ -143,8 +168,41 @@ impl<E: Environment> Writer<'_, E> {
             .label(place)
             .map(|label| label.trim_start_matches("r#"));
         let name = local(&format!("{}_{place}", label.unwrap_or("n")));
-        self.statements.extend(quote!(let #name = #value;));
-        self.names.insert(place, name);
+        self.names.insert(place, name.clone());
+        for &operand in &self.operands {
+            self.last_use.insert(operand, self.statements.len());
+        }
+        let value = value.clone();
+        self.statements.push(Statement { place, name, value });
+    }
+
+    fn written(&self) -> TokenStream {
+        let lets = |statements: &[Statement]| -> TokenStream {
+            statements
+                .iter()
+                .map(|Statement { name, value, .. }| quote!(let #name = #value;))
+                .collect()
+        };
+        if self.statements.len() <= LONG {
+            return lets(&self.statements);
+        }
+        let blocks = self.statements.chunks(BLOCK).enumerate();
+        blocks
+            .map(|(number, block)| {
+                let end = BLOCK * number + block.len();
+                let used_later: Vec<&Ident> = block
+                    .iter()
+                    .filter(|statement| {
+                        self.last_use
+                            .get(&statement.place)
+                            .is_some_and(|&last| last >= end)
+                    })
+                    .map(|statement| &statement.name)
+                    .collect();
+                let lets = lets(block);
+                quote!(let (#(#used_later,)*) = { #lets (#(#used_later,)*) };)
+            })
+            .collect()
     }
 
     /// The operand of a sum that is fused into it, and the other one.
@@ -184,6 +242,7 @@ impl<E: Environment> Writer<'_, E> {
             let value = self.environment.earlier(self.arena, expr.abs());
             self.bind(place, &value);
         }
+        self.operands.push(place);
         let name = &self.names[&place];
         if expr.is_negative() {
             quote!((-#name))
