@@ -9,6 +9,7 @@ mod observer;
 mod order;
 mod pendulum;
 mod reactions;
+mod redundant;
 mod references;
 mod refusals;
 mod single_precision;

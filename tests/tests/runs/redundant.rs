@@ -1,0 +1,240 @@
+//! Mechanisms of which redundant equations were left out: the motion is that of the whole, by closed forms and published values.
+
+use core::f64::consts::FRAC_PI_2;
+
+use holonom::joints::Revolute;
+use holonom::prelude::*;
+use holonom::{Rank, RedundantRow, Report};
+use nalgebra::{UnitQuaternion, Vector3};
+
+fn tight() -> DormandPrince<f64> {
+    DormandPrince::new(Tolerance {
+        relative: 1e-12,
+        absolute: 1e-13,
+    })
+}
+
+/// First row and number of rows of every joint.
+fn rows(report: &Report) -> Vec<(usize, usize)> {
+    report
+        .joints
+        .iter()
+        .map(|joint| (joint.row, joint.rows))
+        .collect()
+}
+
+/// A door of 0.8 m x 2 m and 20 kg on two hinges, the edge leaning 10 degrees, released 90 degrees from equilibrium.
+#[derive(Mechanism)]
+#[mechanism(
+    gravity = [0.0, -9.81 * cos(deg(10.0)), -9.81 * sin(deg(10.0))],
+    redundant = "drop"
+)]
+struct Door {
+    #[body(
+        mass = 20.0,
+        inertia = [6.66933333333333, 1.06933333333333, 7.73333333333333],
+        position = [0.4, 1.0, 0.0]
+    )]
+    leaf: Body,
+    #[joint(between = [ground, leaf], point = [0.0, 0.25, 0.0], axis = [0.0, 1.0, 0.0])]
+    lower: Revolute,
+    #[joint(between = [ground, leaf], point = [0.0, 1.75, 0.0], axis = [0.0, 1.0, 0.0])]
+    upper: Revolute,
+}
+
+#[test]
+fn a_door_hangs_on_its_lower_hinge() {
+    const { assert!(Door::REPORT.equations == 5 && Door::REPORT.degrees_of_freedom == 1) };
+    let report = Door::REPORT;
+    let (rank, at_start) = (5, 5);
+    assert_eq!(report.rank, Rank::Decided { rank, at_start });
+    let dropped = [0, 1, 2, 3, 4].map(|row| RedundantRow {
+        joint: 1,
+        row,
+        dropped: true,
+    });
+    assert_eq!(report.redundant, dropped);
+    assert_eq!(rows(&report), [(0, 5), (5, 0)]);
+    let door = Door::default();
+    let handles = Door::HANDLES;
+    let mut last = (0.0, 0.0);
+    Simulation::new(&door, StandardLagrange, tight())
+        .run(0.0..=10.0, every(1.0), |sample| {
+            last = (
+                sample.angle(handles.lower),
+                sample.angle_rate(handles.lower),
+            );
+            assert!((sample.angle(handles.upper) - last.0).abs() < 1e-9);
+            let reaction = sample
+                .reaction(handles.upper, handles.leaf)
+                .expect("regular");
+            assert_eq!((reaction.force.norm(), reaction.moment.norm()), (0.0, 0.0));
+            ControlFlow::Continue(())
+        })
+        .expect("independent");
+    // problems.md
+    assert!(
+        (FRAC_PI_2 - last.0 + 1.34374710121287).abs() < 1e-9,
+        "{last:?}"
+    );
+    assert!((-last.1 + 1.19878325592002).abs() < 1e-9, "{last:?}");
+}
+
+/// The four-bar of the IFToMM library with spatial hinges: three links of 1 m and 1 kg, 20 equations of rank 17.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
+struct FourBar {
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 0.001, 1.0 / 12.0],
+        position = [0.0, 0.5, 0.0],
+        velocity = [0.5, 0.0, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    left: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [0.001, 1.0 / 12.0, 1.0 / 12.0],
+        position = [0.5, 1.0, 0.0],
+        velocity = [1.0, 0.0, 0.0]
+    )]
+    bar: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 0.001, 1.0 / 12.0],
+        position = [1.0, 0.5, 0.0],
+        velocity = [0.5, 0.0, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    right: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [left, bar], point = [0.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    b: Revolute,
+    #[joint(between = [bar, right], point = [1.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    c: Revolute,
+    #[joint(between = [right, ground], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    d: Revolute,
+}
+
+#[test]
+fn a_planar_loop_of_spatial_hinges() {
+    let report = FourBar::REPORT;
+    let (rank, at_start) = (17, 17);
+    assert_eq!(report.rank, Rank::Decided { rank, at_start });
+    assert_eq!((report.equations, report.degrees_of_freedom), (17, 1));
+    assert_eq!(report.redundant.len(), 3);
+    assert_eq!(rows(&report), [(0, 5), (5, 5), (10, 5), (15, 2)]);
+    let model = FourBar::default();
+    let left = FourBar::HANDLES.left;
+    let mut reference = Reference::default();
+    let run = Simulation::new(&model, StandardLagrange, tight())
+        .run(0.0..=0.7, every(0.1), |sample| {
+            let end = 2.0 * sample.pose(left).position;
+            let angle = reference.at(sample.time());
+            let error = (end - Vector3::new(angle.sin(), angle.cos(), 0.0)).norm();
+            assert!(error < 1e-10, "{error:e} m at {} s", sample.time());
+            ControlFlow::Continue(())
+        })
+        .expect("independent");
+    assert!(run.worst_violation < 1e-22, "{}", run.worst_violation);
+    // Where all links are in line, the rank is smaller: at 0.708450008835759 s (problems.md) the motion has two ways to go on.
+    assert!((reference.at(0.708450008835759) - FRAC_PI_2).abs() < 1e-12);
+    let error = Simulation::new(&model, StandardLagrange, tight())
+        .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
+        .expect_err("a branching point");
+    assert!((error.time - 0.70845).abs() < 1e-5, "{error}");
+}
+
+/// `J a'' = P g sin a` with `a(0) = 0`, `a'(0) = 1`: the angle of the links from upright.
+#[derive(Default)]
+struct Reference {
+    time: f64,
+    motion: Option<[f64; 2]>,
+}
+
+impl Reference {
+    /// The classical method of order 4, in steps that leave round-off.
+    fn at(&mut self, time: f64) -> f64 {
+        const STEPS: u32 = 2000;
+        let rates = |[angle, rate]: [f64; 2]| [rate, 2.0 * 9.81 / (5.0 / 3.0) * angle.sin()];
+        let dt = (time - self.time) / f64::from(STEPS);
+        let mut y = self.motion.unwrap_or([0.0, 1.0]);
+        for _ in 0..STEPS {
+            let moved = |k: [f64; 2], dt: f64| [y[0] + dt * k[0], y[1] + dt * k[1]];
+            let k1 = rates(y);
+            let k2 = rates(moved(k1, 0.5 * dt));
+            let k3 = rates(moved(k2, 0.5 * dt));
+            let k4 = rates(moved(k3, dt));
+            for k in 0..2 {
+                y[k] += dt / 6.0 * (k1[k] + 2.0 * (k2[k] + k3[k]) + k4[k]);
+            }
+        }
+        (self.time, self.motion) = (time, Some(y));
+        y[0]
+    }
+}
+
+/// Bricard's mechanism of the IFToMM library: 30 equations on 30 velocities, of rank 29.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
+struct Bricard {
+    #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, 0.0, 0.0])]
+    r1: Body,
+    #[body(mass = 1.0, inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0], position = [1.0, -0.5, 0.0])]
+    r2: Body,
+    #[body(mass = 1.0, inertia = [1.01 / 12.0, 1.01 / 12.0, 0.02 / 12.0], position = [1.0, -1.0, 0.5])]
+    r3: Body,
+    #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, -1.0, 1.0])]
+    r4: Body,
+    #[body(mass = 1.0, inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0], position = [0.0, -0.5, 1.0])]
+    r5: Body,
+    #[joint(between = [ground, r1], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    j1: Revolute,
+    #[joint(between = [r1, r2], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    j2: Revolute,
+    #[joint(between = [r2, r3], point = [1.0, -1.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    j3: Revolute,
+    #[joint(between = [r3, r4], point = [1.0, -1.0, 1.0], axis = [0.0, 1.0, 0.0])]
+    j4: Revolute,
+    #[joint(between = [r4, r5], point = [0.0, -1.0, 1.0], axis = [0.0, 0.0, 1.0])]
+    j5: Revolute,
+    #[joint(between = [r5, ground], point = [0.0, 0.0, 1.0], axis = [1.0, 0.0, 0.0])]
+    j6: Revolute,
+}
+
+#[test]
+fn a_loop_that_moves_against_the_count() {
+    let report = Bricard::REPORT;
+    let (rank, at_start) = (29, 29);
+    assert_eq!(report.rank, Rank::Decided { rank, at_start });
+    assert_eq!((report.equations, report.degrees_of_freedom), (29, 1));
+    assert_eq!(report.redundant.len(), 1);
+    let model = Bricard::default();
+    let r2 = Bricard::HANDLES.r2;
+    // problems.md
+    let published = [
+        (1.0, [0.27448131926, -0.88670793873, -0.46233000269]),
+        (2.0, [-0.77813537303, -0.98035268344, -0.19725267062]),
+        (5.0, [0.99993274230, -0.99999999774, -6.72554e-5]),
+        (10.0, [0.99973098730, -0.99999996383, -2.68976513e-4]),
+    ];
+    let mut seen = 0;
+    Simulation::new(&model, StandardLagrange, tight())
+        .run(0.0..=10.0, every(1.0), |sample| {
+            let pose = sample.pose(r2);
+            let turned = UnitQuaternion::new_normalize(pose.orientation);
+            let end = pose.position + turned * Vector3::new(0.0, -0.5, 0.0);
+            for (time, place) in published {
+                if (sample.time() - time).abs() < 1e-9 {
+                    let error = (end - Vector3::from(place)).amax();
+                    // The last digit that is given.
+                    assert!(error < 2e-10, "{error:e} m at {time} s");
+                    seen += 1;
+                }
+            }
+            ControlFlow::Continue(())
+        })
+        .expect("independent all the way");
+    assert_eq!(seen, published.len());
+}
