@@ -307,7 +307,7 @@ fn constraints_that_touch_are_not_redundant() {
 
 #[test]
 fn the_unit_of_length_does_not_matter() {
-    for scale in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
+    for scale in [1e-30, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e30] {
         let at = |point: [f64; 3]| point.map(|x| scale * x);
         let model = hinged(
             "redundant = \"keep\"",
@@ -318,6 +318,31 @@ fn the_unit_of_length_does_not_matter() {
             ],
         );
         assert_eq!(model.independence.rank, decided(5, 5), "{scale}");
+    }
+}
+
+#[test]
+fn rows_of_every_unit_stand_side_by_side() {
+    // A body turns on an axis and hangs on a rod as well: 5 + 1 equations, m, rad and m^2.
+    for scale in [1e-9, 1e-6, 1.0, 1e6, 1e9] {
+        let at = |point: [f64; 3]| point.map(|x| scale * x);
+        let text = format!(
+            "struct Hung {{
+                #[body(mass = 1.0, inertia = [0.1, 0.2, 0.15], position = {:?})] leaf: Body,
+                #[joint(between = [ground, leaf], point = {:?}, axis = [0.0, 1.0, 0.0])] hinge: Revolute,
+                #[joint(between = [ground, leaf], head = {:?}, tail = {:?}, length = {:?})] rod: Rod,
+            }}",
+            at([0.4, 1.0, 0.0]),
+            at([0.0, 0.25, 0.0]),
+            at([0.8, 1.0, 1.0]),
+            at([0.8, 1.0, 0.0]),
+            scale
+        );
+        assert_eq!(
+            model(&tokens(&text)).independence.rank,
+            decided(6, 6),
+            "{scale}"
+        );
     }
 }
 

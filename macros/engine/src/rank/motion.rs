@@ -10,8 +10,8 @@ use crate::plan::kernels::{Block, Kernel, initial_state, jacobian, rows};
 use crate::symbolic::arena::{Arena, Input};
 use crate::symbolic::evaluate::evaluate;
 
-/// A row shorter than this, beside its own size elsewhere or the largest row's, is zero.
-const VANISHING: f64 = 1e-12;
+/// A row of which no more than this is left anywhere is round-off, over the size that it should have at least.
+const VANISHING: f64 = 1e-13;
 /// Violations up to this, over the size of the row's gradient, are round-off.
 const ASSEMBLED: f64 = 1e-9;
 /// A violation this small that a step does not make ten times smaller is left as it is: it is round-off, or the constraints
@@ -36,7 +36,8 @@ pub(super) struct Constraints {
     length: f64,
     /// The size of each row's gradient near the start; `None` for a row that vanishes everywhere.
     sizes: Vec<Option<f64>>,
-    largest: f64,
+    /// What the size of a row is at least: that of an angle, a length or a squared length.
+    least: f64,
 }
 
 impl Constraints {
@@ -54,6 +55,7 @@ impl Constraints {
             .collect();
         let start = start?;
         let (jacobian, blocks) = jacobian(model);
+        let length = length(model);
         let mut constraints = Self {
             kinds: model.bodies.iter().map(|body| body.kind).collect(),
             counts: model
@@ -64,9 +66,9 @@ impl Constraints {
             phi: rows(model, [Arena::ONE, Arena::ZERO, Arena::ZERO]),
             jacobian,
             blocks,
-            length: length(model),
+            length,
             sizes: Vec::new(),
-            largest: 0.0,
+            least: length.powi(2).min(1.0),
             layout,
         };
         constraints.evaluate(&constraints.phi, &start)?;
@@ -81,8 +83,7 @@ impl Constraints {
                 *size = size.max(norm(&row));
             }
         }
-        constraints.largest = sizes.iter().copied().fold(0.0, f64::max);
-        let least = VANISHING * constraints.largest;
+        let least = VANISHING * constraints.least;
         constraints.sizes = sizes
             .into_iter()
             .map(|size| (size > least).then_some(size))
@@ -90,6 +91,7 @@ impl Constraints {
         Some((constraints, start))
     }
 
+    /// The outputs of a kernel; `None` where one is not known, or beyond all numbers.
     fn evaluate(&self, kernel: &Kernel, at: &[f64]) -> Option<Vec<f64>> {
         let values = evaluate(&kernel.arena, &kernel.outputs, |input| match input {
             Input::Coordinate(place) => at.get(place as usize).copied(),
@@ -103,7 +105,10 @@ impl Constraints {
             | Input::Upper(_)
             | Input::Lower(_) => Some(0.0),
         });
-        values.into_iter().collect()
+        values
+            .into_iter()
+            .map(|value| value.filter(|value| value.is_finite()))
+            .collect()
     }
 
     /// `D` over motions without dimension.
@@ -145,7 +150,7 @@ impl Constraints {
         let mut values = self.evaluate(&self.phi, at)?;
         for (value, size) in values.iter_mut().zip(&self.sizes) {
             if *value != 0.0 {
-                *value /= size.unwrap_or(self.largest);
+                *value /= size.unwrap_or(self.least);
             }
         }
         Some(values)
@@ -179,7 +184,7 @@ impl Constraints {
         let mut size = norm(&violations);
         let mut caution = 1.0;
         for _ in 0..STEPS {
-            if size == 0.0 || !size.is_finite() {
+            if size == 0.0 {
                 break;
             }
             let mut gradients = self.gradients(&at)?;
