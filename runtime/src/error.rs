@@ -70,6 +70,16 @@ pub enum Fault {
         /// The step asked for (s).
         step: f64,
     },
+    /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer than velocities.
+    NotDriven {
+        /// Velocities less equations.
+        degrees_of_freedom: isize,
+    },
+    /// A kinematic analysis came to a configuration where the equations, although enough, leave a motion free.
+    Undetermined {
+        /// The share of a trial motion's energy that stays free, from 0 to 1.
+        share: f64,
+    },
     /// A tolerance, a step, an interval or a coefficient that is not finite and positive.
     Setting {
         /// Which one.
@@ -109,6 +119,14 @@ impl fmt::Display for Fault {
                     "the step size {step:e} s is below the resolution of the time"
                 )
             }
+            Self::NotDriven { degrees_of_freedom } => write!(
+                f,
+                "the mechanism has {degrees_of_freedom} more velocities than equations; a kinematic analysis needs a driver for each"
+            ),
+            Self::Undetermined { share } => write!(
+                f,
+                "the equations leave a motion free here ({share:e} of a trial motion): they depend on each other, or a driver is missing"
+            ),
             Self::Setting { name, value } => {
                 write!(f, "`{name}` must be finite and positive, not {value:e}")
             }

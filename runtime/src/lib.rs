@@ -6,6 +6,7 @@
 //! | what | where |
 //! |---|---|
 //! | a run over an interval of time, with reports | [`Simulation`], [`every`], [`Sample`], [`RunReport`] |
+//! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
 //! | integrators | [`Rk4`], [`DormandPrince`] |
@@ -30,11 +31,13 @@ compile_error!(
 
 mod access;
 mod array;
+mod displace;
 mod dynamics;
 mod error;
 mod formulation;
 mod handle;
 mod integrate;
+mod kinematics;
 mod load;
 mod mechanism;
 mod project;
@@ -148,6 +151,7 @@ pub use integrate::{
     FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, Stride, System,
     Tolerance,
 };
+pub use kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
 pub use mechanism::{
     Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw, Stabilisation,
@@ -172,10 +176,10 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::{
-        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, Loads, Mechanism,
-        MechanismExt, Normalised, ParameterError, Particle, Penalty, Projection, Raw, Rk4,
-        RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange, Stepper,
-        Tolerance, every, every_step,
+        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, KinematicAnalysis,
+        Loads, Mechanism, MechanismExt, Normalised, ParameterError, Particle, Penalty, Projection,
+        Raw, Rk4, RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange,
+        Stepper, Tolerance, every, every_step,
     };
 }
 

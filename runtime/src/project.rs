@@ -1,13 +1,11 @@
 //! Correction of positions and velocities onto the constraints.
 
 use crate::array::{Array, StateParts, finite};
+use crate::displace::displaced;
 use crate::error::Fault;
 use crate::integrate::positive;
 use crate::mechanism::{Compliant, Mechanism, Stabilisation};
-use crate::report::BodyKind;
-use crate::rotation::{
-    from_rotation_vector, normalised, product, read, with_unit_orientations, write,
-};
+use crate::rotation::with_unit_orientations;
 use crate::scalar::Real;
 use crate::view::square;
 
@@ -172,6 +170,57 @@ fn correction<S: Real, M: Mechanism>(
     state: &M::State<S>,
     violation: &M::Multipliers<S>,
 ) -> M::Velocities<S> {
+    let (coefficients, factors) = compliant::<S, M>(constants, time, state);
+    let mut lower = *violation;
+    for element in lower.as_mut_slice() {
+        *element = -*element;
+    }
+    let upper = M::Velocities::<S>::zeros();
+    M::solve::<S, Compliant>(constants, &coefficients, &factors, &upper, &lower).0
+}
+
+/// How much of a trial motion the constraints leave free: the share of its energy that stays when it is projected onto the
+/// motions with `D u = 0`. Zero where the constraints determine the velocities, about one over the number of velocities for
+/// one degree of freedom.
+pub(crate) fn free_share<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> S {
+    let (coefficients, factors) = compliant::<S, M>(constants, time, state);
+    let mass = M::mass(constants);
+    let energy = |motion: &M::Velocities<S>| {
+        let places = motion.as_slice().iter().zip(mass.as_slice());
+        places.fold(S::zero(), |sum, (&u, &m)| (u * u).fused(m, sum))
+    };
+    let mut motion = M::Velocities::<S>::zeros();
+    let places = motion.as_mut_slice().iter_mut().zip(mass.as_slice());
+    for (place, (u, &mass)) in places.enumerate() {
+        // Components that no mechanism is made of: the fractions of multiples of the golden section.
+        let fraction = (place + 1) as f64 * 0.618_033_988_749_895 % 1.0 - 0.5;
+        *u = S::constant(fraction).quotient(mass.sqrt());
+    }
+    let before = energy(&motion);
+    // A projection with a compliance leaves e / (s + e) of a motion of stiffness s: four of them tell a stiff row from none.
+    for _ in 0..4 {
+        let places = motion.as_mut_slice().iter_mut().zip(mass.as_slice());
+        places.for_each(|(u, &mass)| *u = *u * mass);
+        let lower = M::Multipliers::<S>::zeros();
+        motion = M::solve::<S, Compliant>(constants, &coefficients, &factors, &motion, &lower).0;
+    }
+    if before > S::zero() {
+        energy(&motion).quotient(before)
+    } else {
+        before
+    }
+}
+
+/// The saddle system with a small compliance, factorised.
+fn compliant<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> (M::Coefficients<S>, M::Factors<S>) {
     let compliance = compliance::<S, M>(constants, time, state);
     let stabilisation = Stabilisation {
         rate: S::zero(),
@@ -180,12 +229,7 @@ fn correction<S: Real, M: Mechanism>(
     };
     let coefficients = M::coefficients(constants, &stabilisation);
     let (factors, _) = M::factor::<S, Compliant>(constants, &coefficients, time, state);
-    let mut lower = *violation;
-    for element in lower.as_mut_slice() {
-        *element = -*element;
-    }
-    let upper = M::Velocities::<S>::zeros();
-    M::solve::<S, Compliant>(constants, &coefficients, &factors, &upper, &lower).0
+    (coefficients, factors)
 }
 
 /// `e`: `sqrt(EPSILON)` of the least positive element on the diagonal of `D M^-1 D^T`, at least `16 EPSILON` of the
@@ -243,51 +287,6 @@ fn descend<S: Real, M: Mechanism>(
         factor = factor * S::constant(0.5);
     }
     None
-}
-
-/// The state moved by `factor d`: positions by addition, orientations by a rotation along body axes; angles that count turns
-/// follow.
-fn displaced<S: Real, M: Mechanism>(
-    constants: &M::Constants<S>,
-    state: &M::State<S>,
-    step: &M::Velocities<S>,
-    factor: S,
-) -> M::State<S> {
-    let mut moved = *state;
-    if M::REPORT.auxiliaries > 0 {
-        let along = M::State::from_parts(*state.coordinates(), *step);
-        advance_auxiliaries::<S, M>(constants, &along, factor, &mut moved);
-    }
-    let coordinates = moved.coordinates_mut().as_mut_slice();
-    for body in M::REPORT.bodies {
-        let scaled = |place| read::<S, 3>(step.as_slice(), place).map(|d| factor * d);
-        let [x, y, z] = read(coordinates, body.coordinate);
-        let [dx, dy, dz] = scaled(body.velocity);
-        write(coordinates, body.coordinate, [x + dx, y + dy, z + dz]);
-        if body.kind == BodyKind::Rigid {
-            let turn = from_rotation_vector(&scaled(body.velocity + 3));
-            let p = product(&read(coordinates, body.coordinate + 3), &turn);
-            write(coordinates, body.coordinate + 3, normalised(&p));
-        }
-    }
-    M::recount(constants, &mut moved);
-    moved
-}
-
-/// Moves the auxiliary variables by `factor` times their rates in another state: without it, a turn by more than half a revolution
-/// would be counted as one the other way.
-fn advance_auxiliaries<S: Real, M: Mechanism>(
-    constants: &M::Constants<S>,
-    along: &M::State<S>,
-    factor: S,
-    moved: &mut M::State<S>,
-) {
-    let rates = M::coordinate_rates(constants, along);
-    let coordinates = moved.coordinates_mut().as_mut_slice();
-    let places = coordinates.iter_mut().zip(rates.as_slice());
-    for (auxiliary, &rate) in places.skip(M::REPORT.coordinates) {
-        *auxiliary = rate.fused(factor, *auxiliary);
-    }
 }
 
 /// The largest absolute value; NaN if an element is NaN.

@@ -76,6 +76,12 @@ impl<S: Real> Schedule<S> {
         }
     }
 
+    /// The next time to report, counted; none where times are not given.
+    pub(crate) fn following(&mut self) -> Option<S> {
+        let next = self.next()?;
+        Some(self.count(next))
+    }
+
     /// The next time, where times are given.
     fn next(&self) -> Option<S> {
         let Reporting::Every(dt) = self.reporting else {
@@ -98,4 +104,22 @@ impl<S: Real> Schedule<S> {
 /// Times closer than this are the same.
 fn round_off<S: Real>(time: S) -> S {
     S::constant(8.0) * time.ulp()
+}
+
+/// Refuses an interval whose ends are not finite or not in order.
+pub(crate) fn check_interval<S: Real>(start: S, end: S) -> Result<(), Fault> {
+    if !start.is_finite() {
+        return Err(Fault::Setting {
+            name: "start of the interval",
+            value: start.to_f64(),
+        });
+    }
+    if !end.is_finite() || end < start {
+        let value = (end - start).to_f64();
+        return Err(Fault::Setting {
+            name: "end of the interval less its start",
+            value,
+        });
+    }
+    Ok(())
 }

@@ -51,6 +51,19 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
         }
     }
 
+    /// A sample whose evaluation has been done.
+    pub(crate) fn evaluated(
+        view: View<'a, S, M>,
+        dynamics: &'a dyn Evaluate<S, M>,
+        evaluation: Evaluation<S, M>,
+    ) -> Self {
+        Self {
+            view,
+            dynamics,
+            evaluation: OnceCell::from(Ok(evaluation)),
+        }
+    }
+
     /// Rates of the state, and multipliers.
     ///
     /// # Errors

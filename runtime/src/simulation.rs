@@ -11,7 +11,7 @@ use crate::integrate::{Counts, Course, Integrator, Span};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
 use crate::project::Projection;
-use crate::reporting::{Reporting, Schedule};
+use crate::reporting::{Reporting, Schedule, check_interval};
 use crate::sample::Sample;
 use crate::scalar::Real;
 
@@ -291,21 +291,4 @@ impl<S: Real, O> Log<'_, S, O> {
             stopped: flow.is_break(),
         }
     }
-}
-
-fn check_interval<S: Real>(start: S, end: S) -> Result<(), Fault> {
-    if !start.is_finite() {
-        return Err(Fault::Setting {
-            name: "start of the interval",
-            value: start.to_f64(),
-        });
-    }
-    if !end.is_finite() || end < start {
-        let value = (end - start).to_f64();
-        return Err(Fault::Setting {
-            name: "end of the interval less its start",
-            value,
-        });
-    }
-    Ok(())
 }

@@ -5,6 +5,7 @@ mod correction;
 mod counters;
 mod crank;
 mod dense;
+mod driven;
 mod rod;
 mod run;
 mod steps;

@@ -5,6 +5,7 @@
 mod chapter15;
 mod faults;
 mod forces;
+mod kinematics;
 mod observer;
 mod order;
 mod pendulum;

@@ -1,0 +1,297 @@
+//! The motion of a mechanism whose drivers leave it no freedom: positions, velocities, accelerations, and what it takes.
+
+use core::ops::{ControlFlow, RangeInclusive};
+
+use crate::array::{Array, StateParts, finite};
+use crate::displace::advanced;
+use crate::dynamics::Dynamics;
+use crate::error::{Fault, SimulationError};
+use crate::formulation::Formulation;
+use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::mechanism::{Evaluation, Mechanism};
+use crate::project::{Projection, free_share};
+use crate::reporting::{Reporting, Schedule, check_interval};
+use crate::sample::Sample;
+use crate::scalar::Real;
+
+/// Kinematics and inverse dynamics of a mechanism that is driven fully: as many independent equations as velocities.
+///
+/// At every reporting time (Nikravesh 1988, chapter 3; Flores 2015, chapter 7):
+///
+/// 1. positions from `Phi(q, t) = 0` by Newton's method, from the pose before moved by its velocities and accelerations;
+/// 2. velocities from `Phi' = D u + Phi_t = 0`;
+/// 3. accelerations and multipliers by one evaluation of the equations of motion: [`Sample::accelerations`],
+///    [`Sample::reaction`], [`Sample::driving_effort`] show what the prescribed motion takes.
+///
+/// Nothing is integrated, so no error accumulates. Of several poses that satisfy the equations, the analysis follows the one that is
+/// nearest to the prediction: between two reporting times a body should turn by less than about half a radian where the equations leave a choice.
+/// Where Newton's method fails, the way to the next time is halved, ten times at most.
+///
+/// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the equations are independent; where
+/// some are redundant, [`Penalty`](crate::Penalty) or [`AugmentedLagrangian`](crate::AugmentedLagrangian), with accelerations that are exact up to
+/// the compliance and forces that are shared among redundant equations.
+pub struct KinematicAnalysis<'a, S: Real, M: Mechanism, F, A = NoForces> {
+    mechanism: &'a M,
+    formulation: F,
+    forces: A,
+    initial: Option<M::State<S>>,
+    projection: Projection<S>,
+}
+
+/// What a kinematic analysis came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct KinematicReport<S, X> {
+    /// Poses that were found: one for every reporting time, and those between where the way was halved.
+    pub poses: usize,
+    /// Steps of Newton's method for all of them.
+    pub iterations: usize,
+    /// The largest `Phi^T Phi` at a reporting time.
+    pub worst_violation: S,
+    /// The time (s) of the last state: the end, or the reporting time at which the observer stopped the analysis.
+    pub time: S,
+    /// The last state.
+    pub state: X,
+    /// Whether the observer stopped the analysis.
+    pub stopped: bool,
+}
+
+/// The report of a kinematic analysis, or why it could not go on.
+pub type KinematicResult<S, M> = Result<
+    KinematicReport<S, <M as Mechanism>::State<S>>,
+    SimulationError<<M as Mechanism>::State<S>>,
+>;
+
+impl<'a, S: Real, M: Mechanism, F: Formulation<S>> KinematicAnalysis<'a, S, M, F> {
+    /// An analysis from the pose that the attributes describe, without further forces.
+    #[must_use]
+    pub fn new(mechanism: &'a M, formulation: F) -> Self {
+        Self {
+            mechanism,
+            formulation,
+            forces: NoForces,
+            initial: None,
+            projection: Projection::default(),
+        }
+    }
+}
+
+impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M, F, A> {
+    /// Looks for the first pose near this state, instead of the described one.
+    #[must_use]
+    pub fn initial_state(mut self, state: M::State<S>) -> Self {
+        self.initial = Some(state);
+        self
+    }
+
+    /// Tolerance and iterations of Newton's method.
+    #[must_use]
+    pub fn projection(mut self, projection: Projection<S>) -> Self {
+        self.projection = projection;
+        self
+    }
+
+    /// Applies forces as a function of time and state, `|time, state, loads| loads.force(body, ...)`. The motion does not
+    /// depend on them, reactions and driving efforts do.
+    #[must_use]
+    pub fn forces<G>(self, law: G) -> KinematicAnalysis<'a, S, M, F, ForceLaw<G>>
+    where
+        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+    {
+        KinematicAnalysis {
+            mechanism: self.mechanism,
+            formulation: self.formulation,
+            forces: ForceLaw(law),
+            initial: self.initial,
+            projection: self.projection,
+        }
+    }
+}
+
+/// A pose that was found, with velocities, accelerations and multipliers.
+struct Found<S: Real, M: Mechanism> {
+    time: S,
+    state: M::State<S>,
+    evaluation: Evaluation<S, M>,
+}
+
+impl<S: Real, M: Mechanism> Clone for Found<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Real, M: Mechanism> Copy for Found<S, M> {}
+
+/// How often the way to a reporting time is halved.
+const HALVINGS: i32 = 10;
+
+impl<S, M, F, A> KinematicAnalysis<'_, S, M, F, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at the reporting times and at
+    /// the end; `ControlFlow::Break(())` stops it. [`every_step`](crate::every_step) reports at start and end.
+    ///
+    /// # Errors
+    /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a mechanism with fewer equations than
+    /// velocities, [`Fault::Undetermined`] where they leave a motion free all the same, [`Fault::NotConverged`] where no pose is found, and what
+    /// an evaluation or a run may refuse. The state is of zeros where a parameter was refused and no initial state had been
+    /// given.
+    pub fn run<O>(
+        &self,
+        interval: RangeInclusive<S>,
+        reporting: Reporting<S>,
+        mut observe: O,
+    ) -> KinematicResult<S, M>
+    where
+        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+    {
+        let (start, end) = interval.into_inner();
+        let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
+        let mut last_good = (start, self.initial.unwrap_or_else(zeros));
+        self.attempt(start, end, reporting, &mut observe, &mut last_good)
+            .map_err(|fault| {
+                let (time, state) = last_good;
+                SimulationError {
+                    time: time.to_f64(),
+                    fault,
+                    state,
+                }
+            })
+    }
+
+    fn attempt(
+        &self,
+        start: S,
+        end: S,
+        reporting: Reporting<S>,
+        observe: &mut impl FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<KinematicReport<S, M::State<S>>, Fault> {
+        let dynamics = Dynamics::new(self.mechanism, self.formulation)?
+            .exchange::<crate::Normalised, &A>(|_| &self.forces);
+        let state = self
+            .initial
+            .unwrap_or_else(|| M::initial_state(dynamics.constants()));
+        last_good.1 = state;
+        check_interval(start, end)?;
+        let mut schedule = Schedule::new(start, end, reporting)?;
+        if !finite(&state) {
+            return Err(Fault::StateNotFinite);
+        }
+        let degrees_of_freedom = M::REPORT.degrees_of_freedom;
+        if degrees_of_freedom > 0 {
+            return Err(Fault::NotDriven { degrees_of_freedom });
+        }
+        let mut motion = Motion {
+            dynamics,
+            projection: self.projection,
+            poses: 0,
+            iterations: 0,
+        };
+        let mut found = motion.find(start, state)?;
+        let mut worst_violation = S::zero();
+        loop {
+            *last_good = (found.time, found.state);
+            let view = motion.dynamics.view(found.time, &found.state);
+            worst_violation = worst_violation.max(view.violation());
+            let sample = Sample::evaluated(view, &motion.dynamics, found.evaluation);
+            let stopped = observe(&sample).is_break();
+            if stopped || found.time >= end {
+                return Ok(KinematicReport {
+                    poses: motion.poses,
+                    iterations: motion.iterations,
+                    worst_violation,
+                    time: found.time,
+                    state: found.state,
+                    stopped,
+                });
+            }
+            let time = schedule.following().unwrap_or(end);
+            found = motion.follow(found, time, last_good)?;
+        }
+    }
+}
+
+/// The motion under way.
+struct Motion<S: Real, M: Mechanism, F: Formulation<S>, A> {
+    dynamics: Dynamics<S, M, F, crate::Normalised, A>,
+    projection: Projection<S>,
+    poses: usize,
+    iterations: usize,
+}
+
+impl<S, M, F, A> Motion<S, M, F, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    /// The pose at a time near a state, and all that follows from it.
+    fn find(&mut self, time: S, near: M::State<S>) -> Result<Found<S, M>, Fault> {
+        let constants = self.dynamics.constants();
+        let mut state = near;
+        let correction = self.projection.correct::<M>(constants, time, &mut state)?;
+        let share = free_share::<S, M>(constants, time, &state);
+        let determined = share < S::constant(1e-6);
+        if !determined {
+            let share = share.to_f64();
+            return Err(Fault::Undetermined { share });
+        }
+        let (evaluation, _) = self.dynamics.evaluate(time, &state)?;
+        self.poses += 1;
+        self.iterations += correction.iterations;
+        Ok(Found {
+            time,
+            state,
+            evaluation,
+        })
+    }
+
+    /// The pose at a later time, in one stride or, where that fails, in shorter ones.
+    fn follow(
+        &mut self,
+        from: Found<S, M>,
+        to: S,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<Found<S, M>, Fault> {
+        let mut found = from;
+        let mut stride = to - from.time;
+        let shortest = stride * S::constant(2.0).powf(-f64::from(HALVINGS));
+        loop {
+            let rest = to - found.time;
+            // Towards the end of the way, so that no sliver of it is left.
+            let time = if rest <= stride * S::constant(1.5) {
+                to
+            } else {
+                found.time + stride
+            };
+            match self.stride(&found, time) {
+                Ok(next) if time >= to => return Ok(next),
+                Ok(next) => {
+                    found = next;
+                    *last_good = (found.time, found.state);
+                }
+                Err(fault) if stride <= shortest || !retried(&fault) => return Err(fault),
+                Err(_) => stride = stride * S::constant(0.5),
+            }
+        }
+    }
+
+    fn stride(&mut self, from: &Found<S, M>, time: S) -> Result<Found<S, M>, Fault> {
+        let accelerations = from.evaluation.rates.velocities();
+        let constants = self.dynamics.constants();
+        let near = advanced::<S, M>(constants, &from.state, accelerations, time - from.time);
+        self.find(time, near)
+    }
+}
+
+/// Whether a shorter stride may help.
+fn retried(fault: &Fault) -> bool {
+    matches!(fault, Fault::NotConverged { .. } | Fault::StateNotFinite)
+}
