@@ -11,6 +11,7 @@
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
 //! | integrators | [`Rk4`], [`DormandPrince`] |
 //! | poses, velocities, angles, reactions, energies, violations by name | [`View`], [`MechanismExt`] |
+//! | samples as lines of a CSV file | `Recorder`, with the feature `recorder` |
 //! | correction onto the constraints | [`Projection`] |
 //! | the kernels themselves, sizes and operation counts | [`trait@Mechanism`], [`Report`] |
 //! | numbers | [`Scalar`], [`Real`] |
@@ -43,6 +44,8 @@ mod mechanism;
 mod project;
 mod reaction;
 mod readout;
+#[cfg(feature = "recorder")]
+mod recorder;
 mod report;
 mod reporting;
 mod rotation;
@@ -161,6 +164,8 @@ pub use nalgebra;
 pub use project::{Correction, Projection};
 pub use reaction::Wrench;
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
+#[cfg(feature = "recorder")]
+pub use recorder::{RecordError, Recorder};
 pub use report::{
     Block, BodyInfo, BodyKind, ForceInfo, JointInfo, Kernel, Operations, Rank, RedundantRow, Report,
 };

@@ -121,6 +121,8 @@ pub struct JointInfo {
     pub bodies: &'static [Option<usize>],
     /// Whether the joint's definition has an angle.
     pub has_angle: bool,
+    /// Whether the joint's definition has a displacement.
+    pub has_displacement: bool,
 }
 
 /// A force and its bodies.

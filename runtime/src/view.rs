@@ -7,7 +7,7 @@ use crate::array::Array;
 use crate::handle::{BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::{Mechanism, Orientation};
 use crate::reaction::{Wrench, wrench};
-use crate::readout::ForceParts;
+use crate::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::rotation::with_unit_orientations;
 use crate::scalar::Scalar;
 
@@ -98,25 +98,25 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// turns about the joint's axis against the first: from `-pi` to `pi`, or without bounds where the joint's definition counts turns.
     #[must_use]
     pub fn angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
-        M::joint_angle(self.constants, self.state, joint.index()).angle()
+        self.angle_parts(joint.index()).angle()
     }
 
     /// The rate of the angle of a joint (rad/s), with the sign of [`View::angle`].
     #[must_use]
     pub fn angle_rate<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
-        M::joint_angle(self.constants, self.state, joint.index()).rate
+        self.angle_parts(joint.index()).rate
     }
 
     /// The displacement of a joint (m), with the zero and the sign of its definition.
     #[must_use]
     pub fn displacement<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
-        M::joint_displacement(self.constants, self.time, self.state, joint.index()).value
+        self.displacement_parts(joint.index()).value
     }
 
     /// The rate of the displacement of a joint (m/s), with the sign of [`View::displacement`].
     #[must_use]
     pub fn displacement_rate<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
-        M::joint_displacement(self.constants, self.time, self.state, joint.index()).rate
+        self.displacement_parts(joint.index()).rate
     }
 
     /// The effort of a driver: the generalised force with which it acts on the quantity that it drives, from the
@@ -254,6 +254,14 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
             }
         }
         square(rest.as_slice())
+    }
+
+    pub(crate) fn angle_parts(&self, joint: usize) -> AngleParts<S> {
+        M::joint_angle(self.constants, self.state, joint)
+    }
+
+    pub(crate) fn displacement_parts(&self, joint: usize) -> DisplacementParts<S> {
+        M::joint_displacement(self.constants, self.time, self.state, joint)
     }
 
     /// The state as the kernels of the saddle system read it.

@@ -82,6 +82,7 @@ impl Mechanism for Crank {
             rows: 6,
             bodies: &[None, Some(0)],
             has_angle: true,
+            has_displacement: true,
         }],
         blocks: &[Block {
             joint: 0,

@@ -6,6 +6,8 @@ mod counters;
 mod crank;
 mod dense;
 mod driven;
+#[cfg(feature = "recorder")]
+mod recorder;
 mod rod;
 mod run;
 mod steps;

@@ -80,6 +80,7 @@ impl Mechanism for Rod {
             rows: 5,
             bodies: &[None, Some(0)],
             has_angle: true,
+            has_displacement: false,
         }],
         forces: &[],
         blocks: &[Block {
