@@ -4,15 +4,18 @@
 //! M u' + D^T lambda = g      Phi(q) = 0      Phi' = D u      D u' = gamma      reaction on the bodies = -D^T lambda
 //! ```
 //!
-//! `q` holds `(r, p)` of all bodies in the order in which they were added, `u` holds `(v, w)`; a particle has `r` and
-//! `v` only, the ground nothing. Equations stand in the order of the joints. Sources: Nikravesh (1988), chapters 8
+//! With a driver `Phi(q, t) = 0` and `Phi' = D u + Phi_t`. `q` holds `(r, p)` of all bodies in the order in which they were
+//! added, `u` holds `(v, w)`; a particle has `r` and `v` only, the ground nothing. Behind the bodies `q` holds one
+//! auxiliary state for every angle, those of the joints in their order and then those of the forces. Equations stand
+//! in the order of the joints. Sources: Nikravesh (1988), chapters 8
 //! and 11; Flores (2015), chapters 10 and 11.
 
-use nalgebra::{DVector, Vector3, Vector4};
+use nalgebra::{DVector, Vector3};
 
-use crate::bodies::{Body, BodyId, Frame, Kind, Orientation, euler_rate, rotation};
-use crate::joints::{Joint, normals};
-use crate::rows::Rows;
+use crate::angles::Angle;
+use crate::bodies::{Body, BodyId, Kind, Orientation, rotation};
+use crate::forces::Force;
+use crate::joints::Joint;
 
 /// The place of a joint in its [`Assembler`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,24 +23,27 @@ pub struct JointId(usize);
 
 /// A body and where its coordinates and velocities start.
 #[derive(Clone, Copy, Debug)]
-struct PlacedBody {
-    body: Body,
-    coordinate: usize,
-    velocity: usize,
+pub(crate) struct PlacedBody {
+    pub(crate) body: Body,
+    pub(crate) coordinate: usize,
+    pub(crate) velocity: usize,
 }
 
 /// A joint and its first equation.
-#[derive(Clone, Copy, Debug)]
-struct PlacedJoint {
-    joint: Joint,
-    row: usize,
+#[derive(Clone, Debug)]
+pub(crate) struct PlacedJoint {
+    pub(crate) joint: Joint,
+    pub(crate) row: usize,
 }
 
 /// A mechanism of bodies and joints that are chosen at run time.
 #[derive(Clone, Debug)]
 pub struct Assembler {
-    bodies: Vec<PlacedBody>,
-    joints: Vec<PlacedJoint>,
+    pub(crate) bodies: Vec<PlacedBody>,
+    pub(crate) joints: Vec<PlacedJoint>,
+    pub(crate) forces: Vec<Force>,
+    /// Those of the joints, then those of the forces; the place of each is its auxiliary state.
+    angles: Vec<Angle>,
     gravity: Vector3<f64>,
     orientation: Orientation,
     coordinates: usize,
@@ -65,6 +71,8 @@ impl Assembler {
                 velocity: 0,
             }],
             joints: Vec::new(),
+            forces: Vec::new(),
+            angles: Vec::new(),
             gravity: gravity.into(),
             orientation: Orientation::Raw,
             coordinates: 0,
@@ -95,44 +103,53 @@ impl Assembler {
     /// Adds a joint whose data are given in body axes.
     ///
     /// # Panics
-    /// If both ends are the same body, or a body is unknown.
+    /// If it names a body twice, or one that is unknown.
     pub fn add_joint(&mut self, joint: Joint) -> JointId {
-        let [i, j] = joint.between();
-        assert!(i != j, "a joint needs two bodies");
-        assert!(
-            i.0.max(j.0) < self.bodies.len(),
-            "a joint names an unknown body"
-        );
-        self.joints.push(PlacedJoint {
-            joint,
-            row: self.equations,
-        });
+        let bodies = joint.bodies();
+        for (k, body) in bodies.iter().enumerate() {
+            assert!(!bodies[..k].contains(body), "a joint names a body twice");
+            assert!(body.0 < self.bodies.len(), "a joint names an unknown body");
+        }
+        let row = self.equations;
         self.equations += joint.equations();
+        self.joints.push(PlacedJoint { joint, row });
+        self.number_angles();
         JointId(self.joints.len() - 1)
+    }
+
+    /// Adds a force.
+    pub fn add_force(&mut self, force: Force) {
+        self.forces.push(force);
+        self.number_angles();
+    }
+
+    /// Gives every angle its auxiliary state.
+    fn number_angles(&mut self) {
+        self.angles.clear();
+        let joints = self.joints.iter_mut().map(|placed| &mut placed.joint);
+        let angles = joints
+            .flat_map(Joint::angles_mut)
+            .chain(self.forces.iter_mut().filter_map(Force::angle_mut));
+        for angle in angles {
+            angle.slot = Some(self.angles.len());
+            self.angles.push(*angle);
+        }
     }
 
     /// Adds a spherical joint at a point (m, global axes) of the initial configuration.
     pub fn add_spherical(&mut self, between: [BodyId; 2], point: [f64; 3]) -> JointId {
-        let points = between.map(|body| self.to_body_point(body, point));
-        self.add_joint(Joint::Spherical { between, points })
+        self.add_joint(Joint::spherical(self, between, point))
     }
 
     /// Adds a revolute joint from a point (m) and an axis (any length), both in global axes at the initial
-    /// configuration. [`normals`] is applied to the axis in the axes of body `i`.
+    /// configuration.
     pub fn add_revolute(
         &mut self,
         between: [BodyId; 2],
         point: [f64; 3],
         axis: [f64; 3],
     ) -> JointId {
-        let points = between.map(|body| self.to_body_point(body, point));
-        let [axis_i, axis] = between.map(|body| self.to_body_vector(body, axis).normalize());
-        self.add_joint(Joint::Revolute {
-            between,
-            points,
-            normals: normals(&axis_i),
-            axis,
-        })
+        self.add_joint(Joint::revolute(self, between, point, axis))
     }
 
     /// A point of the initial configuration (m, global axes) in the axes of a body.
@@ -149,10 +166,28 @@ impl Assembler {
         rotation(&body.euler.normalize()).tr_mul(&vector.into())
     }
 
-    /// Number of coordinates `q`.
+    /// Number of coordinates `q`, auxiliary states included.
     #[must_use]
     pub fn coordinates(&self) -> usize {
+        self.coordinates + self.angles.len()
+    }
+
+    /// Number of coordinates of the bodies: the place of the first auxiliary state.
+    #[must_use]
+    pub fn body_coordinates(&self) -> usize {
         self.coordinates
+    }
+
+    /// The counted angles, in the order of their auxiliary states.
+    #[must_use]
+    pub fn angles(&self) -> &[Angle] {
+        &self.angles
+    }
+
+    /// The forces in the order in which they were added.
+    #[must_use]
+    pub fn applied_forces(&self) -> &[Force] {
+        &self.forces
     }
 
     /// Number of velocities `u`.
@@ -172,6 +207,12 @@ impl Assembler {
         self.bodies[1..]
             .iter()
             .map(|placed| (&placed.body, placed.coordinate, placed.velocity))
+    }
+
+    /// A body as it was described; the ground too.
+    #[must_use]
+    pub fn body(&self, body: BodyId) -> &Body {
+        &self.bodies[body.0].body
     }
 
     /// The joints with their first equation.
@@ -203,12 +244,12 @@ impl Assembler {
         self.orientation
     }
 
-    /// The initial state `x = (q, u)`.
+    /// The initial state `x = (q, u)`, with every angle between -pi and pi.
     #[must_use]
     pub fn initial_state(&self) -> DVector<f64> {
-        let mut x = DVector::zeros(self.coordinates + self.velocities);
+        let mut x = DVector::zeros(self.coordinates() + self.velocities);
         for (body, q, u) in self.bodies() {
-            let u = u + self.coordinates;
+            let u = u + self.coordinates();
             if body.kind != Kind::Ground {
                 x.fixed_rows_mut::<3>(q).copy_from(&body.position);
                 x.fixed_rows_mut::<3>(u).copy_from(&body.velocity);
@@ -218,108 +259,8 @@ impl Assembler {
                 x.fixed_rows_mut::<3>(u + 3).copy_from(&body.rate);
             }
         }
+        self.recount(x.as_mut_slice());
         x
-    }
-
-    /// Work space for [`Assembler::update`]: one frame per body, the ground first.
-    #[must_use]
-    pub fn frames(&self) -> Vec<Frame> {
-        let place = |placed: &PlacedBody| Frame {
-            translation_column: (placed.body.kind != Kind::Ground).then_some(placed.velocity),
-            rotation_column: (placed.body.kind == Kind::Rigid).then_some(placed.velocity + 3),
-            ..Frame::fixed()
-        };
-        self.bodies.iter().map(place).collect()
-    }
-
-    /// Computes the kinematics of all bodies at the state `x = (q, u)`.
-    pub fn update(&self, x: &[f64], frames: &mut [Frame]) {
-        let (q, u) = x.split_at(self.coordinates);
-        for (placed, frame) in self.bodies.iter().zip(frames) {
-            let (q, u) = (&q[placed.coordinate..], &u[placed.velocity..]);
-            if placed.body.kind != Kind::Ground {
-                frame.position = Vector3::from_column_slice(&q[..3]);
-                frame.velocity = Vector3::from_column_slice(&u[..3]);
-            }
-            if placed.body.kind == Kind::Rigid {
-                let p = Vector4::from_column_slice(&q[3..7]);
-                frame.rotation = rotation(&p);
-                if self.orientation == Orientation::Normalised {
-                    frame.rotation /= p.norm_squared();
-                }
-                frame.rate = Vector3::from_column_slice(&u[3..6]);
-            }
-        }
-    }
-
-    /// The frames of a joint's two bodies.
-    fn ends<'a>(frames: &'a [Frame], joint: &Joint) -> [&'a Frame; 2] {
-        joint.between().map(|body| &frames[body.0])
-    }
-
-    /// Calls a kernel of every joint with the joint's frames and its part of `out`.
-    fn for_rows(
-        &self,
-        frames: &[Frame],
-        out: &mut [f64],
-        kernel: impl Fn(&Joint, &Frame, &Frame, &mut [f64]),
-    ) {
-        for PlacedJoint { joint, row } in &self.joints {
-            let [i, j] = Self::ends(frames, joint);
-            kernel(joint, i, j, &mut out[*row..*row + joint.equations()]);
-        }
-    }
-
-    /// Writes `Phi`.
-    pub fn write_constraints(&self, frames: &[Frame], out: &mut [f64]) {
-        self.for_rows(frames, out, Joint::constraints);
-    }
-
-    /// Writes `Phi' = D u`.
-    pub fn write_constraint_rates(&self, frames: &[Frame], out: &mut [f64]) {
-        self.for_rows(frames, out, Joint::constraint_rates);
-    }
-
-    /// Writes `gamma`.
-    pub fn write_gamma(&self, frames: &[Frame], out: &mut [f64]) {
-        self.for_rows(frames, out, Joint::gamma);
-    }
-
-    /// Writes the rows of `D`.
-    pub(crate) fn write_jacobian(&self, frames: &[Frame], target: &mut impl Rows) {
-        for PlacedJoint { joint, row } in &self.joints {
-            let [i, j] = Self::ends(frames, joint);
-            joint.jacobian(i, j, *row, target);
-        }
-    }
-
-    /// Writes `g`: weight (N, global axes) and gyroscopic moment `-w x J w` (N m, body axes) of every body.
-    pub fn write_forces(&self, frames: &[Frame], out: &mut [f64]) {
-        for (placed, frame) in self.bodies.iter().zip(frames) {
-            let Body { mass, inertia, .. } = &placed.body;
-            if let Some(k) = frame.translation_column {
-                out[k..k + 3].copy_from_slice((self.gravity * *mass).as_slice());
-            }
-            if let Some(k) = frame.rotation_column {
-                let momentum = inertia.component_mul(&frame.rate);
-                out[k..k + 3].copy_from_slice(momentum.cross(&frame.rate).as_slice());
-            }
-        }
-    }
-
-    /// Writes the rates of the coordinates: `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is.
-    pub fn write_coordinate_rates(&self, x: &[f64], out: &mut [f64]) {
-        let (q, u) = x.split_at(self.coordinates);
-        for (body, k, n) in self.bodies() {
-            if body.kind != Kind::Ground {
-                out[k..k + 3].copy_from_slice(&u[n..n + 3]);
-            }
-            if body.kind == Kind::Rigid {
-                let p = Vector4::from_column_slice(&q[k + 3..k + 7]);
-                let w = Vector3::from_column_slice(&u[n + 3..n + 6]);
-                out[k + 3..k + 7].copy_from_slice(euler_rate(&p, &w).as_slice());
-            }
-        }
     }
 
     /// The diagonal of the mass matrix: `(m, m, m, J1, J2, J3)` for a body (kg, kg m^2).

@@ -5,15 +5,25 @@
 //! follow curves `q(h)`:
 //!
 //! * a column of `D`: `r + h`, or `p + h/2 L(p)^T d` with `d` a unit vector of the body, first derivative at `h = 0`;
-//! * `gamma`: `q + q' h + 1/2 q'' h^2` with `u' = 0`, so `p' = 1/2 L(p)^T w`, `p'' = 1/2 L(p')^T w`, and minus the second
-//!   derivative at `h = 0`.
+//! * `gamma`: `q + q' h + 1/2 q'' h^2` with `u' = 0`, so `p' = 1/2 L(p)^T w`, `p'' = 1/2 L(p')^T w`, at the time `t + h`, and minus
+//!   the second derivative at `h = 0`;
+//! * `Phi_t`: the time `t + h` alone; the gradient of the potential energy of springs: the curves of the columns of `D`.
+//!
+//! A law of time is known by its value and two derivatives, so of a driver this checks how they enter the rows; whether
+//! they are the derivatives of the law, finite differences have to say.
+
+use core::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector, Vector3, Vector4};
-use num_dual::{Dual2_64, Dual64, DualNum};
+use num_dual::{Dual2_64, Dual64, DualNum, DualStruct};
 
 use crate::assembler::Assembler;
 use crate::bodies::{BodyId, Kind, Orientation, euler_rate};
-use crate::joints::Joint;
+use crate::forces::Force;
+use crate::joints::Row;
+use crate::kinematics::Mark;
+use crate::laws::Motion;
+use crate::scalars::Scalar;
 
 /// A number type of num-dual over `f64`: `f64` itself, `Dual64`, `Dual2_64`, `HyperDual64`, ...
 pub trait Number: DualNum<Primitive = f64> + Copy {}
@@ -87,50 +97,148 @@ impl<T: Number> Pose<T> {
     }
 }
 
-/// `Phi(q)` over a number type, one number per equation; the same rows as
+/// The poses of all bodies, the ground first, and the auxiliary states.
+struct Configuration<T> {
+    poses: Vec<Pose<T>>,
+    turns: Vec<f64>,
+}
+
+impl<T: Number> Configuration<T> {
+    fn at(assembler: &Assembler, q: &[T]) -> Self {
+        let auxiliary = &q[assembler.body_coordinates()..];
+        Self {
+            poses: (0..=assembler.bodies().count())
+                .map(|body| Pose::at(assembler, BodyId(body), q))
+                .collect(),
+            turns: auxiliary.iter().map(DualStruct::re).collect(),
+        }
+    }
+
+    fn vector(&self, mark: &Mark) -> Vector<T> {
+        self.poses[mark.body.0].vector(&mark.local)
+    }
+
+    fn point(&self, mark: &Mark) -> Vector<T> {
+        self.poses[mark.body.0].point(&mark.local)
+    }
+
+    fn gap(&self, [head, tail]: &[Mark; 2]) -> Vector<T> {
+        subtract(self.point(tail), self.point(head))
+    }
+
+    fn scalar(&self, scalar: &Scalar) -> T {
+        match scalar {
+            Scalar::Product([a, b]) => dot(self.vector(a), self.vector(b)),
+            Scalar::Along { axis, points } => dot(self.vector(axis), self.gap(points)),
+            Scalar::SquaredLength(points) => {
+                let d = self.gap(points);
+                dot(d, d)
+            }
+            Scalar::Length(points) => {
+                let d = self.gap(points);
+                dot(d, d).sqrt()
+            }
+            Scalar::Angle(angle) => {
+                let pointer = self.vector(&angle.pointer);
+                let [x, y] = angle.normals.map(|n| dot(self.vector(&n), pointer));
+                let principal = y.atan2(x);
+                let slot = angle.slot.expect("an angle of the assembler is counted");
+                let turns = ((self.turns[slot] - principal.re()) / TAU).round();
+                principal + T::from(TAU * turns)
+            }
+        }
+    }
+}
+
+/// A law at a time over a number type, by its Taylor series: exact to the second derivative.
+fn law<T: Number>(motion: &Motion, time: T) -> T {
+    let [value, rate, curvature] = motion.at(time.re()).map(T::from);
+    let step = time - T::from(time.re());
+    value + step * (rate + step * curvature * T::from(0.5))
+}
+
+/// `Phi(q)` over a number type at the time zero, one number per equation; the same rows as
 /// [`Assembler::constraints`].
 pub fn constraints<T: Number>(assembler: &Assembler, q: &[T]) -> Vec<T> {
+    constraints_at(assembler, T::from(0.0), q)
+}
+
+/// `Phi(q, t)` over a number type, one number per equation; the same rows as [`Assembler::constraints_at`].
+pub fn constraints_at<T: Number>(assembler: &Assembler, time: T, q: &[T]) -> Vec<T> {
+    let at = Configuration::at(assembler, q);
     let mut rows = Vec::with_capacity(assembler.equations());
-    for (joint, _) in assembler.joints() {
-        let [i, j] = joint.between().map(|body| Pose::at(assembler, body, q));
-        let gap = |points: &[Vector3<f64>; 2]| subtract(j.point(&points[1]), i.point(&points[0]));
-        match joint {
-            Joint::Spherical { points, .. } => rows.extend(gap(points)),
-            Joint::Revolute {
-                points,
-                normals,
-                axis,
-                ..
-            } => {
-                rows.extend(gap(points));
-                rows.extend(normals.map(|n| dot(i.vector(&n), j.vector(axis))));
-            }
-            Joint::Perpendicular { vectors, .. } => {
-                rows.push(dot(i.vector(&vectors[0]), j.vector(&vectors[1])));
-            }
-            Joint::Distance { points, length, .. } => {
-                let d = gap(points);
-                rows.push(dot(d, d) - T::from(length * length));
+    for row in assembler.joints().flat_map(|(joint, _)| joint.rows()) {
+        match row {
+            Row::Coincidence(points) => rows.extend(at.gap(points)),
+            Row::Combination { terms, motion } => {
+                let mut value = -law(motion, time);
+                for (factor, term) in terms {
+                    value += at.scalar(term) * T::from(*factor);
+                }
+                rows.push(value);
             }
         }
     }
     rows
 }
 
+/// Potential energy of springs over a number type (J).
+pub fn spring_energy<T: Number>(assembler: &Assembler, q: &[T]) -> T {
+    let at = Configuration::at(assembler, q);
+    let mut energy = T::from(0.0);
+    for force in assembler.applied_forces() {
+        if let Force::Spring {
+            along,
+            stiffness,
+            free,
+            ..
+        } = force
+        {
+            let stretch = at.scalar(along) - T::from(*free);
+            energy += stretch * stretch * T::from(0.5 * stiffness);
+        }
+    }
+    energy
+}
+
+/// The generalised force of springs at the state `x = (q, u)`: minus the gradient of [`spring_energy`], by first derivatives
+/// (N, global axes; N m, body axes).
+#[must_use]
+pub fn spring_forces(assembler: &Assembler, x: &[f64]) -> DVector<f64> {
+    DVector::from_fn(assembler.velocities(), |column, _| {
+        -spring_energy(assembler, &curve(assembler, x, column)).eps
+    })
+}
+
+/// The coordinates of `x = (q, u)` along the unit motion of one velocity.
+fn curve(assembler: &Assembler, x: &[f64], column: usize) -> Vec<Dual64> {
+    let q = &x[..assembler.coordinates()];
+    let mut u = DVector::zeros(assembler.velocities());
+    u[column] = 1.0;
+    let slope = coordinate_rates(assembler, q, u.as_slice());
+    q.iter()
+        .zip(slope.iter())
+        .map(|(q, slope)| Dual64::new(*q, *slope))
+        .collect()
+}
+
+/// `Phi_t` at a time (s) and the state `x = (q, u)`, by first derivatives.
+#[must_use]
+pub fn time_rates(assembler: &Assembler, time: f64, x: &[f64]) -> DVector<f64> {
+    let q: Vec<_> = x[..assembler.coordinates()]
+        .iter()
+        .map(|q| Dual64::from(*q))
+        .collect();
+    let rows = constraints_at(assembler, Dual64::new(time, 1.0), &q);
+    DVector::from_iterator(rows.len(), rows.iter().map(|row| row.eps))
+}
+
 /// `D` at the state `x = (q, u)` by first derivatives; the same matrix as [`Assembler::jacobian`].
 #[must_use]
 pub fn jacobian(assembler: &Assembler, x: &[f64]) -> DMatrix<f64> {
-    let q = &x[..assembler.coordinates()];
     let mut out = DMatrix::zeros(assembler.equations(), assembler.velocities());
     for column in 0..assembler.velocities() {
-        let mut u = DVector::zeros(assembler.velocities());
-        u[column] = 1.0;
-        let slope = coordinate_rates(assembler, q, u.as_slice());
-        let curve: Vec<_> = q
-            .iter()
-            .zip(slope.iter())
-            .map(|(q, slope)| Dual64::new(*q, *slope))
-            .collect();
+        let curve = curve(assembler, x, column);
         for (row, value) in constraints(assembler, &curve).iter().enumerate() {
             out[(row, column)] = value.eps;
         }
@@ -138,10 +246,21 @@ pub fn jacobian(assembler: &Assembler, x: &[f64]) -> DMatrix<f64> {
     out
 }
 
-/// `Phi'` and `gamma` at the state `x = (q, u)` by first and second derivatives along the motion with `u' = 0`.
+/// `Phi'` and `gamma` at the state `x = (q, u)` and the time zero by first and second derivatives along the motion with
+/// `u' = 0`.
 #[must_use]
 pub fn constraint_rates_and_gamma(
     assembler: &Assembler,
+    x: &[f64],
+) -> (DVector<f64>, DVector<f64>) {
+    constraint_rates_and_gamma_at(assembler, 0.0, x)
+}
+
+/// The same at a time (s), which goes on along the motion.
+#[must_use]
+pub fn constraint_rates_and_gamma_at(
+    assembler: &Assembler,
+    time: f64,
     x: &[f64],
 ) -> (DVector<f64>, DVector<f64>) {
     let (q, u) = x.split_at(assembler.coordinates());
@@ -156,7 +275,7 @@ pub fn constraint_rates_and_gamma(
     let curve: Vec<_> = (0..q.len())
         .map(|k| Dual2_64::new(q[k], rate[k], curvature[k]))
         .collect();
-    let rows = constraints(assembler, &curve);
+    let rows = constraints_at(assembler, Dual2_64::new(time, 1.0, 0.0), &curve);
     (
         DVector::from_iterator(rows.len(), rows.iter().map(|row| row.v1)),
         DVector::from_iterator(rows.len(), rows.iter().map(|row| -row.v2)),

@@ -9,7 +9,7 @@ use nalgebra::linalg::Cholesky;
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use crate::assembler::Assembler;
-use crate::bodies::Frame;
+use crate::kinematics::Kinematics;
 use crate::lu::solve_in_place;
 use crate::rows::{Saddle, Transposed};
 use crate::symmetric::{add_outer_product, factor_in_place};
@@ -93,7 +93,7 @@ impl core::error::Error for SolveError {}
 pub struct Evaluator {
     assembler: Assembler,
     formulation: Formulation,
-    frames: Vec<Frame>,
+    at: Kinematics,
     mass: DVector<f64>,
     /// `D^T`, velocities by equations, where the matrix does not hold it.
     transposed: DMatrix<f64>,
@@ -124,7 +124,7 @@ impl Evaluator {
             }
         };
         Self {
-            frames: assembler.frames(),
+            at: assembler.workspace(),
             mass: assembler.mass(),
             transposed: DMatrix::zeros(velocities, rows),
             matrix: DMatrix::zeros(size, size),
@@ -165,12 +165,12 @@ impl Evaluator {
     ///
     /// # Panics
     /// If `x` or `out` has another size.
-    pub fn rates(&mut self, _time: f64, x: &[f64], out: &mut [f64]) -> Result<(), SolveError> {
+    pub fn rates(&mut self, time: f64, x: &[f64], out: &mut [f64]) -> Result<(), SolveError> {
         assert_eq!(x.len(), out.len());
-        self.assembler.update(x, &mut self.frames);
+        self.assembler.update(time, x, &mut self.at);
         write_target(
             &self.assembler,
-            &self.frames,
+            &self.at,
             self.formulation.stabilisation(),
             &mut self.scratch,
             &mut self.target,
@@ -186,7 +186,8 @@ impl Evaluator {
             } => self.penalise(alpha, tolerance, max_iterations),
         };
         let (positions, velocities) = out.split_at_mut(self.assembler.coordinates());
-        self.assembler.write_coordinate_rates(x, positions);
+        self.assembler
+            .write_coordinate_rates(&self.at, x, positions);
         velocities.copy_from_slice(&self.solution.as_slice()[..velocities.len()]);
         result
     }
@@ -202,11 +203,11 @@ impl Evaluator {
             matrix: &mut self.matrix,
             velocities,
         };
-        self.assembler.write_jacobian(&self.frames, &mut saddle);
+        self.assembler.write_jacobian(&self.at, &mut saddle);
 
         let rhs = self.solution.as_mut_slice();
         self.assembler
-            .write_forces(&self.frames, &mut rhs[..velocities]);
+            .write_forces(&self.at, &mut rhs[..velocities]);
         rhs[velocities..].copy_from_slice(self.target.as_slice());
         if !solve_in_place(&mut self.matrix, rhs) {
             return Err(SolveError::Singular);
@@ -227,12 +228,12 @@ impl Evaluator {
         max_iterations: usize,
     ) -> Result<(), SolveError> {
         self.assembler
-            .write_jacobian(&self.frames, &mut Transposed(&mut self.transposed));
+            .write_jacobian(&self.at, &mut Transposed(&mut self.transposed));
         let factors = self.factor_penalty(alpha)?;
         self.pull.gemv(alpha, &self.transposed, &self.target, 0.0);
         // M u'_0 = g: the first right-hand side is g + alpha D^T gamma*.
         self.assembler
-            .write_forces(&self.frames, self.solution.as_mut_slice());
+            .write_forces(&self.at, self.solution.as_mut_slice());
         self.previous.copy_from(&self.solution);
         self.previous.component_div_assign(&self.mass);
         self.multipliers.fill(0.0);
@@ -287,18 +288,18 @@ impl Evaluator {
 /// Writes `gamma* = gamma - 2 a Phi' - b^2 Phi`; a term with the coefficient zero is not computed.
 pub(crate) fn write_target(
     assembler: &Assembler,
-    frames: &[Frame],
+    at: &Kinematics,
     (a, b): (f64, f64),
     scratch: &mut DVector<f64>,
     target: &mut DVector<f64>,
 ) {
-    assembler.write_gamma(frames, target.as_mut_slice());
+    assembler.write_gamma(at, target.as_mut_slice());
     if a != 0.0 {
-        assembler.write_constraint_rates(frames, scratch.as_mut_slice());
+        assembler.write_constraint_rates(at, scratch.as_mut_slice());
         target.axpy(-2.0 * a, scratch, 1.0);
     }
     if b != 0.0 {
-        assembler.write_constraints(frames, scratch.as_mut_slice());
+        assembler.write_constraints(at, scratch.as_mut_slice());
         target.axpy(-b * b, scratch, 1.0);
     }
 }

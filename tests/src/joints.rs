@@ -1,60 +1,48 @@
-//! Joints: their data and the rows they write, derived by hand.
+//! Joints: the bodies they connect and the rows they write.
 //!
-//! `Phi` of two bodies `i` and `j` with points `P = r + A s` and vectors `a = A a'` fixed on them. A virtual rotation
-//! `d` in body axes moves `A s` by `A (d x s)`; so a row of `D` has a part for `v` (global axes) and one for `w` (body
-//! axes), and with `u' = 0` the acceleration of `A s` is `A (w x (w x s))`. `D u' = gamma`.
+//! A joint is a list of primitive rows over the marks of one to three bodies: coincidences of points, and scalar rows
+//! `Phi = sum of c_k f_k(q) - f(t)` of the functions of [`scalars`](crate::scalars). The time stands apart from the
+//! configuration, so `Phi_t = -f'`, `Phi_tt = -f''` and no mixed derivative is left:
 //!
-//! | constraint | `Phi` | row for `v_j`, `w_j` (that of `i` alike) | `gamma` |
-//! |---|---|---|---|
-//! | spherical | `P_j - P_i` | `I`, `-A_j s_j~` | `A_i w_i~ w_i~ s_i - A_j w_j~ w_j~ s_j` |
-//! | perpendicular 1 | `a . b` | `0`, `(b' x A_j^T a)^T` | `-(b . A_i w_i~ w_i~ a' + a . A_j w_j~ w_j~ b' + 2 (A_i a')' . (A_j b')')` |
-//! | distance | `d . d - L^2`, `d = P_j - P_i` | `2 d^T`, `2 (s_j x A_j^T d)^T` | `-2 (d' . d' + d . (A_j w_j~ w_j~ s_j - A_i w_i~ w_i~ s_i))` |
+//! ```text
+//! Phi' = D u + Phi_t      D u' = gamma      gamma = -(sum of c_k f_k'' at u' = 0) + f''
+//! ```
 //!
-//! None of them uses `A^T A = I`, so they are exact for Euler parameters of any length. Sources: Nikravesh (1988),
-//! chapters 7 and 8 (perpendicular type 1, spherical, revolute); Flores (2015), chapters 7 to 9.
+//! Coincidence: `Phi = P_j - P_i`, rows `I`, `-A_j s_j~` for `v_j`, `w_j` (those of `i` alike), `gamma` the centripetal terms
+//! `A_i w_i~ w_i~ s_i - A_j w_j~ w_j~ s_j`. Sources: Nikravesh (1988), chapters 7 and 8; Flores (2015), chapters 7 to 9.
+//!
+//! The joints by name, from points and axes in global axes, are in [`library`](crate::library) and
+//! [`drivers`](crate::drivers).
 
 use nalgebra::Vector3;
 
-use crate::bodies::{BodyId, Frame};
+use crate::angles::Angle;
+use crate::bodies::BodyId;
+use crate::kinematics::{Kinematics, Mark};
+use crate::laws::Motion;
 use crate::rows::Rows;
+use crate::scalars::Scalar;
 
-/// A joint between two bodies, with points (m) and vectors in the axes of the body that carries them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Joint {
+/// A primitive of a joint.
+#[derive(Clone, Debug)]
+pub enum Row {
     /// Two points coincide: 3 rows, `P_j - P_i` in global axes (m).
-    Spherical {
-        /// The bodies `i` and `j`.
-        between: [BodyId; 2],
-        /// The points `s_i` and `s_j`.
-        points: [Vector3<f64>; 2],
+    Coincidence([Mark; 2]),
+    /// `sum of c_k f_k(q) - f(t)`: 1 row.
+    Combination {
+        /// The factors `c_k` and the functions `f_k`.
+        terms: Vec<(f64, Scalar)>,
+        /// `f`.
+        motion: Motion,
     },
-    /// Two points coincide and two axes stay parallel: the 3 rows of a spherical joint, then `n_1 . h` and `n_2 . h`.
-    Revolute {
-        /// The bodies `i` and `j`.
-        between: [BodyId; 2],
-        /// The points `s_i` and `s_j`.
-        points: [Vector3<f64>; 2],
-        /// `n_1` and `n_2`, of unit length and perpendicular to the axis, fixed on body `i`.
-        normals: [Vector3<f64>; 2],
-        /// `h`, the unit axis, fixed on body `j`.
-        axis: Vector3<f64>,
-    },
-    /// Two vectors stay perpendicular (type 1): 1 row, `a . b`.
-    Perpendicular {
-        /// The bodies `i` and `j`.
-        between: [BodyId; 2],
-        /// `a` on body `i` and `b` on body `j`.
-        vectors: [Vector3<f64>; 2],
-    },
-    /// Two points keep their distance: 1 row, `d . d - L^2` (m^2) with `d = P_j - P_i`.
-    Distance {
-        /// The bodies `i` and `j`.
-        between: [BodyId; 2],
-        /// The points `s_i` and `s_j`.
-        points: [Vector3<f64>; 2],
-        /// `L` (m).
-        length: f64,
-    },
+}
+
+/// A joint among one to three bodies, with points (m) and vectors in the axes of the body that carries them.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    bodies: Vec<BodyId>,
+    points: Vec<Vector3<f64>>,
+    rows: Vec<Row>,
 }
 
 /// Two unit vectors that with the unit axis `a` make a right-handed frame `(n1, n2, a)`.
@@ -75,212 +63,275 @@ pub fn normals(a: &Vector3<f64>) -> [Vector3<f64>; 2] {
     [n1, a.cross(&n1)]
 }
 
-impl Joint {
-    /// The bodies `i` and `j`.
+impl Row {
+    /// A function that keeps a value: `f(q) - value`.
     #[must_use]
-    pub const fn between(&self) -> [BodyId; 2] {
-        match self {
-            Self::Spherical { between, .. }
-            | Self::Revolute { between, .. }
-            | Self::Perpendicular { between, .. }
-            | Self::Distance { between, .. } => *between,
+    pub fn constant(function: Scalar, value: f64) -> Self {
+        Self::driven(function, Motion::Constant(value))
+    }
+
+    /// A function that follows a law: `f(q) - f(t)`.
+    #[must_use]
+    pub fn driven(function: Scalar, motion: Motion) -> Self {
+        Self::Combination {
+            terms: vec![(1.0, function)],
+            motion,
         }
     }
 
-    /// The points `s_i` and `s_j` (m, body axes) to which reactions are reduced; the centres of mass of a joint
-    /// without points.
+    /// A combination that keeps the value zero.
     #[must_use]
-    pub fn points(&self) -> [Vector3<f64>; 2] {
-        match self {
-            Self::Spherical { points, .. }
-            | Self::Revolute { points, .. }
-            | Self::Distance { points, .. } => *points,
-            Self::Perpendicular { .. } => [Vector3::zeros(); 2],
+    pub fn combination(terms: impl Into<Vec<(f64, Scalar)>>) -> Self {
+        Self::Combination {
+            terms: terms.into(),
+            motion: Motion::Constant(0.0),
         }
+    }
+
+    /// Two vectors that stay perpendicular (type 1): `a . b`.
+    #[must_use]
+    pub fn perpendicular(a: Mark, b: Mark) -> Self {
+        Self::constant(Scalar::Product([a, b]), 0.0)
     }
 
     /// Number of rows.
     #[must_use]
     pub const fn equations(&self) -> usize {
         match self {
-            Self::Spherical { .. } => 3,
-            Self::Revolute { .. } => 5,
-            Self::Perpendicular { .. } | Self::Distance { .. } => 1,
+            Self::Coincidence(_) => 3,
+            Self::Combination { .. } => 1,
+        }
+    }
+
+    /// Calls `three` with the points of a coincidence, `one` with the terms and the law of a combination.
+    fn write(
+        &self,
+        out: &mut [f64],
+        three: impl Fn(&[Mark; 2]) -> Vector3<f64>,
+        one: impl Fn(&[(f64, Scalar)], &Motion) -> f64,
+    ) {
+        match self {
+            Self::Coincidence(points) => out.copy_from_slice(three(points).as_slice()),
+            Self::Combination { terms, motion } => out[0] = one(terms, motion),
+        }
+    }
+}
+
+/// `sum of c_k f(f_k)`.
+fn sum(terms: &[(f64, Scalar)], of: impl Fn(&Scalar) -> f64) -> f64 {
+    terms.iter().map(|(factor, term)| factor * of(term)).sum()
+}
+
+impl Joint {
+    /// A joint from its bodies, the point on each of them to which reactions are reduced (m, body axes; zero is the
+    /// centre of mass), and its rows.
+    ///
+    /// # Panics
+    /// Without as many points as bodies.
+    #[must_use]
+    pub fn new(
+        bodies: impl Into<Vec<BodyId>>,
+        points: impl Into<Vec<Vector3<f64>>>,
+        rows: impl Into<Vec<Row>>,
+    ) -> Self {
+        let (bodies, points) = (bodies.into(), points.into());
+        assert_eq!(bodies.len(), points.len(), "one point for each body");
+        Self {
+            bodies,
+            points,
+            rows: rows.into(),
+        }
+    }
+
+    /// Two points on two bodies coincide: 3 rows.
+    #[must_use]
+    pub fn spherical_at(between: [BodyId; 2], points: [Vector3<f64>; 2]) -> Self {
+        Self::new(between, points, [coincidence(between, points)])
+    }
+
+    /// Two points coincide and two axes stay parallel: the 3 rows of a spherical joint, then `n_1 . h` and `n_2 . h` of
+    /// `n_1` and `n_2` on body `i` and the axis `h` on body `j`.
+    #[must_use]
+    pub fn revolute_at(
+        between: [BodyId; 2],
+        points: [Vector3<f64>; 2],
+        normals: [Vector3<f64>; 2],
+        axis: Vector3<f64>,
+    ) -> Self {
+        let [n1, n2] = normals.map(|n| Mark::new(between[0], n));
+        let axis = Mark::new(between[1], axis);
+        let rows = [
+            coincidence(between, points),
+            Row::perpendicular(n1, axis),
+            Row::perpendicular(n2, axis),
+        ];
+        Self::new(between, points, rows)
+    }
+
+    /// Two vectors, on body `i` and on body `j`, stay perpendicular: 1 row.
+    #[must_use]
+    pub fn perpendicular_at([i, j]: [BodyId; 2], [a, b]: [Vector3<f64>; 2]) -> Self {
+        let row = Row::perpendicular(Mark::new(i, a), Mark::new(j, b));
+        Self::new([i, j], [Vector3::zeros(); 2], [row])
+    }
+
+    /// Two points keep the distance `length` (m): 1 row, `d . d - L^2` (m^2).
+    #[must_use]
+    pub fn distance_at(between: [BodyId; 2], points: [Vector3<f64>; 2], length: f64) -> Self {
+        let ends = marks(between, points);
+        let row = Row::constant(Scalar::SquaredLength(ends), length * length);
+        Self::new(between, points, [row])
+    }
+
+    /// Adds rows behind the others.
+    pub(crate) fn push(&mut self, row: Row) {
+        self.rows.push(row);
+    }
+
+    /// The bodies, in the order in which the joint names them.
+    #[must_use]
+    pub fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    /// The point on each body (m, body axes) to which reactions are reduced; the centre of mass where a joint names
+    /// none.
+    #[must_use]
+    pub fn points(&self) -> &[Vector3<f64>] {
+        &self.points
+    }
+
+    /// The primitives in order.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn equations(&self) -> usize {
+        self.rows.iter().map(Row::equations).sum()
+    }
+
+    /// The angles in the order in which the rows name them.
+    pub(crate) fn angles_mut(&mut self) -> impl Iterator<Item = &mut Angle> {
+        let terms = self.rows.iter_mut().flat_map(|row| match row {
+            Row::Coincidence(_) => [].iter_mut(),
+            Row::Combination { terms, .. } => terms.iter_mut(),
+        });
+        terms.filter_map(|(_, term)| match term {
+            Scalar::Angle(angle) => Some(angle),
+            _ => None,
+        })
+    }
+
+    /// Calls a kernel of every row with the row's part of `out`.
+    fn for_rows(&self, out: &mut [f64], kernel: impl Fn(&Row, &mut [f64])) {
+        let mut first = 0;
+        for row in &self.rows {
+            let next = first + row.equations();
+            kernel(row, &mut out[first..next]);
+            first = next;
         }
     }
 
     /// Writes `Phi`, one number per row.
-    pub fn constraints(&self, i: &Frame, j: &Frame, out: &mut [f64]) {
-        match self {
-            Self::Spherical { points, .. } => out.copy_from_slice(gap(i, j, points).as_slice()),
-            Self::Revolute {
-                points,
-                normals,
-                axis,
-                ..
-            } => {
-                out[..3].copy_from_slice(gap(i, j, points).as_slice());
-                let h = j.rotation * axis;
-                for (value, n) in out[3..].iter_mut().zip(normals) {
-                    *value = (i.rotation * n).dot(&h);
-                }
-            }
-            Self::Perpendicular { vectors, .. } => {
-                out[0] = (i.rotation * vectors[0]).dot(&(j.rotation * vectors[1]));
-            }
-            Self::Distance { points, length, .. } => {
-                out[0] = gap(i, j, points).norm_squared() - length * length;
-            }
-        }
+    pub fn constraints(&self, at: &Kinematics, out: &mut [f64]) {
+        self.for_rows(out, |row, out| {
+            row.write(
+                out,
+                |[i, j]| j.point(at) - i.point(at),
+                |terms, motion| sum(terms, |f| f.value(at)) - motion.at(at.time)[0],
+            );
+        });
     }
 
-    /// Writes `Phi' = D u`, one number per row.
-    pub fn constraint_rates(&self, i: &Frame, j: &Frame, out: &mut [f64]) {
-        match self {
-            Self::Spherical { points, .. } => {
-                out.copy_from_slice(gap_rate(i, j, points).as_slice());
-            }
-            Self::Revolute {
-                points,
-                normals,
-                axis,
-                ..
-            } => {
-                out[..3].copy_from_slice(gap_rate(i, j, points).as_slice());
-                for (value, n) in out[3..].iter_mut().zip(normals) {
-                    *value = product_rate(i, j, n, axis);
-                }
-            }
-            Self::Perpendicular { vectors, .. } => {
-                out[0] = product_rate(i, j, &vectors[0], &vectors[1]);
-            }
-            Self::Distance { points, .. } => {
-                out[0] = 2.0 * gap(i, j, points).dot(&gap_rate(i, j, points));
-            }
-        }
+    /// Writes `Phi' = D u + Phi_t`, one number per row.
+    pub fn constraint_rates(&self, at: &Kinematics, out: &mut [f64]) {
+        self.for_rows(out, |row, out| {
+            row.write(
+                out,
+                |[i, j]| j.point_rate(at) - i.point_rate(at),
+                |terms, motion| sum(terms, |f| f.rate(at)) - motion.at(at.time)[1],
+            );
+        });
     }
 
     /// Writes `gamma`, one number per row.
-    pub fn gamma(&self, i: &Frame, j: &Frame, out: &mut [f64]) {
-        match self {
-            Self::Spherical { points, .. } => {
-                out.copy_from_slice((-gap_centripetal(i, j, points)).as_slice());
-            }
-            Self::Revolute {
-                points,
-                normals,
-                axis,
-                ..
-            } => {
-                out[..3].copy_from_slice((-gap_centripetal(i, j, points)).as_slice());
-                for (value, n) in out[3..].iter_mut().zip(normals) {
-                    *value = product_gamma(i, j, n, axis);
-                }
-            }
-            Self::Perpendicular { vectors, .. } => {
-                out[0] = product_gamma(i, j, &vectors[0], &vectors[1]);
-            }
-            Self::Distance { points, .. } => {
-                out[0] = -2.0
-                    * (gap_rate(i, j, points).norm_squared()
-                        + gap(i, j, points).dot(&gap_centripetal(i, j, points)));
-            }
-        }
+    pub fn gamma(&self, at: &Kinematics, out: &mut [f64]) {
+        self.for_rows(out, |row, out| {
+            row.write(
+                out,
+                |[i, j]| i.curvature(at) - j.curvature(at),
+                |terms, motion| motion.at(at.time)[2] - sum(terms, |f| f.curvature(at)),
+            );
+        });
+    }
+
+    /// Writes `Phi_t` for the order 1 and `Phi_tt` for the order 2, one number per row.
+    pub fn time_derivatives(&self, time: f64, order: usize, out: &mut [f64]) {
+        self.for_rows(out, |row, out| {
+            let one = |_: &[(f64, Scalar)], motion: &Motion| -motion.at(time)[order];
+            row.write(out, |_| Vector3::zeros(), one);
+        });
     }
 
     /// Writes the rows of `D` from `row` on.
-    pub(crate) fn jacobian(&self, i: &Frame, j: &Frame, row: usize, target: &mut impl Rows) {
-        match self {
-            Self::Spherical { points, .. } => coincidence(i, j, points, row, target),
-            Self::Revolute {
-                points,
-                normals,
-                axis,
-                ..
-            } => {
-                coincidence(i, j, points, row, target);
-                product(i, j, &normals[0], axis, row + 3, target);
-                product(i, j, &normals[1], axis, row + 4, target);
-            }
-            Self::Perpendicular { vectors, .. } => {
-                product(i, j, &vectors[0], &vectors[1], row, target);
-            }
-            Self::Distance { points, .. } => {
-                let d = 2.0 * gap(i, j, points);
-                for (frame, s, d) in [(i, &points[0], -d), (j, &points[1], d)] {
-                    if let Some(column) = frame.translation_column {
-                        target.line(row, column, &d);
+    pub(crate) fn jacobian(&self, at: &Kinematics, row: usize, target: &mut impl Rows) {
+        let mut line = row;
+        for row in &self.rows {
+            match row {
+                Row::Coincidence(points) => write_coincidence(at, points, line, target),
+                Row::Combination { terms, .. } => match terms.as_slice() {
+                    [(factor, term)] if term.touches_columns_once() => {
+                        term.gradient(at, *factor, &mut |column, entries| {
+                            target.line(line, column, entries);
+                        });
                     }
-                    if let Some(column) = frame.rotation_column {
-                        target.line(row, column, &s.cross(&frame.rotation.tr_mul(&d)));
+                    terms => {
+                        self.clear(at, line, target);
+                        for (factor, term) in terms {
+                            term.gradient(at, *factor, &mut |column, entries| {
+                                target.add(line, column, entries);
+                            });
+                        }
                     }
-                }
+                },
+            }
+            line += row.equations();
+        }
+    }
+
+    /// Writes zeros for all bodies of the joint, for terms to be added to.
+    fn clear(&self, at: &Kinematics, row: usize, target: &mut impl Rows) {
+        for body in &self.bodies {
+            let frame = at.frame(*body);
+            let columns = [frame.translation_column, frame.rotation_column];
+            for column in columns.into_iter().flatten() {
+                target.line(row, column, &Vector3::zeros());
             }
         }
     }
 }
 
-/// `P_j - P_i`.
-fn gap(i: &Frame, j: &Frame, points: &[Vector3<f64>; 2]) -> Vector3<f64> {
-    j.point(&points[1]) - i.point(&points[0])
+fn marks([i, j]: [BodyId; 2], [s_i, s_j]: [Vector3<f64>; 2]) -> [Mark; 2] {
+    [Mark::new(i, s_i), Mark::new(j, s_j)]
 }
 
-/// `P_j' - P_i'`.
-fn gap_rate(i: &Frame, j: &Frame, points: &[Vector3<f64>; 2]) -> Vector3<f64> {
-    j.point_velocity(&points[1]) - i.point_velocity(&points[0])
-}
-
-/// `P_j'' - P_i''` at `u' = 0`.
-fn gap_centripetal(i: &Frame, j: &Frame, points: &[Vector3<f64>; 2]) -> Vector3<f64> {
-    j.centripetal(&points[1]) - i.centripetal(&points[0])
-}
-
-/// `(a . b)'` of `a` on `i` and `b` on `j`.
-fn product_rate(i: &Frame, j: &Frame, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
-    i.vector_rate(a).dot(&(j.rotation * b)) + (i.rotation * a).dot(&j.vector_rate(b))
-}
-
-/// `-(a . b)''` at `u' = 0`.
-fn product_gamma(i: &Frame, j: &Frame, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
-    -(i.centripetal(a).dot(&(j.rotation * b))
-        + (i.rotation * a).dot(&j.centripetal(b))
-        + 2.0 * i.vector_rate(a).dot(&j.vector_rate(b)))
+fn coincidence(between: [BodyId; 2], points: [Vector3<f64>; 2]) -> Row {
+    Row::Coincidence(marks(between, points))
 }
 
 /// Rows of `P_j - P_i`: `I` and `-A s~` for `j`, the opposite for `i`.
-fn coincidence(
-    i: &Frame,
-    j: &Frame,
-    points: &[Vector3<f64>; 2],
-    row: usize,
-    target: &mut impl Rows,
-) {
-    for (frame, s, sign) in [(i, &points[0], -1.0), (j, &points[1], 1.0)] {
+fn write_coincidence(at: &Kinematics, points: &[Mark; 2], row: usize, target: &mut impl Rows) {
+    for (point, sign) in points.iter().zip([-1.0, 1.0]) {
+        let frame = at.frame(point.body);
         if let Some(column) = frame.translation_column {
             target.diagonal(row, column, sign);
         }
         if let Some(column) = frame.rotation_column {
-            let block = frame.rotation * (-sign * s).cross_matrix();
+            let block = frame.rotation * (-sign * point.local).cross_matrix();
             target.block(row, column, &block);
         }
-    }
-}
-
-/// Row of `a . b`: `(a' x A_i^T b)^T` for `w_i`, `(b' x A_j^T a)^T` for `w_j`.
-fn product(
-    i: &Frame,
-    j: &Frame,
-    a: &Vector3<f64>,
-    b: &Vector3<f64>,
-    row: usize,
-    target: &mut impl Rows,
-) {
-    if let Some(column) = i.rotation_column {
-        let other = i.rotation.tr_mul(&(j.rotation * b));
-        target.line(row, column, &a.cross(&other));
-    }
-    if let Some(column) = j.rotation_column {
-        let other = j.rotation.tr_mul(&(i.rotation * a));
-        target.line(row, column, &b.cross(&other));
     }
 }

@@ -8,21 +8,30 @@
 #![forbid(unsafe_code)]
 
 pub mod accuracy;
+pub mod angles;
 pub mod assembler;
 pub mod bodies;
+mod couplings;
+pub mod drivers;
 pub mod dual;
+pub mod forces;
 pub mod formulation;
 pub mod jacobi;
 pub mod joints;
 mod kernels;
+pub mod kinematics;
+pub mod laws;
+pub mod library;
 pub mod lu;
 mod rows;
 pub mod saddle;
+pub mod scalars;
 pub mod scenes;
 pub mod schur;
 pub mod smatrix;
 pub mod states;
 mod symmetric;
+mod writers;
 
 #[cfg(test)]
 mod tests;

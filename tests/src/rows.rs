@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-/// A matrix that holds `D`. Every block is written whole and over what was there; what no joint writes stays as it is.
+/// A matrix that holds `D`. Every block is written whole and over what was there, except by `add`;
+/// what no joint writes stays as it is.
 pub(crate) trait Rows {
     /// Three rows by three columns.
     fn block(&mut self, row: usize, column: usize, block: &Matrix3<f64>);
@@ -10,6 +11,8 @@ pub(crate) trait Rows {
     fn diagonal(&mut self, row: usize, column: usize, value: f64);
     /// One row by three columns.
     fn line(&mut self, row: usize, column: usize, line: &Vector3<f64>);
+    /// One row by three columns, added to what a `line` wrote before.
+    fn add(&mut self, row: usize, column: usize, line: &Vector3<f64>);
 }
 
 /// `D`, equations by velocities.
@@ -29,6 +32,12 @@ impl Rows for Jacobian<'_> {
     fn line(&mut self, row: usize, column: usize, line: &Vector3<f64>) {
         for k in 0..3 {
             self.0[(row, column + k)] = line[k];
+        }
+    }
+
+    fn add(&mut self, row: usize, column: usize, line: &Vector3<f64>) {
+        for k in 0..3 {
+            self.0[(row, column + k)] += line[k];
         }
     }
 }
@@ -51,6 +60,11 @@ impl Rows for Transposed<'_> {
 
     fn line(&mut self, row: usize, column: usize, line: &Vector3<f64>) {
         self.0.fixed_view_mut::<3, 1>(column, row).copy_from(line);
+    }
+
+    fn add(&mut self, row: usize, column: usize, line: &Vector3<f64>) {
+        let mut view = self.0.fixed_view_mut::<3, 1>(column, row);
+        view += line;
     }
 }
 
@@ -79,5 +93,11 @@ impl Rows for Saddle<'_> {
         let row = row + self.velocities;
         Jacobian(self.matrix).line(row, column, line);
         Transposed(self.matrix).line(row, column, line);
+    }
+
+    fn add(&mut self, row: usize, column: usize, line: &Vector3<f64>) {
+        let row = row + self.velocities;
+        Jacobian(self.matrix).add(row, column, line);
+        Transposed(self.matrix).add(row, column, line);
     }
 }

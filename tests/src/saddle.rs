@@ -64,19 +64,42 @@ impl Assembler {
         matrix
     }
 
-    /// `gamma* = gamma - 2 a Phi' - b^2 Phi` at the state `x = (q, u)`.
+    /// `gamma* = gamma - 2 a Phi' - b^2 Phi` at the state `x = (q, u)` and the time zero.
     #[must_use]
     pub fn stabilised_gamma(&self, x: &[f64], a: f64, b: f64) -> DVector<f64> {
-        self.gamma(x) - 2.0 * a * self.constraint_rates(x) - b * b * self.constraints(x)
+        self.stabilised_gamma_at(0.0, x, a, b)
     }
 
-    /// Solves the saddle system by nalgebra's LU with partial pivoting; `previous` is `lambda_prev`, zero if `None`.
+    /// The same at a time (s).
+    #[must_use]
+    pub fn stabilised_gamma_at(&self, time: f64, x: &[f64], a: f64, b: f64) -> DVector<f64> {
+        self.gamma_at(time, x)
+            - 2.0 * a * self.constraint_rates_at(time, x)
+            - b * b * self.constraints_at(time, x)
+    }
+
+    /// Solves the saddle system at the time zero: see [`Assembler::solve_saddle_at`].
+    ///
+    /// # Errors
+    /// See [`Assembler::solve_saddle_at`].
+    pub fn solve_saddle(
+        &self,
+        x: &[f64],
+        coefficients: Coefficients,
+        previous: Option<&DVector<f64>>,
+    ) -> Result<Solution, SolveError> {
+        self.solve_saddle_at(0.0, x, coefficients, previous)
+    }
+
+    /// Solves the saddle system at a time (s) by nalgebra's LU with partial pivoting; `previous` is `lambda_prev`, zero if
+    /// `None`.
     ///
     /// # Errors
     /// [`SolveError::Singular`] if a pivot is exactly zero. Where rows are redundant and `eps = 0`, rounding usually
     /// leaves a pivot that is only small: look at [`Solution::condition`].
-    pub fn solve_saddle(
+    pub fn solve_saddle_at(
         &self,
+        time: f64,
         x: &[f64],
         coefficients: Coefficients,
         previous: Option<&DVector<f64>>,
@@ -85,9 +108,10 @@ impl Assembler {
         let velocities = self.velocities();
         let matrix = self.saddle_matrix(x, eps);
         let mut rhs = DVector::zeros(matrix.nrows());
-        rhs.rows_mut(0, velocities).copy_from(&self.forces(x));
+        rhs.rows_mut(0, velocities)
+            .copy_from(&self.forces_at(time, x));
         let mut lower = rhs.rows_mut(velocities, self.equations());
-        lower.copy_from(&self.stabilised_gamma(x, a, b));
+        lower.copy_from(&self.stabilised_gamma_at(time, x, a, b));
         if let Some(previous) = previous {
             lower.axpy(-eps, previous, 1.0);
         }

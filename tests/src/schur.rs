@@ -7,8 +7,8 @@ use nalgebra::linalg::Cholesky;
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use crate::assembler::Assembler;
-use crate::bodies::Frame;
 use crate::formulation::{SolveError, write_target};
+use crate::kinematics::Kinematics;
 use crate::rows::Jacobian;
 use crate::symmetric::{add_outer_product, factor_in_place};
 
@@ -20,7 +20,7 @@ pub struct SchurEvaluator {
     assembler: Assembler,
     /// `(a, b)`.
     stabilisation: (f64, f64),
-    frames: Vec<Frame>,
+    at: Kinematics,
     /// The diagonal of `M^-1`.
     mobility: DVector<f64>,
     /// `D`, equations by velocities.
@@ -40,7 +40,7 @@ impl SchurEvaluator {
     pub fn new(assembler: Assembler, a: f64, b: f64) -> Self {
         let (velocities, equations) = (assembler.velocities(), assembler.equations());
         Self {
-            frames: assembler.frames(),
+            at: assembler.workspace(),
             mobility: assembler.mass().map(f64::recip),
             jacobian: DMatrix::zeros(equations, velocities),
             matrix: DMatrix::zeros(equations, equations),
@@ -67,21 +67,21 @@ impl SchurEvaluator {
     ///
     /// # Panics
     /// If `x` or `out` has another size.
-    pub fn rates(&mut self, _time: f64, x: &[f64], out: &mut [f64]) -> Result<(), SolveError> {
+    pub fn rates(&mut self, time: f64, x: &[f64], out: &mut [f64]) -> Result<(), SolveError> {
         assert_eq!(x.len(), out.len());
-        let (assembler, frames) = (&self.assembler, &mut self.frames);
-        assembler.update(x, frames);
+        let (assembler, at) = (&self.assembler, &mut self.at);
+        assembler.update(time, x, at);
         write_target(
             assembler,
-            frames,
+            at,
             self.stabilisation,
             &mut self.scratch,
             &mut self.target,
         );
-        assembler.write_jacobian(frames, &mut Jacobian(&mut self.jacobian));
+        assembler.write_jacobian(at, &mut Jacobian(&mut self.jacobian));
 
         // forces = g, accelerations = M^-1 g, multipliers = D M^-1 g - gamma*
-        assembler.write_forces(frames, self.forces.as_mut_slice());
+        assembler.write_forces(at, self.forces.as_mut_slice());
         self.accelerations.copy_from(&self.forces);
         self.accelerations.component_mul_assign(&self.mobility);
         self.multipliers.copy_from(&self.target);
@@ -97,7 +97,8 @@ impl SchurEvaluator {
         self.accelerations.component_mul_assign(&self.mobility);
 
         let (positions, velocities) = out.split_at_mut(self.assembler.coordinates());
-        self.assembler.write_coordinate_rates(x, positions);
+        self.assembler
+            .write_coordinate_rates(&self.at, x, positions);
         velocities.copy_from_slice(self.accelerations.as_slice());
         Ok(())
     }

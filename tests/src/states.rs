@@ -1,5 +1,7 @@
 //! States for tests: random ones near the initial configuration, and their correction onto the constraints.
 
+use core::f64::consts::TAU;
+
 use nalgebra::{DMatrix, DVector, Vector3, Vector4};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -82,7 +84,7 @@ pub fn random_state(assembler: &Assembler, spread: Spread, rng: &mut ChaCha8Rng)
 }
 
 /// Moves the coordinates of `x = (q, u)` by finite displacements: translations (m, global axes), and rotation vectors
-/// (rad, body axes) that leave `p` at unit length.
+/// (rad, body axes) that leave `p` at unit length. Angles keep their count while they change by less than half a turn.
 pub fn displace(assembler: &Assembler, x: &mut [f64], motion: &[f64]) {
     for (body, q, n) in assembler.bodies() {
         if body.kind != Kind::Ground {
@@ -100,6 +102,15 @@ pub fn displace(assembler: &Assembler, x: &mut [f64], motion: &[f64]) {
             x[q + 3..q + 7].copy_from_slice(p.normalize().as_slice());
         }
     }
+    assembler.recount(x);
+}
+
+/// Lets the auxiliary states of `x = (q, u)` count up to three turns more or fewer, and drift from the angles by up to 1
+/// rad as an integration would let them.
+pub fn add_turns(assembler: &Assembler, x: &mut [f64], rng: &mut ChaCha8Rng) {
+    for s in &mut x[assembler.body_coordinates()..assembler.coordinates()] {
+        *s += TAU * f64::from(rng.random_range(-3..=3_i8)) + rng.random_range(-1.0..=1.0);
+    }
 }
 
 /// Corrects `x = (q, u)` onto `Phi = 0` and `Phi' = 0` with the pseudo-inverse of `D` (Flores 2015, chapter 12): Newton
@@ -109,17 +120,23 @@ pub fn displace(assembler: &Assembler, x: &mut [f64], motion: &[f64]) {
 /// Returns the largest `|Phi|` that is left, or `None` if 50 steps do not bring it to rounding.
 #[must_use]
 pub fn make_consistent(assembler: &Assembler, x: &mut [f64]) -> Option<f64> {
+    make_consistent_at(assembler, 0.0, x)
+}
+
+/// The same at a time (s): `Phi' = D u + Phi_t`.
+#[must_use]
+pub fn make_consistent_at(assembler: &Assembler, time: f64, x: &mut [f64]) -> Option<f64> {
     const SMALL: f64 = 1e-14;
     displace(assembler, x, &vec![0.0; assembler.velocities()]);
-    let mut left = assembler.constraints(x).amax();
+    let mut left = assembler.constraints_at(time, x).amax();
     for _ in 0..50 {
         if left <= SMALL {
             break;
         }
-        let step = pseudo_inverse(assembler, x) * assembler.constraints(x);
+        let step = pseudo_inverse(assembler, x) * assembler.constraints_at(time, x);
         let before = x.to_vec();
         displace(assembler, x, (-step).as_slice());
-        let now = assembler.constraints(x).amax();
+        let now = assembler.constraints_at(time, x).amax();
         if now >= left && left < 100.0 * SMALL {
             // Rounding: no step makes it better.
             x.copy_from_slice(&before);
@@ -130,12 +147,33 @@ pub fn make_consistent(assembler: &Assembler, x: &mut [f64]) -> Option<f64> {
     if left.is_nan() || left >= 1e3 * SMALL {
         return None;
     }
-    let correction = pseudo_inverse(assembler, x) * assembler.constraint_rates(x);
+    let correction = pseudo_inverse(assembler, x) * assembler.constraint_rates_at(time, x);
     let velocities = &mut x[assembler.coordinates()..];
     for (u, correction) in velocities.iter_mut().zip(correction.iter()) {
         *u -= correction;
     }
     Some(left)
+}
+
+/// A random state on the constraints at a time (s): [`random_state`], corrected. Drivers must be near the initial
+/// configuration at that time.
+///
+/// # Panics
+/// If 100 random states cannot be corrected.
+#[must_use]
+pub fn random_consistent_state(
+    assembler: &Assembler,
+    time: f64,
+    spread: Spread,
+    rng: &mut ChaCha8Rng,
+) -> DVector<f64> {
+    for _ in 0..100 {
+        let mut x = random_state(assembler, spread, rng);
+        if make_consistent_at(assembler, time, x.as_mut_slice()).is_some() {
+            return x;
+        }
+    }
+    panic!("no random state near the initial one can be corrected");
 }
 
 /// `D^+`, singular values below `1e-9` of the largest counted as zero.

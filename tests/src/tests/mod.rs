@@ -31,21 +31,17 @@ fn everything() -> Assembler {
     scene.add_revolute([second, first], [0.3, 0.5, 0.2], [-0.2, 0.4, 1.0]);
     scene.add_spherical([bead, GROUND], [1.2, 0.3, 0.1]);
     let points = [Vector3::new(0.1, 0.2, 0.3), Vector3::zeros()];
-    scene.add_joint(Joint::Distance {
-        between: [second, bead],
-        points,
-        length: 0.8,
-    });
-    scene.add_joint(Joint::Distance {
-        between: [GROUND, second],
-        points: [points[0], points[0]],
-        length: 0.8,
-    });
+    scene.add_joint(Joint::distance_at([second, bead], points, 0.8));
+    scene.add_joint(Joint::distance_at(
+        [GROUND, second],
+        [points[0], points[0]],
+        0.8,
+    ));
     for between in [[first, second], [second, GROUND], [bead, first]] {
-        scene.add_joint(Joint::Perpendicular {
+        scene.add_joint(Joint::perpendicular_at(
             between,
-            vectors: [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.1, -2.0, 0.4)],
-        });
+            [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.1, -2.0, 0.4)],
+        ));
     }
     scene
 }

@@ -49,11 +49,11 @@ fn redundant_rows_are_singular_with_multipliers_and_solvable_with_penalty() {
     let mut scene = Assembler::new([0.0, 0.0, -10.0]);
     let bead = scene.add_body(Body::particle(1.0, [0.0, 0.0, -1.0]));
     for _ in 0..2 {
-        scene.add_joint(Joint::Distance {
-            between: [GROUND, bead],
-            points: [Vector3::zeros(); 2],
-            length: 1.0,
-        });
+        scene.add_joint(Joint::distance_at(
+            [GROUND, bead],
+            [Vector3::zeros(); 2],
+            1.0,
+        ));
     }
     let x = scene.initial_state();
     let mut out = vec![0.0; x.len()];

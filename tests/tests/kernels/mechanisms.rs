@@ -38,12 +38,7 @@ fn add_revolute_at(
     let axis = Vector3::from(axis).normalize();
     let normals = normals(&axis).map(|n| scene.to_body_vector(between[0], n.into()));
     let axis = scene.to_body_vector(between[1], axis.into());
-    scene.add_joint(Joint::Revolute {
-        between,
-        points,
-        normals,
-        axis,
-    });
+    scene.add_joint(Joint::revolute_at(between, points, normals, axis));
 }
 
 /// Euler parameters of a rotation about an axis by an angle in degrees.

@@ -78,13 +78,13 @@ impl Scene for FullTensors {
             scene.add_body(bodies::Body::rigid(0.8, moments, [0.6, 0.7, 0.1]).with_euler(euler));
         let hinge = [GROUND, tilted].map(|body| scene.to_body_point(body, [0.0, 0.1, 0.2]));
         add_revolute_at(&mut scene, [GROUND, tilted], hinge, [0.5, -1.0, 0.25]);
-        scene.add_joint(Joint::Spherical {
-            between: [tilted, upright],
-            points: [
+        scene.add_joint(Joint::spherical_at(
+            [tilted, upright],
+            [
                 into_tilted * Vector3::new(0.4, 0.1, 0.2),
                 into_upright * Vector3::new(-0.2, -0.15, 0.05),
             ],
-        });
+        ));
         scene
     }
 }

@@ -63,26 +63,26 @@ impl Scene for Tethered {
         ));
         let bead = scene.add_body(bodies::Body::particle(0.25, [0.9, 0.4, -0.6]));
         scene.add_spherical([plate, GROUND], [0.0, 0.1, 0.0]);
-        scene.add_joint(Joint::Perpendicular {
-            between: [plate, arm],
-            vectors: [
+        scene.add_joint(Joint::perpendicular_at(
+            [plate, arm],
+            [
                 scene.to_body_vector(plate, [0.8, 0.0, 0.6]),
                 scene.to_body_vector(arm, [-0.6, 1.0, 0.8]),
             ],
-        });
-        scene.add_joint(Joint::Distance {
-            between: [arm, GROUND],
-            points: [
+        ));
+        scene.add_joint(Joint::distance_at(
+            [arm, GROUND],
+            [
                 scene.to_body_point(arm, [0.4, 0.9, 0.1]),
                 Vector3::new(0.2, 0.5, 1.1),
             ],
-            length: 1.2_f64.sqrt(),
-        });
-        scene.add_joint(Joint::Distance {
-            between: [arm, bead],
-            points: [scene.to_body_point(arm, [0.7, 0.6, -0.2]), Vector3::zeros()],
-            length: 0.5,
-        });
+            1.2_f64.sqrt(),
+        ));
+        scene.add_joint(Joint::distance_at(
+            [arm, bead],
+            [scene.to_body_point(arm, [0.7, 0.6, -0.2]), Vector3::zeros()],
+            0.5,
+        ));
         scene
     }
 }
