@@ -10,7 +10,7 @@
 //!
 //! by the quotient rule alone, so that it holds off the constraints as well; the lengths of `p` cancel in `theta`. The
 //! auxiliary state `s` only decides the number of turns: half a turn of error in it does no harm. The gradient is
-//! that of the product `b . m` with `b = (x n2 - y n1) / c` fixed on body `i` while `x`, `y` and `c` are held. Source: Haug (1989), section 9.2.6 (relative angle with the count of its turns).
+//! that of the product `b . m` with `b = (x n2 - y n1) / c` fixed on body `i` while `x`, `y` and `c` are held. Source: Haug (1989), chapter 9 (relative angle of two bodies, its count of turns).
 
 use core::f64::consts::TAU;
 

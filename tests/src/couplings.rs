@@ -14,9 +14,8 @@ use crate::library::{along, coincidence, joint, unit};
 use crate::scalars::Scalar;
 
 impl Joint {
-    /// `P_j - P_i`, `b_i . n_j - n_i . b_j`: 4 rows. `n_j`, `b_j` are the normals of `axis_i`, turned by the least rotation that
-    /// takes `axis_i` to `axis_j`: the plane that halves the angle between both
-    /// shafts mirrors one body's frame on the other's (Nikravesh 1988, chapter 7).
+    /// `P_j - P_i`, `b_i . n_j - n_i . b_j`: 4 rows. `n_j`, `b_j` are the normals of `axis_i`, turned by the least rotation
+    /// that takes `axis_i` to `axis_j`: in this frame both shafts turn by the same angle at any bend.
     #[must_use]
     pub fn constant_velocity(
         scene: &Assembler,

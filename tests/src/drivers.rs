@@ -1,7 +1,7 @@
 //! Primitive joints between axes and points, and drivers: rows that follow a law of time.
 //!
 //! Like [`library`](crate::library): points (m) and axes (any length) in global axes of the described configuration, `d`
-//! from a point of `i` to a point of `j`. Sources: Nikravesh (1988), sections 7.1 and 7.2; Haug (1989), section 9.5.
+//! from a point of `i` to a point of `j`. Sources: Nikravesh (1988), chapter 7; Haug (1989), chapter 9.
 
 use nalgebra::Vector3;
 

@@ -2,8 +2,8 @@
 //!
 //! A force `F` along a scalar `f` (a length or a counted angle) does the work `F df`, so it adds `F` times the gradient of
 //! `f`; this holds off the constraints too. A force at a point adds the gradient of `F . P` with `F` held, a moment
-//! `A^T M`. Sources: Nikravesh (1988), sections 8.3.2 and 8.3.3 (springs, dampers, actuators, their rotational kinds);
-//! Flores (2015), chapter 10; Haug (1989), section 11.2.
+//! `A^T M`, with `A` as it is read. Source: Haug (1989), chapter 11 (springs, dampers and actuators
+//! between points and about axes).
 
 use nalgebra::Vector3;
 

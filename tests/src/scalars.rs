@@ -11,7 +11,7 @@
 //! | `l = sqrt(d . d)` | `d . d' / l` | `(d' . d' + d . d'' - l'^2) / l` | of `d` along `d / l` |
 //!
 //! None of them uses `A^T A = I`, so they are exact for Euler parameters of any length. Sources: Nikravesh (1988),
-//! sections 7.1 and 7.2 (perpendicular types 1 and 2); Haug (1989), sections 9.4 and 9.5 (dot 1, dot 2, distance).
+//! chapter 7 (perpendicular types 1 and 2); Haug (1989), chapter 9 (dot 1, dot 2, distance).
 
 use nalgebra::Vector3;
 

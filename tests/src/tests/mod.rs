@@ -1,7 +1,11 @@
 //! The assembler judged by automatic differentiation, by closed forms and by its own other forms.
 
+mod catalogue;
+mod couplings;
+mod forces;
 mod formulations;
 mod kernels;
+mod library;
 mod motion;
 mod solvers;
 
@@ -9,6 +13,7 @@ use nalgebra::Vector3;
 
 use crate::assembler::Assembler;
 use crate::bodies::{Body, GROUND, Orientation};
+use crate::formulation::Evaluator;
 use crate::joints::Joint;
 
 /// Both readings of Euler parameters.
@@ -44,4 +49,26 @@ fn everything() -> Assembler {
         ));
     }
     scene
+}
+
+/// Classical Runge-Kutta from the time zero with a fixed step (s).
+fn integrate(evaluator: &mut Evaluator, x: &mut [f64], step: f64, steps: u16) {
+    let n = x.len();
+    let (mut k, mut stage, mut sum) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    for number in 0..steps {
+        let time = step * f64::from(number);
+        sum.copy_from_slice(x);
+        for (s, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
+            for i in 0..n {
+                stage[i] = x[i] + s * step * k[i];
+            }
+            evaluator
+                .rates(time + s * step, &stage, &mut k)
+                .expect("solvable");
+            for i in 0..n {
+                sum[i] += weight * step / 6.0 * k[i];
+            }
+        }
+        x.copy_from_slice(&sum);
+    }
 }

@@ -2,30 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::ORIENTATIONS;
+use super::{ORIENTATIONS, integrate};
 use crate::accuracy::{assert_close, relative_error};
 use crate::assembler::{Assembler, JointId};
 use crate::formulation::{Evaluator, Formulation};
 use crate::scenes;
-
-/// Classical Runge-Kutta with a fixed step.
-fn integrate(evaluator: &mut Evaluator, x: &mut [f64], step: f64, steps: usize) {
-    let n = x.len();
-    let (mut k, mut stage, mut sum) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    for _ in 0..steps {
-        sum.copy_from_slice(x);
-        for (s, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
-            for i in 0..n {
-                stage[i] = x[i] + s * step * k[i];
-            }
-            evaluator.rates(0.0, &stage, &mut k).expect("solvable");
-            for i in 0..n {
-                sum[i] += weight * step / 6.0 * k[i];
-            }
-        }
-        x.copy_from_slice(&sum);
-    }
-}
 
 fn first_joint(scene: &Assembler) -> JointId {
     scene.joint_ids().next().expect("a joint")
