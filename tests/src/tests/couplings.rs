@@ -10,6 +10,7 @@ use crate::accuracy::assert_close;
 use crate::angles::counted;
 use crate::assembler::Assembler;
 use crate::bodies::{BodyId, GROUND};
+use crate::forces::Force;
 use crate::formulation::{Evaluator, Formulation};
 use crate::joints::Joint;
 use crate::laws::Motion;
@@ -124,6 +125,29 @@ fn a_count_goes_to_the_nearest_turn() {
         for drift in [-3.0, -1.0, 0.0, 1.0, 3.0] {
             let near = 0.4 + turns + drift;
             assert_close("count", &[counted(0.4, near)], &[0.4 + turns], 1e-14);
+        }
+    }
+}
+
+#[test]
+fn auxiliary_states_turn_with_their_angles_on_a_hinge() {
+    let mut rng = generator(39);
+    for ends in Ends::ALL {
+        let data = Data::random(&mut rng);
+        let (point, axis) = (data.head.into(), data.a.into());
+        let mut hinge = [GROUND; 2];
+        let mut scene = two_bodies(ends, &mut rng, |scene, between, _| {
+            hinge = between;
+            Joint::revolute(scene, between, point, axis)
+        });
+        let spring = Force::torsional_spring_damper(&scene, hinge, axis, 1.0, 0.0, 0.0);
+        scene.add_force(spring);
+        for _ in 0..10 {
+            let x = random_consistent_state(&scene, 0.0, Spread::default(), &mut rng);
+            let rate = scene.angles()[0].rate(&scene.kinematics(x.as_slice()));
+            let turning = scene.coordinate_rates(x.as_slice())[scene.body_coordinates()];
+            assert!(rate.abs() > 1e-3);
+            assert_close("s'", &[turning], &[rate], 1e-12);
         }
     }
 }
