@@ -3,6 +3,9 @@
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 
+/// A number that the macro cannot see: it does not decide on the rank.
+const WIDTH: f64 = 1.0;
+
 /// Four parallel axes: 18 velocities, 20 equations, and yet a motion.
 #[derive(Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
@@ -19,13 +22,13 @@ struct Undriven {
     b: Revolute,
     #[joint(between = [coupler, rocker], point = [0.0, 1.0, 0.4], axis = [1.0, 0.0, 0.0])]
     c: Revolute,
-    #[joint(between = [rocker, ground], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    #[joint(between = [rocker, ground], point = [0.0, WIDTH, 0.0], axis = [1.0, 0.0, 0.0])]
     d: Revolute,
 }
 
 /// A block on two hinges with crossed axes: 10 equations of rank 6 hold it.
 #[derive(Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81])]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "keep")]
 struct Held {
     #[body(mass = 3.0, inertia = [0.2, 0.3, 0.4], position = [0.5, 0.0, 0.0])]
     block: Body,
