@@ -193,17 +193,17 @@ impl Joint {
         joint
     }
 
-    /// `P_j - P_i`, then `x_i . y_j`, `y_i . z_j`, `z_i . x_j` of the global axes of the described configuration: 6 rows.
+    /// `P_j - P_i`, then `y_i . x_j`, `z_i . x_j`, `y_i . z_j` of the global axes of the described configuration: 6 rows.
     #[must_use]
     pub fn fixed(scene: &Assembler, between: [BodyId; 2], point: [f64; 3]) -> Self {
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let [xi, yi, zi] = axes.map(|axis| scene.vector(between[0], axis.into()));
-        let [xj, yj, zj] = axes.map(|axis| scene.vector(between[1], axis.into()));
+        let [_, yi, zi] = axes.map(|axis| scene.vector(between[0], axis.into()));
+        let [xj, _, zj] = axes.map(|axis| scene.vector(between[1], axis.into()));
         let rows = [
             coincidence(scene, between, point),
-            Row::perpendicular(xi, yj),
-            Row::perpendicular(yi, zj),
+            Row::perpendicular(yi, xj),
             Row::perpendicular(zi, xj),
+            Row::perpendicular(yi, zj),
         ];
         joint(scene, between, point, point, rows)
     }

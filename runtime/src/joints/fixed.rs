@@ -6,8 +6,11 @@ crate::joint! {
     /// The points coincide, and three pairs of vectors, along the global axes in the described configuration, stay perpendicular.
     pub joint Fixed(i, j; point: Point) {
         j.point - i.point;
-        dot(fixed(i, [1.0, 0.0, 0.0]), fixed(j, [0.0, 1.0, 0.0]));
-        dot(fixed(i, [0.0, 1.0, 0.0]), fixed(j, [0.0, 0.0, 1.0]));
-        dot(fixed(i, [0.0, 0.0, 1.0]), fixed(j, [1.0, 0.0, 0.0]));
+        let x = [1.0, 0.0, 0.0];
+        let y = [0.0, 1.0, 0.0];
+        let z = [0.0, 0.0, 1.0];
+        dot(fixed(i, y), fixed(j, x));
+        dot(fixed(i, z), fixed(j, x));
+        dot(fixed(i, y), fixed(j, z));
     }
 }

@@ -148,7 +148,7 @@ pub(super) fn catalogue() -> Vec<Entry> {
         entry!("Fixed", 2, |s, b, d| Joint::fixed(s, two(b), d.head.into()),
             |at, d, _| {
                 let relative = at[0].turn.transpose() * at[1].turn;
-                let axes = vec![relative[(0, 1)], relative[(1, 2)], relative[(2, 0)]];
+                let axes = vec![relative[(1, 0)], relative[(2, 0)], relative[(1, 2)]];
                 [coincide(at, d.head), axes].concat()
             }),
         entry!("Planar", 2, |s, b, d| Joint::planar(s, two(b), d.head.into(), d.a.into()),
