@@ -123,6 +123,10 @@ pub struct JointInfo {
     pub has_angle: bool,
     /// Whether the joint's definition has a displacement.
     pub has_displacement: bool,
+    /// What the joint costs by itself: `Phi`, `D` (rows along global axes) and `gamma` together, as functions of position, Euler
+    /// parameters of length 1, velocity and angular velocity of its bodies, the last in global axes too. In the kernels of a
+    /// mechanism joints share operations, with each other and with the solution.
+    pub operations: Operations,
 }
 
 /// A force and its bodies.
@@ -185,6 +189,16 @@ pub struct Operations {
 }
 
 impl Operations {
+    /// Nothing counted, for kernels written by hand.
+    pub const NONE: Self = Self {
+        additions: 0,
+        multiplications: 0,
+        divisions: 0,
+        square_roots: 0,
+        functions: 0,
+        depth: 0,
+    };
+
     /// All operations together.
     #[must_use]
     pub const fn total(&self) -> usize {

@@ -83,6 +83,7 @@ impl Mechanism for Crank {
             bodies: &[None, Some(0)],
             has_angle: true,
             has_displacement: true,
+            operations: Operations::NONE,
         }],
         blocks: &[Block {
             joint: 0,

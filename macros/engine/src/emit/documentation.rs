@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::report::counts;
-use crate::model::{BodyKind, Model, Rank};
+use crate::model::{BodyKind, JointUse, Model, Rank};
 use crate::plan::kernels::Kernels;
 
 /// Documentation as attributes.
@@ -33,44 +33,57 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
     }
     if !model.joints.is_empty() {
         lines.push(String::new());
-        lines.push("| joint | type | between | rows |".into());
-        lines.push("|---|---|---|---|".into());
+        lines.push("| joint | type | between | rows | operations by itself |".into());
+        lines.push("|---|---|---|---|---|".into());
         for (place, joint) in model.joints.iter().enumerate() {
-            let definition = model.definition(joint);
-            let bodies: Vec<String> = joint
-                .bodies
-                .iter()
-                .map(|body| {
-                    body.map_or("ground".into(), |body| model.bodies[body].name.to_string())
-                })
-                .collect();
             let first = layout.row[place];
             lines.push(format!(
-                "| `{}` | {} | {} | {}..{} |",
+                "| `{}` | {} | {} | {}..{} | {} |",
                 joint.name,
-                definition.name,
-                bodies.join(", "),
+                model.definition(joint).name,
+                between(model, joint),
                 first,
-                first + model.equations(joint)
+                first + model.equations(joint),
+                kernels.alone[place].total()
             ));
         }
     }
+    if !model.forces.is_empty() {
+        lines.push(String::new());
+        lines.push("| force | type | between |".into());
+        lines.push("|---|---|---|".into());
+        for force in &model.forces {
+            let (kind, bodies) = (&model.definition(force).name, between(model, force));
+            lines.push(format!("| `{}` | {kind} | {bodies} |", force.name));
+        }
+    }
     lines.push(String::new());
-    lines.push("| kernel | operations | + - | * | / | sqrt | depth |".into());
-    lines.push("|---|---|---|---|---|---|---|".into());
+    lines.push("| kernel | operations | + - | * | / | sqrt | functions | depth |".into());
+    lines.push("|---|---|---|---|---|---|---|---|".into());
     for (name, count) in counts(kernels) {
         lines.push(format!(
-            "| {name} | {} | {} | {} | {} | {} | {} |",
+            "| {name} | {} | {} | {} | {} | {} | {} | {} |",
             count.total(),
             count.additions,
             count.multiplications,
             count.divisions,
             count.square_roots,
+            count.functions,
             count.depth
         ));
     }
     let lines = lines.iter().map(|line| format!(" {line}"));
     quote!(#( #[doc = #lines] )*)
+}
+
+/// The bodies of a joint or a force, by their names.
+fn between(model: &Model, element: &JointUse) -> String {
+    let name = |body: usize| model.bodies[body].name.to_string();
+    let bodies = element.bodies.iter();
+    let names: Vec<String> = bodies
+        .map(|body| body.map_or("ground".into(), name))
+        .collect();
+    names.join(", ")
 }
 
 /// The rank, the degrees of freedom, and the equations that follow from others, in words.

@@ -121,6 +121,27 @@ fn places(element: &JointUse) -> impl Iterator<Item = TokenStream> {
     })
 }
 
+fn operations(count: Count, facade: &TokenStream) -> TokenStream {
+    let Count {
+        additions,
+        multiplications,
+        divisions,
+        square_roots,
+        functions,
+        depth,
+    } = count;
+    quote! {
+        #facade::Operations {
+            additions: #additions,
+            multiplications: #multiplications,
+            divisions: #divisions,
+            square_roots: #square_roots,
+            functions: #functions,
+            depth: #depth,
+        }
+    }
+}
+
 /// The constant `REPORT`.
 #[must_use]
 pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenStream {
@@ -138,10 +159,11 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let bodies = places(joint);
         let has_angle = definition.angle.is_some();
         let has_displacement = definition.displacement.is_some();
+        let operations = operations(kernels.alone[place], facade);
         quote! {
             #facade::JointInfo {
                 name: #name, kind: #kind, row: #row, rows: #rows, bodies: &[#(#bodies),*], has_angle: #has_angle,
-                has_displacement: #has_displacement,
+                has_displacement: #has_displacement, operations: #operations,
             }
         }
     });
@@ -164,27 +186,8 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         }
     });
     let counts = counts(kernels).into_iter().map(|(name, count)| {
-        let Count {
-            additions,
-            multiplications,
-            divisions,
-            square_roots,
-            functions,
-            depth,
-        } = count;
-        quote! {
-            #facade::Kernel {
-                name: #name,
-                operations: #facade::Operations {
-                    additions: #additions,
-                    multiplications: #multiplications,
-                    divisions: #divisions,
-                    square_roots: #square_roots,
-                    functions: #functions,
-                    depth: #depth,
-                },
-            }
-        }
+        let operations = operations(count, facade);
+        quote!(#facade::Kernel { name: #name, operations: #operations })
     });
     let Layout {
         coordinates,

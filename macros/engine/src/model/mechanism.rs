@@ -174,6 +174,26 @@ impl Model {
             .collect()
     }
 
+    /// The mechanism of one joint and its bodies, and nothing else.
+    #[must_use]
+    pub fn only(&self, joint: usize) -> Self {
+        let mut joint = self.joints[joint].clone();
+        let mut kept: Vec<usize> = Vec::new();
+        for body in joint.bodies.iter_mut().flatten() {
+            let place = kept.iter().position(|known| known == body);
+            *body = place.unwrap_or_else(|| {
+                kept.push(*body);
+                kept.len() - 1
+            });
+        }
+        Self {
+            bodies: kept.iter().map(|&body| self.bodies[body].clone()).collect(),
+            joints: vec![joint],
+            forces: Vec::new(),
+            ..self.clone()
+        }
+    }
+
     /// The number of a joint's equations that are not left out.
     #[must_use]
     pub fn equations(&self, joint: &JointUse) -> usize {

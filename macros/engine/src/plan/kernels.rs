@@ -1,12 +1,14 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
 use super::Plan;
+use super::alone::alone;
 use super::candidates::{choose, equations_of_motion};
 use super::eliminate::Check;
 use super::readings::Readings;
 use super::system::{System, Terms, applied_forces};
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr};
+use crate::symbolic::count::Count;
 use crate::symbolic::fixed::{initial_orientation, triple};
 use crate::symbolic::scene::{Orientation, Reading, Scene};
 use crate::symbolic::vector::{Frame, Triple};
@@ -99,6 +101,8 @@ pub struct Kernels {
     pub power: Kernel,
     /// What can be read of joints and forces.
     pub readings: Readings,
+    /// What each joint costs by itself.
+    pub alone: Vec<Count>,
     /// The fused evaluations, for all terms and both readings of Euler parameters.
     pub evaluations: Vec<Evaluation>,
     /// Factorisation and back-substitution.
@@ -134,6 +138,9 @@ impl Kernels {
             kinetic_energy: kinetic_energy(model),
             potential_energy: potential_energy(model),
             coordinate_rates: with_scene(model, |scene| coordinate_rates(scene, model)),
+            alone: (0..model.joints.len())
+                .map(|joint| alone(model, joint).count())
+                .collect(),
             initial_state: initial_state(model),
             counters: with_scene(model, counters),
             power: with_scene(model, |scene| {

@@ -3,6 +3,7 @@
 //! Candidates are worked out in full and counted; the cheapest is taken. Fill-in alone would not tell, because most of what
 //! is saved is saved by constants that fold.
 
+pub mod alone;
 pub mod candidates;
 pub mod eliminate;
 pub mod kernels;

@@ -7,6 +7,7 @@ pub mod evaluate;
 pub mod fixed;
 mod force;
 pub mod functions;
+mod identities;
 mod kept;
 pub mod scene;
 mod start;

@@ -4,6 +4,7 @@ use super::arena::{Arena, Expr, Input};
 use super::bind::{Binder, Effect, all_copies};
 use super::fixed::{Copies, number, triple};
 use super::functions::AngleExpr;
+use super::identities::from_centres;
 use super::kept::kept;
 use super::twist::{Gradient, Motion, ScalarExpr, VectorExpr};
 use super::vector::{Frame, Space, Triple};
@@ -17,6 +18,26 @@ pub enum Reading {
     Raw,
     /// `p / |p|` takes the place of `p`.
     Normalised,
+}
+
+/// What stands for the rotation matrix of a body.
+#[derive(Clone, Copy)]
+enum Rotation {
+    /// `|p|^2` times a rotation.
+    Homogeneous,
+    /// The rotation of `p / |p|`.
+    Normalised,
+    /// The rotation of `p`, taken to be of length 1.
+    Unit,
+}
+
+impl From<Reading> for Rotation {
+    fn from(reading: Reading) -> Self {
+        match reading {
+            Reading::Raw => Self::Homogeneous,
+            Reading::Normalised => Self::Normalised,
+        }
+    }
 }
 
 /// One constraint of a mechanism.
@@ -134,6 +155,19 @@ fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> ([Triple; 3], Expr) {
     (with_diagonal(arena, p, doubled, diagonal), norm)
 }
 
+/// The rotation of unit Euler parameters, row by row. 24 operations.
+fn unit_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
+    let doubled = [1, 2, 3].map(|k| arena.add(p[k], p[k]));
+    let [xx, yy, zz] = [0, 1, 2].map(|k| arena.mul(doubled[k], p[k + 1]));
+    let rests = [xx, yy].map(|square| arena.sub(Arena::ONE, square));
+    let diagonal = [
+        arena.sub(rests[1], zz),
+        arena.sub(rests[0], zz),
+        arena.sub(rests[0], yy),
+    ];
+    with_diagonal(arena, p, doubled, diagonal)
+}
+
 fn with_diagonal(
     arena: &mut Arena,
     p: [Expr; 4],
@@ -162,10 +196,10 @@ impl Scene {
     /// The scene of a model with Euler parameters as they are, exact for any length of them.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        Self::build(model, Reading::Raw, true)
+        Self::build(model, Rotation::Homogeneous, true)
     }
 
-    fn build(model: &Model, reading: Reading, exact: bool) -> Self {
+    fn build(model: &Model, rotation: Rotation, exact: bool) -> Self {
         let layout = model.layout();
         let mut arena = Arena::new();
         let mut rotations = Vec::new();
@@ -181,9 +215,10 @@ impl Scene {
                 BodyKind::Rigid => {
                     let p = [3, 4, 5, 6].map(|k| arena.input(at(k)));
                     let half = arena.constant(0.5);
-                    let (matrix, factor) = match reading {
-                        Reading::Raw => (homogeneous_rotation(&mut arena, p), half),
-                        Reading::Normalised => {
+                    let (matrix, factor) = match rotation {
+                        Rotation::Homogeneous => (homogeneous_rotation(&mut arena, p), half),
+                        Rotation::Unit => (unit_rotation(&mut arena, p), half),
+                        Rotation::Normalised => {
                             let (matrix, square) = normalised_rotation(&mut arena, p);
                             let norm = arena.sqrt(square);
                             (matrix, arena.div(half, norm))
@@ -310,7 +345,7 @@ impl Scene {
     /// Exact for `p` of length 1; elsewhere, where `A` is read raw, it differs by the drift of `|p|`, as `A^T A = I` does.
     #[must_use]
     pub fn for_solution(model: &Model, reading: Reading) -> Self {
-        let mut scene = Self::build(model, reading, false);
+        let mut scene = Self::build(model, reading.into(), false);
         for body in 0..model.bodies.len() {
             let Some(a) = scene.space.rotation(body).copied() else {
                 continue;
@@ -325,6 +360,19 @@ impl Scene {
                     arena.identify(cofactor, a[k][l]);
                 }
             }
+        }
+        scene
+    }
+
+    /// The scene of a model for a joint by itself: `p` is of length 1, and vectors turn by the identities of rotations wherever that
+    /// is cheaper; if wished, lines between points start at centres of mass.
+    #[must_use]
+    pub fn for_one_joint(model: &Model, with_centres: bool) -> Self {
+        let mut scene = Self::build(model, Rotation::Unit, false);
+        scene.space = scene.space.with_identities();
+        for constrained in scene.constraints.iter_mut().filter(|_| with_centres) {
+            let constraint = constrained.constraint.clone();
+            constrained.constraint = from_centres(&mut scene.space.arena, constraint);
         }
         scene
     }

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use super::arena::{Arena, Expr};
 use super::functions::AngleExpr;
+use super::identities::TwoVectors;
 use super::vector::{Frame, Space, Triple, VectorId, ZERO};
 use crate::model::Function;
 
@@ -86,32 +87,8 @@ impl Gradient {
     }
 }
 
-fn body_frame(body: Option<usize>) -> Frame {
+pub(super) fn body_frame(body: Option<usize>) -> Frame {
     body.map_or(Frame::Global, Frame::Body)
-}
-
-/// `w x (w x s)` in body axes, from the products `w_k w_l` that all vectors of the body share.
-pub fn spin_twice(space: &mut Space, w: Triple, s: Triple) -> Triple {
-    let arena = &mut space.arena;
-    [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(k, l, m)| {
-        if s == ZERO {
-            return Arena::ZERO;
-        }
-        let mut sum = Arena::ZERO;
-        for (other, component) in [(l, s[l]), (m, s[m])] {
-            let product = arena.mul(w[k], w[other]);
-            let term = arena.mul(component, product);
-            sum = arena.add(sum, term);
-        }
-        if s[k] == Arena::ZERO {
-            return sum;
-        }
-        let first = arena.square(w[l.min(m)]);
-        let second = arena.square(w[l.max(m)]);
-        let squares = arena.add(first, second);
-        let term = arena.mul(s[k], squares);
-        arena.sub(sum, term)
-    })
 }
 
 impl VectorExpr {
@@ -184,8 +161,7 @@ impl VectorExpr {
         match self {
             Self::Fixed(None, _) | Self::Point(None, _) => space.native(Frame::Global, ZERO),
             Self::Fixed(Some(body), s) | Self::Point(Some(body), s) => {
-                let components = spin_twice(space, motion.spin_components[*body], *s);
-                space.native(Frame::Body(*body), components)
+                space.spun(*body, motion.spin_components[*body], *s)
             }
             Self::Sum(terms) => {
                 let terms: Vec<_> = terms
@@ -334,15 +310,18 @@ impl ScalarExpr {
     pub fn quadratic(&self, space: &mut Space, motion: &Motion) -> Expr {
         match self {
             Self::Constant(_) => Arena::ZERO,
-            Self::Dot(a, b) => {
-                let (dda, ddb) = (a.quadratic(space, motion), b.quadratic(space, motion));
-                let (da, db) = (a.rate(space, motion), b.rate(space, motion));
-                let (a, b) = (a.value(space, motion), b.value(space, motion));
-                let (first, mixed, last) =
-                    (space.dot(dda, b), space.dot(da, db), space.dot(a, ddb));
-                let twice = space.arena.add(mixed, mixed);
-                space.arena.sum([first, twice, last])
-            }
+            Self::Dot(a, b) => match TwoVectors::of(a, b) {
+                Some(pair) if space.has_identities() => space
+                    .cheapest(&[false, true], |space, turning| {
+                        if turning {
+                            pair.quadratic(space, motion)
+                        } else {
+                            product_rule(space, motion, a, b)
+                        }
+                    })
+                    .unwrap_or(Arena::ZERO),
+                _ => product_rule(space, motion, a, b),
+            },
             Self::Sum(terms) => weighted(space, motion, terms, Self::quadratic),
             Self::Product(a, b) => {
                 let (dda, ddb) = (a.quadratic(space, motion), b.quadratic(space, motion));
@@ -407,6 +386,16 @@ impl ScalarExpr {
             Self::Rate(_) => unreachable!("only positions have a gradient in the language"),
         }
     }
+}
+
+/// `(a . b)''` without accelerations, by the product rule.
+fn product_rule(space: &mut Space, motion: &Motion, a: &VectorExpr, b: &VectorExpr) -> Expr {
+    let (dda, ddb) = (a.quadratic(space, motion), b.quadratic(space, motion));
+    let (da, db) = (a.rate(space, motion), b.rate(space, motion));
+    let (a, b) = (a.value(space, motion), b.value(space, motion));
+    let (first, mixed, last) = (space.dot(dda, b), space.dot(da, db), space.dot(a, ddb));
+    let twice = space.arena.add(mixed, mixed);
+    space.arena.sum([first, twice, last])
 }
 
 fn weighted(

@@ -38,6 +38,20 @@ enum Vector {
     Sum(Vec<(Expr, VectorId)>),
     /// A cross product, and the frame in which it is defined.
     Cross(Frame, VectorId, VectorId),
+    /// `w x (w x a)` of a vector `a` fixed on a body.
+    Spun(Spun),
+}
+
+/// `w x (w x a)` of a vector fixed on a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Spun {
+    body: usize,
+    /// `w` and its components in body axes.
+    spin: VectorId,
+    components: Triple,
+    /// `a` and its components in body axes.
+    vector: VectorId,
+    fixed: Triple,
 }
 
 /// A place in the history of a space, to come back to.
@@ -61,6 +75,8 @@ pub struct Space {
     rotations: Vec<Option<[Triple; 3]>>,
     /// Whether `A` may be any multiple of a rotation.
     exact: bool,
+    /// Whether identities of rotations are tried beside the product rule.
+    identities: bool,
 }
 
 impl Space {
@@ -79,6 +95,19 @@ impl Space {
     pub fn exact(mut self) -> Self {
         self.exact = true;
         self
+    }
+
+    /// The same space, trying identities of rotations. To be called before anything is computed.
+    #[must_use]
+    pub fn with_identities(mut self) -> Self {
+        self.identities = true;
+        self
+    }
+
+    /// Whether identities of rotations are tried beside the product rule.
+    #[must_use]
+    pub fn has_identities(&self) -> bool {
+        self.identities
     }
 
     /// The rotation matrix of a body.
@@ -194,10 +223,27 @@ impl Space {
         self.intern(Vector::Cross(home, a, b))
     }
 
+    /// `w x (w x a)` of a vector `a` fixed on a body, from components in body axes.
+    pub fn spun(&mut self, body: usize, spin: Triple, fixed: Triple) -> VectorId {
+        if fixed == ZERO {
+            return self.native(Frame::Global, ZERO);
+        }
+        let frame = Frame::Body(body);
+        let spun = Spun {
+            body,
+            spin: self.native(frame, spin),
+            components: spin,
+            vector: self.native(frame, fixed),
+            fixed,
+        };
+        self.intern(Vector::Spun(spun))
+    }
+
     /// The frame in which a vector is defined.
     fn home(&self, vector: VectorId) -> Frame {
         match &self.vectors[vector.0 as usize] {
             Vector::Native(frame, _) | Vector::Cross(frame, ..) => *frame,
+            Vector::Spun(spun) => Frame::Body(spun.body),
             Vector::Sum(terms) => {
                 let mut homes = terms.iter().map(|&(_, term)| self.home(term));
                 let first = homes.next().unwrap_or(Frame::Global);
@@ -228,6 +274,7 @@ impl Space {
                 self.native_frames(*a, frames);
                 self.native_frames(*b, frames);
             }
+            Vector::Spun(spun) => self.native_frames(spun.vector, frames),
         }
     }
 
@@ -253,10 +300,24 @@ impl Space {
         components
     }
 
+    /// Says that the components of a vector in a frame are known.
+    pub fn give(&mut self, vector: VectorId, frame: Frame, components: Triple) {
+        self.components.insert((vector, frame), components);
+        self.history.push((vector, frame));
+    }
+
     /// The components, with every operation done in the frame itself.
     fn components_within(&mut self, vector: VectorId, frame: Frame) -> Triple {
         match self.vectors[vector.0 as usize].clone() {
-            Vector::Native(native, components) => self.turn(components, native, frame),
+            Vector::Native(native, components)
+                if !self.identities || frame == native || frame == Frame::Global =>
+            {
+                self.turn(components, native, frame)
+            }
+            Vector::Native(..) => {
+                let global = self.components(vector, Frame::Global);
+                self.turn(global, Frame::Global, frame)
+            }
             Vector::Sum(terms) => {
                 let mut sum = ZERO;
                 for (factor, term) in terms {
@@ -273,7 +334,28 @@ impl Space {
                 let b = self.components(b, frame);
                 cross(&mut self.arena, a, b)
             }
+            Vector::Spun(spun) => self.spun_within(spun, frame),
         }
+    }
+
+    /// From the products `w_k w_l` in body axes; by Lagrange's identity `(w . a) w - (w . w) a` elsewhere.
+    fn spun_within(&mut self, spun: Spun, frame: Frame) -> Triple {
+        let own = Frame::Body(spun.body);
+        if frame == own || !self.identities {
+            let components = spin_twice(&mut self.arena, spun.components, spun.fixed);
+            return self.turn(components, own, frame);
+        }
+        let along = self.dot(spun.spin, spun.vector);
+        let square = self.dot(spun.spin, spun.spin);
+        let (w, a) = (
+            self.components(spun.spin, frame),
+            self.components(spun.vector, frame),
+        );
+        [0, 1, 2].map(|k| {
+            let first = self.arena.mul(along, w[k]);
+            let second = self.arena.mul(square, a[k]);
+            self.arena.sub(first, second)
+        })
     }
 
     /// Components in another frame.
@@ -300,7 +382,7 @@ impl Space {
         }
     }
 
-    /// `a . b`, in the frame where it is cheapest.
+    /// `a . b`, in the frame where it is cheapest, or by an identity where that is cheaper.
     pub fn dot(&mut self, a: VectorId, b: VectorId) -> Expr {
         if self.is_zero(a) || self.is_zero(b) {
             return Arena::ZERO;
@@ -312,15 +394,110 @@ impl Space {
             (false, ..) => {
                 self.native_frames(a, &mut frames);
                 self.native_frames(b, &mut frames);
+                if self.identities && !frames.contains(&Frame::Global) {
+                    frames.push(Frame::Global);
+                }
             }
         }
-        self.cheapest(&frames, |space, frame| {
-            let a = space.components(a, frame);
-            let b = space.components(b, frame);
-            dot(&mut space.arena, a, b)
+        let mut ways: Vec<Option<Frame>> = frames.into_iter().map(Some).collect();
+        if self.identities && self.identity(a, b).is_some() {
+            ways.push(None);
+        }
+        self.cheapest(&ways, |space, way| match (way, space.identity(a, b)) {
+            (None, Some(identity)) => space.apply(identity),
+            (way, _) => {
+                let frame = way.unwrap_or(Frame::Global);
+                let a = space.components(a, frame);
+                let b = space.components(b, frame);
+                dot(&mut space.arena, a, b)
+            }
         })
         .unwrap_or(Arena::ZERO)
     }
+
+    /// Another way to a scalar product.
+    fn identity(&self, a: VectorId, b: VectorId) -> Option<Identity> {
+        match (&self.vectors[a.0 as usize], &self.vectors[b.0 as usize]) {
+            (Vector::Sum(terms), _) if self.is_spinning(terms) => {
+                Some(Identity::Distribute(terms.clone(), b))
+            }
+            (_, Vector::Sum(terms)) if self.is_spinning(terms) => {
+                Some(Identity::Distribute(terms.clone(), a))
+            }
+            (Vector::Spun(spun), _) => Some(Identity::Lagrange(*spun, b)),
+            (_, Vector::Spun(spun)) => Some(Identity::Lagrange(*spun, a)),
+            (Vector::Cross(_, a, b), Vector::Cross(_, c, d)) => {
+                Some(Identity::Crosses([*a, *b, *c, *d]))
+            }
+            _ => None,
+        }
+    }
+
+    fn is_spinning(&self, terms: &[(Expr, VectorId)]) -> bool {
+        terms
+            .iter()
+            .any(|(_, term)| matches!(self.vectors[term.0 as usize], Vector::Spun(_)))
+    }
+
+    fn apply(&mut self, identity: Identity) -> Expr {
+        match identity {
+            Identity::Distribute(terms, other) => {
+                let mut sum = Arena::ZERO;
+                for (factor, term) in terms {
+                    let product = self.dot(term, other);
+                    let product = self.arena.mul(factor, product);
+                    sum = self.arena.add(sum, product);
+                }
+                sum
+            }
+            Identity::Lagrange(spun, other) => {
+                let (along, across) =
+                    (self.dot(spun.spin, spun.vector), self.dot(spun.spin, other));
+                let (square, share) =
+                    (self.dot(spun.spin, spun.spin), self.dot(spun.vector, other));
+                let first = self.arena.mul(along, across);
+                let second = self.arena.mul(square, share);
+                self.arena.sub(first, second)
+            }
+            Identity::Crosses([a, b, c, d]) => {
+                let (ac, bd) = (self.dot(a, c), self.dot(b, d));
+                let (ad, bc) = (self.dot(a, d), self.dot(b, c));
+                let first = self.arena.mul(ac, bd);
+                let second = self.arena.mul(ad, bc);
+                self.arena.sub(first, second)
+            }
+        }
+    }
+}
+
+/// A way to a scalar product that needs no components.
+enum Identity {
+    /// Term by term of a sum.
+    Distribute(Vec<(Expr, VectorId)>, VectorId),
+    /// `(w x (w x a)) . b = (w . a) (w . b) - (w . w) (a . b)`.
+    Lagrange(Spun, VectorId),
+    /// `(a x b) . (c x d) = (a . c) (b . d) - (a . d) (b . c)`.
+    Crosses([VectorId; 4]),
+}
+
+/// `w x (w x s)` in body axes, from the products `w_k w_l` that all vectors of the body share.
+fn spin_twice(arena: &mut Arena, w: Triple, s: Triple) -> Triple {
+    [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(k, l, m)| {
+        let mut sum = Arena::ZERO;
+        for (other, component) in [(l, s[l]), (m, s[m])] {
+            let product = arena.mul(w[k], w[other]);
+            let term = arena.mul(component, product);
+            sum = arena.add(sum, term);
+        }
+        if s[k] == Arena::ZERO {
+            return sum;
+        }
+        let first = arena.square(w[l.min(m)]);
+        let second = arena.square(w[l.max(m)]);
+        let squares = arena.add(first, second);
+        let term = arena.mul(s[k], squares);
+        arena.sub(sum, term)
+    })
 }
 
 /// The scalar product of components in one frame.
