@@ -4,7 +4,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::mechanism::Mechanism;
-use crate::report::{BodyInfo, BodyKind, ForceInfo, JointInfo};
+use crate::report::{BodyInfo, BodyKind, ForceInfo, JointInfo, RedundantRow};
 
 /// A joint as a type: its equations and the bodies that it connects.
 ///
@@ -65,7 +65,7 @@ pub trait HasDisplacement: Joint {}
     note = "a driving effort can be read from joints that prescribe a motion, such as a driver of an angle"
 )]
 pub trait Driven: Joint {
-    /// The place of the driver's row among the rows of the joint.
+    /// The place of the driver's equation among those of the joint's definition.
     const ROW: usize;
 }
 
@@ -139,6 +139,17 @@ impl<M: Mechanism, J> JointHandle<M, J> {
     #[must_use]
     pub fn name(self) -> &'static str {
         self.info().map_or("", |info| info.name)
+    }
+
+    /// The row of an equation of the joint's definition; `None` if it was left out.
+    pub(crate) fn row(self, equation: usize) -> Option<usize> {
+        let of_joint = |row: &&RedundantRow| row.dropped && row.joint == self.index;
+        let dropped = || M::REPORT.redundant.iter().filter(of_joint);
+        if dropped().any(|row| row.row == equation) {
+            return None;
+        }
+        let before = dropped().filter(|row| row.row < equation).count();
+        self.info().map(|info| info.row + equation - before)
     }
 
     /// Rows and bodies of the joint.

@@ -121,15 +121,15 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
 
     /// The effort of a driver: the generalised force with which it acts on the quantity that it drives, from the
     /// multipliers at this state; N for a length, N m for an angle. A positive effort pushes the quantity upwards, so that effort times rate is
-    /// the power that the driver puts in.
+    /// the power that the driver puts in. Zero where the driver's equation was left out as redundant.
     #[must_use]
     pub fn driving_effort<J: Driven>(
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
     ) -> S {
-        let row = joint.info().map_or(usize::MAX, |info| info.row);
-        let multiplier = multipliers.as_slice().get(row.saturating_add(J::ROW));
+        let row = joint.row(J::ROW);
+        let multiplier = row.and_then(|row| multipliers.as_slice().get(row));
         -multiplier.copied().unwrap_or(S::zero())
     }
 

@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use holonom::joints::Revolute;
+use holonom::joints::{OrientationDriver, Revolute};
 use holonom::prelude::*;
 use holonom::{Rank, RedundantRow, Report};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -237,4 +237,38 @@ fn a_loop_that_moves_against_the_count() {
         })
         .expect("independent all the way");
     assert_eq!(seen, published.len());
+}
+
+/// The door without gravity, swung by a motor whose equations of direction follow from those of the hinge.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, 0.0], redundant = "drop")]
+struct SwungDoor {
+    #[body(
+        mass = 20.0,
+        inertia = [6.66933333333333, 1.06933333333333, 7.73333333333333],
+        position = [0.4, 1.0, 0.0]
+    )]
+    leaf: Body,
+    #[joint(between = [ground, leaf], point = [0.0, 0.25, 0.0], axis = [0.0, 1.0, 0.0])]
+    hinge: Revolute,
+    #[joint(between = [ground, leaf], axis = [0.0, 1.0, 0.0], motion = 0.5 * time * time)]
+    motor: OrientationDriver,
+}
+
+#[test]
+fn the_effort_of_a_driver_is_read_behind_equations_that_were_left_out() {
+    let report = SwungDoor::REPORT;
+    assert_eq!(rows(&report), [(0, 5), (5, 1)]);
+    let door = SwungDoor::default();
+    let motor = SwungDoor::HANDLES.motor;
+    KinematicAnalysis::new(&door, StandardLagrange)
+        .run(0.0_f64..=1.0, every(0.25), |sample| {
+            let effort = sample.driving_effort(motor).expect("independent");
+            // Moment of inertia about the hinge times an acceleration of 1 rad/s^2.
+            let wanted = 1.069_333_333_333_33 + 20.0 * 0.4 * 0.4;
+            assert!((effort - wanted).abs() < 1e-12, "{effort}");
+            assert!((sample.angle(motor) - 0.5 * sample.time().powi(2)).abs() < 1e-13);
+            ControlFlow::Continue(())
+        })
+        .expect("driven");
 }

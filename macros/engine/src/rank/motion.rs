@@ -51,7 +51,7 @@ impl Constraints {
         let initial = initial_state(model);
         let start: Option<Vec<f64>> = evaluate(&initial.arena, &initial.outputs, |_| None)
             .into_iter()
-            .take(layout.coordinates)
+            .take(layout.coordinates + layout.auxiliaries)
             .collect();
         let start = start?;
         let (jacobian, blocks) = jacobian(model);
