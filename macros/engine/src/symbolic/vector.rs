@@ -156,13 +156,14 @@ impl Space {
             [] => return None,
             [only] => *only,
             _ => {
-                let costs = candidates
-                    .iter()
-                    .map(|&c| (self.cost(|space| attempt(space, c)), c));
                 let mut best: Option<(usize, C)> = None;
-                for (cost, candidate) in costs.collect::<Vec<_>>() {
+                for &candidate in candidates {
+                    let cost = self.cost(|space| attempt(space, candidate));
                     if best.is_none_or(|(least, _)| cost < least) {
                         best = Some((cost, candidate));
+                    }
+                    if cost == 0 {
+                        break;
                     }
                 }
                 best?.1
