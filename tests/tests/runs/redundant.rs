@@ -272,3 +272,61 @@ fn the_effort_of_a_driver_is_read_behind_equations_that_were_left_out() {
         })
         .expect("driven");
 }
+
+/// Bennett's linkage: links of 1 m and sqrt(3) m in turn, axes twisted by 30 and 60 degrees, so that lengths are as the sines of the twists.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop")]
+struct Bennett {
+    #[body(mass = 1.0, inertia = [0.1,0.2,0.15], position = [0.1811788772383368, 0.46601954298361314, 0.0])]
+    crank: Body,
+    #[body(mass = 2.0, inertia = [0.1,0.2,0.15], position = [-0.24385240516492812, 0.3482016910815706, 0.20406650553296318])]
+    coupler: Body,
+    #[body(mass = 3.0, inertia = [0.1,0.2,0.15], position = [-1.2910566861877038, -0.1178178519020425, 0.20406650553296327])]
+    rocker: Body,
+    #[joint(between = [ground,crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    j0: Revolute,
+    #[joint(between = [crank,coupler], point = [0.3623577544766736, 0.9320390859672263, 0.0], axis = [0.4660195429836131, -0.18117887723833678, 0.8660254037844387])]
+    j1: Revolute,
+    #[joint(between = [coupler,rocker], point = [-0.8500625648065299, -0.23563570380408505, 0.40813301106592637], axis = [-0.2356357038040849, 0.5295029393094132, 0.8149248139279142])]
+    j2: Revolute,
+    #[joint(between = [rocker,ground], point = [-1.7320508075688776, 5.551115123125783e-17, 1.6653345369377348e-16], axis = [1.4709794989911964e-16, 0.8660254037844386, 0.5])]
+    j3: Revolute,
+}
+
+#[test]
+fn what_is_left_out_of_bennetts_linkage_is_never_missed() {
+    let report = Bennett::REPORT;
+    let (rank, at_start) = (17, 17);
+    assert_eq!(report.rank, Rank::Decided { rank, at_start });
+    assert_eq!((report.equations, report.degrees_of_freedom), (17, 1));
+    let linkage = Bennett::default();
+    let handles = Bennett::HANDLES;
+    // tan(theta_1 / 2) tan(theta_2 / 2) = sin((beta + alpha) / 2) / sin((beta - alpha) / 2), Denavit and Hartenberg's angles.
+    let product = (45.0_f64.to_radians()).sin() / (15.0_f64.to_radians()).sin();
+    let start = [1.2, 2.0 * (product / (0.6_f64).tan()).atan()];
+    let (mut energy, mut turned) = (None, 0.0_f64);
+    Simulation::new(
+        &linkage,
+        Baumgarte {
+            alpha: 5.0,
+            beta: 5.0,
+        },
+        tight(),
+    )
+    .run(0.0_f64..=10.0, every(0.1), |sample| {
+        let [one, two] = [
+            (start[0] + sample.angle(handles.j0)) / 2.0,
+            (start[1] + sample.angle(handles.j1)) / 2.0,
+        ];
+        let error = one.sin() * two.sin() - product * one.cos() * two.cos();
+        assert!(error.abs() < 1e-9, "{error}");
+        let now = sample.kinetic_energy() + sample.potential_energy();
+        let error = now - *energy.get_or_insert(now);
+        assert!(error.abs() < 1e-9, "{error}");
+        turned = turned.max(sample.angle(handles.j0).abs());
+        ControlFlow::Continue(())
+    })
+    .expect("regular all along");
+    // The crank went past the positions in which the linkage is flat.
+    assert!(turned > 2.5, "{turned}");
+}

@@ -61,8 +61,64 @@ pub(super) fn independent(matrices: &[Rows], tolerance: f64) -> Vec<usize> {
     taken
 }
 
+/// Unit vectors at right angles to each other that span the rows, which are of unit length or zero.
+pub(super) fn orthonormal(rows: &Rows, tolerance: f64) -> Rows {
+    let mut basis = Rows::new();
+    for row in rows {
+        let mut rest = row.clone();
+        remove_all(&mut rest, &basis);
+        let length = norm(&rest);
+        if length > tolerance {
+            basis.push(rest.iter().map(|x| x / length).collect());
+        }
+    }
+    basis
+}
+
+/// Rows for columns.
+pub(super) fn transpose(rows: &Rows) -> Rows {
+    let columns = rows.first().map_or(0, Vec::len);
+    (0..columns)
+        .map(|column| rows.iter().map(|row| row[column]).collect())
+        .collect()
+}
+
+/// By elimination with the largest pivot of each column.
+pub(super) fn determinant(mut rows: Rows) -> f64 {
+    let mut product = 1.0;
+    for k in 0..rows.len() {
+        let size = |row: &usize| rows[*row][k].abs();
+        let largest = (k..rows.len()).max_by(|a, b| size(a).total_cmp(&size(b)));
+        let pivot = largest.unwrap_or(k);
+        if pivot != k {
+            rows.swap(k, pivot);
+            product = -product;
+        }
+        let (above, below) = rows.split_at_mut(k + 1);
+        let row = &above[k];
+        product *= row[k];
+        if row[k] == 0.0 {
+            return 0.0;
+        }
+        for other in below {
+            let factor = other[k] / row[k];
+            for (x, y) in other.iter_mut().zip(row).skip(k) {
+                *x -= factor * y;
+            }
+        }
+    }
+    product
+}
+
+/// Takes the parts along unit vectors away, twice because the first time leaves round-off.
+pub(super) fn remove_all(vector: &mut [f64], basis: &Rows) {
+    for direction in basis.iter().chain(basis) {
+        remove(vector, direction);
+    }
+}
+
 /// Takes the part along a unit vector away.
-fn remove(vector: &mut [f64], direction: &[f64]) {
+pub(super) fn remove(vector: &mut [f64], direction: &[f64]) {
     let along = dot(vector, direction);
     if along != 0.0 {
         for (x, d) in vector.iter_mut().zip(direction) {
@@ -196,6 +252,19 @@ mod tests {
         // Perpendicular to what the rows leave free.
         let free = [-2.0, 0.0, 1.0, 0.25];
         assert!(dot(&free, &x).abs() < 1e-14);
+    }
+
+    #[test]
+    fn determinants_have_the_sign_of_the_order() {
+        let rows = vec![
+            vec![0.0, 2.0, 1.0],
+            vec![3.0, 0.0, 4.0],
+            vec![1.0, 1.0, 0.0],
+        ];
+        assert!((determinant(rows.clone()) - 11.0).abs() < 1e-14);
+        assert!((determinant(transpose(&rows)) - 11.0).abs() < 1e-14);
+        assert_eq!(determinant(vec![vec![1.0, 2.0], vec![2.0, 4.0]]), 0.0);
+        assert_eq!(determinant(Rows::new()), 1.0);
     }
 
     #[test]

@@ -4,9 +4,13 @@
 //! point of a linkage, rows of `D` depend on each other by chance. So the rank is judged at the described configuration and at some more that
 //! random motions lead to, each put back onto the constraints, and the largest counts.
 //!
+//! Which equations to leave out is a choice, and one that is sound here may be singular after half a turn. So where there is a
+//! choice, the mechanism is led on a tour through its motion, and rows are kept that stand out from each other all along.
+//!
 //! Columns are made comparable by the size of the mechanism, rows by their own length. A row that stands out from the
 //! others by less than [`TOLERANCE`] of its length depends on them.
 
+mod choice;
 mod dense;
 mod motion;
 
@@ -74,6 +78,11 @@ pub fn judge(model: &Model) -> Independence {
     if kept.len() < rank {
         // No set serves all samples within the tolerance: one that serves the first.
         kept.clone_from(&sets[regular[0]]);
+    }
+    if rank < model.layout().rows {
+        let heading = random.motion(model.layout().velocities);
+        let tour = motion::tour(&constraints, &configurations[0], heading);
+        kept = choice::steady(kept, &tour, TOLERANCE);
     }
     Independence {
         rank: Rank::Decided { rank, at_start },

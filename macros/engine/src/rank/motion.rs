@@ -2,7 +2,8 @@
 //!
 //! Motions are measured without dimension: translations by the size of the mechanism, rotations in radians.
 
-use super::dense::{Rows, norm, solve_normal, transposed};
+use super::TOLERANCE;
+use super::dense::{Rows, norm, orthonormal, remove_all, solve_normal, transposed};
 use crate::model::mechanism::Layout;
 use crate::model::number::literals;
 use crate::model::{Binding, BodyKind, Model, ParameterKind};
@@ -224,6 +225,32 @@ impl Constraints {
         }
         (size <= ASSEMBLED).then_some(at)
     }
+}
+
+/// The rows of `D` at configurations along a motion that the constraints leave free, straight on as far as they let it: a few turns
+/// of what turns fastest. None where nothing can move.
+pub(super) fn tour(constraints: &Constraints, start: &[f64], mut heading: Vec<f64>) -> Vec<Rows> {
+    const STOPS: usize = 60;
+    const STEP: f64 = 0.3;
+    let mut rows = Vec::new();
+    let mut at = start.to_vec();
+    for _ in 0..STOPS {
+        let Some(here) = constraints.directions(&at, TOLERANCE) else {
+            break;
+        };
+        remove_all(&mut heading, &orthonormal(&here, TOLERANCE));
+        rows.push(here);
+        let largest = heading.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if largest < TOLERANCE {
+            break;
+        }
+        heading.iter_mut().for_each(|x| *x *= STEP / largest);
+        let Some(reached) = constraints.assembled(&constraints.moved(&at, &heading)) else {
+            break;
+        };
+        at = reached;
+    }
+    rows
 }
 
 /// Euler parameters, of unit length, after a small rotation about an axis of the body.
