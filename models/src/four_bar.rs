@@ -1,0 +1,117 @@
+//! The N-four-bar mechanism, for N = 1 and 2.
+
+use holonom::joints::Revolute;
+use holonom::prelude::*;
+
+/// A parallelogram of three uniform links of 1 m and 1 kg, upright at the start, moving at 1 m/s, gravity along -y.
+///
+/// Problem A02 of the library of the IFToMM Technical Committee for Multibody Dynamics (sheet of 2005: Universidade da
+/// Coruña), for N = 1. Each link is slender: 1/12 kg m^2 about its centre of mass; moments of inertia about other axes
+/// than z do not act: they are ours. `g = 9.81` m/s^2. The pins at the bottom are at (0, 0) and (1, 0), those at the
+/// top at (0, 1) and (1, 1) m; the top starts along +x.
+///
+/// Four hinges in a loop say three things twice: 20 equations, of which 3 are dropped.
+///
+/// Good for: passing singular configurations. Twice a turn all links lie on one line, for the first time after 0.70845
+/// s; there the mechanism has two ways to go on, the equations lose rank, and standard Lagrange multipliers and
+/// Baumgarte cannot be solved; penalty and augmented Lagrangian can. On the way of the parallelogram the motion has a
+/// closed form: `(N + 1 + 3 N) / 3 theta'' = (N + 1 + 2 N) / 2 g sin(theta)`, `theta` of the upright links clockwise
+/// from the upward vertical.
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
+pub struct FourBar {
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [0.0, 0.5, 0.0],
+        velocity = [0.5, 0.0, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    left: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [0.5, 1.0, 0.0],
+        velocity = [1.0, 0.0, 0.0]
+    )]
+    coupler: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [1.0, 0.5, 0.0],
+        velocity = [0.5, 0.0, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    right: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    left_foot: Revolute,
+    #[joint(between = [left, coupler], point = [0.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    left_pin: Revolute,
+    #[joint(between = [ground, right], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    right_foot: Revolute,
+    #[joint(between = [coupler, right], point = [1.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    right_pin: Revolute,
+}
+
+/// Two parallelograms in a row with one upright link in common, as [`FourBar`] otherwise: N = 2.
+///
+/// Problem A02 of the IFToMM library as it stands there ("double four-bar"), 10 s. 35 equations, of which 6 are
+/// dropped; the links lie on one line for the first time after 0.71436 s.
+///
+/// Good for: what the [`FourBar`] is good for, with three ways to go on in the singular configurations.
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
+pub struct DoubleFourBar {
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [0.0, 0.5, 0.0],
+        velocity = [0.5, 0.0, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    left: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [0.5, 1.0, 0.0],
+        velocity = [1.0, 0.0, 0.0]
+    )]
+    left_coupler: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [1.0, 0.5, 0.0],
+        velocity = [0.5, 0.0, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    middle: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [1.5, 1.0, 0.0],
+        velocity = [1.0, 0.0, 0.0]
+    )]
+    right_coupler: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0],
+        position = [2.0, 0.5, 0.0],
+        velocity = [0.5, 0.0, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    right: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    left_foot: Revolute,
+    #[joint(between = [left, left_coupler], point = [0.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    left_pin: Revolute,
+    #[joint(between = [ground, middle], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    middle_foot: Revolute,
+    #[joint(between = [left_coupler, middle], point = [1.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    middle_pin: Revolute,
+    #[joint(between = [middle, right_coupler], point = [1.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    second_middle_pin: Revolute,
+    #[joint(between = [ground, right], point = [2.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    right_foot: Revolute,
+    #[joint(between = [right_coupler, right], point = [2.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    right_pin: Revolute,
+}
