@@ -1,0 +1,35 @@
+//! E02: the heavy bob on a light chain, a ratio of masses of 1e6.
+
+use holonom::prelude::*;
+use holonom_models::HeavyChain;
+use nalgebra::Vector3;
+
+use super::{at_times, change_of_energy};
+
+/// The bob at 1 s (m): by two formulations, tensions and angles, that agree to 1e-14.
+const BOB: [f64; 3] = [-0.853_381_808_861_284, -0.521_286_378_397_134, 0.0];
+
+fn swings<F: Formulation<f64>>(method: F, asked: f64) {
+    let bob = HeavyChain::HANDLES.bob;
+    at_times(&HeavyChain::default(), method, 1.0, &[1.0], |_, sample| {
+        let error = (sample.pose(bob).position - Vector3::from(BOB)).norm();
+        println!("{error:e} m");
+        assert!(error <= asked);
+    });
+}
+
+#[test]
+fn the_bob_swings_as_its_reference() {
+    /// m.
+    const ASKED: f64 = 1e-9;
+    swings(StandardLagrange, ASKED);
+    swings(Baumgarte::default(), ASKED);
+}
+
+#[test]
+fn the_energy_stays() {
+    /// J, of 4905 J that go to and fro.
+    const ASKED: f64 = 4905.0 * 1e-9;
+    let model = HeavyChain::default();
+    assert!(change_of_energy(&model, StandardLagrange, 1.0) <= ASKED);
+}

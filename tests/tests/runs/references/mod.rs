@@ -1,0 +1,109 @@
+//! Motion and reactions against closed forms and published references, problem by problem; what a model gains and loses
+//! in energy.
+
+mod bricard;
+mod door;
+mod driven_slider_crank;
+mod flyball_governor;
+mod four_bar;
+mod heavy_chain;
+mod heavy_top;
+mod rod_pendulum;
+mod simple_pendulum;
+mod slider_crank;
+mod squeezing_mechanism;
+mod variable_length_pendulum;
+
+use core::f64::consts::{PI, TAU};
+
+use holonom::prelude::*;
+use holonom::{BodyHandle, View};
+
+/// Steps so small that the integration does not count.
+fn tight() -> DormandPrince<f64> {
+    DormandPrince::new(Tolerance {
+        relative: 1e-11,
+        absolute: 1e-13,
+    })
+}
+
+/// Runs with [`tight`] steps to the last of these times (s, growing, multiples of `step`), shows the samples at them
+/// with their place, and holds the violation of the constraints at every multiple of `step` under `violation` (`Phi^T
+/// Phi`).
+fn at_times<M: Mechanism, F: Formulation<f64>>(
+    model: &M,
+    method: F,
+    step: f64,
+    times: &[f64],
+    mut look: impl FnMut(usize, &Sample<'_, f64, M>),
+) -> RunReport<f64, M::State<f64>> {
+    let end = times.last().copied().expect("a time");
+    let mut seen = 0;
+    let report = Simulation::new(model, method, tight())
+        .run(0.0..=end, every(step), |sample| {
+            let here = |time: &f64| (time - sample.time()).abs() < 0.5 * step;
+            if let Some(place) = times.iter().position(here) {
+                seen += 1;
+                look(place, sample);
+            }
+            ControlFlow::Continue(())
+        })
+        .expect("solvable");
+    assert_eq!(seen, times.len());
+    println!(
+        "{method:?}: {} evaluations, violation {:e}",
+        report.evaluations, report.worst_violation
+    );
+    report
+}
+
+/// The largest change of the energy (J) over a run with [`tight`] steps.
+fn change_of_energy<M: Mechanism, F: Formulation<f64>>(model: &M, method: F, end: f64) -> f64 {
+    let mut first = None;
+    let mut worst = 0.0_f64;
+    Simulation::new(model, method, tight())
+        .run(0.0..=end, every(end / 100.0), |sample| {
+            let first = *first.get_or_insert(sample.energy());
+            worst = worst.max((sample.energy() - first).abs());
+            ControlFlow::Continue(())
+        })
+        .expect("solvable");
+    println!("{method:?}: energy changes by {worst:e} J");
+    worst
+}
+
+/// The angle (rad, `-pi..=pi`) that an angle is above another, turns not counted.
+fn difference(angle: f64, reference: f64) -> f64 {
+    let turns = ((angle - reference) / TAU).round();
+    angle - reference - turns * TAU
+}
+
+/// The angle (rad, `-pi..=pi`) by which a body that moves in the xy plane is turned about z.
+fn angle_about_z<M: Mechanism>(view: &View<'_, f64, M>, body: BodyHandle<M>) -> f64 {
+    let p = view.pose(body).orientation;
+    let angle = 2.0 * p.k.atan2(p.w);
+    if angle > PI {
+        angle - TAU
+    } else if angle < -PI {
+        angle + TAU
+    } else {
+        angle
+    }
+}
+
+/// The integral of samples at equal steps, by Simpson's rule; an even number of steps.
+fn simpson(step: f64, samples: &[f64]) -> f64 {
+    let weight = |place: usize| match place {
+        0 => 1.0,
+        place if place + 1 == samples.len() => 1.0,
+        place if place % 2 == 1 => 4.0,
+        _ => 2.0,
+    };
+    assert_eq!(samples.len() % 2, 1, "an even number of steps");
+    let sum: f64 = samples
+        .iter()
+        .enumerate()
+        .map(|(place, sample)| weight(place) * sample)
+        .sum();
+    step / 3.0 * sum
+}
