@@ -184,6 +184,8 @@ where
             coefficients,
             factors: &factors,
             compliance: self.stabilisation.compliance,
+            time,
+            state: read,
             upper: &upper,
             lower: &lower,
             terms: PhantomData,

@@ -51,6 +51,7 @@ mod reporting;
 mod rotation;
 mod sample;
 mod scalar;
+mod self_stress;
 mod simulation;
 mod stepper;
 mod view;

@@ -219,7 +219,7 @@ where
             while let Some(time) = schedule.within(course.time()) {
                 let mut state = course.at(&mut dynamics, time)?;
                 if let Some(projection) = self.projection {
-                    projection.correct::<M>(&constants, time, &mut state)?;
+                    projection.correct_in_motion::<M>(&constants, time, &mut state)?;
                 }
                 shown = (time, state);
                 *last_good = shown;
@@ -233,7 +233,7 @@ where
             }
             if let Some(projection) = self.projection {
                 let mut state = *course.state();
-                projection.correct::<M>(&constants, course.time(), &mut state)?;
+                projection.correct_in_motion::<M>(&constants, course.time(), &mut state)?;
                 course.replace(state);
             }
             *last_good = (course.time(), *course.state());

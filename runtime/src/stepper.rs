@@ -157,7 +157,7 @@ where
         // The counters and the orientations carry errors of their own, which must not grow apart over any number of turns.
         M::recount(self.dynamics.constants(), &mut next);
         if let Some(projection) = self.projection {
-            projection.correct::<M>(self.dynamics.constants(), end, &mut next)?;
+            projection.correct_in_motion::<M>(self.dynamics.constants(), end, &mut next)?;
         }
         *state = next;
         self.time = end;

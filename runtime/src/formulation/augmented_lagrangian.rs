@@ -13,6 +13,17 @@ use crate::scalar::Real;
 /// function of time and state alone, and end when the accelerations change by no more than `tolerance (1 + |u'|)`, Euclidean
 /// norms over all velocities; the multipliers themselves have no limit where equations are redundant. Bayo, Garcia de Jalon and
 /// Serna 1988 (see [`Penalty`](super::Penalty)); Flores 2015, chapter 14.
+///
+/// **Near singular configurations.** With `e = 1 / alpha`, an iteration leaves `e / (e + s)` of the bias, `s` the eigenvalues of
+/// `D M^-1 D^T`: it is fast for independent equations, unnecessary for exactly dependent ones (`s = 0`, no bias), and slow
+/// between, where a mechanism passes a singular configuration. There the iterate after `max_iterations` is taken, if what
+/// still changes is nearly a state of self-stress: multipliers whose loads on every body cancel to a hundredth. In these
+/// directions the formulation is then a penalty with the compliance `e / max_iterations`. Where the loads do not cancel,
+/// slow convergence is [`Fault::NotConverged`]: `alpha` is too small for the masses.
+///
+/// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other lengths would, which need not
+/// be the way of the perfect one: it may leave that where `Phi`, in lengths of the mechanism, is not small against this
+/// compliance times the masses. With a [`Projection`](crate::Projection) after every step it stays on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AugmentedLagrangian<S> {
     /// `alpha`, positive: kg for a constraint in metres.
@@ -23,7 +34,7 @@ pub struct AugmentedLagrangian<S> {
     pub mu: S,
     /// The change of the accelerations, relative to `1 + |u'|`, that ends the iteration; positive.
     pub tolerance: S,
-    /// How often the system may be solved in one evaluation; at least 2.
+    /// How often the system may be solved in one evaluation; at least 2. Near singular configurations it is solved as often.
     pub max_iterations: usize,
 }
 
@@ -93,6 +104,9 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
             }
             if !change.is_finite() {
                 return Err(Fault::RatesNotFinite);
+            }
+            if iterations == self.max_iterations && saddle.self_stressed(&next, &last) {
+                return Ok(next);
             }
             last = next;
         }

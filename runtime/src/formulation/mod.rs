@@ -35,6 +35,7 @@ use crate::array::Array;
 use crate::error::Fault;
 use crate::mechanism::{Mechanism, Stabilisation, Terms};
 use crate::scalar::{Real, Scalar};
+use crate::self_stress::self_stressed;
 
 /// How constraints enter the equations of motion.
 pub trait Formulation<S: Real>: Copy + Debug {
@@ -68,6 +69,8 @@ pub struct Saddle<'a, S: Scalar, M: Mechanism, T: Terms> {
     pub(crate) coefficients: &'a M::Coefficients<S>,
     pub(crate) factors: &'a M::Factors<S>,
     pub(crate) compliance: S,
+    pub(crate) time: S,
+    pub(crate) state: &'a M::State<S>,
     pub(crate) upper: &'a M::Velocities<S>,
     pub(crate) lower: &'a M::Multipliers<S>,
     pub(crate) terms: PhantomData<T>,
@@ -88,6 +91,19 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
             *element = *element - self.compliance * *lambda;
         }
         self.solve_for(&lower)
+    }
+
+    /// Whether the multipliers of two solutions differ by what is nearly a state of self-stress.
+    pub(crate) fn self_stressed(&self, next: &Solution<S, M>, last: &Solution<S, M>) -> bool
+    where
+        S: Real,
+    {
+        let mut difference = next.multipliers;
+        let pairs = difference.as_mut_slice().iter_mut();
+        for (new, &old) in pairs.zip(last.multipliers.as_slice()) {
+            *new = *new - old;
+        }
+        self_stressed::<S, M>(self.constants, self.time, self.state, &difference)
     }
 
     fn solve_for(&self, lower: &M::Multipliers<S>) -> Solution<S, M> {

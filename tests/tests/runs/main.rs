@@ -14,4 +14,5 @@ mod redundant;
 mod references;
 mod refusals;
 mod single_precision;
+mod singular;
 mod steps;

@@ -27,6 +27,21 @@ fn the_bob_swings_as_its_reference() {
 }
 
 #[test]
+fn a_penalty_too_small_for_the_bob_is_not_excused() {
+    // The tensions of four links carry 1000 kg across masses of 1 g: nearly cancelling accelerations, not forces. The
+    // augmented Lagrangian with 100 kg gains a percent of them in an iteration.
+    let weak = AugmentedLagrangian::new(100.0, 10.0, 1.0);
+    let error = Simulation::new(&HeavyChain::default(), weak, Rk4::every(1e-4))
+        .run(0.0..=0.01, every(0.01), |_| ControlFlow::Continue(()))
+        .expect_err("far from converged");
+    let fault = error.fault;
+    assert!(
+        matches!(fault, Fault::NotConverged { iterations: 20, .. }),
+        "{fault}"
+    );
+}
+
+#[test]
 fn the_energy_stays() {
     /// J, of 4905 J that go to and fro.
     const ASKED: f64 = 4905.0 * 1e-9;
