@@ -6,6 +6,15 @@ use holonom::prelude::*;
 /// A door on two hinges whose common axis leans 10 degrees from the vertical, released 90 degrees from where it would
 /// come to rest.
 ///
+/// ```text
+///     z
+///     |   o    upper hinge        the edge with the hinges leans by 10 degrees from z towards +x;
+///     |  /                        the leaf stretches from it along y at the start, across the page,
+///     | o      lower hinge        and would rest in the page, under the edge, on the side of +x
+///     |/
+///     +------ x                   g = 9.81 m/s^2 along -z
+/// ```
+///
 /// Own data: a box of 0.8 m (width, y) x 2 m (height, z) x 0.04 m (x) and 20 kg, hinged on one edge at the heights 0.25
 /// m and 1.75 m; the edge starts in the origin and leans towards +x; gravity 9.81 m/s^2 along -z.
 ///
@@ -41,4 +50,9 @@ pub struct Door {
         axis = [sin(deg(10.0)), 0.0, cos(deg(10.0))]
     )]
     upper_hinge: Revolute,
+}
+
+impl Door {
+    /// The period (s), in elliptic functions.
+    pub const PERIOD: f64 = 4.150_999_046_733_716;
 }

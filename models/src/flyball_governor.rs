@@ -6,7 +6,17 @@ use holonom::prelude::*;
 
 /// Two balls on rods turn about a vertical shaft at one turn a second and lift a slider through stiff spring-dampers.
 ///
-/// Problem A05 of the library of the IFToMM Technical Committee for Multibody Dynamics, z up, `g = 9.81` m/s^2, 10 s,
+/// ```text
+///           z
+///     hinge | hinge        the view along y: the arms sink from the hinges by alpha = 30 degrees,
+///       o---+---o          from the middle of each a spring-damper leads to the slider on the shaft
+///     /     |     \
+///   /  ....[ ]....  \      everything turns about z
+///  O        |        O     g = 9.81 m/s^2 along -z
+///           +-- x
+/// ```
+///
+/// Problem A05 of the library of the IFToMM Technical Committee for Multibody Dynamics, 10 s,
 /// all parts of 3000 kg/m^3: the shaft 1 m x 0.01 m x 0.01 m (0.3 kg) on the z axis; the slider a cube of 0.1 m (3 kg)
 /// at the height of 0.5 m; the rods 1 m x 0.01 m x 0.01 m (0.3 kg) on hinges at (0.05, 0, 1) and (-0.05, 0, 1) m, 30
 /// degrees below the horizontal, with a point mass of 5 kg at their ends; spring-dampers of 8e5 N/m, 4e4 N s/m and 0.5
@@ -82,4 +92,9 @@ pub struct FlyballGovernor {
         free_length = 0.5
     )]
     left_spring: SpringDamper,
+}
+
+impl FlyballGovernor {
+    /// The middle of the rod of an arm, where its spring is fixed, in the arm's axes from its centre of mass (m).
+    pub const MIDDLE: [f64; 3] = [0.5 - 5.15 / 5.3, 0.0, 0.0];
 }

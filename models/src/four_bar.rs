@@ -5,17 +5,24 @@ use holonom::prelude::*;
 
 /// A parallelogram of three uniform links of 1 m and 1 kg, upright at the start, moving at 1 m/s, gravity along -y.
 ///
+/// ```text
+///     y
+///     o---------o   coupler      pins at (0, 0), (1, 0), (0, 1), (1, 1) m
+///     |         |                z towards the reader
+///     | left    | right          the top starts along +x
+///     o         o-- x            g = 9.81 m/s^2 along -y
+/// ```
+///
 /// Problem A02 of the library of the IFToMM Technical Committee for Multibody Dynamics (sheet of 2005: Universidade da
 /// Coruña), for N = 1. Each link is slender: 1/12 kg m^2 about its centre of mass; moments of inertia about other axes
-/// than z do not act: they are ours. `g = 9.81` m/s^2. The pins at the bottom are at (0, 0) and (1, 0), those at the
-/// top at (0, 1) and (1, 1) m; the top starts along +x.
+/// than z do not act: they are ours.
 ///
 /// Four hinges in a loop say three things twice: 20 equations, of which 3 are dropped.
 ///
 /// Good for: passing singular configurations. Twice a turn all links lie on one line, for the first time after 0.70845
-/// s; there the mechanism has two ways to go on, the equations lose rank, and standard Lagrange multipliers and
-/// Baumgarte cannot be solved; penalty and augmented Lagrangian can. On the way of the parallelogram the motion has a
-/// closed form: `(N + 1 + 3 N) / 3 theta'' = (N + 1 + 2 N) / 2 g sin(theta)`, `theta` of the upright links clockwise
+/// s; there the mechanism has two ways to go on and the equations lose rank. Standard Lagrange multipliers and Baumgarte
+/// cannot be solved on the line and go wrong near it; penalty and augmented Lagrangian can, and together with a
+/// [`Projection`] after every step they stay on the way of the parallelogram. On it the motion has a closed form: `(N + 1 + 3 N) / 3 theta'' = (N + 1 + 2 N) / 2 g sin(theta)`, `theta` of the upright links clockwise
 /// from the upward vertical.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
@@ -51,6 +58,11 @@ pub struct FourBar {
     right_foot: Revolute,
     #[joint(between = [coupler, right], point = [1.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
     right_pin: Revolute,
+}
+
+impl FourBar {
+    /// The upper end of an upright link in its axes, from its centre of mass (m). The sheets compare that of `left`.
+    pub const TOP: [f64; 3] = [0.0, 0.5, 0.0];
 }
 
 /// Two parallelograms in a row with one upright link in common, as [`FourBar`] otherwise: N = 2.
@@ -114,4 +126,9 @@ pub struct DoubleFourBar {
     right_foot: Revolute,
     #[joint(between = [right_coupler, right], point = [2.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])]
     right_pin: Revolute,
+}
+
+impl DoubleFourBar {
+    /// The upper end of an upright link in its axes, from its centre of mass (m). The sheets compare that of `left`.
+    pub const TOP: [f64; 3] = FourBar::TOP;
 }

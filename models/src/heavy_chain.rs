@@ -6,7 +6,17 @@ use holonom::prelude::*;
 /// Three point masses of 1 g and a bob of 1000 kg on four massless links of 0.25 m, straight, at rest, 60 degrees from
 /// the vertical, gravity along -y, in the xy plane.
 ///
-/// Own data; `g = 9.81` m/s^2.
+/// ```text
+///     y
+///     o------- x       z towards the reader
+///     |  .
+///     |    .           three masses of 1 g, 0.25 m apart
+///     |      .
+///     v        O       1000 kg, 1 m from the origin; 60 degrees between chain and -y
+///     g = 9.81 m/s^2
+/// ```
+///
+/// Own data.
 ///
 /// Good for: what a ratio of masses of 1e6 does to the digits of a solution. The bob swings with 3 rad/s, the small
 /// masses sing with 1e4 rad/s (explicit steps must stay below 2e-4 s), and the penalty must be large against tensions

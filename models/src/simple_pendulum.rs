@@ -6,8 +6,16 @@ use holonom::prelude::*;
 /// A point mass of 1 kg on a massless link of 1 m, released from the horizontal at -x, gravity along -y, moving in the
 /// xy plane.
 ///
+/// ```text
+///     y
+///     |
+/// o---+--- x     the link along -x at the start, the pivot in the origin; z towards the reader
+///     |  g = 9.81 m/s^2
+///     v
+/// ```
+///
 /// Problem A01 of the library of the IFToMM Technical Committee for Multibody Dynamics, 10 s long there; the sheet of
-/// 2005 (Universidade da Coruña) starts at +x and runs for 2000 s. `g = 9.81` m/s^2.
+/// 2005 (Universidade da Coruña) starts at +x and runs for 2000 s.
 ///
 /// Good for: long runs against a closed form, `sin(phi/2) = sin(phi0/2) cd(w0 t)` of modulus `sin(phi0/2)` with `w0 =
 /// sqrt(9.81)` 1/s and `phi` from the downward vertical; the smallest mechanism with a constraint that is not linear.
@@ -20,4 +28,9 @@ pub struct SimplePendulum {
     link: Distance,
     #[joint(between = [ground, bob], point = [-1.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0])]
     plane: PointOnPlane,
+}
+
+impl SimplePendulum {
+    /// The period (s): `4 K(1/2) / w0`.
+    pub const PERIOD: f64 = 2.367_841_947_576_237_4;
 }

@@ -5,6 +5,15 @@ use holonom::prelude::*;
 
 /// A slider-crank at 150 rad/s, stretched along x at the start, gravity along -y.
 ///
+/// ```text
+///     y
+///     |     crank         rod
+///     o-----------o---------------------[o]--  x     stretched, z towards the reader
+///     bearing     crank_pin             slider_pin, on the slider's guide
+///     |  g = 9.81 m/s^2
+///     v
+/// ```
+///
 /// Flores, Leine and Glocker, *Modeling and analysis of planar rigid multibody systems with translational clearance
 /// joints based on the non-smooth dynamics approach*, Multibody System Dynamics 23 (2010), with joints without
 /// clearance: crank 0.153 m, 0.038 kg, 7.4e-5 kg m^2; rod 0.306 m, 0.038 kg, 5.9e-4 kg m^2; slider 0.076 kg, 2.7e-6 kg

@@ -1,11 +1,25 @@
 //! Andrews' squeezing mechanism.
 
+use holonom::View;
 use holonom::forces::{ConstantMoment, SpringDamper};
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
 
 /// Seven bodies in a plane, three loops: a motor of 0.033 N m turns a crank of 7 mm against a stiff spring, for 0.03 s
 /// or 0.05 s.
+///
+/// ```text
+///                                        C      y
+///                                       :       |
+///                B                     :        +-- x
+///               / `--- D . . . . . . .:  spring
+///              |      /
+///     .-- G    |   .'    triangle B, D, E
+///    /     `.  |  /
+///   A        `- E ----------- O-F               coupler and crank
+///    \      .'
+///     `-- H'         rockers A-G and A-H, links G-E and H-E; O, A, B, C are fixed on the ground
+/// ```
 ///
 /// Problem A03 of the library of the IFToMM Technical Committee for Multibody Dynamics and `andrews` of the Test Set
 /// for IVP Solvers (Mazzia and Magherini, release 2.4); Schiehlen, *Multibody Systems Handbook* (1990). No gravity. The
@@ -22,7 +36,8 @@ use holonom::prelude::*;
 /// | `lower_link` | 6 | E, H | 0.00706 | 5.667e-7 |
 /// | `lower_rocker` | 7 | A, H | 0.05498 | 1.912e-5 |
 ///
-/// Spring between C on the ground and D: 4530 N/m, 0.07785 m. Moments of inertia about other axes than z do not act:
+/// On the ground, in m: O = (0, 0), A = (-0.06934, -0.00227), B = (-0.03635, 0.03273), C = (0.014, 0.072). Spring between C and D: 4530
+/// N/m, 0.07785 m. (Copies with `+0.03635` and with 0.02372 kg for body 3 circulate: misprints.) Moments of inertia about other axes than z do not act:
 /// they are ours.
 ///
 /// Seven hinges make a tree, and the three loops are closed in E by the two equations in their plane alone
@@ -139,4 +154,29 @@ pub struct SqueezingMechanism {
         free_length = 0.07785
     )]
     spring: SpringDamper,
+}
+
+impl SqueezingMechanism {
+    /// The coordinates of the Test Set at the start, in its order beta, Theta, gamma, phi, delta, Omega, epsilon (rad).
+    pub const START: [f64; 7] = [
+        -0.061_713_890_014_276_45,
+        0.0,
+        0.455_279_819_163_070_4,
+        0.222_668_390_165_885_88,
+        0.487_364_979_543_842_56,
+        -0.222_668_390_165_885_88,
+        1.230_547_444_549_821_3,
+    ];
+
+    /// The coordinates of the Test Set, in the order of [`Self::START`], without whole turns (rad), and their rates (rad/s).
+    #[must_use]
+    pub fn coordinates(view: &View<'_, f64, Self>) -> [[f64; 7]; 2] {
+        let h = Self::HANDLES;
+        let hinges = [h.o, h.f, h.b, h.g, h.a_upper, h.h, h.a_lower];
+        let mut angles = hinges.map(|hinge| view.angle(hinge));
+        for (angle, start) in angles.iter_mut().zip(Self::START) {
+            *angle += start;
+        }
+        [angles, hinges.map(|hinge| view.angle_rate(hinge))]
+    }
 }

@@ -7,10 +7,20 @@ use holonom::prelude::*;
 /// An arm on a hinge with a torsional spring, and a slider along it on a spring and a damper, released 60 degrees from
 /// the vertical.
 ///
+/// ```text
+///     y
+///     |
+///     o------ x      pin in the origin, with the torsional spring; z towards the reader
+///     | \\            arm: phi = 60 degrees from the downward vertical, towards +x
+///     |   \\          slider on the arm, its spring and damper between pin and slider
+///     v     []
+///     g = 9.81 m/s^2
+/// ```
+///
 /// Nikravesh, *Planar Multibody Dynamics*, examples 13.6 and 13.7. The arm: 2 kg, 0.04 kg m^2 about z, its centre of
 /// mass 0.5 m from the pin; the slider: 1 kg, 0.1 kg m^2, at 0.8 m at the start. The torsional spring: 6 N m/rad,
 /// relaxed in the vertical; the spring from the pin to the slider's centre: 20 N/m, 0.7 m, with a damper of 5 N s/m.
-/// Gravity 9.81 m/s^2 along -y. The body axes y point from the centres of mass to the pin. Moments of inertia about x
+/// The body axes y point from the centres of mass to the pin. Moments of inertia about x
 /// and y do not act in the plane: they are ours.
 ///
 /// The book starts from positions of four digits, (0.4330, -0.2500) and (0.6928, -0.4000), a violation of 1e-5, to show

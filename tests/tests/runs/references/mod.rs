@@ -17,7 +17,7 @@ mod variable_length_pendulum;
 use core::f64::consts::{PI, TAU};
 
 use holonom::prelude::*;
-use holonom::{BodyHandle, View};
+use holonom::{Array, BodyHandle, StateParts, View};
 
 /// Steps so small that the integration does not count.
 fn tight() -> DormandPrince<f64> {
@@ -57,19 +57,42 @@ fn at_times<M: Mechanism, F: Formulation<f64>>(
     report
 }
 
-/// The largest change of the energy (J) over a run with [`tight`] steps.
-fn change_of_energy<M: Mechanism, F: Formulation<f64>>(model: &M, method: F, end: f64) -> f64 {
-    let mut first = None;
+/// The largest deviation of the energy (J) from its reference over a run with [`tight`] steps.
+fn change_of_energy<M: Mechanism, F: Formulation<f64>>(
+    model: &M,
+    method: F,
+    end: f64,
+    reference: f64,
+) -> f64 {
     let mut worst = 0.0_f64;
     Simulation::new(model, method, tight())
         .run(0.0..=end, every(end / 100.0), |sample| {
-            let first = *first.get_or_insert(sample.energy());
-            worst = worst.max((sample.energy() - first).abs());
+            worst = worst.max((sample.energy() - reference).abs());
             ControlFlow::Continue(())
         })
         .expect("solvable");
     println!("{method:?}: energy changes by {worst:e} J");
     worst
+}
+
+/// The largest difference of coordinates and velocities from those of the start, after a run with [`tight`] steps.
+fn difference_after<M: Mechanism>(model: &M, period: f64) -> f64 {
+    let first = model.described_state().expect("described");
+    let report = Simulation::new(model, Baumgarte::default(), tight())
+        .run(0.0..=period, every(period), |_| ControlFlow::Continue(()))
+        .expect("solvable");
+    let flat = |state: &M::State<f64>| {
+        [
+            state.coordinates().as_slice(),
+            state.velocities().as_slice(),
+        ]
+        .concat()
+    };
+    let (first, last) = (flat(&first), flat(&report.state));
+    let pairs = first.iter().zip(&last);
+    let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    println!("{}: {difference:e} after a period", M::REPORT.name);
+    difference
 }
 
 /// The angle (rad, `-pi..=pi`) that an angle is above another, turns not counted.

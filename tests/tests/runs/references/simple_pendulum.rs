@@ -4,7 +4,7 @@ use holonom::prelude::*;
 use holonom_models::SimplePendulum;
 use nalgebra::Vector3;
 
-use super::{at_times, change_of_energy};
+use super::{at_times, change_of_energy, difference_after};
 
 /// `sin(phi/2) = sin(phi0/2) cd(w0 t)` from `phi0 = -pi/2`, `w0 = sqrt(9.81)` 1/s: `x`, `y` (m), `x'`, `y'` (m/s), to
 /// the last digit.
@@ -63,13 +63,19 @@ fn it_swings_as_its_closed_form() {
 }
 
 #[test]
+fn it_returns_after_a_period() {
+    // m, m/s; at rest, the acceleration is 9.81 m/s^2.
+    assert!(difference_after(&SimplePendulum::default(), SimplePendulum::PERIOD) <= 1e-9);
+}
+
+#[test]
 fn the_energy_stays() {
     /// Of the 9.81 J that go to and fro; the library asks for 5e-5 J.
     const ASKED: f64 = 1e-8;
     let model = SimplePendulum::default();
-    assert!(change_of_energy(&model, StandardLagrange, 10.0) <= ASKED);
-    assert!(change_of_energy(&model, Baumgarte::default(), 10.0) <= ASKED);
-    assert!(change_of_energy(&model, AugmentedLagrangian::default(), 10.0) <= ASKED);
+    assert!(change_of_energy(&model, StandardLagrange, 10.0, 0.0) <= ASKED);
+    assert!(change_of_energy(&model, Baumgarte::default(), 10.0, 0.0) <= ASKED);
+    assert!(change_of_energy(&model, AugmentedLagrangian::default(), 10.0, 0.0) <= ASKED);
 }
 
 #[test]

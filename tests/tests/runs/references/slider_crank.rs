@@ -54,8 +54,9 @@ fn it_turns_as_its_reference() {
 fn the_energy_stays() {
     /// Of 7.5 J.
     const ASKED: f64 = 7.5e-9;
+    const FIRST: f64 = 7.495_548_75;
     let model = SliderCrank::default();
-    assert!(change_of_energy(&model, StandardLagrange, 0.2) <= ASKED);
-    assert!(change_of_energy(&model, Baumgarte::default(), 0.2) <= ASKED);
-    assert!(change_of_energy(&model, AugmentedLagrangian::default(), 0.2) <= ASKED);
+    assert!(change_of_energy(&model, StandardLagrange, 0.2, FIRST) <= ASKED);
+    assert!(change_of_energy(&model, Baumgarte::default(), 0.2, FIRST) <= ASKED);
+    assert!(change_of_energy(&model, AugmentedLagrangian::default(), 0.2, FIRST) <= ASKED);
 }
