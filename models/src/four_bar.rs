@@ -21,9 +21,10 @@ use holonom::prelude::*;
 ///
 /// Good for: passing singular configurations. Twice a turn all links lie on one line, for the first time after 0.70845
 /// s; there the mechanism has two ways to go on and the equations lose rank. Standard Lagrange multipliers and Baumgarte
-/// cannot be solved on the line and go wrong near it; penalty and augmented Lagrangian can, and together with a
-/// [`Projection`] after every step they stay on the way of the parallelogram. On it the motion has a closed form: `(N + 1 + 3 N) / 3 theta'' = (N + 1 + 2 N) / 2 g sin(theta)`, `theta` of the upright links clockwise
-/// from the upward vertical.
+/// cannot be solved on the line; penalty and augmented Lagrangian can. All of them may leave the way of the parallelogram
+/// there when a violation has come about; with a [`Projection`] after every step penalty and augmented Lagrangian stay
+/// on it. It has a closed form, `(N + 1 + 3 N) / 3 theta'' = (N + 1 + 2 N) / 2 g sin(theta)` with `theta` of the upright
+/// links clockwise from the upward vertical.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
 pub struct FourBar {
