@@ -12,7 +12,7 @@ use super::{at_times, change_of_energy, tight};
 /// at 0.71436 s (N = 2).
 const BEFORE_THE_LINE: f64 = 0.6;
 const FOUR_BAR: [f64; 2] = [1.101_331_653_789_664_7, 3.727_262_255_078_558];
-const DOUBLE: [f64; 2] = [1.085_051_792_735_480_4, 3.633_650_594_187_655_7];
+const DOUBLE: [f64; 2] = [1.085_051_792_735_480_4, 3.633_650_594_187_656];
 
 /// Position (m) and velocity (m/s) of the top left pin at 10 s, after five turns: closed form.
 const FOUR_BAR_LATER: [f64; 4] = [
