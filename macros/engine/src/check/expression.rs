@@ -9,6 +9,17 @@ use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{ElementKind, Function, Parameter, ParameterKind, Term};
 use crate::syntax::ungroup;
 
+/// Words that begin statements, or join two halves of one.
+const STATEMENTS: [&str; 7] = [
+    "along",
+    "angle",
+    "displacement",
+    "drive",
+    "force",
+    "moment",
+    "potential",
+];
+
 /// Makes a term of two.
 pub(super) type Make = fn(Box<Term>, Box<Term>) -> Term;
 
@@ -65,12 +76,17 @@ impl Context<'_> {
 
     /// One scalar.
     pub(super) fn scalar(&self, expr: &Expr, faults: &mut Faults) -> Option<Term> {
-        self.single(expr, false, "a scalar", faults)
+        self.single(expr, false, "expected a scalar", faults)
+    }
+
+    /// One scalar, the argument of a function.
+    pub(super) fn argument(&self, of: &str, expr: &Expr, faults: &mut Faults) -> Option<Term> {
+        self.single(expr, false, &format!("`{of}` takes a scalar"), faults)
     }
 
     /// One vector.
     pub(super) fn vector(&self, expr: &Expr, faults: &mut Faults) -> Option<Term> {
-        self.single(expr, true, "a vector", faults)
+        self.single(expr, true, "expected a vector", faults)
     }
 
     fn single(&self, expr: &Expr, vector: bool, wanted: &str, faults: &mut Faults) -> Option<Term> {
@@ -79,7 +95,7 @@ impl Context<'_> {
         match <[Term; 1]>::try_from(shaped.terms) {
             Ok([term]) if shaped.vector == vector => Some(term),
             _ => {
-                faults.at(expr, format!("expected {wanted}; this is {found}"));
+                faults.at(expr, format!("{wanted}; this is {found}"));
                 None
             }
         }
@@ -93,14 +109,19 @@ impl Context<'_> {
         if axis.is_none() && !self.doubtful.contains(&name) {
             let axes = self.known(|kind| kind == ParameterKind::Axis);
             let near = did_you_mean(&name.to_string(), axes.iter().map(String::as_str));
-            let has = if axes.is_empty() {
-                "the joint has none".into()
-            } else {
-                format!("the joint has {}", list(&axes))
-            };
+            let has = self.has(&axes);
             faults.at(name, format!("no axis `{name}`; {has}{near}"));
         }
         axis
+    }
+
+    /// "the joint has `length`", "the force has none".
+    fn has(&self, names: &[String]) -> String {
+        let word = self.kind.word();
+        if names.is_empty() {
+            return format!("the {word} has none");
+        }
+        format!("the {word} has {}", list(names))
     }
 
     /// The names of the parameters of some kinds.
@@ -204,7 +225,10 @@ impl Context<'_> {
             }
             BinOp::Div(_) => {
                 if right.vector {
-                    faults.at(binary, "cannot divide by a vector");
+                    faults.at(
+                        &binary.right,
+                        format!("cannot divide by {}; a divisor is a scalar", right.name()),
+                    );
                     return None;
                 }
                 let vector = left.vector;
@@ -258,7 +282,8 @@ impl Context<'_> {
             faults.at(
                 name,
                 format!(
-                    "no body `{name}`; the joint's bodies are {}{near}",
+                    "no body `{name}`; the {}'s bodies are {}{near}",
+                    self.kind.word(),
                     list(known.iter())
                 ),
             );
@@ -266,7 +291,11 @@ impl Context<'_> {
         }
         faults.at(
             expr,
-            format!("expected one of the joint's bodies, {}", list(self.bodies)),
+            format!(
+                "expected a body of the {}; there are {}",
+                self.kind.word(),
+                list(self.bodies)
+            ),
         );
         None
     }
@@ -337,7 +366,15 @@ impl Context<'_> {
             "binormal" => &[1],
             _ => &[],
         };
-        if places.is_empty() || !call.args.is_empty() {
+        if !places.is_empty() && !call.args.is_empty() {
+            let found = call.args.len();
+            faults.at(
+                &call.args,
+                format!("`{method}()` takes nothing in its parentheses; found {found}"),
+            );
+            return None;
+        }
+        if places.is_empty() {
             let near = did_you_mean(&method, ["normals", "normal", "binormal"]);
             faults.at(
                 &call.method,
@@ -420,16 +457,15 @@ impl Context<'_> {
                 format!("`{found}` is a body; write a point or vector of it, for instance `{found}.origin`"),
             ),
             None => {
+                if STATEMENTS.contains(&found.as_str()) {
+                    faults.at(path, format!("`{found}` stands alone; expected an expression beside it"));
+                    return None;
+                }
                 let named = self.names.iter().map(|(name, _)| name.to_string());
                 let known: Vec<String> =
                     self.known(ParameterKind::is_number).into_iter().chain(named).collect();
                 let near = did_you_mean(&found, known.iter().map(String::as_str));
-                let has = if known.is_empty() {
-                    "the joint has none".into()
-                } else {
-                    format!("the joint has {}", list(&known))
-                };
-                faults.at(path, format!("no number `{found}`; {has}{near}"));
+                faults.at(path, format!("no number or `let` is named `{found}`; {}{near}", self.has(&known)));
             }
         }
         None

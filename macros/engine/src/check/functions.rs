@@ -24,7 +24,7 @@ impl Context<'_> {
         }
         if let Some(function) = Function::named(&name) {
             let [argument] = self.arguments::<1>(call, "1 number", faults)?;
-            let argument = self.scalar(argument, faults)?;
+            let argument = self.argument(&name, argument, faults)?;
             return Some(Shaped::scalar(Term::Function(function, Box::new(argument))));
         }
         match name.as_str() {
@@ -82,14 +82,15 @@ impl Context<'_> {
             }
             "rate" => {
                 let [argument] = self.arguments::<1>(call, "1 number", faults)?;
-                let argument = self.scalar(argument, faults)?;
+                let argument = self.argument(&name, argument, faults);
                 if self.kind == ElementKind::Joint {
                     faults.at(
                         call,
-                        "an equation speaks of positions and time; `rate` belongs into `force!`",
+                        "the equations of a joint speak of positions and of the time; `rate` belongs in `force!`",
                     );
                     return None;
                 }
+                let argument = argument?;
                 if argument.has(|term| matches!(term, Term::Rate(_))) {
                     faults.at(
                         call,
@@ -131,7 +132,7 @@ impl Context<'_> {
         let arguments = arguments.try_into().ok();
         if arguments.is_none() {
             let name = code(&call.func);
-            faults.at(call, format!("`{name}` takes {wanted}, not {found}"));
+            faults.at(call, format!("`{name}` takes {wanted}; found {found}"));
         }
         arguments
     }
@@ -184,17 +185,19 @@ impl Context<'_> {
         let names = &self.parameters[parameter].arguments;
         if call.args.len() != names.len() {
             let (name, found) = (code(&call.func), call.args.len());
-            let wanted = names.len();
-            faults.at(
-                call,
-                format!("`{name}` takes {wanted} numbers; found {found}"),
-            );
+            let wanted = match names.as_slice() {
+                [] => "nothing in its parentheses: the law that a mechanism writes knows `time`"
+                    .into(),
+                [only] => format!("1 number, `{only}`"),
+                several => format!("{} numbers, {}", several.len(), list(several)),
+            };
+            faults.at(call, format!("`{name}` takes {wanted}; found {found}"));
             return None;
         }
         let arguments: Vec<Option<Term>> = call
             .args
             .iter()
-            .map(|argument| self.scalar(argument, faults))
+            .map(|argument| self.argument(&code(&call.func), argument, faults))
             .collect();
         Some(Shaped::scalar(Term::Law {
             parameter,
@@ -215,7 +218,7 @@ impl Context<'_> {
             faults.at(
                 call,
                 format!(
-                    "`{name}` speaks of the described configuration, which has no time and no rates"
+                    "`{name}` is what something is in the described configuration, which knows no time, no rates and no laws"
                 ),
             );
             return None;

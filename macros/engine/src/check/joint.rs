@@ -144,7 +144,9 @@ impl Reader<'_> {
         if !known.kind.is_number() {
             faults.at(
                 expr,
-                format!("only a number has a default; `{name}` is none"),
+                format!(
+                    "`{name}` has no default: only a `Length`, an `Angle` or a `Number` has one"
+                ),
             );
             return None;
         }
@@ -185,7 +187,10 @@ impl Reader<'_> {
                 let driven = self.context.scalar(driven, faults);
                 let law = self.context.scalar(law, faults);
                 if self.drive.is_some() {
-                    faults.at(keyword, "a joint drives once; this is the second time");
+                    faults.at(
+                        keyword,
+                        "a joint drives once; write a second joint for this",
+                    );
                 } else if self.joint_only(keyword, "a driver", faults)
                     && let (Some(driven), Some(law)) = (driven, law)
                 {
@@ -194,13 +199,13 @@ impl Reader<'_> {
                     self.rows.push(Row::Scalar(difference));
                 }
             }
-            Statement::Potential(keyword, energy) => {
-                let energy = self.context.scalar(energy, faults);
+            Statement::Potential(keyword, written) => {
+                let energy = self.context.scalar(written, faults);
                 if self.force_only(keyword, faults)
                     && let Some(energy) = energy
                     && !has_rate(
                         &energy,
-                        keyword,
+                        written,
                         "a potential depends on positions alone; write `-damping * rate(d) along d` for what depends on a rate",
                         faults,
                     )
@@ -208,14 +213,14 @@ impl Reader<'_> {
                     self.actions.push(Action::Potential(energy));
                 }
             }
-            Statement::Along(effort, keyword, coordinate) => {
+            Statement::Along(effort, keyword, written) => {
                 let effort = self.context.scalar(effort, faults);
-                let coordinate = self.context.scalar(coordinate, faults);
+                let coordinate = self.context.scalar(written, faults);
                 if self.force_only(keyword, faults)
                     && let (Some(effort), Some(coordinate)) = (effort, coordinate)
                     && !has_rate(
                         &coordinate,
-                        keyword,
+                        written,
                         "a force acts along a length or an angle, not along a rate",
                         faults,
                     )
@@ -252,11 +257,23 @@ impl Reader<'_> {
     }
 
     fn bind(&mut self, name: &Ident, expr: &syn::Expr, faults: &mut Faults) {
-        if RESERVED.contains(&name.to_string().as_str()) || self.context.is_known(name) {
-            faults.at(name, format!("`{name}` is taken; take another name"));
-        }
         let value = self.context.expression(expr, faults);
-        self.context.names.push((name.clone(), value));
+        if RESERVED.contains(&name.to_string().as_str()) {
+            faults.at(
+                name,
+                format!("`{name}` is a word of the language; take another name"),
+            );
+        } else if self.context.is_known(name) {
+            faults.at(name, format!("`{name}` is taken; take another name"));
+            // Nobody can tell which of two is meant later.
+            for (known, value) in &mut self.context.names {
+                if known == name {
+                    *value = None;
+                }
+            }
+        } else {
+            self.context.names.push((name.clone(), value));
+        }
     }
 
     fn joint_only(&self, at: impl ToTokens, what: &str, faults: &mut Faults) -> bool {
@@ -265,7 +282,7 @@ impl Reader<'_> {
             faults.at(
                 at,
                 format!(
-                    "{what} belongs into `joint!`; a force is `potential ..`, `.. along ..`, `force .. at ..` or \
+                    "{what} belongs in `joint!`; a force is `potential ..`, `.. along ..`, `force .. at ..` or \
                      `moment .. on ..`"
                 ),
             );
@@ -278,7 +295,7 @@ impl Reader<'_> {
         if !fits {
             faults.at(
                 at,
-                "a joint exerts no force of its own; this belongs into `force!`",
+                "a joint exerts no force of its own; this belongs in `force!`",
             );
         }
         fits
@@ -305,7 +322,7 @@ impl Reader<'_> {
 }
 
 /// Refuses a rate where it has no place.
-fn has_rate(term: &Term, at: &Ident, message: &str, faults: &mut Faults) -> bool {
+fn has_rate(term: &Term, at: impl ToTokens, message: &str, faults: &mut Faults) -> bool {
     let has = term.has(|term| matches!(term, Term::Rate(_)));
     if has {
         faults.at(at, message);
@@ -385,7 +402,10 @@ fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter
             if known != ParameterKind::Law
                 && let Some(argument) = parameter.arguments.first()
             {
-                faults.at(argument, "only a `Law` has arguments");
+                faults.at(
+                    argument,
+                    format!("`{name}` has no arguments: only a `Law` has"),
+                );
             }
             Parameter {
                 name: name.clone(),

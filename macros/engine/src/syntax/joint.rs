@@ -175,7 +175,9 @@ pub fn parse_transported(
         tokens: rest,
     };
     joint.name = name;
-    let Some((signature, block)) = rest.parse(outline, faults) else {
+    let Some((signature, block)) =
+        rest.parse(|input: ParseStream<'_>| outline(input, kind), faults)
+    else {
         return Some(joint);
     };
     joint.is_complete = true;
@@ -203,17 +205,22 @@ pub fn parse_transported(
     Some(joint)
 }
 
-fn outline(input: ParseStream<'_>) -> syn::Result<(TokenStream, TokenStream)> {
+fn outline(input: ParseStream<'_>, kind: ElementKind) -> syn::Result<(TokenStream, TokenStream)> {
+    let word = kind.word();
+    let content = match kind {
+        ElementKind::Joint => "joint's equations",
+        ElementKind::Force => "force's statements",
+    };
     let signature = group(
         input,
         Delimiter::Parenthesis,
-        "the joint's bodies in parentheses, as in `(i, j)`",
+        &format!("the {word}'s bodies in parentheses, as in `(i, j)`"),
     )?;
-    let block = group(input, Delimiter::Brace, "the joint's equations in braces")?;
+    let block = group(input, Delimiter::Brace, &format!("the {content} in braces"))?;
     if !input.is_empty() {
-        return Err(input.error(
-            "expected nothing behind the joint's equations; write one `joint!` for each joint",
-        ));
+        return Err(input.error(format!(
+            "expected nothing behind the {content}; write one `{word}!` for each {word}"
+        )));
     }
     Ok((signature, block))
 }
@@ -273,7 +280,13 @@ fn parameters(pieces: &[Piece], faults: &mut Faults) -> Vec<ParameterSyntax> {
         if input.peek(syn::token::Paren) {
             let inside;
             syn::parenthesized!(inside in input);
-            arguments.extend(inside.parse_terminated(Ident::parse, Token![,])?);
+            let argument = |input: ParseStream<'_>| {
+                input.parse::<Ident>().map_err(|error| {
+                    let message = "expected an argument's name, as in `Law(length, rate)`";
+                    syn::Error::new(error.span(), message)
+                })
+            };
+            arguments.extend(inside.parse_terminated(argument, Token![,])?);
         }
         let mut default = None;
         if input.peek(Token![=]) {
@@ -334,7 +347,9 @@ fn keyword(piece: &Piece) -> Option<(Ident, Piece)> {
         Some(TokenTree::Group(group)) => {
             group.delimiter() == Delimiter::Bracket || keyword == "potential"
         }
-        other => other.is_some(),
+        // `let` is nothing else.
+        None => keyword == "let",
+        Some(_) => true,
     };
     let rest = Piece {
         tokens: rest,
@@ -356,6 +371,13 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
     let Some((keyword, rest)) = keyword(piece) else {
         return expression(piece, faults).map(Statement::Zero);
     };
+    if keyword == "along" {
+        faults.at(
+            &keyword,
+            "expected a force or a moment before `along`, as in `-damping * rate(d) along d`",
+        );
+        return None;
+    }
     let mut pair = |word: &str, example: &str| {
         let Some((first, _, second)) = around(&rest, word) else {
             faults.at(
@@ -400,8 +422,9 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
 
 fn binding(rest: &Piece, faults: &mut Faults) -> Option<Statement> {
     let parser = |input: ParseStream<'_>| {
-        let name = name(input)?;
-        let _: Token![=] = input.parse()?;
+        let expected = |_| input.error("expected a name and `=`, as in `let d = j.tail - i.head`");
+        let name: Ident = input.parse().map_err(expected)?;
+        let _: Token![=] = input.parse().map_err(expected)?;
         let tokens: TokenStream = input.parse()?;
         Ok((name, tokens))
     };
@@ -417,7 +440,7 @@ fn expression(piece: &Piece, faults: &mut Faults) -> Option<Box<syn::Expr>> {
     let parser = |input: ParseStream<'_>| {
         let expr = input.parse()?;
         if !input.is_empty() {
-            return Err(input.error("expected an operator, or `;` behind the equation"));
+            return Err(input.error("expected an operator, or `;` before this"));
         }
         Ok(Box::new(expr))
     };

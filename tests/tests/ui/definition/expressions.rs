@@ -16,12 +16,18 @@ holonom::joint! {
         cross(i.axis.normals(), i.axis) * 2.0 + i.axis;
         i.vector.normals();
         i.point.normals();
-        i.axis.normal();
-        length / 2.0;
+        i.vector.normal();
+        i.axis.normals().binormal();
+        i.axis.normal(1.0);
+        i.axis / j.axis;
+        length / i.axis;
+        cross(i.axis, j.axis) / squared;
         length == 2.0;
         !length;
         "length";
-        [1.0, 0.0, 0.0];
+        [1.0, 0.0];
+        [1.0, i.axis, 0.0];
+        [dot(i.axis.normals(), j.axis), 0.0, 0.0];
         if length { 1.0 } else { 2.0 };
     }
 }

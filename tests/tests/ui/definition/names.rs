@@ -10,7 +10,7 @@ holonom::joint! {
         lenght - 1.0;
         width - 1.0;
         dt(i.axis, j.axis);
-        sqrt(length);
+        sqr(length);
         f.g(i.axis);
         (i + j).point;
         i.point - crate::ORIGIN;
@@ -21,7 +21,7 @@ holonom::joint! {
 }
 
 holonom::joint! {
-    pub joint Declared(i, ground, i; point: Pont, axis: Axis, between: Length, axis: Vector, size: Mass) {
+    pub joint Declared(i, ground, i; point: Pont, axis: Axis, between: Length, axis: Vector, size: Mass, time: Number) {
         j.point - i.point;
     }
 }

@@ -1,0 +1,25 @@
+//! Functions of definitions with the wrong arguments.
+
+holonom::joint! {
+    pub joint Functions(i, j; point: Point, axis: Axis, length: Length) {
+        sin(i.axis);
+        sqrt(length, length);
+        exp();
+        smooth_step(dot(i.axis.normals(), j.axis));
+        smoothstep(length);
+        angle(i, j);
+        angle(i, j, i.axis);
+        angle(i, j, point);
+        angle(i, k, axes);
+        angle(i, i, axis);
+        fixed(i.axis, j);
+        fixed(j, length);
+        fixed(j, [time, 0.0, 0.0]);
+        initial(i.axis);
+        initial(length * time);
+        initial(angle(i, j, axis), 1.0);
+        rate(length);
+    }
+}
+
+fn main() {}
