@@ -16,7 +16,11 @@ pub(super) struct LawReader<'a, 'b, 'c> {
 
 impl LawReader<'_, '_, '_> {
     pub(super) fn read(&mut self, expr: &Expr, faults: &mut Faults) -> Option<LawTerm> {
-        if !self.varies(expr) {
+        let is_number = matches!(
+            ungroup(expr),
+            Expr::Lit(_) | Expr::Unary(_) | Expr::Binary(_) | Expr::Call(_) | Expr::Path(_)
+        );
+        if is_number && !self.varies(expr) {
             return self.numbers.scalar(expr, faults).map(LawTerm::Number);
         }
         match ungroup(expr) {
@@ -79,7 +83,7 @@ impl LawReader<'_, '_, '_> {
         };
         let [argument] = call.args.iter().collect::<Vec<_>>()[..] else {
             let found = call.args.len();
-            faults.at(call, format!("`{name}` takes one number, not {found}"));
+            faults.at(call, format!("`{name}` takes 1 number; found {found}"));
             return None;
         };
         let argument = self.read(argument, faults)?;

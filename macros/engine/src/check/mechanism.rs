@@ -179,7 +179,8 @@ fn body(
     let found = code(&field.ty);
     match definition(field, types) {
         Some(Definition::Body(kind)) => {
-            numbers.no_inputs = Some("a body is what it is for the whole run");
+            numbers.no_inputs =
+                Some("a body is what it is for the whole run; make it a `#[param]`");
             let body = bodies::check(name, *kind, word.span(), &field.list, numbers, faults);
             numbers.no_inputs = None;
             body

@@ -34,6 +34,8 @@ pub struct Numbers<'a> {
     facade: &'a TokenStream,
     /// The run-time values of the mechanism.
     pub values: Vec<RunTimeValue>,
+    /// What else may stand here, for messages: the words of a law.
+    pub words: Vec<String>,
     /// Why inputs cannot stand here; `None` where they can.
     pub no_inputs: Option<&'static str>,
     /// Symbols met so far.
@@ -100,6 +102,7 @@ impl<'a> Numbers<'a> {
         Self {
             facade,
             values: Vec::new(),
+            words: Vec::new(),
             no_inputs: None,
             symbols: Vec::new(),
             field: String::new(),
@@ -261,6 +264,7 @@ impl<'a> Numbers<'a> {
             }
             Expr::Path(path) => match path.path.get_ident().and_then(|name| self.place(name)) {
                 Some(place) => self.run_time_value(place, expr, faults).map(Value::Later),
+                None if self.is_unknown(path, faults) => None,
                 None => Some(Value::Later(Later {
                     expression: path.to_token_stream(),
                     scalar: None,
@@ -269,6 +273,35 @@ impl<'a> Numbers<'a> {
             },
             _ => self.refuse(expr, faults),
         }
+    }
+
+    /// Refuses a name in small letters, which is no constant, before the compiler does: it cannot say what there is.
+    fn is_unknown(&self, path: &syn::ExprPath, faults: &mut Faults) -> bool {
+        let Some(name) = path.path.get_ident().map(ToString::to_string) else {
+            return false;
+        };
+        let is_small = !name.starts_with("r#") && name.starts_with(char::is_lowercase);
+        if is_small {
+            let values = self.values.iter().map(|value| value.name.to_string());
+            let words = self.words.iter().cloned();
+            let constants = ["PI", "TAU"].map(ToString::to_string);
+            let known: Vec<String> = words.chain(values).chain(constants).collect();
+            let near = did_you_mean(&name, known.iter().map(String::as_str));
+            let advice = if self.values.is_empty() {
+                "; a number for run time is a field with `#[param]`"
+            } else {
+                ""
+            };
+            let advice = if near.is_empty() { advice } else { &near };
+            faults.at(
+                path,
+                format!(
+                    "no number `{name}`; there are {} and constants such as `crate::LENGTH`{advice}",
+                    list(&known).replace(" and ", ", ")
+                ),
+            );
+        }
+        is_small
     }
 
     /// The place of a run-time value by its name.
@@ -317,7 +350,7 @@ impl<'a> Numbers<'a> {
         let [argument] = call.args.iter().collect::<Vec<_>>()[..] else {
             faults.at(
                 call,
-                format!("`{name}` takes one number, not {}", call.args.len()),
+                format!("`{name}` takes 1 number; found {}", call.args.len()),
             );
             return None;
         };

@@ -29,7 +29,7 @@ pub(super) fn values(syntax: &MechanismSyntax, faults: &mut Faults) -> Vec<RunTi
         if field.ty.to_token_stream().to_string() != "f64" {
             faults.at(
                 &field.ty,
-                format!("`{name}` is a `{found}`; a run-time value is an `f64`"),
+                format!("`{name}` is of type `{found}`; a run-time value is an `f64`"),
             );
         }
         values.push(RunTimeValue {
