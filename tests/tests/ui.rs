@@ -3,7 +3,15 @@
 #[test]
 fn refusals() {
     let cases = trybuild::TestCases::new();
-    for feature in ["body", "definition", "joint", "mechanism", "types"] {
+    for feature in [
+        "body",
+        "definition",
+        "force",
+        "joint",
+        "law",
+        "mechanism",
+        "types",
+    ] {
         cases.compile_fail(format!("tests/ui/{feature}/*.rs"));
     }
 }

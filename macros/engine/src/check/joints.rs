@@ -88,8 +88,17 @@ impl JointChecker<'_> {
         };
         let joint = &self.definitions[definition];
         let formal = list(&joint.bodies);
-        let example =
-            format!("the bodies that it connects ({formal}), as in `between = [ground, rod]`");
+        let verb = match self.kind {
+            ElementKind::Joint => "connects",
+            ElementKind::Force => "acts on",
+        };
+        let example = match joint.bodies.len() {
+            1 => format!("the body that it {verb} ({formal}), as in `between = [rod]`"),
+            2 => format!("the bodies that it {verb} ({formal}), as in `between = [ground, rod]`"),
+            _ => {
+                format!("the bodies that it {verb} ({formal}), as in `between = [ground, rod, ..]`")
+            }
+        };
         let between = pairs.required("between", &example, faults);
         mentioned.is_certain &= between.is_some();
         let bodies = between.and_then(|expr| self.between(expr, mentioned, faults));
@@ -100,7 +109,12 @@ impl JointChecker<'_> {
             let (kind, count) = (&joint.name, plural(joint.bodies.len(), "body", "bodies"));
             faults.at(
                 expr,
-                format!("`{kind}` connects {count} ({formal}); found {found}"),
+                format!("`{kind}` {verb} {count} ({formal}); found {found}"),
+            );
+        } else if let (Some(expr), Some([None])) = (between, bodies.as_deref()) {
+            faults.at(
+                expr,
+                format!("a {word} of the `ground` alone does nothing; name a body"),
             );
         }
         let mut bindings = Vec::new();
@@ -115,17 +129,25 @@ impl JointChecker<'_> {
             }
             let expr = pairs.required(&key, parameter.kind.example(), faults);
             numbers.no_inputs = match (self.kind, parameter.kind) {
-                (ElementKind::Joint, _) => Some("a joint is what it is for the whole run"),
+                (ElementKind::Joint, ParameterKind::Law) => {
+                    Some("a joint's law is a function of the time; make it a `#[param]`")
+                }
+                (ElementKind::Joint, _) => {
+                    Some("a joint is what it is for the whole run; make it a `#[param]`")
+                }
                 (_, ParameterKind::Point | ParameterKind::Axis) => {
-                    Some("points and axes are fixed on their bodies")
+                    Some("points and axes are fixed on their bodies; make it a `#[param]`")
                 }
                 _ => None,
             };
             bindings.push(expr.and_then(|expr| {
                 if parameter.kind == ParameterKind::Law {
                     let arguments = &parameter.arguments;
-                    let mut reader = LawReader { arguments, numbers };
-                    return reader.read(expr, faults).map(Binding::Law);
+                    let words = arguments.iter().map(ToString::to_string);
+                    numbers.words = std::iter::once("time".to_string()).chain(words).collect();
+                    let law = LawReader { arguments, numbers }.read(expr, faults);
+                    numbers.words.clear();
+                    return law.map(Binding::Law);
                 }
                 self.binding(
                     expr,
@@ -185,15 +207,6 @@ impl JointChecker<'_> {
                 );
             }
             bodies.push(place);
-        }
-        if let [Some(None)] = bodies[..] {
-            faults.at(
-                expr,
-                format!(
-                    "a {} of the `ground` alone does nothing; name a body",
-                    self.kind.word()
-                ),
-            );
         }
         bodies.into_iter().collect()
     }
@@ -330,6 +343,17 @@ impl JointChecker<'_> {
             if body.kind != BodyKind::Particle {
                 continue;
             }
+            if turns(joint, place) {
+                faults.at_span(
+                    self.word,
+                    format!(
+                        "{} `{}` needs the orientation of `{}`, and a particle has none; make it a `Body`",
+                        self.kind.word(), self.field.name, body.name
+                    ),
+                );
+                sound = None;
+                continue;
+            }
             for (parameter, uses) in uses(joint, place) {
                 let at_centre = match (&bindings[parameter], uses) {
                     (Binding::Global(point), ParameterKind::Point) => *point == body.position,
@@ -355,16 +379,6 @@ impl JointChecker<'_> {
                     );
                     sound = None;
                 }
-            }
-            if turns(joint, place) {
-                faults.at_span(
-                    self.word,
-                    format!(
-                        "{} `{}` needs the orientation of `{}`, and a particle has none; make it a `Body`",
-                        self.kind.word(), self.field.name, body.name
-                    ),
-                );
-                sound = None;
             }
         }
         sound

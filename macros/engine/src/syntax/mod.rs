@@ -140,6 +140,7 @@ pub fn list(attribute: &syn::Attribute, faults: &mut Faults) -> List {
             let example = match word.as_str() {
                 "body" => "#[body(mass = 7.02, ..)]",
                 "joint" => "#[joint(between = [ground, rod], ..)]",
+                "force" => "#[force(between = [ground, rod], ..)]",
                 _ => "#[mechanism(gravity = [0.0, 0.0, -9.81])]",
             };
             faults.at(
