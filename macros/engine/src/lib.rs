@@ -47,6 +47,9 @@ pub fn force(tokens: TokenStream) -> TokenStream {
 
 fn element(tokens: TokenStream, kind: ElementKind) -> TokenStream {
     guarded(|| {
+        if let Err(error) = syntax::depth::of_input(&tokens) {
+            return error.into_compile_error();
+        }
         let mut tokens = tokens.into_iter();
         let Some(proc_macro2::TokenTree::Group(facade)) = tokens.next() else {
             return quote!(
@@ -70,7 +73,10 @@ fn element(tokens: TokenStream, kind: ElementKind) -> TokenStream {
 pub fn derive(tokens: TokenStream) -> TokenStream {
     guarded(|| {
         let mut faults = Faults::new();
-        let Some(input) = faults.accept(syn::parse2::<DeriveInput>(tokens.clone())) else {
+        let input = faults
+            .accept(syntax::depth::of_input(&tokens))
+            .and_then(|()| faults.accept(syn::parse2::<DeriveInput>(tokens.clone())));
+        let Some(input) = input else {
             return faults.into_tokens();
         };
         let paths = syntax::mechanism::carrier_paths(&input);
@@ -93,7 +99,9 @@ pub fn derive(tokens: TokenStream) -> TokenStream {
 pub fn assemble(tokens: TokenStream) -> TokenStream {
     guarded(|| {
         let mut faults = Faults::new();
-        let delivery = faults.accept(wire::unpack(tokens));
+        let delivery = faults
+            .accept(syntax::depth::of_input(&tokens))
+            .and_then(|()| faults.accept(wire::unpack(tokens)));
         let Some(Delivery {
             facade,
             carried,

@@ -1,12 +1,14 @@
 //! Expressions of definitions: names bound, shapes checked.
 
+use std::cell::Cell;
+
 use proc_macro2::Ident;
 use quote::ToTokens;
 use syn::{BinOp, Expr, Lit, Member, UnOp};
 
 use super::number::in_range;
 use crate::diag::{Faults, code, did_you_mean, list};
-use crate::model::{ElementKind, Function, Parameter, ParameterKind, Term};
+use crate::model::{ElementKind, Extent, Function, Parameter, ParameterKind, Term};
 use crate::syntax::ungroup;
 
 /// Words that begin statements, or join two halves of one.
@@ -55,6 +57,34 @@ impl Shaped {
     }
 }
 
+/// The value of a scalar that is written in numbers alone.
+pub(super) fn value(term: &Term) -> Option<f64> {
+    match term {
+        Term::Number(value) => Some(*value),
+        Term::Sum(terms) => terms.iter().try_fold(0.0, |sum, (minus, term)| {
+            let term = value(term)?;
+            Some(if *minus { sum - term } else { sum + term })
+        }),
+        Term::Product(a, b) => Some(value(a)? * value(b)?),
+        Term::Function(function, inner) => value(inner).map(|x| function.of(x)),
+        _ => None,
+    }
+}
+
+/// How large terms are, without defaults and laws.
+pub(super) fn extent<'t>(terms: impl IntoIterator<Item = &'t Term>) -> Extent {
+    let written = |_: usize, arguments: &[Extent]| Extent::holding(arguments.iter().copied());
+    Extent::holding(terms.into_iter().map(|term| term.extent(&written)))
+}
+
+/// The refusal of what cannot be differentiated in a reasonable time.
+pub(super) fn too_large(what: &str) -> String {
+    let Extent { size, depth } = Extent::MOST;
+    format!(
+        "{what} too large: with names put in, more than {size} terms, or terms {depth} deep within each other"
+    )
+}
+
 /// What the expressions of a definition may speak of.
 pub(super) struct Context<'a> {
     pub(super) kind: ElementKind,
@@ -64,6 +94,8 @@ pub(super) struct Context<'a> {
     pub(super) doubtful: Vec<&'a Ident>,
     /// What `let` has named; without a value where that is faulty.
     pub(super) names: Vec<(Ident, Option<Shaped>)>,
+    /// The terms that names and squares may still add to what is written.
+    pub(super) left: Cell<f64>,
 }
 
 impl Context<'_> {
@@ -134,6 +166,14 @@ impl Context<'_> {
     }
 
     pub(super) fn expression(&self, expr: &Expr, faults: &mut Faults) -> Option<Shaped> {
+        let shaped = self.any(expr, faults)?;
+        for value in shaped.terms.iter().filter_map(value) {
+            in_range(value, expr, faults)?;
+        }
+        Some(shaped)
+    }
+
+    fn any(&self, expr: &Expr, faults: &mut Faults) -> Option<Shaped> {
         match ungroup(expr) {
             Expr::Lit(literal) => match &literal.lit {
                 Lit::Float(f) => faults.accept(f.base10_parse()),
@@ -143,7 +183,6 @@ impl Context<'_> {
                     None
                 }
             }
-            .and_then(|value| in_range(value, literal, faults))
             .map(|value| Shaped::scalar(Term::Number(value))),
             Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
                 let inner = self.expression(&unary.expr, faults)?;
@@ -231,6 +270,10 @@ impl Context<'_> {
                     );
                     return None;
                 }
+                if right.terms.iter().any(|term| value(term) == Some(0.0)) {
+                    faults.at(&binary.right, "cannot divide by 0");
+                    return None;
+                }
                 let vector = left.vector;
                 self.pairwise(binary, right, left, vector, faults, |divisor, other| {
                     let reciprocal = Term::Function(Function::Reciprocal, divisor);
@@ -268,6 +311,28 @@ impl Context<'_> {
             })
             .collect();
         Some(Shaped { vector, terms })
+    }
+
+    /// A copy, unless copies of copies make too much of it.
+    pub(super) fn repeated(
+        &self,
+        shaped: &Shaped,
+        at: impl ToTokens,
+        faults: &mut Faults,
+    ) -> Option<Shaped> {
+        let before = self.left.get();
+        self.left.set(before - extent(&shaped.terms).size);
+        if self.left.get() < 0.0 {
+            // Said once.
+            if before >= 0.0 {
+                faults.at(
+                    at,
+                    too_large(&format!("this makes the {}", self.kind.word())),
+                );
+            }
+            return None;
+        }
+        Some(shaped.clone())
     }
 
     pub(super) fn body(&self, expr: &Expr, faults: &mut Faults) -> Option<usize> {
@@ -412,7 +477,7 @@ impl Context<'_> {
     fn name(&self, path: &syn::ExprPath, faults: &mut Faults) -> Option<Shaped> {
         if let Some(name) = path.path.get_ident() {
             if let Some((_, value)) = self.names.iter().rev().find(|(known, _)| known == name) {
-                return value.clone();
+                return self.repeated(value.as_ref()?, path, faults);
             }
             match name.to_string().as_str() {
                 "PI" => return Some(Shaped::scalar(Term::Number(std::f64::consts::PI))),

@@ -41,7 +41,8 @@ impl Context<'_> {
             "squared" | "length" => {
                 let [a] = self.arguments::<1>(call, "1 vector", faults)?;
                 let a = self.of_vectors(&name, a, faults)?;
-                let mut squared = self.pairwise(call, a.clone(), a, false, faults, Term::Dot)?;
+                let again = self.repeated(&a, call, faults)?;
+                let mut squared = self.pairwise(call, a, again, false, faults, Term::Dot)?;
                 if name == "length" {
                     let root = |term| Term::Function(Function::SquareRoot, Box::new(term));
                     squared.terms = squared.terms.into_iter().map(root).collect();

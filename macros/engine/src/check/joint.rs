@@ -1,11 +1,15 @@
 //! Definitions of joints and forces: names, statements.
 
+use std::cell::Cell;
+
 use proc_macro2::Ident;
 use quote::ToTokens;
 
-use super::expression::{Context, Shaped};
+use super::expression::{Context, Shaped, extent, too_large};
 use crate::diag::{Faults, did_you_mean, list};
-use crate::model::{Action, ElementKind, JointDef, Parameter, ParameterKind, Row, Term, Turn};
+use crate::model::{
+    Action, ElementKind, Extent, JointDef, Parameter, ParameterKind, Row, Term, Turn,
+};
 use crate::syntax::joint::{JointSyntax, ParameterSyntax, Statement};
 use crate::wire;
 
@@ -38,6 +42,7 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
             parameters: &parameters,
             doubtful,
             names: Vec::new(),
+            left: Cell::new(Extent::MOST.size),
         },
         rows: Vec::new(),
         actions: Vec::new(),
@@ -71,6 +76,12 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
             ),
         };
         fresh.at(name, message);
+    }
+    let terms = rows.iter().map(Row::term);
+    let terms = terms.chain(actions.iter().flat_map(Action::terms));
+    if !fresh.any() && extent(terms).is_too_large() {
+        let (word, name) = (syntax.kind.word(), &syntax.name);
+        fresh.at(name, too_large(&format!("{word} `{name}` is")));
     }
     let sound = !fresh.any() && !before;
     faults.append(fresh);
@@ -140,7 +151,9 @@ impl Reader<'_> {
     fn default(&self, parameter: &ParameterSyntax, faults: &mut Faults) -> Option<Term> {
         let expr = parameter.default.as_ref()?;
         let name = &parameter.name;
-        let known = self.context.parameters.iter().find(|p| p.name == *name)?;
+        let parameters = self.context.parameters;
+        let place = parameters.iter().position(|p| p.name == *name)?;
+        let known = &parameters[place];
         if !known.kind.is_number() {
             faults.at(
                 expr,
@@ -161,15 +174,42 @@ impl Reader<'_> {
             );
             return None;
         }
+        let behind = (place..parameters.len())
+            .find(|&p| term.has(|term| matches!(term, Term::Scalar(found) if *found == p)));
+        if let Some(behind) = behind {
+            let behind = &parameters[behind].name;
+            faults.at(
+                expr,
+                format!("a default speaks of parameters that stand before it; `{behind}` does not stand before `{name}`"),
+            );
+            return None;
+        }
         Some(term)
+    }
+
+    /// Refuses what no motion changes, where it has to.
+    fn must_move(&self, term: &Term, at: impl ToTokens, what: &str, faults: &mut Faults) -> bool {
+        // Without bodies there is one fault, and it is another one.
+        let moves = self.syntax.bodies.is_empty() || term.moves();
+        if !moves {
+            faults.at(
+                at,
+                format!("{what} depends on no body; nothing that moves stands in it"),
+            );
+        }
+        moves
     }
 
     fn statement(&mut self, statement: &Statement, faults: &mut Faults) {
         match statement {
-            Statement::Let(name, expr) => self.bind(name, expr, faults),
+            Statement::Let(name, expr) => self.bind(name, expr.as_deref(), faults),
             Statement::Zero(expr) => {
                 if let Some(shaped) = self.context.expression(expr, faults)
                     && self.joint_only(expr, "an equation", faults)
+                    && shaped
+                        .terms
+                        .iter()
+                        .all(|term| self.must_move(term, expr, "this equation", faults))
                 {
                     self.rows.extend(shaped.rows());
                 }
@@ -183,8 +223,8 @@ impl Reader<'_> {
                     self.displacement = term;
                 }
             }
-            Statement::Drive(keyword, driven, law) => {
-                let driven = self.context.scalar(driven, faults);
+            Statement::Drive(keyword, written, law) => {
+                let driven = self.context.scalar(written, faults);
                 let law = self.context.scalar(law, faults);
                 if self.drive.is_some() {
                     faults.at(
@@ -193,6 +233,7 @@ impl Reader<'_> {
                     );
                 } else if self.joint_only(keyword, "a driver", faults)
                     && let (Some(driven), Some(law)) = (driven, law)
+                    && self.must_move(&driven, written, "what is driven", faults)
                 {
                     self.drive = Some(self.rows.iter().map(Row::equations).sum());
                     let difference = Term::Sum(vec![(false, driven), (true, law)]);
@@ -209,6 +250,7 @@ impl Reader<'_> {
                         "a potential depends on positions alone; write `-damping * rate(d) along d` for what depends on a rate",
                         faults,
                     )
+                    && self.must_move(&energy, written, "this potential", faults)
                 {
                     self.actions.push(Action::Potential(energy));
                 }
@@ -224,6 +266,7 @@ impl Reader<'_> {
                         "a force acts along a length or an angle, not along a rate",
                         faults,
                     )
+                    && self.must_move(&coordinate, written, "the coordinate of a force", faults)
                 {
                     self.actions.push(Action::Along { effort, coordinate });
                 }
@@ -256,8 +299,15 @@ impl Reader<'_> {
         }
     }
 
-    fn bind(&mut self, name: &Ident, expr: &syn::Expr, faults: &mut Faults) {
-        let value = self.context.expression(expr, faults);
+    fn bind(&mut self, name: &Ident, expr: Option<&syn::Expr>, faults: &mut Faults) {
+        let mut value = expr.and_then(|expr| self.context.expression(expr, faults));
+        if value
+            .as_ref()
+            .is_some_and(|value| extent(&value.terms).is_too_large())
+        {
+            faults.at(expr, too_large("this is"));
+            value = None;
+        }
         if RESERVED.contains(&name.to_string().as_str()) {
             faults.at(
                 name,

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Span};
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::expression::too_large;
 use super::laws::LawReader;
 use super::mechanism::{Definition, Definitions, definition};
 use super::number::{Numbers, elements};
@@ -11,7 +12,8 @@ use super::pairs::Pairs;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, ElementKind, JointDef, JointUse, Number, ParameterKind, Term,
+    Action, Binding, Body, BodyKind, ElementKind, Extent, JointDef, JointUse, Number,
+    ParameterKind, Term,
 };
 use crate::syntax::mechanism::{Field, carrier_path};
 use crate::syntax::{Value, ungroup};
@@ -164,6 +166,14 @@ impl JointChecker<'_> {
         let bodies = bodies.filter(|bodies| bodies.len() == joint.bodies.len())?;
         let bindings: Vec<Binding> = bindings.into_iter().collect::<Option<_>>()?;
         self.particles(joint, &bodies, &bindings, faults)?;
+        let law = |parameter: usize, arguments: &[Extent]| match &bindings[parameter] {
+            Binding::Law(law) => law.extent(arguments),
+            _ => Extent::default(),
+        };
+        if joint.extent(&law).is_too_large() {
+            faults.at_span(self.word, too_large(&format!("{word} `{name}` is")));
+            return None;
+        }
         Some(JointUse {
             name: name.clone(),
             path: carrier_path(&self.field.ty)?,

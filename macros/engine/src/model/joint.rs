@@ -100,6 +100,22 @@ impl Function {
         ("smooth_step", Self::SmoothStep),
     ];
 
+    /// The value of the function.
+    #[must_use]
+    pub fn of(self, x: f64) -> f64 {
+        match self {
+            Self::Reciprocal => x.recip(),
+            Self::SquareRoot => x.sqrt(),
+            Self::Sine => x.sin(),
+            Self::Cosine => x.cos(),
+            Self::Exponential => x.exp(),
+            Self::SmoothStep => {
+                let x = x.clamp(0.0, 1.0);
+                x * x * x * (x * (6.0 * x - 15.0) + 10.0)
+            }
+        }
+    }
+
     /// The function of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
@@ -183,9 +199,9 @@ pub struct Turn {
 }
 
 impl Term {
-    /// Calls `f` with the term and all that it is made of.
-    pub fn visit(&self, f: &mut impl FnMut(&Self)) {
-        f(self);
+    /// The terms that it is made of.
+    #[must_use]
+    pub fn parts(&self) -> Vec<&Self> {
         match self {
             Self::Number(_)
             | Self::Scalar(_)
@@ -194,18 +210,47 @@ impl Term {
             | Self::Fixed { .. }
             | Self::Normal { .. }
             | Self::Origin(_)
-            | Self::Angle(_) => {}
-            Self::Components(components) => components.iter().for_each(|term| term.visit(f)),
-            Self::Sum(terms) => terms.iter().for_each(|(_, term)| term.visit(f)),
-            Self::Product(a, b) | Self::Dot(a, b) | Self::Cross(a, b) => {
-                a.visit(f);
-                b.visit(f);
-            }
+            | Self::Angle(_) => Vec::new(),
+            Self::Components(components) => components.iter().map(|term| &**term).collect(),
+            Self::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
+            Self::Product(a, b) | Self::Dot(a, b) | Self::Cross(a, b) => vec![a, b],
             Self::Onto(_, term)
             | Self::Function(_, term)
             | Self::Initial(term)
-            | Self::Rate(term) => term.visit(f),
-            Self::Law { arguments, .. } => arguments.iter().for_each(|term| term.visit(f)),
+            | Self::Rate(term) => vec![term],
+            Self::Law { arguments, .. } => arguments.iter().collect(),
+        }
+    }
+
+    /// Calls `f` with the term and all that it is made of.
+    pub fn visit(&self, f: &mut impl FnMut(&Self)) {
+        f(self);
+        for part in self.parts() {
+            part.visit(f);
+        }
+    }
+
+    /// How large it is; `named` says how large a scalar parameter is, or a law with arguments of given extents.
+    pub fn extent(&self, named: &impl Fn(usize, &[Extent]) -> Extent) -> Extent {
+        let parts: Vec<Extent> = self.parts().iter().map(|part| part.extent(named)).collect();
+        match self {
+            Self::Scalar(parameter) | Self::Law { parameter, .. } => named(*parameter, &parts),
+            _ => Extent::holding(parts),
+        }
+    }
+
+    /// Whether it depends on where a body is.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        match self {
+            Self::Point { .. }
+            | Self::Fixed { .. }
+            | Self::Normal { .. }
+            | Self::Origin(_)
+            | Self::Onto(..)
+            | Self::Angle(_) => true,
+            Self::Initial(_) => false,
+            _ => self.parts().into_iter().any(Self::moves),
         }
     }
 
@@ -214,6 +259,43 @@ impl Term {
         let mut found = false;
         self.visit(&mut |term| found |= wanted(term));
         found
+    }
+}
+
+/// How large an expression is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub struct Extent {
+    /// Its terms.
+    pub size: f64,
+    /// Terms within terms.
+    pub depth: f64,
+}
+
+impl Extent {
+    /// The largest definition: beyond it, expansion takes minutes.
+    pub const MOST: Self = Self {
+        size: 20_000.0,
+        depth: 600.0,
+    };
+
+    /// What holds some terms.
+    pub fn holding(terms: impl IntoIterator<Item = Self>) -> Self {
+        let mut whole = Self {
+            size: 1.0,
+            depth: 0.0,
+        };
+        for term in terms {
+            whole.size += term.size;
+            whole.depth = whole.depth.max(term.depth);
+        }
+        whole.depth += 1.0;
+        whole
+    }
+
+    /// Whether it is too large to be read.
+    #[must_use]
+    pub fn is_too_large(self) -> bool {
+        self.size > Self::MOST.size || self.depth > Self::MOST.depth
     }
 }
 
@@ -340,6 +422,28 @@ impl JointDef {
     #[must_use]
     pub fn equations(&self) -> usize {
         self.rows.iter().map(Row::equations).sum()
+    }
+
+    /// How large it is, where laws are of given extents, with arguments of given extents.
+    pub fn extent(&self, law: &impl Fn(usize, &[Extent]) -> Extent) -> Extent {
+        let mut defaults: Vec<Option<Extent>> = Vec::new();
+        let named = |defaults: &[Option<Extent>], parameter: usize, arguments: &[Extent]| match self
+            .parameters[parameter]
+            .kind
+        {
+            ParameterKind::Law => law(parameter, arguments),
+            _ => {
+                let known = defaults.get(parameter).copied().flatten();
+                known.unwrap_or_else(|| Extent::holding([]))
+            }
+        };
+        for parameter in &self.parameters {
+            let default = parameter.default.as_ref();
+            let extent = default.map(|term| term.extent(&|p, parts| named(&defaults, p, parts)));
+            defaults.push(extent);
+        }
+        let terms = self.terms();
+        Extent::holding(terms.map(|term| term.extent(&|p, parts| named(&defaults, p, parts))))
     }
 
     /// All its expressions.

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 
-use super::joint::{Function, JointDef, Turn};
+use super::joint::{Extent, Function, JointDef, Turn};
 use super::number::{Number, Symbol};
 use super::rank::Independence;
 
@@ -90,6 +90,22 @@ pub enum LawTerm {
     Product(Box<LawTerm>, Box<LawTerm>),
     /// A function.
     Function(Function, Box<LawTerm>),
+}
+
+impl LawTerm {
+    /// How large it is with arguments of given extents.
+    #[must_use]
+    pub fn extent(&self, arguments: &[Extent]) -> Extent {
+        match self {
+            Self::Number(_) | Self::Time => Extent::holding([]),
+            Self::Argument(place) => arguments[*place],
+            Self::Sum(terms) => {
+                Extent::holding(terms.iter().map(|(_, term)| term.extent(arguments)))
+            }
+            Self::Product(a, b) => Extent::holding([a.extent(arguments), b.extent(arguments)]),
+            Self::Function(_, inner) => Extent::holding([inner.extent(arguments)]),
+        }
+    }
 }
 
 /// A joint or a force of a mechanism.

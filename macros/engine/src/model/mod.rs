@@ -7,7 +7,7 @@ pub mod number;
 pub mod rank;
 
 pub use joint::{
-    Action, ElementKind, Function, JointDef, Parameter, ParameterKind, Row, Term, Turn,
+    Action, ElementKind, Extent, Function, JointDef, Parameter, ParameterKind, Row, Term, Turn,
 };
 pub use mechanism::{Binding, Body, BodyKind, JointUse, LawTerm, Model, RunTimeValue};
 pub use number::{Number, Symbol};

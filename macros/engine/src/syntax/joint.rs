@@ -64,8 +64,8 @@ pub struct JointSyntax {
 pub enum Statement {
     /// An expression that is zero.
     Zero(Box<syn::Expr>),
-    /// `let name = expr`.
-    Let(Ident, Box<syn::Expr>),
+    /// `let name = expr`, without an expression where that could not be read.
+    Let(Ident, Option<Box<syn::Expr>>),
     /// `angle about axis`.
     Angle {
         /// The word `angle`.
@@ -169,14 +169,14 @@ pub fn parse_transported(
         tokens: body,
         end: Span::call_site(),
     };
-    let (name, rest) = whole.parse(named, faults)?;
+    let (name, rest) = whole.parse_outline(named, faults)?;
     let rest = Piece {
         end: name.span(),
         tokens: rest,
     };
     joint.name = name;
     let Some((signature, block)) =
-        rest.parse(|input: ParseStream<'_>| outline(input, kind), faults)
+        rest.parse_outline(|input: ParseStream<'_>| outline(input, kind), faults)
     else {
         return Some(joint);
     };
@@ -433,7 +433,7 @@ fn binding(rest: &Piece, faults: &mut Faults) -> Option<Statement> {
         tokens,
         end: rest.end,
     };
-    Some(Statement::Let(name, expression(&value, faults)?))
+    Some(Statement::Let(name, expression(&value, faults)))
 }
 
 fn expression(piece: &Piece, faults: &mut Faults) -> Option<Box<syn::Expr>> {

@@ -1,5 +1,6 @@
 //! What was written: tokens with their spans, no meaning yet.
 
+pub mod depth;
 pub mod joint;
 pub mod mechanism;
 
@@ -19,8 +20,14 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Parses the whole piece. What is missing at its end is reported at its last token.
+    /// Parses the whole piece, unless it is too deep. What is missing at its end is reported at its last token.
     pub fn parse<P: Parser>(&self, parser: P, faults: &mut Faults) -> Option<P::Output> {
+        faults.accept(depth::of_expression(&self.tokens))?;
+        self.parse_outline(parser, faults)
+    }
+
+    /// Parses the whole piece, however deep, with a parser that leaves what stands in brackets alone.
+    fn parse_outline<P: Parser>(&self, parser: P, faults: &mut Faults) -> Option<P::Output> {
         const PREFIX: &str = "unexpected end of input, ";
         let result = parser.parse2(self.tokens.clone());
         faults.accept(result.map_err(|error| {
