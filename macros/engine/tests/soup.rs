@@ -2,11 +2,14 @@
 
 mod common;
 
-use common::{FAULTY, PENDULUM, SCENES, delivery, tokens};
+use common::{FAULTY, HOIST, PENDULUM, SCENES, definition, delivery, delivery_of, tokens};
+use holonom_engine::model::ElementKind;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+use quote::quote;
+use syn::DeriveInput;
 
-/// A definition that uses all of the language.
-const JOINT: &str = "[::holonom] /** Everything. */ pub joint Any(i, j, k; point: Point, axis: Axis, size: Length) { \
+/// A definition of shapes that the others do not have.
+const JOINT: &str = "/** Everything. */ pub joint Any(i, j, k; point: Point, axis: Axis, size: Length) { \
     j.point - i.point + size * cross(i.axis, k.axis); dot(i.axis.normals(), j.axis); \
     squared(j.origin - -i.point) - size * 2.0; angle about axis; }";
 
@@ -67,20 +70,44 @@ fn changed(
 /// One of many ways to spoil tokens at one place.
 fn spoil(list: &mut Vec<TokenTree>, at: usize, dice: &mut Dice) {
     let other = dice.below(list.len());
+    let span = list[at].span();
+    let group = |delimiter, inner| {
+        let mut group = Group::new(delimiter, inner);
+        group.set_span(span);
+        TokenTree::Group(group)
+    };
     match dice.below(7) {
         0 => drop(list.remove(at)),
         1 => list.truncate(at),
         2 => list.swap(at, other),
         3 => list.insert(at, list[other].clone()),
-        4 => list[at] = TokenTree::Group(Group::new(Delimiter::Bracket, TokenStream::new())),
-        5 => {
-            let inner = list[at].clone().into();
-            list[at] = TokenTree::Group(Group::new(Delimiter::None, inner));
-        }
+        4 => list[at] = group(Delimiter::Bracket, TokenStream::new()),
+        5 => list[at] = group(Delimiter::None, list[at].clone().into()),
         _ => {
             let words = [
-                ";", ",", "=", "-", "1e400", "0", "\"text\"", "ground", "'a", "!", "as", "r#mass",
+                ";",
+                ",",
+                "=",
+                "-",
+                "1e400",
+                "0",
+                "\"text\"",
+                "ground",
+                "'a",
+                "!",
+                "as",
+                "r#mass",
                 "PI",
+                "time",
+                "rate",
+                "angle",
+                "initial",
+                "let",
+                "along",
+                "drive",
+                "i",
+                "j",
+                "(i.point)",
             ];
             let word = tokens(words[dice.below(words.len())]);
             list.splice(at..=at, word);
@@ -89,51 +116,163 @@ fn spoil(list: &mut Vec<TokenTree>, at: usize, dice: &mut Dice) {
 }
 
 #[track_caller]
-fn assert_survives(entry_point: EntryPoint, input: &TokenStream) {
-    let output = entry_point(input.clone()).to_string();
+fn assert_survives(entry_point: EntryPoint, input: &TokenStream) -> TokenStream {
+    let output = entry_point(input.clone());
+    let text = output.to_string();
     assert!(
-        !output.contains("generator failed"),
-        "{input}\n\ngives\n\n{output}"
+        !text.contains("generator failed"),
+        "{input}\n\ngives\n\n{text}"
     );
+    output
 }
 
-fn assert_survives_soup(entry_point: EntryPoint, sound: &TokenStream, rounds: usize, seed: u64) {
+/// Every refusal says something, at a token of the input.
+#[track_caller]
+fn assert_refusals_have_places(input: &TokenStream, output: TokenStream) {
+    let output: Vec<TokenTree> = output.into_iter().collect();
+    for window in output.windows(3) {
+        let [
+            TokenTree::Ident(name),
+            TokenTree::Punct(_),
+            TokenTree::Group(message),
+        ] = window
+        else {
+            continue;
+        };
+        if name == "compile_error" {
+            let text = message.stream().to_string();
+            assert!(text.len() > 10, "{input}\n\nis refused by {text}");
+            // Outside of a compiler, the span of the macro's call is an empty one.
+            assert!(
+                !name.span().byte_range().is_empty(),
+                "{input}\n\nis refused nowhere: {text}"
+            );
+        }
+    }
+}
+
+/// The tokens, spoilt at some places.
+fn spoilt(sound: &TokenStream, places: usize, dice: &mut Dice) -> TokenStream {
+    let mut soup = sound.clone();
+    for _ in 0..places {
+        let mut place = dice.below(size(soup.clone()));
+        let mut rolls = Dice(dice.below(usize::MAX) as u64);
+        soup = changed(soup, &mut place, &mut |list, at| {
+            spoil(list, at, &mut rolls)
+        });
+    }
+    soup
+}
+
+fn assert_survives_soup(
+    entry_point: EntryPoint,
+    sound: &TokenStream,
+    rounds: usize,
+    seed: u64,
+    has_places: impl Fn(&TokenStream) -> bool,
+) {
     let mut dice = Dice(seed);
     assert_survives(entry_point, sound);
     for _ in 0..rounds {
-        let mut soup = sound.clone();
-        for _ in 0..=dice.below(3) {
-            let mut place = dice.below(size(soup.clone()));
-            let mut rolls = Dice(dice.below(usize::MAX) as u64);
-            soup = changed(soup, &mut place, &mut |list, at| {
-                spoil(list, at, &mut rolls)
-            });
+        let places = 1 + dice.below(3);
+        let soup = spoilt(sound, places, &mut dice);
+        let output = assert_survives(entry_point, &soup);
+        if !soup.is_empty() && has_places(&soup) {
+            assert_refusals_have_places(&soup, output);
         }
-        assert_survives(entry_point, &soup);
     }
+}
+
+/// Behind the name of the run-time crate, which the user does not write.
+fn joint(tokens: TokenStream) -> TokenStream {
+    holonom_engine::joint(quote!([::holonom] #tokens))
+}
+
+fn force(tokens: TokenStream) -> TokenStream {
+    holonom_engine::force(quote!([::holonom] #tokens))
+}
+
+fn assemble(item: TokenStream) -> TokenStream {
+    holonom_engine::assemble(delivery(&item))
+}
+
+/// What a user writes for a definition, with places.
+fn written(path: &str) -> TokenStream {
+    let (kind, body) = definition(path).expect("a known definition");
+    tokens(&format!("{} {body}", kind.word()))
 }
 
 #[test]
 fn definitions_of_joints() {
-    assert_survives_soup(holonom_engine::joint, &tokens(JOINT), 2000, 1);
+    let (any, winch) = (tokens(JOINT), written("Winch"));
+    assert_survives_soup(joint, &any, 2000, 1, |_| true);
+    assert_survives_soup(joint, &winch, 3000, 2, |_| true);
+    assert_survives(joint, &TokenStream::new());
     assert_survives(holonom_engine::joint, &TokenStream::new());
 }
 
 #[test]
+fn definitions_of_forces() {
+    let (damper, push) = (written("Damper"), written("Push"));
+    assert_survives_soup(force, &damper, 3000, 3, |_| true);
+    assert_survives_soup(force, &push, 1500, 4, |_| true);
+    assert_survives(force, &TokenStream::new());
+}
+
+/// Whatever a definition says that is not refused, mechanisms can be made of it.
+#[test]
+fn what_is_not_refused_can_be_used() {
+    let mut dice = Dice(5);
+    let mut used = 0;
+    for (item, path) in [
+        (HOIST, "Winch"),
+        (HOIST, "Damper"),
+        (HOIST, "Push"),
+        (PENDULUM, "Revolute"),
+    ] {
+        let (item, (kind, sound)) = (tokens(item), definition(path).expect("a known definition"));
+        for _ in 0..150 {
+            let soup = spoilt(&sound, 1, &mut dice);
+            let output = match kind {
+                ElementKind::Joint => joint(quote!(joint #soup)),
+                ElementKind::Force => force(quote!(force #soup)),
+            };
+            let carriers = output.to_string();
+            let refused = carriers.contains("[faulty]") || !carriers.contains("macro_rules");
+            if !refused {
+                used += 1;
+                let find = |name: &str| {
+                    (name == path)
+                        .then(|| (kind, soup.clone()))
+                        .or_else(|| definition(name))
+                };
+                assert_survives(holonom_engine::assemble, &delivery_of(&item, find));
+            }
+        }
+    }
+    // Nothing would be tested if all were refused.
+    assert!(used > 60, "{used} definitions were used");
+}
+
+#[test]
 fn annotated_structs() {
-    for (seed, item) in [PENDULUM, FAULTY].into_iter().enumerate() {
+    // The compiler itself refuses what is no struct.
+    let is_item = |item: &TokenStream| syn::parse2::<DeriveInput>(item.clone()).is_ok();
+    for (seed, (item, rounds)) in [(PENDULUM, 100), (FAULTY, 500), (HOIST, 200)]
+        .into_iter()
+        .enumerate()
+    {
         let item = tokens(item);
-        assert_survives_soup(holonom_engine::derive, &item, 1000, seed as u64);
-        let assemble = |item: TokenStream| holonom_engine::assemble(delivery(&item));
-        assert_survives_soup(assemble, &item, 100, seed as u64);
+        assert_survives_soup(holonom_engine::derive, &item, 1000, seed as u64, is_item);
+        assert_survives_soup(assemble, &item, rounds, seed as u64, is_item);
     }
 }
 
 #[test]
 fn deliveries_that_break_the_protocol() {
-    for (item, rounds) in [(FAULTY, 500), (PENDULUM, 100)] {
+    for (item, rounds) in [(FAULTY, 500), (PENDULUM, 100), (HOIST, 100)] {
         let sound = delivery(&tokens(item));
-        assert_survives_soup(holonom_engine::assemble, &sound, rounds, 3);
+        assert_survives_soup(holonom_engine::assemble, &sound, rounds, 3, |_| false);
     }
     assert_survives(holonom_engine::assemble, &TokenStream::new());
 }

@@ -73,15 +73,15 @@ pub(super) fn value(term: &Term) -> Option<f64> {
 
 /// How large terms are, without defaults and laws.
 pub(super) fn extent<'t>(terms: impl IntoIterator<Item = &'t Term>) -> Extent {
-    let written = |_: usize, arguments: &[Extent]| Extent::holding(arguments.iter().copied());
-    Extent::holding(terms.into_iter().map(|term| term.extent(&written)))
+    let written = |_: usize, arguments: &[Extent]| Extent::sum(arguments.iter().copied());
+    Extent::sum(terms.into_iter().map(|term| term.extent(&written)))
 }
 
 /// The refusal of what cannot be differentiated in a reasonable time.
 pub(super) fn too_large(what: &str) -> String {
-    let Extent { size, depth } = Extent::MOST;
+    let most = Extent::MOST.size;
     format!(
-        "{what} too large: with names put in, more than {size} terms, or terms {depth} deep within each other"
+        "{what} too large to be differentiated: with names put in, it has more than {most} terms, or products of products of them"
     )
 }
 

@@ -233,9 +233,17 @@ impl Term {
     /// How large it is; `named` says how large a scalar parameter is, or a law with arguments of given extents.
     pub fn extent(&self, named: &impl Fn(usize, &[Extent]) -> Extent) -> Extent {
         let parts: Vec<Extent> = self.parts().iter().map(|part| part.extent(named)).collect();
-        match self {
-            Self::Scalar(parameter) | Self::Law { parameter, .. } => named(*parameter, &parts),
-            _ => Extent::holding(parts),
+        match (self, parts.as_slice()) {
+            (Self::Scalar(parameter) | Self::Law { parameter, .. }, _) => named(*parameter, &parts),
+            (Self::Product(..) | Self::Dot(..) | Self::Cross(..), [a, b]) => a.product(*b),
+            (Self::Function(..) | Self::Rate(_), [inner]) => inner.function(),
+            // What they hold is a constant.
+            (Self::Onto(..) | Self::Initial(_), [inner]) => Extent {
+                first: 1.0,
+                second: 1.0,
+                ..*inner
+            },
+            _ => Extent::sum(parts),
         }
     }
 
@@ -263,39 +271,77 @@ impl Term {
 }
 
 /// How large an expression is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extent {
-    /// Its terms.
+    /// Terms to look at for its value: all of them.
     pub size: f64,
+    /// Terms to look at, again and again, for its first derivative.
+    pub first: f64,
+    /// Terms to look at, again and again, for its second derivative.
+    pub second: f64,
     /// Terms within terms.
     pub depth: f64,
 }
 
 impl Extent {
-    /// The largest definition: beyond it, expansion takes minutes.
+    /// A term that holds no others.
+    pub const ONE: Self = Self {
+        size: 1.0,
+        first: 1.0,
+        second: 1.0,
+        depth: 1.0,
+    };
+    /// The largest expression or definition: beyond it, expansion takes minutes.
     pub const MOST: Self = Self {
         size: 20_000.0,
-        depth: 600.0,
+        first: 40_000.0,
+        second: 40_000.0,
+        depth: 500.0,
     };
 
-    /// What holds some terms.
-    pub fn holding(terms: impl IntoIterator<Item = Self>) -> Self {
-        let mut whole = Self {
-            size: 1.0,
-            depth: 0.0,
-        };
-        for term in terms {
-            whole.size += term.size;
-            whole.depth = whole.depth.max(term.depth);
+    /// A sum.
+    pub fn sum(terms: impl IntoIterator<Item = Self>) -> Self {
+        let whole = terms.into_iter().fold(Self::ONE, Self::beside);
+        Self {
+            depth: whole.depth + 1.0,
+            ..whole
         }
-        whole.depth += 1.0;
-        whole
     }
 
-    /// Whether it is too large to be read.
+    /// A product of any kind.
+    #[must_use]
+    pub fn product(self, other: Self) -> Self {
+        self.beside(other).function()
+    }
+
+    /// A function.
+    #[must_use]
+    pub fn function(self) -> Self {
+        Self {
+            size: self.size + 1.0,
+            first: self.size + self.first,
+            second: self.size + self.first + self.second,
+            depth: self.depth + 1.0,
+        }
+    }
+
+    fn beside(self, other: Self) -> Self {
+        Self {
+            size: self.size + other.size,
+            first: self.first + other.first,
+            second: self.second + other.second,
+            depth: self.depth.max(other.depth),
+        }
+    }
+
+    /// Whether it is too large to be worked out.
     #[must_use]
     pub fn is_too_large(self) -> bool {
-        self.size > Self::MOST.size || self.depth > Self::MOST.depth
+        let most = Self::MOST;
+        self.size > most.size
+            || self.first > most.first
+            || self.second > most.second
+            || self.depth > most.depth
     }
 }
 
@@ -434,7 +480,7 @@ impl JointDef {
             ParameterKind::Law => law(parameter, arguments),
             _ => {
                 let known = defaults.get(parameter).copied().flatten();
-                known.unwrap_or_else(|| Extent::holding([]))
+                known.unwrap_or(Extent::ONE)
             }
         };
         for parameter in &self.parameters {
@@ -443,7 +489,7 @@ impl JointDef {
             defaults.push(extent);
         }
         let terms = self.terms();
-        Extent::holding(terms.map(|term| term.extent(&|p, parts| named(&defaults, p, parts))))
+        Extent::sum(terms.map(|term| term.extent(&|p, parts| named(&defaults, p, parts))))
     }
 
     /// All its expressions.

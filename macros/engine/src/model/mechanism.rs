@@ -97,13 +97,11 @@ impl LawTerm {
     #[must_use]
     pub fn extent(&self, arguments: &[Extent]) -> Extent {
         match self {
-            Self::Number(_) | Self::Time => Extent::holding([]),
+            Self::Number(_) | Self::Time => Extent::ONE,
             Self::Argument(place) => arguments[*place],
-            Self::Sum(terms) => {
-                Extent::holding(terms.iter().map(|(_, term)| term.extent(arguments)))
-            }
-            Self::Product(a, b) => Extent::holding([a.extent(arguments), b.extent(arguments)]),
-            Self::Function(_, inner) => Extent::holding([inner.extent(arguments)]),
+            Self::Sum(terms) => Extent::sum(terms.iter().map(|(_, term)| term.extent(arguments))),
+            Self::Product(a, b) => a.extent(arguments).product(b.extent(arguments)),
+            Self::Function(_, inner) => inner.extent(arguments).function(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! How deep tokens are nested, found without recursion: what parses and differentiates them calls itself for every level, and the stack
 //! of the compiler is finite.
 
-use proc_macro2::{Span, TokenStream, TokenTree, token_stream};
+use proc_macro2::{Literal, Span, TokenStream, TokenTree, token_stream};
 
 use super::split;
 
@@ -9,6 +9,8 @@ use super::split;
 pub const DEEPEST: usize = 300;
 /// The deepest input of a macro.
 const DEEPEST_INPUT: usize = 500;
+/// The longest number that is read.
+const MOST_DIGITS: usize = 1000;
 /// A pair of brackets takes more of the stack than an operator does.
 const BRACKETS: usize = 8;
 
@@ -27,13 +29,38 @@ pub fn of_expression(tokens: &TokenStream) -> syn::Result<()> {
 /// Refuses the input of a macro if it is too deep, before anything else looks at it.
 ///
 /// # Errors
-/// A sentence at the first token.
+/// A sentence at the token.
 pub fn of_input(tokens: &TokenStream) -> syn::Result<()> {
+    if let Some(literal) = long_number(tokens) {
+        let message = format!("a number has {MOST_DIGITS} digits at most");
+        return Err(syn::Error::new(literal.span(), message));
+    }
     bounded(
         tokens,
         DEEPEST_INPUT,
         "write it with fewer brackets and operators",
     )
+}
+
+/// A number whose value nobody would wait for: reading takes the square of its length.
+fn long_number(tokens: &TokenStream) -> Option<Literal> {
+    let mut levels = vec![tokens.clone().into_iter()];
+    while let Some(level) = levels.last_mut() {
+        match level.next() {
+            Some(TokenTree::Group(group)) => levels.push(group.stream().into_iter()),
+            Some(TokenTree::Literal(literal)) => {
+                let text = literal.to_string();
+                if text.len() > MOST_DIGITS
+                    && text.starts_with(|first: char| first.is_ascii_digit())
+                {
+                    return Some(literal);
+                }
+            }
+            Some(_) => {}
+            None => drop(levels.pop()),
+        }
+    }
+    None
 }
 
 fn bounded(tokens: &TokenStream, most: usize, advice: &str) -> syn::Result<()> {
@@ -89,13 +116,17 @@ struct Chain {
     factors: usize,
     /// Factors of the longest product.
     most_factors: usize,
+    /// Calls, fields and the like behind the present operand.
+    suffixes: usize,
+    /// The most of them.
+    most_suffixes: usize,
     /// The deepest group.
     groups: usize,
 }
 
 impl Chain {
     fn depth(self) -> usize {
-        self.operators + self.most_factors + self.groups
+        self.operators + self.most_factors + self.most_suffixes + self.groups
     }
 }
 
@@ -125,9 +156,15 @@ impl Level {
         }
     }
 
+    fn suffix(&mut self) {
+        self.chain.suffixes += 1;
+        self.chain.most_suffixes = self.chain.most_suffixes.max(self.chain.suffixes);
+    }
+
     fn punct(&mut self, sign: char) {
-        self.behind_operand = false;
+        let behind_operand = std::mem::take(&mut self.behind_operand);
         match sign {
+            '.' | '?' => self.suffix(),
             '>' if !matches!(self.before, Some('-' | '=')) => {
                 self.open = self.open.saturating_sub(1)
             }
@@ -137,7 +174,8 @@ impl Level {
             }
             // Paths and attributes are read one piece after another.
             ':' | '#' | '\'' => {}
-            '*' | '/' => {
+            '*' | '/' if behind_operand => {
+                self.chain.suffixes = 0;
                 self.chain.factors += 1;
                 self.chain.most_factors = self.chain.most_factors.max(self.chain.factors);
             }
@@ -147,7 +185,9 @@ impl Level {
             }
             _ => {
                 self.chain.operators += 1;
-                self.chain.factors = 0;
+                if behind_operand {
+                    (self.chain.factors, self.chain.suffixes) = (0, 0);
+                }
             }
         }
         self.before = Some(sign);
@@ -155,7 +195,9 @@ impl Level {
 
     /// An operand: behind another one it holds that, as a call does.
     fn operand(&mut self) {
-        self.chain.operators += usize::from(self.behind_operand);
+        if self.behind_operand {
+            self.suffix();
+        }
         self.behind_operand = true;
         self.before = None;
     }
@@ -210,6 +252,8 @@ mod tests {
             1 + BRACKETS + 1 + BRACKETS + 1
         );
         assert_eq!(depth_of("f(x)"), 1 + BRACKETS);
+        assert_eq!(depth_of("a.b * f(x) + c.d"), 1 + 1 + 1 + BRACKETS);
+        assert_eq!(depth_of("- * - * a"), 4);
         assert_eq!(depth_of("A<B, A<B, A<B>>>"), 3);
         assert_eq!(depth_of("a: A<B>, b: A<B>"), 1);
         assert_eq!(depth_of("fn(A) -> B<C, fn(A) -> B<C>>"), 3 + BRACKETS + 2);

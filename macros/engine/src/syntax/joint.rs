@@ -112,7 +112,12 @@ impl Parse for Head {
 /// Parses a block; what can be understood of a faulty one is kept.
 pub fn parse(tokens: TokenStream, kind: ElementKind, faults: &mut Faults) -> Option<JointSyntax> {
     let word = kind.word();
-    let head: Head = faults.accept(syn::parse2(tokens))?;
+    let last = tokens.clone().into_iter().last();
+    let whole = Piece {
+        tokens,
+        end: last.map_or_else(Span::call_site, |token| token.span()),
+    };
+    let head = whole.parse_outline(Head::parse, faults)?;
     let keyword = match head.keyword {
         Some(keyword) if keyword == word => keyword,
         found => {

@@ -4,7 +4,7 @@ pub mod depth;
 pub mod joint;
 pub mod mechanism;
 
-use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Ident, Token};
 
@@ -21,33 +21,48 @@ pub struct Piece {
 
 impl Piece {
     /// Parses the whole piece, unless it is too deep. What is missing at its end is reported at its last token.
-    pub fn parse<P: Parser>(&self, parser: P, faults: &mut Faults) -> Option<P::Output> {
+    pub fn parse<T>(
+        &self,
+        parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>,
+        faults: &mut Faults,
+    ) -> Option<T> {
         faults.accept(depth::of_expression(&self.tokens))?;
         self.parse_outline(parser, faults)
     }
 
     /// Parses the whole piece, however deep, with a parser that leaves what stands in brackets alone.
-    fn parse_outline<P: Parser>(&self, parser: P, faults: &mut Faults) -> Option<P::Output> {
-        const PREFIX: &str = "unexpected end of input, ";
-        let result = parser.parse2(self.tokens.clone());
-        faults.accept(result.map_err(|error| {
-            if self.tokens.is_empty() {
-                let message = error.to_string();
-                return syn::Error::new(self.end, message.strip_prefix(PREFIX).unwrap_or(&message));
+    fn parse_outline<T>(
+        &self,
+        parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>,
+        faults: &mut Faults,
+    ) -> Option<T> {
+        let last = self.tokens.clone().into_iter().last();
+        let end = last.map_or(self.end, |token| token.span());
+        // The parser reports what is missing at the end of the brackets that it reads in.
+        let mut group = Group::new(Delimiter::Brace, self.tokens.clone());
+        group.set_span(end);
+        let within = |input: ParseStream<'_>| {
+            let content;
+            syn::braced!(content in input);
+            let value = parser(&content)?;
+            if content.is_empty() {
+                Ok(value)
+            } else {
+                Err(content.error("unexpected token"))
             }
-            let Some(rest) = error
-                .to_string()
-                .strip_prefix(PREFIX)
-                .map(ToString::to_string)
-            else {
-                return error;
-            };
-            let last = self.tokens.clone().into_iter().last();
-            syn::Error::new(
-                last.map_or(self.end, |token| token.span()),
-                format!("{rest} behind this"),
-            )
-        }))
+        };
+        let result = within.parse2(TokenTree::from(group).into());
+        faults.accept(result.map_err(|error| self.sentence(error)))
+    }
+
+    /// The parser's words for what is missing at an end, put for a piece.
+    fn sentence(&self, error: syn::Error) -> syn::Error {
+        let message = error.to_string();
+        match message.strip_prefix("unexpected end of input, ") {
+            Some(rest) if self.tokens.is_empty() => syn::Error::new(error.span(), rest),
+            Some(rest) => syn::Error::new(error.span(), format!("{rest} behind this")),
+            None => error,
+        }
     }
 }
 

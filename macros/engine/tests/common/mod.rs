@@ -8,8 +8,8 @@ use holonom_engine::{check, syntax};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// Definitions of joints by the names of their types: the built-in ones, and one more.
-const JOINTS: [(&str, &str); 3] = [
+/// Definitions by the names of their types: built-in ones, and ones that use the rest of the language.
+const DEFINITIONS: [(&str, &str); 6] = [
     (
         "Revolute",
         "Revolute(i, j; point: Point, axis: Axis) { \
@@ -24,7 +24,28 @@ const JOINTS: [(&str, &str); 3] = [
         "Rod(i, j; head: Point, tail: Point, length: Length) { \
          squared(j.tail - i.head) - length * length; }",
     ),
+    (
+        "Winch",
+        "Winch(i, j; point: Point, axis: Axis, pitch: Length = initial(length(i.point - j.origin)), motion: Law) { \
+         let d = j.point - i.point; let n = fixed(j, i.axis.normal()); \
+         dot(i.axis.normals(), j.axis); dot(n, d) - sqrt(1.0 + squared(d)) / 2.0 + 0.5; \
+         dot(i.axis, d) - pitch / TAU * angle(i, j, axis); drive angle(i, j, axis) to motion(); \
+         angle about axis; displacement dot(i.axis, d); }",
+    ),
+    (
+        "Damper",
+        "Damper(i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0, force: Law(length, rate)) { \
+         let d = length(j.tail - i.head); potential 0.5 * stiffness * d * d; -damping * rate(d) along d; \
+         force(d, rate(d)) along d; }",
+    ),
+    (
+        "Push",
+        "Push(i, j; point: Point, thrust: Vector) { force i.thrust at j.point; moment cross(i.thrust, [0.1, 0.2, time]) on j; }",
+    ),
 ];
+
+/// Which of them are forces.
+const FORCES: [&str; 2] = ["Damper", "Push"];
 
 /// The annotated structs of `data`, by name.
 pub(crate) const SCENES: [(&str, &str); 5] = [
@@ -44,6 +65,9 @@ pub(crate) const SCENES: [(&str, &str); 5] = [
 /// The pendulum of chapter 15.
 pub(crate) const PENDULUM: &str = SCENES[0].1;
 
+/// A driven mechanism with forces and run-time values.
+pub(crate) const HOIST: &str = include_str!("../data/hoist.rs");
+
 /// A struct with several faults.
 pub(crate) const FAULTY: &str = include_str!("../data/faulty.rs");
 
@@ -62,20 +86,35 @@ fn paths(item: &TokenStream) -> Vec<String> {
     paths.iter().map(ToString::to_string).collect()
 }
 
-fn definition(path: &str) -> Option<TokenStream> {
-    let (_, text) = JOINTS.iter().find(|(name, _)| *name == path)?;
-    Some(tokens(text))
+/// The kind and the text of a definition.
+pub(crate) fn definition(path: &str) -> Option<(ElementKind, TokenStream)> {
+    let (name, text) = DEFINITIONS.iter().find(|(name, _)| *name == path)?;
+    let kind = if FORCES.contains(name) {
+        ElementKind::Force
+    } else {
+        ElementKind::Joint
+    };
+    Some((kind, tokens(text)))
 }
 
 /// What reaches `assemble!` for an annotated struct.
 pub(crate) fn delivery(item: &TokenStream) -> TokenStream {
+    delivery_of(item, definition)
+}
+
+/// What reaches `assemble!` for an annotated struct and definitions of one's own.
+pub(crate) fn delivery_of(
+    item: &TokenStream,
+    find: impl Fn(&str) -> Option<(ElementKind, TokenStream)>,
+) -> TokenStream {
     let definitions = paths(item).into_iter().map(|path| match path.as_str() {
         "Body" => quote!([body]),
         "Particle" => quote!([particle]),
-        path => definition(path).map_or_else(
-            || quote!([faulty]),
-            |definition| quote!([joint { #definition }]),
-        ),
+        path => match find(path) {
+            Some((ElementKind::Joint, definition)) => quote!([joint { #definition }]),
+            Some((ElementKind::Force, definition)) => quote!([force { #definition }]),
+            None => quote!([faulty]),
+        },
     });
     quote!([::holonom] [#(#definitions)*] { #item })
 }
@@ -92,8 +131,8 @@ pub(crate) fn model(item: &TokenStream) -> Model {
             "Body" => Definition::Body(BodyKind::Rigid),
             "Particle" => Definition::Body(BodyKind::Particle),
             path => {
-                let body = definition(path).expect("a known joint");
-                let joint = syntax::joint::parse_transported(body, ElementKind::Joint, &mut faults);
+                let (kind, body) = definition(path).expect("a known definition");
+                let joint = syntax::joint::parse_transported(body, kind, &mut faults);
                 let joint = joint.and_then(|joint| check::joint::check(&joint, &mut faults));
                 definitions.extend(joint);
                 Definition::Element(definitions.len() - 1)
