@@ -64,6 +64,8 @@ mod tests;
 pub mod __private;
 mod bodies;
 pub mod forces;
+#[cfg(any(doc, doctest))]
+pub mod guide;
 pub mod joints;
 
 pub use bodies::{Body, Particle};
