@@ -1,8 +1,9 @@
-//! The guide: how to describe a mechanism, run it and read it, in eight chapters.
+//! The guide: how to describe a mechanism, run it and read it, chapter by chapter.
 //!
 //! | chapter | what it answers |
 //! |---|---|
 //! | [`mechanism`] | how bodies, joints and the start are described; how joints are chosen so that the count of equations comes out |
+//! | [`reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
 //! | [`joint`] | how a joint of one's own is defined |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics and inverse dynamics; power and energy |
 //! | [`parameters`] | numbers that are known at run time only, and inputs that change at every step |
@@ -16,6 +17,9 @@
 
 #[doc = include_str!("mechanism.md")]
 pub mod mechanism {}
+
+#[doc = include_str!("reference.md")]
+pub mod reference {}
 
 #[doc = include_str!("joint.md")]
 pub mod joint {}
