@@ -14,10 +14,11 @@ use crate::syntax::joint::{JointSyntax, ParameterSyntax, Statement};
 use crate::wire;
 
 /// Names that a definition may not use for itself.
-const RESERVED: [&str; 9] = [
+const RESERVED: [&str; 10] = [
     "PI",
     "TAU",
     "between",
+    "displacement",
     "drive",
     "ground",
     "let",

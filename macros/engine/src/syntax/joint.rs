@@ -340,25 +340,30 @@ fn around(piece: &Piece, word: &str) -> Option<(Piece, Ident, Piece)> {
     None
 }
 
-/// The word at the start of a piece, where an operand and no operator stands behind it, and the rest.
+/// The word at the start of a piece, where an operand and no operator stands behind it, and the rest. A parenthesis or a sign may open
+/// the operand of a word that is no name, or of one that another word follows; else it is a call, or a difference.
 fn keyword(piece: &Piece) -> Option<(Ident, Piece)> {
     let mut tokens = piece.tokens.clone().into_iter();
     let Some(TokenTree::Ident(keyword)) = tokens.next() else {
         return None;
     };
-    let rest: TokenStream = tokens.collect();
-    let operand = match rest.clone().into_iter().next() {
-        Some(TokenTree::Punct(punct)) => punct.as_char() == '-' && keyword == "potential",
-        Some(TokenTree::Group(group)) => {
-            group.delimiter() == Delimiter::Bracket || keyword == "potential"
-        }
+    let rest = Piece {
+        tokens: tokens.collect(),
+        end: piece.end,
+    };
+    let is_statement = match keyword.to_string().as_str() {
+        "potential" | "displacement" => true,
+        "drive" => around(&rest, "to").is_some(),
+        "force" => around(&rest, "at").is_some(),
+        "moment" => around(&rest, "on").is_some(),
+        _ => false,
+    };
+    let operand = match rest.tokens.clone().into_iter().next() {
+        Some(TokenTree::Punct(punct)) => punct.as_char() == '-' && is_statement,
+        Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Bracket || is_statement,
         // `let` is nothing else.
         None => keyword == "let",
         Some(_) => true,
-    };
-    let rest = Piece {
-        tokens: rest,
-        end: piece.end,
     };
     operand.then_some((keyword, rest))
 }
@@ -450,4 +455,52 @@ fn expression(piece: &Piece, faults: &mut Faults) -> Option<Box<syn::Expr>> {
         Ok(Box::new(expr))
     };
     piece.parse(parser, faults)
+}
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::Span;
+    use quote::quote;
+
+    use super::{Piece, Statement, statement};
+    use crate::diag::Faults;
+
+    fn read(tokens: proc_macro2::TokenStream) -> Statement {
+        let mut faults = Faults::new();
+        let end = Span::call_site();
+        let found = statement(&Piece { tokens, end }, &mut faults);
+        let errors = faults.into_tokens();
+        assert!(errors.is_empty(), "{errors}");
+        found.expect("a statement")
+    }
+
+    #[test]
+    fn an_operand_may_begin_with_a_parenthesis_or_a_sign() {
+        use Statement::{Displacement, Drive, Force, Moment, Potential};
+        assert!(matches!(
+            read(quote!(force (a * b) * i.v at i.p)),
+            Force(..)
+        ));
+        assert!(matches!(read(quote!(force -i.v at i.p)), Force(..)));
+        assert!(matches!(read(quote!(moment -(a * i.v) on i)), Moment(..)));
+        assert!(matches!(
+            read(quote!(drive (a - b) / 2.0 to motion())),
+            Drive(..)
+        ));
+        assert!(matches!(read(quote!(drive -a to motion())), Drive(..)));
+        assert!(matches!(read(quote!(potential - a / b)), Potential(..)));
+        assert!(matches!(
+            read(quote!(displacement(a + b))),
+            Displacement(..)
+        ));
+        assert!(matches!(read(quote!(displacement - a)), Displacement(..)));
+    }
+
+    #[test]
+    fn laws_and_numbers_may_bear_the_words_of_statements() {
+        use Statement::{Along, Zero};
+        assert!(matches!(read(quote!(force(d, rate(d)) along d)), Along(..)));
+        assert!(matches!(read(quote!(moment - a)), Zero(..)));
+        assert!(matches!(read(quote!(force(a) - drive(b))), Zero(..)));
+    }
 }
