@@ -3,13 +3,14 @@
 //! | chapter | what it answers |
 //! |---|---|
 //! | [`mechanism`] | how bodies, joints and the start are described; how joints are chosen so that the count of equations comes out |
-//! | [`reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
+//! | [`mod@reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
 //! | [`joint`] | how a joint of one's own is defined |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics and inverse dynamics; power and energy |
 //! | [`parameters`] | numbers that are known at run time only, and inputs that change at every step |
 //! | [`results`] | what can be read, in which units, frames and signs; state and restart |
 //! | [`reactions`] | what a joint exerts on which body, reduced to which point; body axes and principal axes |
 //! | [`redundant`] | equations that follow from others, singular configurations, and joints that avoid both |
+//! | [`embedded`] | fixed steps without a heap and without the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
 //!
 //! Every example is compiled and run with the tests of the crate, and what the text says of its numbers is asserted in it.
@@ -38,6 +39,9 @@ pub mod reactions {}
 
 #[doc = include_str!("redundant.md")]
 pub mod redundant {}
+
+#[doc = include_str!("embedded.md")]
+pub mod embedded {}
 
 #[doc = include_str!("choosing.md")]
 pub mod choosing {}
