@@ -13,6 +13,55 @@
 //! | [`embedded`] | fixed steps without a heap and without the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
 //!
+//! # A first program
+//!
+//! ```toml
+//! [dependencies]
+//! holonom = "0.1"    # or { path = ".." }, as the README says
+//!
+//! # The macros run while the program is compiled: optimised, they take a fraction of the time in a debug build.
+//! [profile.dev.build-override]
+//! opt-level = 2
+//! ```
+//!
+//! ```
+//! use holonom::joints::Revolute;
+//! use holonom::prelude::*;
+//!
+//! /// A rod of 1 m on a hinge about x, released from the horizontal.
+//! #[derive(Mechanism)]
+//! #[mechanism(gravity = [0.0, 0.0, -9.81])]
+//! struct Pendulum {
+//!     #[body(mass = 2.0, inertia = [1.0 / 6.0, 0.001, 1.0 / 6.0], position = [0.0, 0.5, 0.0])]
+//!     rod: Body,
+//!     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+//!     hinge: Revolute,
+//! }
+//!
+//! // Checked when the program is compiled.
+//! const _: () = assert!(Pendulum::REPORT.degrees_of_freedom == 1);
+//!
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let pendulum = Pendulum::default();
+//!     let handles = Pendulum::HANDLES;
+//!     let ode45 = DormandPrince::new(Tolerance { relative: 1e-9, absolute: 1e-9 });
+//!     let report = Simulation::new(&pendulum, StandardLagrange, ode45)
+//!         .assembled()                        // puts the start on the constraints
+//!         .projection(Projection::default())  // and every state that follows
+//!         .run(0.0_f64..=2.0, every(0.1), |sample| {
+//!             let reaction = match sample.reaction(handles.hinge, handles.rod) {
+//!                 Ok(reaction) => reaction,
+//!                 Err(_) => return ControlFlow::Break(()),
+//!             };
+//!             println!("{:.1} s: {:8.4} rad, {:8.3} N", sample.time(), sample.angle(handles.hinge), reaction.force.norm());
+//!             ControlFlow::Continue(())
+//!         })?;
+//!     assert!(report.worst_violation < 1e-24);
+//!     Ok(())
+//! }
+//! ```
+//!
+//! The examples of the chapters leave `fn main` out: structs, `joint!` and `force!` stand outside it, what follows inside.
 //! Every example is compiled and run with the tests of the crate, and what the text says of its numbers is asserted in it.
 //! Equations stand twice: typeset, where the page could load KaTeX, and as plain text.
 
