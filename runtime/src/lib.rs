@@ -1,10 +1,13 @@
 //! Equations of motion of rigid multibody systems, generated at compile time from an annotated struct.
 //!
-//! A mechanism is a struct with `#[derive(Mechanism)]`: bodies and joints are its fields. The derive writes the kernels of
-//! its equations of motion as straight-line code; this crate holds what runs them:
+//! A mechanism is a struct with `#[derive(Mechanism)]`: bodies, joints, forces, parameters and inputs are its fields. The derive
+//! writes the kernels of its equations of motion as straight-line code; this crate holds what runs them. **Begin with the
+//! [`guide`]**; the whole language is on one page of it, [`guide::reference`](mod@guide::reference).
 //!
 //! | what | where |
 //! |---|---|
+//! | bodies, joints and drivers, forces | [`Body`], [`Particle`], [`joints`], [`forces`] |
+//! | joints and forces of one's own | [`joint!`], [`force!`] |
 //! | a run over an interval of time, with reports | [`Simulation`], [`every`], [`Sample`], [`RunReport`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
@@ -69,7 +72,7 @@ pub mod guide;
 pub mod joints;
 
 pub use bodies::{Body, Particle};
-/// Describes a mechanism: every field is a body or a joint.
+/// Describes a mechanism: every field is a body, a joint, a force, a parameter or an input.
 ///
 /// ```
 /// use holonom::joints::{Revolute, Spherical};
@@ -114,6 +117,8 @@ pub use bodies::{Body, Particle};
 ///
 /// # Attributes
 ///
+/// Units, defaults and what may stand where are in [`guide::reference`](mod@crate::guide::reference).
+///
 /// `#[mechanism(gravity = [x, y, z])]` on the struct: the acceleration of free fall (m/s^2, global); none if left out.
 /// `redundant = "drop"` or `"keep"` beside it says what is to be done with equations that follow from others (a door on two
 /// hinges), which are refused otherwise: see [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the
@@ -129,15 +134,20 @@ pub use bodies::{Body, Particle};
 /// `point = local([..], [..])` (the ground's axes are the global ones); the joint may then be violated at the start,
 /// which [`MechanismExt::assemble`] mends.
 ///
+/// `#[force(between = [i, j], ..)]` on a field whose type is a force, likewise, see [`forces`] and [`force!`].
+///
+/// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a number may, by the name of the field.
+/// `#[input]`: one that may change at every step, in forces and gravity only.
+///
 /// # Numbers
 ///
-/// Literals, `+ - * /`, `sqrt(..)`, `sin(..)`, `cos(..)`, `tan(..)`, `exp(..)`, `deg(..)` (degrees to radians), `PI`, `TAU`, and paths of
-/// constants of type `f64`. The macro evaluates what it can see; a path is a value that it cannot see: it is checked by the compiler or
-/// in [`Mechanism::parameters`](trait@Mechanism), and does not fold.
+/// Literals, `+ - * /`, `sqrt(..)`, `sin(..)`, `cos(..)`, `tan(..)`, `exp(..)`, `deg(..)` (degrees to radians), `PI`, `TAU`, paths of
+/// constants of type `f64`, parameters and inputs. The macro evaluates what it can see; a path is a value that it cannot see: it is checked
+/// by the compiler or in [`Mechanism::parameters`](trait@Mechanism), and does not fold. Laws are expressions of `time`, too.
 ///
 /// # What is generated
 ///
-/// An implementation of [`trait@Mechanism`], and `Default`. `T::HANDLES` is a struct with a handle for every field, under the field's name;
+/// An implementation of [`trait@Mechanism`], and `Default`, or, where there are parameters, `T::new(..)`, which checks them. `T::HANDLES` is a struct with a handle for every field, under the field's name;
 /// `T::REPORT` holds sizes, names, the plan of the solution and the operations of every kernel, which the documentation of
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
