@@ -1,6 +1,7 @@
 //! Laws: functions that a mechanism writes, of the time and of the arguments that a definition names.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::{BinOp, Expr, UnOp};
 
 use super::number::Numbers;
@@ -109,7 +110,16 @@ impl LawReader<'_, '_, '_> {
                 call.args.iter().any(|argument| self.varies(argument))
                     || matches!(code(&call.func).as_str(), "smooth_step")
             }
-            _ => false,
+            other => self.mentioned(other.to_token_stream()),
         }
+    }
+
+    /// Whether tokens that are no expression of the language speak of the time or of an argument.
+    fn mentioned(&self, tokens: TokenStream) -> bool {
+        tokens.into_iter().any(|token| match token {
+            TokenTree::Group(group) => self.mentioned(group.stream()),
+            TokenTree::Ident(name) => name == "time" || self.arguments.contains(&name),
+            _ => false,
+        })
     }
 }
