@@ -1,6 +1,7 @@
 //! Mechanisms: bodies, joints between them, and what belongs to neither.
 
 use proc_macro2::Ident;
+use syn::Expr;
 use syn::spanned::Spanned;
 
 use super::bodies;
@@ -126,11 +127,11 @@ pub fn check(
 }
 
 /// What `#[mechanism(..)]` says: gravity, and what to do with redundant equations.
-fn attributes(
-    syntax: &MechanismSyntax,
+fn attributes<'a>(
+    syntax: &'a MechanismSyntax,
     numbers: &mut Numbers<'_>,
     faults: &mut Faults,
-) -> (Option<[Number; 3]>, Redundant) {
+) -> (Option<[Number; 3]>, (Redundant, Option<&'a Expr>)) {
     let mut pairs = Pairs::new(
         "`#[mechanism(..)]`".into(),
         syntax.name.span(),
@@ -142,9 +143,10 @@ fn attributes(
         Some(expr) => numbers.vector(expr, faults),
         None => Some([Number::ZERO; 3]),
     };
-    let wish = redundant::read(pairs.optional("redundant", faults), faults);
+    let redundant = pairs.optional("redundant", faults);
+    let wish = redundant::read(redundant, faults);
     pairs.finish(faults);
-    (gravity, wish)
+    (gravity, (wish, redundant))
 }
 
 /// What the type of a field turned out to be.

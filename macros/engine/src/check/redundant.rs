@@ -3,7 +3,7 @@
 use syn::{Expr, ExprLit, Lit};
 
 use crate::diag::{Faults, did_you_mean, list};
-use crate::model::{Model, Redundant, RedundantRow};
+use crate::model::{Model, Rank, Redundant, RedundantRow};
 use crate::rank::judge;
 use crate::syntax::ungroup;
 
@@ -31,10 +31,17 @@ pub(super) fn read(expr: Option<&Expr>, faults: &mut Faults) -> Redundant {
     Redundant::Keep
 }
 
-/// Finds the rank of a model that is sound otherwise, and does with redundant equations what the user wishes.
-pub(super) fn check(model: &mut Model, wish: Redundant, faults: &mut Faults) {
+/// Finds the rank of a model that is sound otherwise, and does with redundant equations what the user wishes, which was written as `expr`.
+pub(super) fn check(
+    model: &mut Model,
+    (wish, expr): (Redundant, Option<&Expr>),
+    faults: &mut Faults,
+) {
     model.independence = judge(model);
     match wish {
+        Redundant::Drop if !matches!(model.independence.rank, Rank::Decided { .. }) => {
+            faults.at(expr, undecided(model));
+        }
         Redundant::Refuse => refuse(model, faults),
         Redundant::Keep => {}
         Redundant::Drop => {
@@ -44,6 +51,35 @@ pub(super) fn check(model: &mut Model, wish: Redundant, faults: &mut Faults) {
             model.independence.dropped = true;
         }
     }
+}
+
+/// Why equations that follow from others cannot be found, and what to do.
+fn undecided(model: &Model) -> String {
+    if model.independence.rank == Rank::NotAssembled {
+        return "no equations can be left out: nothing near the described configuration satisfies all of them; look for a point or \
+                an axis that contradicts the others"
+            .into();
+    }
+    let is_joint = |name: &str| model.joints.iter().any(|joint| joint.name == name);
+    let mut places: Vec<String> = model
+        .symbols
+        .iter()
+        .filter(|s| {
+            is_joint(&s.field) || matches!(s.attribute.as_str(), "position" | "orientation")
+        })
+        .map(|s| format!("`{}` of `{}`", s.attribute, s.field))
+        .collect();
+    places.dedup();
+    let among = if places.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", places.join(", "))
+    };
+    format!(
+        "no equations can be left out, because the constraints depend on numbers that the macro cannot see{among}: write literals in \
+         the place of constants and parameters, choose joints without redundant equations, or write `redundant = \"keep\"` for \
+         formulations with a compliance"
+    )
 }
 
 /// One fault for each joint with redundant equations.

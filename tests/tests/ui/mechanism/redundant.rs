@@ -57,6 +57,33 @@ struct Bare {
     bead: Particle,
 }
 
+const HEIGHT: f64 = 1.5;
+
+/// What cannot be seen cannot be left out.
+#[derive(Mechanism)]
+#[mechanism(redundant = "drop")]
+struct Unseen {
+    #[param]
+    width: f64,
+    #[body(mass = HEIGHT, inertia = [1.0, 1.0, 1.0], position = [0.5 * width, 1.0, 0.0])]
+    leaf: Body,
+    #[joint(between = [ground, leaf], point = [0.0, 0.5, 0.0], axis = [0.0, 1.0, 0.0])]
+    lower: Revolute,
+    #[joint(between = [ground, leaf], point = [0.0, HEIGHT, 0.0], axis = [0.0, 1.0, 0.0])]
+    upper: Revolute,
+}
+
+#[derive(Mechanism)]
+#[mechanism(redundant = "drop")]
+struct Apart {
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0])]
+    leaf: Body,
+    #[joint(between = [ground, leaf], point = local([0.0, 0.0, 0.0], [0.0, 0.0, 0.0]))]
+    lower: Spherical,
+    #[joint(between = [ground, leaf], point = local([0.0, 1.0, 0.0], [0.0, 2.0, 0.0]))]
+    upper: Spherical,
+}
+
 /// Nothing is redundant: either wish is granted.
 #[derive(Mechanism)]
 #[mechanism(redundant = "drop")]
