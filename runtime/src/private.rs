@@ -77,7 +77,8 @@ pub fn deg(x: f64) -> f64 {
 /// ([`View::angle`](crate::View::angle), [`View::displacement`](crate::View::displacement)). A joint connects one or more
 /// bodies; the `ground` of a mechanism may be any of them.
 ///
-/// The joint's reaction is `-D^T lambda`, whatever the units of its equations are.
+/// The joint's reaction is `-D^T lambda`, whatever the units of its equations are. What a good equation looks like, and a joint in use:
+/// [`guide::joint`](crate::guide::joint).
 #[macro_export]
 macro_rules! joint {
     ($($definition:tt)*) => {
@@ -98,7 +99,7 @@ macro_rules! joint {
 /// }
 /// ```
 ///
-/// Signature and expressions are those of [`joint!`](crate::joint!); `rate(x)` is the time derivative of a scalar. Statements:
+/// Signature and expressions are those of [`joint!`](crate::joint!), examples in [`guide::forces`](crate::guide::forces); `rate(x)` is the time derivative of a scalar. Statements:
 ///
 /// | statement | what acts |
 /// |---|---|

@@ -16,6 +16,9 @@
 //! [`View::potential_energy`](crate::View::potential_energy); what dampers, actuators and given forces do is the power of
 //! [`View::power`](crate::View::power).
 //!
+//! Parameters, units and signs of all of them are in [`guide::reference`](mod@crate::guide::reference), examples in
+//! [`guide::forces`](crate::guide::forces).
+//!
 //! They are not in the prelude: `use holonom::forces::SpringDamper;`.
 
 mod actuators;
