@@ -77,7 +77,13 @@ pub struct Space {
     exact: bool,
     /// Whether identities of rotations are tried beside the product rule.
     identities: bool,
+    /// Trials within trials that are going on.
+    trials: usize,
 }
+
+/// Trials within trials; deeper down, the first candidate is taken. Without a bound, their number is exponential in the
+/// depth of a vector.
+const MOST_TRIALS: usize = 4;
 
 impl Space {
     /// A space for bodies with the given rotation matrices.
@@ -140,7 +146,9 @@ impl Space {
     /// What something would cost, in operations at every evaluation; nothing is kept.
     pub fn cost<T>(&mut self, attempt: impl FnOnce(&mut Self) -> T) -> usize {
         let mark = self.mark();
+        self.trials += 1;
         attempt(self);
+        self.trials -= 1;
         let cost = self.arena.operations_since(mark.arena);
         self.rollback(mark);
         cost
@@ -155,6 +163,7 @@ impl Space {
         let best = match candidates {
             [] => return None,
             [only] => *only,
+            [first, ..] if self.trials >= MOST_TRIALS => *first,
             _ => {
                 let mut best: Option<(usize, C)> = None;
                 for &candidate in candidates {
