@@ -121,6 +121,14 @@ pub(crate) fn delivery_of(
 
 /// What an annotated struct without faults means.
 pub(crate) fn model(item: &TokenStream) -> Model {
+    delivered(item, definition)
+}
+
+/// What an annotated struct without faults means, with definitions of one's own.
+pub(crate) fn delivered(
+    item: &TokenStream,
+    find: impl Fn(&str) -> Option<(ElementKind, TokenStream)>,
+) -> Model {
     let input = syn::parse2(item.clone()).expect("a struct");
     let mut faults = Faults::new();
     let written = syntax::mechanism::parse(&input, &mut faults);
@@ -131,7 +139,7 @@ pub(crate) fn model(item: &TokenStream) -> Model {
             "Body" => Definition::Body(BodyKind::Rigid),
             "Particle" => Definition::Body(BodyKind::Particle),
             path => {
-                let (kind, body) = definition(path).expect("a known definition");
+                let (kind, body) = find(path).expect("a known definition");
                 let joint = syntax::joint::parse_transported(body, kind, &mut faults);
                 let joint = joint.and_then(|joint| check::joint::check(&joint, &mut faults));
                 definitions.extend(joint);
