@@ -1,4 +1,4 @@
-#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "keep")]
 pub struct Hoist {
     #[param]
     size: f64,
