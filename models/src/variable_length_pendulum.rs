@@ -11,8 +11,8 @@ use holonom::prelude::*;
 ///     y
 ///     |
 ///     o------ x      pin in the origin, with the torsional spring; z towards the reader
-///     | \\            arm: phi = 60 degrees from the downward vertical, towards +x
-///     |   \\          slider on the arm, its spring and damper between pin and slider
+///     | \             arm: phi = 60 degrees from the downward vertical, towards +x
+///     |   \           slider on the arm, its spring and damper between pin and slider
 ///     v     []
 ///     g = 9.81 m/s^2
 /// ```
