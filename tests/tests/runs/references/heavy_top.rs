@@ -89,6 +89,8 @@ fn spins<F: Formulation<f64>>(method: F) {
 #[test]
 fn it_is_where_it_should_be_after_two_seconds() {
     spins(StandardLagrange);
+    spins(Baumgarte::default());
+    spins(AugmentedLagrangian::default());
 }
 
 #[test]

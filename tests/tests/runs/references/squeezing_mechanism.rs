@@ -95,6 +95,7 @@ fn squeezes<F: Formulation<f64>>(method: F, asked: f64) {
 fn it_squeezes_as_its_references() {
     squeezes(StandardLagrange, 1e-11);
     squeezes(Baumgarte::default(), 1e-11);
+    squeezes(AugmentedLagrangian::default(), 1e-11);
 }
 
 #[test]
