@@ -124,6 +124,8 @@ pub use bodies::{Body, Particle};
 /// hinges), which are refused otherwise: see [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the
 /// motion is the same, reactions are those of the joints without these equations. Keep them, and
 /// only formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
+/// `recursion_limit = 256` repeats what stands at the top of the crate, `#![recursion_limit = "256"]`: more than a hundred kinds of
+/// bodies, joints and forces in one mechanism need both.
 ///
 /// `#[body(..)]` on a field of type [`Body`] or [`Particle`]: see there.
 ///

@@ -28,6 +28,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::DeriveInput;
 
+use check::kinds;
 use check::mechanism::{Definition, Definitions};
 use diag::Faults;
 use model::{BodyKind, ElementKind};
@@ -79,9 +80,14 @@ pub fn derive(tokens: TokenStream) -> TokenStream {
         let Some(input) = input else {
             return faults.into_tokens();
         };
-        let paths = syntax::mechanism::carrier_paths(&input);
+        let mut paths = syntax::mechanism::carrier_paths(&input);
         if !paths.is_empty() {
+            let syntax = syntax::mechanism::parse(&input, &mut faults);
+            // They are found again at the end of the way.
             drop(faults.into_tokens());
+            if kinds::too_many(&syntax, paths.len()).is_some() {
+                paths.truncate(1);
+            }
             return wire::call(&paths, &tokens);
         }
         // Nobody can tell where the run-time crate is: say what can be said without it.
@@ -115,6 +121,15 @@ pub fn assemble(tokens: TokenStream) -> TokenStream {
         };
         let syntax = syntax::mechanism::parse(&input, &mut faults);
         let paths = syntax::mechanism::carrier_paths(&input);
+        if let Some(message) = kinds::too_many(&syntax, paths.len()) {
+            faults.at(&syntax.name, message);
+            let unknown = paths
+                .iter()
+                .map(|path| (path.to_string(), Definition::Faulty));
+            let items = emit::fallback::emit(&syntax, &unknown.collect(), &facade);
+            let errors = faults.into_tokens();
+            return quote!(#errors #items);
+        }
         let mut definitions = Vec::new();
         let types: Definitions = paths
             .iter()

@@ -8,7 +8,7 @@ use super::bodies;
 use super::joints::{JointChecker, Mentioned};
 use super::number::Numbers;
 use super::pairs::Pairs;
-use super::redundant;
+use super::{kinds, redundant};
 use crate::diag::{Faults, code};
 use crate::model::{BodyKind, ElementKind, Independence, JointDef, Model, Number, Redundant};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
@@ -145,6 +145,7 @@ fn attributes<'a>(
     };
     let redundant = pairs.optional("redundant", faults);
     let wish = redundant::read(redundant, faults);
+    kinds::read(pairs.optional(kinds::KEY, faults), faults);
     pairs.finish(faults);
     (gravity, (wish, redundant))
 }

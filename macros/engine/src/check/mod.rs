@@ -5,6 +5,7 @@ mod expression;
 mod functions;
 pub mod joint;
 mod joints;
+pub mod kinds;
 mod laws;
 pub mod mechanism;
 pub mod number;
