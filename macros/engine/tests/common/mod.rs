@@ -142,7 +142,10 @@ pub(crate) fn delivered(
                 let (kind, body) = find(path).expect("a known definition");
                 let joint = syntax::joint::parse_transported(body, kind, &mut faults);
                 let joint = joint.and_then(|joint| check::joint::check(&joint, &mut faults));
-                definitions.extend(joint);
+                let Some(joint) = joint else {
+                    panic!("faults of `{path}`: {}", faults.into_tokens());
+                };
+                definitions.push(joint);
                 Definition::Element(definitions.len() - 1)
             }
         };
