@@ -32,11 +32,15 @@ macro_rules! pushed {
 /// The velocity of the particle after a second.
 pub(crate) fn velocity_after_a_second<M: Mechanism + Default>(bead: BodyHandle<M>) -> f64 {
     let mut reached = f64::NAN;
-    Simulation::new(&M::default(), StandardLagrange, DormandPrince::new(Tolerance::default()))
-        .run(0.0..=1.0, every(1.0), |sample| {
-            reached = sample.velocity(bead).x;
-            ControlFlow::Continue(())
-        })
-        .expect("a particle that moves");
+    Simulation::new(
+        &M::default(),
+        StandardLagrange,
+        DormandPrince::new(Tolerance::default()),
+    )
+    .run(0.0..=1.0, every(1.0), |sample| {
+        reached = sample.velocity(bead).x;
+        ControlFlow::Continue(())
+    })
+    .expect("a particle that moves");
     reached
 }

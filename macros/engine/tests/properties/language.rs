@@ -5,9 +5,9 @@ use std::cell::Cell;
 use num_dual::{Dual2_64, DualNum};
 use syn::{BinOp, Expr, Lit, Member, UnOp};
 
-use crate::random::{Joint, Statement};
+use crate::random::{BODIES, Joint, Statement};
 
-type Vector = [Dual2_64; 3];
+pub(crate) type Vector = [Dual2_64; 3];
 
 /// Below this, a divisor, a length or the argument of a root is near a singularity.
 const SINGULAR: f64 = 0.05;
@@ -30,7 +30,7 @@ pub(crate) fn constant(value: f64) -> Dual2_64 {
     Dual2_64::new(value, 0.0, 0.0)
 }
 
-fn dot(a: Vector, b: Vector) -> Dual2_64 {
+pub(crate) fn dot(a: Vector, b: Vector) -> Dual2_64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -59,7 +59,7 @@ impl Pose {
         [0, 1, 2].map(|k| square * s[k] + e[k] * along * 2.0 + e0 * around[k] * 2.0)
     }
 
-    fn outwards(&self, s: Vector) -> Vector {
+    pub(crate) fn outwards(&self, s: Vector) -> Vector {
         self.turned(s, 1.0)
     }
 
@@ -77,6 +77,18 @@ fn normals(axis: [f64; 3]) -> [[f64; 3]; 2] {
     let length = first.iter().map(|c| c * c).sum::<f64>().sqrt();
     let [a, b, c] = first.map(|component| component / length);
     [[a, b, c], [y * c - z * b, z * a - x * c, x * b - y * a]]
+}
+
+/// What a force is made of, at one instant.
+#[derive(Clone, Copy)]
+pub(crate) enum Acting {
+    Potential(Dual2_64),
+    /// Effort and coordinate.
+    Along(Dual2_64, Dual2_64),
+    /// Force and point.
+    Force(Vector, Vector),
+    /// Moment and formal body.
+    Moment(Vector, usize),
 }
 
 /// Reads the text of a joint at one instant.
@@ -134,18 +146,46 @@ impl<'a> Interpreter<'a> {
         let mut rows = Vec::new();
         for statement in &self.joint.statements {
             match statement {
-                Statement::Let(..) => {}
                 Statement::Row(text) => match self.text(text, When::Now) {
                     Value::Scalars(scalars) => rows.extend(scalars),
                     Value::Vectors(vectors) => rows.extend(vectors.into_iter().flatten()),
                 },
-                Statement::Drive(driven, law) => {
-                    let value = |text| self.one(self.text(text, When::Now));
-                    rows.push(value(driven) - value(law));
-                }
+                Statement::Drive(driven, law) => rows.push(self.number(driven) - self.number(law)),
+                _ => {}
             }
         }
         rows
+    }
+
+    /// The values of what forces are made of.
+    pub(crate) fn actions(&self) -> Vec<Acting> {
+        let statements = self.joint.statements.iter();
+        let actions = statements.filter_map(|statement| match statement {
+            Statement::Potential(energy) => Some(Acting::Potential(self.number(energy))),
+            Statement::Along(effort, coordinate) => {
+                Some(Acting::Along(self.number(effort), self.number(coordinate)))
+            }
+            Statement::Force(force, point) => {
+                Some(Acting::Force(self.triple(force), self.triple(point)))
+            }
+            Statement::Moment(moment, body) => {
+                let place = BODIES.iter().position(|known| known == body);
+                Some(Acting::Moment(self.triple(moment), place.expect("a body")))
+            }
+            _ => None,
+        });
+        actions.collect()
+    }
+
+    fn number(&self, text: &str) -> Dual2_64 {
+        self.one(self.text(text, When::Now))
+    }
+
+    fn triple(&self, text: &str) -> Vector {
+        match self.text(text, When::Now) {
+            Value::Vectors(vectors) if vectors.len() == 1 => vectors[0],
+            _ => panic!("one vector is wanted"),
+        }
     }
 
     fn text(&self, text: &str, when: When) -> Value {
@@ -261,8 +301,7 @@ impl<'a> Interpreter<'a> {
         let Expr::Path(path) = expr else {
             panic!("a body is wanted");
         };
-        let bodies = ["i", "j", "k"];
-        let place = bodies.iter().position(|body| path.path.is_ident(body));
+        let place = BODIES.iter().position(|body| path.path.is_ident(body));
         place.expect("a body")
     }
 
@@ -356,6 +395,8 @@ impl<'a> Interpreter<'a> {
                 let squares = vectors(0).into_iter().map(|a| dot(a, a));
                 Value::Scalars(squares.map(|square| self.root(square)).collect())
             }
+            // Along the motion.
+            "rate" => scalar(constant(number(0).v1)),
             "sqrt" => scalar(self.root(number(0))),
             "sin" => scalar(number(0).sin()),
             "cos" => scalar(number(0).cos()),

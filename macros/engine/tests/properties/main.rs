@@ -1,4 +1,4 @@
-//! Random joints: what the engine derives from their text equals what dual numbers say of the same text.
+//! Random joints and forces: what the engine derives from their text equals what dual numbers say of the same text.
 //!
 //! `D`, `Phi'`, `gamma` and `Phi_t` of the symbols are evaluated by numbers at random states. The text is read a second time by an
 //! interpreter of its own ([`language`]), which knows no derivative: it runs over num-dual's dual numbers of second order, along curves
@@ -6,10 +6,12 @@
 //!
 //! * a column of `D`: `r + h`, or `p + h/2 L(p)^T d` with `d` a unit vector of the body;
 //! * `Phi'` and `-gamma`: `q + q' h + 1/2 q'' h^2` without accelerations, at the time `t + h`;
-//! * `Phi_t`: the time `t + h` alone.
+//! * `Phi_t`: the time `t + h` alone;
+//! * the generalised forces of a force: the curves of the columns of `D`.
 
 #[path = "../common/mod.rs"]
 mod common;
+mod forces;
 mod language;
 mod random;
 
@@ -25,7 +27,7 @@ use random::{Dice, Joint};
 
 /// Of the largest number that the interpreter met on the way.
 const TOLERANCE: f64 = 1e-12;
-const JOINTS: usize = 60;
+const JOINTS: usize = 40;
 const STATES: usize = 3;
 
 /// The state of a mechanism at one instant.
@@ -163,32 +165,39 @@ impl Derived {
             gradients,
         }
     }
+}
 
-    fn evaluate(&self, outputs: &[Expr], state: &State, moving: bool, angles: &[f64]) -> Vec<f64> {
-        let mut coordinates = Vec::new();
-        for (r, p) in &state.poses {
-            coordinates.extend(r);
-            coordinates.extend(p);
-        }
-        // What was integrated is not quite the angle: it picks the turn, and the turn only.
-        coordinates.extend(angles.iter().map(|angle| angle + 0.5));
-        let mut velocities = Vec::new();
-        for (v, w) in &state.rates {
-            velocities.extend(v);
-            velocities.extend(w);
-        }
-        let values = evaluate(&self.scene.space.arena, outputs, |input| match input {
-            Input::Time => Some(state.time),
-            Input::Coordinate(place) => coordinates.get(place as usize).copied(),
-            Input::Velocity(_) if !moving => Some(0.0),
-            Input::Velocity(place) => velocities.get(place as usize).copied(),
-            _ => None,
-        });
-        values
-            .into_iter()
-            .map(|value| value.expect("a known input"))
-            .collect()
+/// The values of expressions at a state, at rest if not `moving`; `angles` are those that are counted.
+fn values(
+    arena: &Arena,
+    outputs: &[Expr],
+    state: &State,
+    moving: bool,
+    angles: &[f64],
+) -> Vec<f64> {
+    let mut coordinates = Vec::new();
+    for (r, p) in &state.poses {
+        coordinates.extend(r);
+        coordinates.extend(p);
     }
+    // What was integrated is not quite the angle: it picks the turn, and the turn only.
+    coordinates.extend(angles.iter().map(|angle| angle + 0.5));
+    let mut velocities = Vec::new();
+    for (v, w) in &state.rates {
+        velocities.extend(v);
+        velocities.extend(w);
+    }
+    let values = evaluate(arena, outputs, |input| match input {
+        Input::Time => Some(state.time),
+        Input::Coordinate(place) => coordinates.get(place as usize).copied(),
+        Input::Velocity(_) if !moving => Some(0.0),
+        Input::Velocity(place) => velocities.get(place as usize).copied(),
+        _ => None,
+    });
+    values
+        .into_iter()
+        .map(|value| value.expect("a known input"))
+        .collect()
 }
 
 /// The largest difference, over the scale.
@@ -207,7 +216,7 @@ fn deviation(derived: &[f64], judged: &[f64], scale: f64) -> f64 {
 
 fn model(joint: &Joint) -> Model {
     let text = joint.definition();
-    let find = |name: &str| (name == "Any").then(|| (ElementKind::Joint, tokens(&text)));
+    let find = |name: &str| (name == "Any").then(|| (joint.kind, tokens(&text)));
     delivered(&tokens(&joint.mechanism()), find)
 }
 
@@ -216,7 +225,7 @@ fn random_joints_against_dual_numbers() {
     let mut dice = Dice::new(1);
     let (mut compared, mut equations, mut worst) = (0, 0, 0.0_f64);
     for _ in 0..JOINTS {
-        let joint = Joint::random(&mut dice);
+        let joint = Joint::random(ElementKind::Joint, &mut dice);
         let model = model(&joint);
         let angles = joint.turns(&model);
         let bodies = model.bodies.len();
@@ -236,10 +245,17 @@ fn random_joints_against_dual_numbers() {
             };
             compared += 1;
             equations += judged.phi.len();
-            let values = joint.angles(&angles, &state);
+            let counted = joint.angles(&angles, &state);
             for (name, derived) in &scenes {
-                let of =
-                    |outputs: &[Expr], moving| derived.evaluate(outputs, &state, moving, &values);
+                let of = |outputs: &[Expr], moving| {
+                    values(
+                        &derived.scene.space.arena,
+                        outputs,
+                        &state,
+                        moving,
+                        &counted,
+                    )
+                };
                 let [phi, rate, quadratic] = &derived.rows;
                 let mut found = [
                     ("Phi", of(phi, true), &judged.phi),

@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use holonom_engine::model::Model;
+use holonom_engine::model::{ElementKind, Model};
 
 use crate::State;
 use crate::language::{Interpreter, Pose, constant};
@@ -60,10 +60,18 @@ pub(crate) enum Statement {
     Let(String, String),
     Row(String),
     Drive(String, String),
+    Potential(String),
+    /// Effort and coordinate.
+    Along(String, String),
+    /// Force and point.
+    Force(String, String),
+    /// Moment and body.
+    Moment(String, &'static str),
 }
 
-/// A joint between random bodies, with random parameters.
+/// A joint or a force between random bodies, with random parameters.
 pub(crate) struct Joint {
+    pub(crate) kind: ElementKind,
     /// Where the bodies of the mechanism stand at the start.
     pub(crate) starts: Vec<([f64; 3], [f64; 4])>,
     /// The bodies of the joint; `None` is the ground.
@@ -78,10 +86,11 @@ pub(crate) struct Joint {
     angles: Vec<(usize, usize, String)>,
 }
 
-const BODIES: [&str; 3] = ["i", "j", "k"];
+/// The formal bodies.
+pub(crate) const BODIES: [&str; 3] = ["i", "j", "k"];
 
 impl Joint {
-    pub(crate) fn random(dice: &mut Dice) -> Self {
+    pub(crate) fn random(kind: ElementKind, dice: &mut Dice) -> Self {
         let count = 2 + dice.below(2);
         let ground = dice.below(2 * count);
         let mut starts = Vec::new();
@@ -93,6 +102,7 @@ impl Joint {
             }
         }
         let mut joint = Self {
+            kind,
             starts,
             between,
             points: ["p", "q"].map(|name| (name, dice.vector(1.0))).into(),
@@ -121,14 +131,13 @@ impl Joint {
             writer.names[usize::from(is_vector)].push(name);
         }
         for _ in 0..=writer.dice.below(3) {
-            joint.statements.push(writer.row());
+            joint.statements.push(match kind {
+                ElementKind::Joint => writer.row(),
+                ElementKind::Force => writer.action(),
+            });
         }
-        if writer.dice.below(3) == 0 {
-            let driven = format!(
-                "{moving} + {}",
-                writer.scalar(2, false),
-                moving = writer.moving()
-            );
+        if kind == ElementKind::Joint && writer.dice.below(3) == 0 {
+            let driven = format!("{} + {}", writer.moving(), writer.scalar(2, false));
             let law = format!("law({})", writer.scalar(1, false));
             joint.statements.push(Statement::Drive(driven, law));
         }
@@ -143,6 +152,10 @@ impl Joint {
             Statement::Let(name, text) => format!("let {name} = {text};\n"),
             Statement::Row(text) => format!("{text};\n"),
             Statement::Drive(driven, law) => format!("drive {driven} to {law};\n"),
+            Statement::Potential(energy) => format!("potential {energy};\n"),
+            Statement::Along(effort, coordinate) => format!("{effort} along {coordinate};\n"),
+            Statement::Force(force, point) => format!("force {force} at {point};\n"),
+            Statement::Moment(moment, body) => format!("moment {moment} on {body};\n"),
         });
         let statements: String = statements.collect();
         format!(
@@ -153,9 +166,13 @@ impl Joint {
     /// The annotated struct.
     pub(crate) fn mechanism(&self) -> String {
         let names = ["first", "second", "third"];
+        let free = match self.kind {
+            ElementKind::Joint => "",
+            ElementKind::Force => "free, ",
+        };
         let bodies = self.starts.iter().zip(names).map(|((position, euler), name)| {
             format!(
-                "#[body(mass = 1.0, inertia = [2.0, 3.0, 4.0], position = {position:?}, orientation = {euler:?})] {name}: Body,\n"
+                "#[body({free}mass = 1.0, inertia = [2.0, 3.0, 4.0], position = {position:?}, orientation = {euler:?})] {name}: Body,\n"
             )
         });
         let bodies: String = bodies.collect();
@@ -172,8 +189,9 @@ impl Joint {
         let scalars: String = scalars
             .map(|(name, value)| format!("{name} = {value:?}, "))
             .collect();
+        let word = self.kind.word();
         format!(
-            "#[mechanism(redundant = \"keep\")] struct Random {{\n{bodies}#[joint(between = [{}], {vectors}{scalars}law = {})] any: Any }}",
+            "#[mechanism(redundant = \"keep\")] struct Random {{\n{bodies}#[{word}(between = [{}], {vectors}{scalars}law = {})] any: Any }}",
             between.join(", "),
             self.law
         )
@@ -373,6 +391,23 @@ impl Writer<'_> {
 
     fn moving(&mut self) -> String {
         format!("dot({}, j.p - i.q)", self.fixed())
+    }
+
+    /// A force of any kind.
+    fn action(&mut self) -> Statement {
+        match self.dice.below(4) {
+            0 => Statement::Potential(format!("{} + {}", self.moving(), self.scalar(3, false))),
+            1 => {
+                let coordinate = format!("{} + {}", self.moving(), self.scalar(2, false));
+                let (rate, other) = (self.scalar(2, false), self.scalar(2, false));
+                Statement::Along(
+                    format!("-0.3 * rate({rate}) + law(rate(time * {rate})) - {other}"),
+                    coordinate,
+                )
+            }
+            2 => Statement::Force(self.vector(3, false), self.point()),
+            _ => Statement::Moment(self.vector(3, false), self.body()),
+        }
     }
 
     /// An equation or more, in which something moves.
