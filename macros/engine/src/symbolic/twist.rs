@@ -210,6 +210,7 @@ impl VectorExpr {
             Self::Fixed(Some(body), s) => {
                 // c . (dw x s) = dw . (s x c)
                 let vector = space.native(Frame::Body(*body), *s);
+                let covector = space.outside(covector, *body);
                 let moment = space.cross(Frame::Body(*body), vector, covector);
                 gradient
                     .moment

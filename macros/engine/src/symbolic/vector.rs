@@ -310,6 +310,16 @@ impl Space {
         components
     }
 
+    /// A vector as it is to be multiplied with what turns with a body. Where `A` may have any scale, a vector of the body itself is
+    /// known by its global components then: `A a . A (d x s)` is `d . (s x A^T A a)`, and not `d . (s x a)`.
+    pub fn outside(&mut self, vector: VectorId, body: usize) -> VectorId {
+        if !self.exact || self.home(vector) != Frame::Body(body) {
+            return vector;
+        }
+        let components = self.components(vector, Frame::Global);
+        self.native(Frame::Global, components)
+    }
+
     /// Says that the components of a vector in a frame are known.
     pub fn give(&mut self, vector: VectorId, frame: Frame, components: Triple) {
         self.components.insert((vector, frame), components);
