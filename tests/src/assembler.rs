@@ -15,7 +15,7 @@ use nalgebra::{DVector, Vector3};
 use crate::angles::Angle;
 use crate::bodies::{Body, BodyId, Kind, Orientation, rotation};
 use crate::forces::Force;
-use crate::joints::Joint;
+use crate::joints::{Joint, Normals, normals};
 
 /// The place of a joint in its [`Assembler`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,6 +46,7 @@ pub struct Assembler {
     angles: Vec<Angle>,
     gravity: Vector3<f64>,
     orientation: Orientation,
+    normals: Normals,
     coordinates: usize,
     velocities: usize,
     equations: usize,
@@ -75,6 +76,7 @@ impl Assembler {
             angles: Vec::new(),
             gravity: gravity.into(),
             orientation: Orientation::Raw,
+            normals,
             coordinates: 0,
             velocities: 0,
             equations: 0,
@@ -86,6 +88,19 @@ impl Assembler {
     pub fn with_orientation(mut self, orientation: Orientation) -> Self {
         self.orientation = orientation;
         self
+    }
+
+    /// The same, before joints are added, with another rule for the normals of an axis.
+    #[must_use]
+    pub fn with_normals(mut self, normals: Normals) -> Self {
+        self.normals = normals;
+        self
+    }
+
+    /// Two unit vectors that with the unit axis `a` make a right-handed frame `(n1, n2, a)`.
+    #[must_use]
+    pub fn normals(&self, a: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        (self.normals)(a)
     }
 
     /// Adds a body.

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use crate::assembler::Assembler;
 use crate::bodies::BodyId;
-use crate::joints::{Joint, Row, normals};
+use crate::joints::{Joint, Row};
 use crate::library::{along, coincidence, joint, unit};
 use crate::scalars::Scalar;
 
@@ -25,7 +25,7 @@ impl Joint {
         axis_j: [f64; 3],
     ) -> Self {
         let (a_i, a_j) = (unit(axis_i), unit(axis_j));
-        let [n, b] = normals(&a_i);
+        let [n, b] = scene.normals(&a_i);
         let turned = |v: &Vector3<f64>| v - v.dot(&a_j) / (1.0 + a_i.dot(&a_j)) * (a_i + a_j);
         let [n_i, b_i] = [n, b].map(|v| scene.vector(i, v.into()));
         let [n_j, b_j] = [n, b].map(|v| scene.vector(j, turned(&v).into()));

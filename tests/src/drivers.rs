@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::assembler::Assembler;
 use crate::bodies::BodyId;
-use crate::joints::{Joint, Row, normals};
+use crate::joints::{Joint, Row};
 use crate::laws::Motion;
 use crate::library::{along, parallel, unit};
 use crate::scalars::Scalar;
@@ -78,7 +78,8 @@ impl Joint {
         head: [f64; 3],
         tail: [f64; 3],
     ) -> Self {
-        let rows = normals(&unit(axis))
+        let rows = scene
+            .normals(&unit(axis))
             .map(|n| Row::constant(along(scene, between, head, tail, n.into()), 0.0));
         between_points(scene, between, head, tail, rows)
     }

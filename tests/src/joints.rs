@@ -45,6 +45,9 @@ pub struct Joint {
     rows: Vec<Row>,
 }
 
+/// A rule that gives an axis its two normals.
+pub type Normals = fn(&Vector3<f64>) -> [Vector3<f64>; 2];
+
 /// Two unit vectors that with the unit axis `a` make a right-handed frame `(n1, n2, a)`.
 ///
 /// With `k` the place of the component of `a` that is smallest in absolute value (the first one of equals):
@@ -60,6 +63,17 @@ pub fn normals(a: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let mut e = Vector3::zeros();
     e[k] = 1.0;
     let n1 = e.cross(a).normalize();
+    [n1, a.cross(&n1)]
+}
+
+/// The same by a rule that compares no components, for an axis that becomes known at run time: `n1 = (1 + s a1^2 c, s a1 a2 c, -s a1)` and
+/// `n2 = a x n1`, with `s` the sign of `a3` and `c = -1 / (s + a3)` (Duff et al., *Building an Orthonormal Basis, Revisited*, Journal of
+/// Computer Graphics Techniques 6 (2017), 1-8).
+#[must_use]
+pub fn smooth_normals(a: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let s = 1.0_f64.copysign(a.z);
+    let c = -1.0 / (s + a.z);
+    let n1 = Vector3::new(1.0 + s * a.x * a.x * c, s * a.x * a.y * c, -s * a.x);
     [n1, a.cross(&n1)]
 }
 

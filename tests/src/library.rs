@@ -1,6 +1,6 @@
 //! The joints by name, from points (m) and axes (any length) in global axes of the described configuration.
 //!
-//! Rows stand in the order of the definitions; [`normals`] is applied to the axis in global axes and the two vectors are
+//! Rows stand in the order of the definitions; [`Assembler::normals`] is applied to the axis in global axes and the two vectors are
 //! carried to the body that the definition names. `d` is the point on `j` minus the point on `i`. Sources: Nikravesh
 //! (1988), chapter 7; Haug (1989), chapter 9; Flores (2015), chapter 8.
 
@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::angles::Angle;
 use crate::assembler::Assembler;
 use crate::bodies::BodyId;
-use crate::joints::{Joint, Row, normals};
+use crate::joints::{Joint, Row};
 use crate::kinematics::Mark;
 use crate::scalars::Scalar;
 
@@ -30,7 +30,7 @@ impl Assembler {
     #[must_use]
     pub fn angle(&self, [i, j]: [BodyId; 2], axis: [f64; 3]) -> Angle {
         let axis = unit(axis);
-        let [n1, n2] = normals(&axis);
+        let [n1, n2] = self.normals(&axis);
         Angle::new(
             [n1, n2].map(|n| self.vector(i, n.into())),
             self.vector(j, n1.into()),
@@ -52,7 +52,9 @@ pub(crate) fn parallel(
     axis_j: [f64; 3],
 ) -> [Row; 2] {
     let other = scene.vector(j, unit(axis_j).into());
-    normals(&unit(axis_i)).map(|n| Row::perpendicular(scene.vector(i, n.into()), other))
+    scene
+        .normals(&unit(axis_i))
+        .map(|n| Row::perpendicular(scene.vector(i, n.into()), other))
 }
 
 /// `n1 . d` and `n2 . d` of the normals of an axis on body `i`.
@@ -64,7 +66,7 @@ fn beside(
     axis: [f64; 3],
 ) -> [Row; 2] {
     let points = [scene.point(i, head), scene.point(j, tail)];
-    normals(&unit(axis)).map(|n| {
+    scene.normals(&unit(axis)).map(|n| {
         let axis = scene.vector(i, n.into());
         Row::constant(Scalar::Along { axis, points }, 0.0)
     })
@@ -183,7 +185,7 @@ impl Joint {
         point: [f64; 3],
         axis: [f64; 3],
     ) -> Self {
-        let [n1, n2] = normals(&unit(axis));
+        let [n1, n2] = scene.normals(&unit(axis));
         let (n1, n2) = (
             scene.vector(between[0], n1.into()),
             scene.vector(between[1], n2.into()),
