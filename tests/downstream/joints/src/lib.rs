@@ -10,8 +10,10 @@ extern crate std;
 pub mod averaging;
 pub mod differences;
 mod slider;
+mod telescope;
 
 pub use slider::Slider;
+pub use telescope::Telescope;
 
 kinematics::joint! {
     /// A massless rod between a point of one body and a point of another.

@@ -36,9 +36,11 @@ extern crate std;
 mod crane;
 mod linkage;
 pub mod ropes;
+mod telescope;
 
 pub use crane::{Crane, sway};
 pub use linkage::{HALF, Linkage};
+pub use telescope::{Crossed, Probe};
 
 #[cfg(test)]
 mod tests;

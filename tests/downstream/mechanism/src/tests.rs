@@ -6,7 +6,7 @@ use downstream_joints::differences::{assert_derivatives, assert_near, constraint
 use mech::nalgebra::Vector3;
 use mech::prelude::*;
 
-use super::{Crane, HALF, Linkage, sway};
+use super::{Crane, Crossed, HALF, Linkage, Probe, sway};
 
 #[test]
 fn phi_is_what_the_formulas_say() {
@@ -87,4 +87,68 @@ fn a_mechanism_in_a_function_moves() {
     let sine: f64 = 0.1;
     let expected = -10.0 * sine * (1.0 - sine * sine).sqrt();
     assert_near("u'", [0, 0], sway().unwrap(), expected);
+}
+
+/// Everything that a built-in driver and joint have, a joint of another crate has: handle, readings, efforts, report, parameters.
+#[test]
+fn a_driven_joint_of_another_crate_reads_like_a_built_in_one() {
+    let probe = Probe::new(0.3, 0.25).unwrap();
+    let (tip, arm) = (Probe::HANDLES.tip, Probe::HANDLES.arm);
+    assert_eq!((arm.name(), tip.name()), ("arm", "tip"));
+    let report = Probe::REPORT;
+    let info = report.joints[0];
+    assert_eq!((info.kind, info.rows, info.row), ("Telescope", 6, 0));
+    assert!(info.has_angle && info.has_displacement);
+    assert_eq!((report.equations, report.auxiliaries), (6, 1));
+    assert_eq!(<downstream_joints::Telescope as mech::Joint>::EQUATIONS, 6);
+    let mut times = 0;
+    let _ = KinematicAnalysis::new(&probe, StandardLagrange)
+        .run(0.0..=3.0, every(0.1), |sample| {
+            times += 1;
+            let t: f64 = sample.time();
+            let (reach, speed) = (0.3 * t * t, 0.6 * t);
+            assert_near("displacement", [times, 0], sample.displacement(arm), reach);
+            assert_near("its rate", [times, 1], sample.displacement_rate(arm), speed);
+            // At 0.25 m a turn it is more than ten turns in the end.
+            let turned = core::f64::consts::TAU * reach / 0.25;
+            assert_near("angle", [times, 2], sample.angle(arm), turned);
+            let rate = core::f64::consts::TAU * speed / 0.25;
+            assert_near("its rate", [times, 3], sample.angle_rate(arm), rate);
+            // 2 kg and 0.05 kg m^2 at 0.6 m/s^2, against 9.81 m/s^2 along the axis.
+            let spin = 0.05 * (core::f64::consts::TAU / 0.25).powi(2);
+            let effort = sample.driving_effort(arm).unwrap();
+            assert_near(
+                "effort",
+                [times, 4],
+                effort,
+                2.0 * 9.81 + (2.0 + spin) * 0.6,
+            );
+            let wrench = sample.reaction(arm, tip).unwrap();
+            assert_near("force", [times, 5], wrench.force.z, 2.0 * (9.81 + 0.6));
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(times, 31);
+}
+
+/// A number that is not acceptable, and rows that depend on each other, are reported under the name of the field.
+#[test]
+fn errors_at_run_time_name_a_joint_of_another_crate() {
+    let error = Probe::new(f64::NAN, 0.25).unwrap_err();
+    assert_eq!(error.field, "speed");
+    let crossed = Crossed::new(0.0, 0.0, 0.0).unwrap_err();
+    assert_eq!((crossed.field, crossed.attribute), ("arm", "axis"));
+    assert_eq!(
+        std::format!("{crossed}"),
+        "`axis` of `arm` must not be the zero vector"
+    );
+    // Two of them along one line hold the same five motions twice.
+    let twice = Crossed::new(0.0, 0.0, 1.0).unwrap();
+    let error = Simulation::new(&twice, StandardLagrange, Rk4::every(0.1))
+        .run(0.0..=1.0, every(0.5), |_| ControlFlow::Continue(()))
+        .unwrap_err();
+    let Fault::Singular { name, .. } = error.fault else {
+        panic!("{}", error.fault);
+    };
+    assert!(["arm", "spare"].contains(&name), "{name}");
 }
