@@ -1,5 +1,7 @@
 //! Mechanisms in motion: one integrator for all of them.
 
+use core::ops::ControlFlow;
+
 use holonom::{
     Course, DormandPrince, Fault, Integrator, Span, State, StateParts, System, Tolerance, Vector,
 };
@@ -56,12 +58,13 @@ impl System<f64> for Moving<'_> {
     }
 }
 
-/// Moves a state from a time to a later one by Dormand and Prince's method and shows every step: time (s), `x`, work (J).
+/// Moves a state from a time to a later one by Dormand and Prince's method and shows every step: time (s), `x`, work (J);
+/// until `show` has seen enough.
 pub(crate) fn run(
     kernels: &dyn Kernels,
     [start, end]: [f64; 2],
     x: &[f64],
-    mut show: impl FnMut(f64, &[f64], f64),
+    mut show: impl FnMut(f64, &[f64], f64) -> ControlFlow<()>,
 ) {
     let mut system = Moving(kernels);
     let span = Span {
@@ -73,13 +76,13 @@ pub(crate) fn run(
     let mut course = DormandPrince::new(TOLERANCE)
         .start(&mut system, span, state)
         .expect("rates");
-    show(start, x, 0.0);
-    while course.time() < end {
+    let mut flow = show(start, x, 0.0);
+    while flow.is_continue() && course.time() < end {
         course.advance(&mut system).expect("a step");
         let (mut x, work) = system.unpad(course.state());
         kernels.recount(&mut x);
         let state = system.pad(&x, work);
         course.replace(state);
-        show(course.time(), &x, work);
+        flow = show(course.time(), &x, work);
     }
 }

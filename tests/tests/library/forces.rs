@@ -4,6 +4,8 @@
 mod by_closure;
 mod table;
 
+use core::ops::ControlFlow;
+
 use holonom_tests::assembler::Assembler;
 use holonom_tests::bodies::{BodyId, GROUND};
 use holonom_tests::dual;
@@ -277,6 +279,7 @@ fn energy_changes_by_the_work_of_what_has_no_potential() {
                 let size = start.abs().max(work.abs()).max(1.0);
                 let error = (energy(at, x) - start - work).abs() / size;
                 worst.take(&format!("energy of {}", scene.what), error, BOOKED);
+                ControlFlow::Continue(())
             },
         );
         work_done = work_done.max(most - least);

@@ -233,9 +233,12 @@ pub(crate) fn parallel2(p: &Pair<'_>, [axis, _, tail]: [V; 3]) -> Freedom {
 pub(crate) fn angle_driver(p: &Pair<'_>, [axis]: [V; 1]) -> Freedom {
     let [normal, _] = p.scene.normals(&Vector3::from(axis).normalize());
     let pointer = p.axis(J, normal.into());
-    let level = p.axis(I, axis).cross(&pointer).normalize();
-    let point = Vector3::zeros();
-    free(point, &[&slides(any()), &turns([pointer, level])])
+    let level = p.axis(I, axis).cross(&pointer);
+    let twists = turns([pointer, level.normalize()]);
+    Freedom {
+        sharpness: level.norm(),
+        ..free(Vector3::zeros(), &[&slides(any()), &twists])
+    }
 }
 
 pub(crate) fn orientation_driver(_: &Pair<'_>, [_]: [V; 1]) -> Freedom {
