@@ -178,8 +178,8 @@ impl Deviations {
 /// How many components of momentum a body keeps without gravity that is joined to the ground, the first body of the joint: the free
 /// motions about and along lines that stand still in space.
 fn kept(name: &str) -> usize {
-    if name == "Distance of a particle" {
-        // It moves on a great circle, whose plane stands still as well.
+    if ["Distance of a particle", "PointOnPlane of a particle"].contains(&name) {
+        // It moves on a great circle or a straight line, which stand still as well.
         return 4;
     }
     match name.split(' ').next().unwrap_or_default() {
