@@ -373,7 +373,9 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
         faults.at_span(piece.end, "one `;` is too many here");
         return None;
     }
-    if let Some((effort, word, coordinate)) = around(piece, "along") {
+    let first = piece.tokens.clone().into_iter().next();
+    let is_binding = matches!(first, Some(TokenTree::Ident(word)) if word == "let");
+    if !is_binding && let Some((effort, word, coordinate)) = around(piece, "along") {
         let effort = expression(&effort, faults);
         let coordinate = expression(&coordinate, faults);
         return Some(Statement::Along(effort?, word, coordinate?));
@@ -498,7 +500,8 @@ mod tests {
 
     #[test]
     fn laws_and_numbers_may_bear_the_words_of_statements() {
-        use Statement::{Along, Zero};
+        use Statement::{Along, Let, Zero};
+        assert!(matches!(read(quote!(let along = i.axis)), Let(..)));
         assert!(matches!(read(quote!(force(d, rate(d)) along d)), Along(..)));
         assert!(matches!(read(quote!(moment - a)), Zero(..)));
         assert!(matches!(read(quote!(force(a) - drive(b))), Zero(..)));
