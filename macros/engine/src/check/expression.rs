@@ -281,7 +281,7 @@ impl Context<'_> {
                 })
             }
             op => {
-                faults.at(op, "expected `+`, `-`, `*` or `/`");
+                super::refuse_operator(&op, faults);
                 None
             }
         }

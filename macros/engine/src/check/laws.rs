@@ -28,6 +28,14 @@ impl LawReader<'_, '_, '_> {
             Expr::Path(path) => {
                 let name = path.path.get_ident()?;
                 let place = self.arguments.iter().position(|argument| argument == name);
+                if self.numbers.values.iter().any(|value| value.name == *name) {
+                    faults.at(
+                        name,
+                        format!(
+                            "`{name}` is an argument of this law, and a field of the mechanism; take another name for the field"
+                        ),
+                    );
+                }
                 Some(place.map_or(LawTerm::Time, LawTerm::Argument))
             }
             Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
@@ -47,17 +55,23 @@ impl LawReader<'_, '_, '_> {
                         Some(LawTerm::Product(Box::new(divisor), Box::new(left)))
                     }
                     op => {
-                        faults.at(op, "expected `+`, `-`, `*` or `/`");
+                        super::refuse_operator(&op, faults);
                         None
                     }
                 }
             }
             Expr::Call(call) => self.call(call, faults),
             other => {
+                let more = match other {
+                    Expr::If(_) | Expr::Match(_) => {
+                        "; from one value to another leads `smooth_step`"
+                    }
+                    _ => "",
+                };
                 faults.at(
                     other,
                     format!(
-                        "expected an expression of {} and numbers: `+`, `-`, `*`, `/`, {}",
+                        "expected an expression of {} and numbers: `+`, `-`, `*`, `/`, {}{more}",
                         self.words(),
                         list(Function::NAMED.map(|(name, _)| name))
                     ),

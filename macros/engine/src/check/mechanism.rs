@@ -1,5 +1,7 @@
 //! Mechanisms: bodies, joints between them, and what belongs to neither.
 
+use std::collections::HashSet;
+
 use proc_macro2::Ident;
 use syn::Expr;
 use syn::spanned::Spanned;
@@ -42,6 +44,12 @@ pub fn check(
     let mut bodies = Vec::new();
     for field in &syntax.fields {
         if may_be_body(field, types) {
+            if field.name == "ground" {
+                faults.at(
+                    &field.name,
+                    "`ground` is the body that does not move; take another name",
+                );
+            }
             names.push(&field.name);
             bodies.push(body(field, types, &mut numbers, faults));
         }
@@ -104,6 +112,9 @@ pub fn check(
             );
         }
     }
+    if is_ambiguous(syntax) {
+        return None;
+    }
     let bodies: Vec<_> = bodies.into_iter().collect::<Option<_>>()?;
     let joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
     let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
@@ -161,6 +172,15 @@ pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Defin
 }
 
 /// Whether joints may name the field, even if something is wrong with its description.
+/// Whether two fields have one name: what speaks of it would speak of the first. The compiler reports it.
+fn is_ambiguous(syntax: &MechanismSyntax) -> bool {
+    let mut before = HashSet::new();
+    syntax
+        .fields
+        .iter()
+        .any(|field| !before.insert(&field.name))
+}
+
 fn may_be_body(field: &Field, types: &Definitions) -> bool {
     match (&field.role, definition(field, types)) {
         (Some((Role::Body, _)), _) | (_, Some(Definition::Body(_))) => true,

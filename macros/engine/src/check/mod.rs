@@ -12,3 +12,14 @@ pub mod number;
 pub mod pairs;
 mod redundant;
 mod values;
+
+use crate::diag::Faults;
+
+/// Refuses an operator that is none of numbers.
+fn refuse_operator(op: &syn::BinOp, faults: &mut Faults) {
+    let more = match op {
+        syn::BinOp::BitXor(_) => "; there is no power: write `x * x`",
+        _ => "",
+    };
+    faults.at(op, format!("expected `+`, `-`, `*` or `/`{more}"));
+}

@@ -235,7 +235,7 @@ impl<'a> Numbers<'a> {
                     BinOp::Mul(_) => folded(|x, y| x * y),
                     BinOp::Div(_) => folded(|x, y| x / y),
                     _ => {
-                        faults.at(binary.op, "expected `+`, `-`, `*` or `/`");
+                        super::refuse_operator(&binary.op, faults);
                         return None;
                     }
                 };

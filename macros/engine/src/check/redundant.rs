@@ -84,6 +84,14 @@ fn undecided(model: &Model) -> String {
 
 /// One fault for each joint with redundant equations.
 fn refuse(model: &Model, faults: &mut Faults) {
+    let layout = model.layout();
+    let freedom = model
+        .independence
+        .degrees_of_freedom(layout.velocities, layout.rows);
+    let rest = match freedom {
+        0 => ", and nothing is left that can move (0 degrees of freedom)",
+        _ => "",
+    };
     for (place, joint) in model.joints.iter().enumerate() {
         let own: Vec<&RedundantRow> = model
             .independence
@@ -102,9 +110,9 @@ fn refuse(model: &Model, faults: &mut Faults) {
         sources.dedup();
         let name = &joint.name;
         let (count, of) = (own.len(), model.equations(joint));
-        let (are, follow) = match count {
-            1 => ("is", "follows"),
-            _ => ("are", "follow"),
+        let (are, follow, them) = match count {
+            1 => ("is", "follows", "it"),
+            _ => ("are", "follow", "them"),
         };
         let from = match sources.as_slice() {
             [] => "cannot be violated".into(),
@@ -113,10 +121,10 @@ fn refuse(model: &Model, faults: &mut Faults) {
                 format!("{follow} from equations of {}", list(names))
             }
         };
-        let how_many = if count == of {
-            "all".into()
-        } else {
-            format!("{count} of the")
+        let what = match (count, of) {
+            (1, 1) => "the equation".into(),
+            (count, of) if count == of => format!("all {of} equations"),
+            (count, of) => format!("{count} of the {of} equations"),
         };
         let rows = list(
             own.iter()
@@ -125,9 +133,9 @@ fn refuse(model: &Model, faults: &mut Faults) {
         faults.at(
             name,
             format!(
-                "{how_many} {of} equations of `{name}` {are} redundant: {rows} {from}, so that multipliers are not unique; \
-                 leave them out by `#[mechanism(redundant = \"drop\")]`, or write `redundant = \"keep\"` for formulations \
-                 with a compliance (penalty, augmented Lagrangian)"
+                "{what} of `{name}` {are} redundant: {rows} {from}, so that multipliers are not unique{rest}; leave {them} out by \
+                 `#[mechanism(redundant = \"drop\")]`, or write `redundant = \"keep\"` for formulations with a compliance (penalty, \
+                 augmented Lagrangian)"
             ),
         );
     }

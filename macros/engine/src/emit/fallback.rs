@@ -12,13 +12,19 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     let name = &syntax.name;
     let (declared, arguments, clause) = syntax.generics.split_for_impl();
     let bounds = clause.map(|clause| &clause.predicates);
-    let is_part = |field: &&Field| field.role.as_ref().is_none_or(|(role, _)| role.is_part());
-    let handles = syntax.fields.iter().filter(is_part).map(|field| {
+    // The compiler itself reports fields of one name.
+    let is_first = |(place, field): &(usize, &Field)| {
+        let before = &syntax.fields[..*place];
+        before.iter().all(|other| other.name != field.name)
+    };
+    let fields = syntax.fields.iter().enumerate().filter(is_first);
+    let fields: Vec<&Field> = fields.map(|(_, field)| field).collect();
+    let is_part = |field: &&&Field| field.role.as_ref().is_none_or(|(role, _)| role.is_part());
+    let handles = fields.iter().filter(is_part).map(|field| {
         let (name, handle) = (&field.name, handle(field, types));
         quote!(#name: #handle,)
     });
-    let parameters = syntax
-        .fields
+    let parameters = fields
         .iter()
         .filter(|field| matches!(field.role, Some((Role::Param, _))))
         .map(|field| &field.name)
