@@ -1,6 +1,6 @@
 //! Equations that follow from others.
 
-use holonom::joints::{Revolute, Spherical};
+use holonom::joints::{Distance, Revolute, Spherical};
 use holonom::prelude::*;
 
 /// A door on three hinges, one of them a ball.
@@ -34,6 +34,17 @@ struct FourBar {
     far: Revolute,
     #[joint(between = [rocker, ground], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
     support: Revolute,
+}
+
+/// A bead on a stand of three legs and one too many.
+#[derive(Mechanism)]
+struct Stand {
+    #[body(mass = 1.0, position = [0.0, 0.0, 1.0])]
+    bead: Particle,
+    #[joint(between = [ground, bead], point = [0.0, 0.0, 1.0])]
+    top: Spherical,
+    #[joint(between = [ground, bead], head = [0.0, 0.0, 0.0], tail = [0.0, 0.0, 1.0])]
+    leg: Distance,
 }
 
 #[derive(Mechanism)]
