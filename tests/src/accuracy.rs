@@ -1,5 +1,7 @@
 //! How numbers are compared: corrected relative error and the tolerances of the two float types.
 
+use nalgebra::DVector;
+
 /// What kernels that compute the same thing in two ways may differ by in double precision, as corrected relative error.
 pub const DOUBLE: f64 = 1e-12;
 
@@ -56,4 +58,41 @@ pub fn assert_close(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
         error <= tolerance,
         "{what}: error {error:e} above {tolerance:e}\n left {a:?}\nright {b:?}"
     );
+}
+
+/// Euclidean distance over the norm of the reference, or over `floor` where the reference is smaller: what is zero but for cancelling
+/// numbers of that size is known to that size only. Infinite if a number is none.
+///
+/// # Panics
+/// If they have different lengths.
+#[must_use]
+pub fn distance(computed: &[f64], reference: &[f64], floor: f64) -> f64 {
+    assert_eq!(computed.len(), reference.len());
+    let reference = DVector::from_column_slice(reference);
+    let error = (DVector::from_column_slice(computed) - &reference).norm();
+    let ratio = error / reference.norm().max(floor);
+    match () {
+        () if error == 0.0 => 0.0,
+        () if ratio.is_nan() => f64::INFINITY,
+        () => ratio,
+    }
+}
+
+/// The largest deviation of a comparison so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Worst(pub f64);
+
+impl Worst {
+    /// Takes a deviation into account, and refuses it above the tolerance.
+    ///
+    /// # Panics
+    /// Above the tolerance.
+    #[track_caller]
+    pub fn take(&mut self, what: &str, deviation: f64, tolerance: f64) {
+        assert!(
+            deviation <= tolerance,
+            "{what}: deviation {deviation:e} above {tolerance:e}"
+        );
+        self.0 = self.0.max(deviation);
+    }
 }

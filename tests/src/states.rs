@@ -44,40 +44,52 @@ impl Default for Spread {
     }
 }
 
-/// Three numbers, each up to `size` in absolute value.
-fn random_vector(rng: &mut ChaCha8Rng, size: f64) -> Vector3<f64> {
-    Vector3::from_fn(|_, _| size * rng.random_range(-1.0..=1.0))
+impl Spread {
+    /// From one state of a walk to the next: far enough to get about, near enough to stay on a branch.
+    pub const STRIDE: Self = Self {
+        position: 0.1,
+        angle: 0.4,
+        velocity: 1.0,
+        rate: 2.0,
+        norm: 0.0,
+    };
 }
 
 /// A state around the initial one, with random velocities; in general it violates every constraint.
 #[must_use]
 pub fn random_state(assembler: &Assembler, spread: Spread, rng: &mut ChaCha8Rng) -> DVector<f64> {
-    let mut x = assembler.initial_state();
+    moved(assembler, &assembler.initial_state(), spread, rng)
+}
+
+/// A state with every body moved by a random displacement, its Euler parameters scaled, and with random velocities.
+#[must_use]
+pub fn moved(
+    assembler: &Assembler,
+    x: &DVector<f64>,
+    spread: Spread,
+    rng: &mut ChaCha8Rng,
+) -> DVector<f64> {
+    let mut any = |size: f64| size * rng.random_range(-1.0..=1.0);
+    let mut x = x.clone();
     let mut motion = DVector::zeros(assembler.velocities());
     for (body, _, n) in assembler.bodies() {
-        let u = n + assembler.coordinates();
-        if body.kind != Kind::Ground {
-            motion
-                .fixed_rows_mut::<3>(n)
-                .copy_from(&random_vector(rng, spread.position));
-            x.fixed_rows_mut::<3>(u)
-                .copy_from(&random_vector(rng, spread.velocity));
-        }
-        if body.kind == Kind::Rigid {
-            let direction = random_vector(rng, 1.0).normalize();
-            let angle = rng.random_range(-spread.angle..=spread.angle);
-            motion
-                .fixed_rows_mut::<3>(n + 3)
-                .copy_from(&(direction * angle));
-            x.fixed_rows_mut::<3>(u + 3)
-                .copy_from(&random_vector(rng, spread.rate));
+        let u = assembler.coordinates() + n;
+        for k in 0..body.kind.velocities() {
+            // A rotation vector with components up to a / sqrt(3) is no longer than a.
+            let turns = k >= 3;
+            motion[n + k] = any(if turns {
+                spread.angle / 3_f64.sqrt()
+            } else {
+                spread.position
+            });
+            x[u + k] = any(if turns { spread.rate } else { spread.velocity });
         }
     }
     displace(assembler, x.as_mut_slice(), motion.as_slice());
     for (body, q, _) in assembler.bodies() {
         if body.kind == Kind::Rigid {
-            let factor = 1.0 + spread.norm * rng.random_range(-1.0..=1.0);
-            x.fixed_rows_mut::<4>(q + 3).scale_mut(factor);
+            x.fixed_rows_mut::<4>(q + 3)
+                .scale_mut(1.0 + any(spread.norm));
         }
     }
     x

@@ -2,11 +2,9 @@
 
 use holonom::{Array, Mechanism, MechanismExt, Real, Scalar, StateParts};
 use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{Kind, Orientation};
-use holonom_tests::states::{Spread, displace, generator, make_consistent};
+use holonom_tests::bodies::Orientation;
+use holonom_tests::states::{Spread, generator, make_consistent, moved};
 use nalgebra::{DMatrix, DVector};
-use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
 
 /// A mechanism that is also described for the run-time assembler.
 pub(crate) trait Scene: Mechanism + Default {
@@ -83,15 +81,6 @@ pub(crate) fn dense<S: Real, M: Mechanism>(blocks: &[S]) -> DMatrix<f64> {
 /// How many states of a kind are tried.
 pub(crate) const STATES: usize = 1000;
 
-/// How far one state on the constraints is from the one before.
-const STRIDE: Spread = Spread {
-    position: 0.1,
-    angle: 0.4,
-    velocity: 1.0,
-    rate: 2.0,
-    norm: 0.0,
-};
-
 /// States on the constraints, in position and velocity: a walk that starts in the initial configuration and gets far
 /// from it without leaving its branch, each corrected by the assembler's own Newton method.
 pub(crate) fn consistent(scene: &Assembler, count: usize, seed: u64) -> Vec<DVector<f64>> {
@@ -99,7 +88,7 @@ pub(crate) fn consistent(scene: &Assembler, count: usize, seed: u64) -> Vec<DVec
     let mut states = Vec::with_capacity(count);
     let mut at = scene.initial_state();
     while states.len() < count {
-        let mut x = moved(scene, &at, STRIDE, &mut rng);
+        let mut x = moved(scene, &at, Spread::STRIDE, &mut rng);
         if make_consistent(scene, x.as_mut_slice()).is_some() {
             states.push(x.clone());
             at = x;
@@ -121,37 +110,4 @@ pub(crate) fn off(scene: &Assembler, count: usize, seed: u64, spread: Spread) ->
         .iter()
         .map(|x| moved(scene, x, spread, &mut rng))
         .collect()
-}
-
-/// A state with every body moved by a random displacement, its Euler parameters scaled, and with random velocities.
-fn moved(
-    scene: &Assembler,
-    x: &DVector<f64>,
-    spread: Spread,
-    rng: &mut ChaCha8Rng,
-) -> DVector<f64> {
-    let mut any = |size: f64| size * rng.random_range(-1.0..=1.0);
-    let mut x = x.clone();
-    let mut motion = DVector::zeros(scene.velocities());
-    for (body, _, n) in scene.bodies() {
-        let u = scene.coordinates() + n;
-        for k in 0..body.kind.velocities() {
-            // A rotation vector with components up to a / sqrt(3) is no longer than a.
-            let turns = k >= 3;
-            motion[n + k] = any(if turns {
-                spread.angle / 3_f64.sqrt()
-            } else {
-                spread.position
-            });
-            x[u + k] = any(if turns { spread.rate } else { spread.velocity });
-        }
-    }
-    displace(scene, x.as_mut_slice(), motion.as_slice());
-    for (body, q, _) in scene.bodies() {
-        if body.kind == Kind::Rigid {
-            x.fixed_rows_mut::<4>(q + 3)
-                .scale_mut(1.0 + any(spread.norm));
-        }
-    }
-    x
 }
