@@ -58,7 +58,7 @@ pub fn deg(x: f64) -> f64 {
 /// | kind | what a mechanism gives | in the definition |
 /// |---|---|---|
 /// | `Point` | a point in global axes in the described configuration, or `local(..)`: one for each body from its centre of mass in its own axes | `i.name`: the point fixed on `i`, as it moves |
-/// | `Axis` | a direction, likewise; any length but zero, used as a unit vector | `i.name`: the unit vector fixed on `i`; `i.name.normal()` and `i.name.binormal()`: unit vectors on `i` that make it a right-handed frame; `i.name.normals()`: both of them, twofold |
+/// | `Axis` | a direction, likewise; any length but zero, used as a unit vector | `i.name`: the unit vector fixed on `i`; `i.name.normal()` and `i.name.binormal()`: unit vectors on `i` that make it a right-handed frame, in directions that are fixed but arbitrary (take a second `Axis` or `Vector` where they matter); `i.name.normals()`: both of them, twofold |
 /// | `Vector` | a vector, likewise | `i.name` |
 /// | `Length`, `Angle`, `Number` | a number (m, rad, 1); may have a default, as in `ratio: Number = 1.0` | `name` |
 /// | `Law`, `Law(x, y)` | an expression of `time` and of the names in parentheses, such as `0.5 * sin(3.0 * time)` | `name()`, `name(a, b)`: its value |
@@ -72,7 +72,7 @@ pub fn deg(x: f64) -> f64 {
 /// | | `angle(i, j, axis)`: the angle (rad) of `j` against `i` about an `Axis`, right-handed, zero in the described configuration. Turns are counted, by an auxiliary variable of the state |
 /// | | `initial(x)`: the scalar `x` as it is in the described configuration |
 ///
-/// Statements beside equations: `let name = expression;`, `drive x to y;`, the equation `x - y` of a driver, whose effort can be
+/// Statements beside equations: `let name = expression;`, `drive x to y;`, the equation `x - y` of a driver, with `y` a function of time, whose effort can be
 /// read ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and `displacement x;`, which can be read
 /// ([`View::angle`](crate::View::angle), [`View::displacement`](crate::View::displacement)). A joint connects one or more
 /// bodies; the `ground` of a mechanism may be any of them.

@@ -6,7 +6,7 @@ crate::joint! {
     /// any direction.
     ///
     /// Only this equation: that the gears turn about these axes is for other joints to say (a `Revolute` of each with `k`, which may be
-    /// the ground). Turns are counted by auxiliary variables of the state (Nikravesh 1988, section 7.2.6).
+    /// the ground; so may a gear, as the fixed ring of a planetary set). Turns are counted by auxiliary variables of the state (Nikravesh 1988, section 7.2.6).
     pub joint Gear(i, j, k; axis_i: Axis, axis_j: Axis, ratio: Number) {
         angle(k, j, axis_j) - ratio * angle(k, i, axis_i);
     }
