@@ -93,7 +93,8 @@ fn joints_hold_as_described_and_their_rows_are_independent() {
         let x = scene.initial_state();
         if holds_as_described(entry.name) {
             let phi = scene.constraints(x.as_slice());
-            assert_close(entry.name, phi.as_slice(), &vec![0.0; phi.len()], 1e-14);
+            // A difference of squares of some metres: 20 m^2 have a round-off of 4e-15 m^2, several times.
+            assert_close(entry.name, phi.as_slice(), &vec![0.0; phi.len()], 1e-13);
         }
         let (joint, _) = scene.joint(scene.joint_ids().next().expect("a joint"));
         assert_eq!(joint.bodies(), &bodies[..entry.bodies], "{}", entry.name);
