@@ -226,6 +226,7 @@ fn fault(error: SolveError, iterations: usize) -> Fault {
         SolveError::NotConverged => Fault::NotConverged {
             iterations,
             residual: f64::NAN,
+            joint: None,
         },
     }
 }

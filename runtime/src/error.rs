@@ -64,6 +64,8 @@ pub enum Fault {
         iterations: usize,
         /// The last change (augmented Lagrangian) or the violation left (correction).
         residual: f64,
+        /// The joint whose equations are violated most, by accelerations in the augmented Lagrangian, where it is known.
+        joint: Option<&'static str>,
     },
     /// The step size fell below what the time's own digits resolve.
     StepSizeUnderflow {
@@ -107,11 +109,14 @@ impl fmt::Display for Fault {
             Self::NotConverged {
                 iterations,
                 residual,
+                joint,
             } => {
-                write!(
-                    f,
-                    "no convergence after {iterations} iterations (residual {residual:e})"
-                )
+                let plural = if iterations == 1 { "" } else { "s" };
+                write!(f, "no convergence after {iterations} iteration{plural}")?;
+                if let Some(joint) = joint {
+                    write!(f, ": joint `{joint}` is violated most")?;
+                }
+                write!(f, " (residual {residual:e})")
             }
             Self::StepSizeUnderflow { step } => {
                 write!(
@@ -119,10 +124,16 @@ impl fmt::Display for Fault {
                     "the step size {step:e} s is below the resolution of the time"
                 )
             }
-            Self::NotDriven { degrees_of_freedom } => write!(
-                f,
-                "the mechanism has {degrees_of_freedom} more velocities than equations; a kinematic analysis needs a driver for each"
-            ),
+            Self::NotDriven { degrees_of_freedom } => {
+                let (velocities, each) = match degrees_of_freedom {
+                    1 => ("velocity", "it"),
+                    _ => ("velocities", "each"),
+                };
+                write!(
+                    f,
+                    "the mechanism has {degrees_of_freedom} more {velocities} than equations; a kinematic analysis needs a driver for {each}"
+                )
+            }
             Self::Undetermined { share } => write!(
                 f,
                 "the equations leave a motion free here ({share:e} of a trial motion): they depend on each other, or a driver is missing"

@@ -69,7 +69,7 @@ impl<S: Real> Projection<S> {
     /// Corrects positions, then velocities; Euler parameters come out at length 1.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] with the largest `|Phi|` or `|Phi'|` left, [`Fault::StateNotFinite`], or [`Fault::Setting`] for a
+    /// [`Fault::NotConverged`] with the largest `|Phi|` or `|Phi'|` left and its joint, [`Fault::StateNotFinite`], or [`Fault::Setting`] for a
     /// tolerance that is not finite and positive; the state is then as before.
     pub fn correct<M: Mechanism>(
         &self,
@@ -232,6 +232,7 @@ impl<S: Real> Projection<S> {
         Err(Fault::NotConverged {
             iterations: *iterations,
             residual: rest.to_f64(),
+            joint: M::REPORT.joint_of(row_of_largest(violation.as_slice())),
         })
     }
 }
@@ -386,6 +387,21 @@ fn largest<S: Real>(elements: &[S]) -> S {
     elements
         .iter()
         .fold(S::zero(), |largest, element| largest.max(element.abs()))
+}
+
+/// The row of the largest absolute value; of the first NaN if there is one.
+pub(crate) fn row_of_largest<S: Real>(elements: &[S]) -> usize {
+    let mut largest = (0, S::zero());
+    for (row, element) in elements.iter().enumerate() {
+        let size = element.abs();
+        if size.to_f64().is_nan() {
+            return row;
+        }
+        if size > largest.1 {
+            largest = (row, size);
+        }
+    }
+    largest.0
 }
 
 /// Whether a violation became less by more than round-off would.

@@ -82,6 +82,12 @@ impl Report {
             .find(|k| k.name == kernel)
             .map(|k| k.operations)
     }
+
+    /// The field of the joint that a row of `Phi` belongs to.
+    pub(crate) fn joint_of(&self, row: usize) -> Option<&'static str> {
+        let owner = |joint: &&JointInfo| (joint.row..joint.row + joint.rows).contains(&row);
+        self.joints.iter().find(owner).map(|joint| joint.name)
+    }
 }
 
 /// A body and where its coordinates stand in the state.

@@ -84,6 +84,7 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
     ) -> Result<Solution<S, M>, Fault> {
         let mut last = saddle.solve();
         let mut change = S::zero();
+        let mut worst = 0;
         for iterations in 2..=self.max_iterations {
             let mut next = saddle.solve_after(&last.multipliers);
             next.iterations = iterations;
@@ -105,14 +106,18 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
             if !change.is_finite() {
                 return Err(Fault::RatesNotFinite);
             }
-            if iterations == self.max_iterations && saddle.self_stressed(&next, &last) {
-                return Ok(next);
+            if iterations == self.max_iterations {
+                if saddle.self_stressed(&next, &last) {
+                    return Ok(next);
+                }
+                worst = saddle.least_satisfied(&next, &last);
             }
             last = next;
         }
         Err(Fault::NotConverged {
             iterations: self.max_iterations,
             residual: change.to_f64(),
+            joint: M::REPORT.joint_of(worst),
         })
     }
 }

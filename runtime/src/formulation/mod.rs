@@ -34,6 +34,7 @@ use core::marker::PhantomData;
 use crate::array::Array;
 use crate::error::Fault;
 use crate::mechanism::{Mechanism, Stabilisation, Terms};
+use crate::project::row_of_largest;
 use crate::scalar::{Real, Scalar};
 use crate::self_stress::self_stressed;
 
@@ -98,12 +99,17 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
     where
         S: Real,
     {
-        let mut difference = next.multipliers;
-        let pairs = difference.as_mut_slice().iter_mut();
-        for (new, &old) in pairs.zip(last.multipliers.as_slice()) {
-            *new = *new - old;
-        }
+        let difference = difference::<S, M>(next, last);
         self_stressed::<S, M>(self.constants, self.time, self.state, &difference)
+    }
+
+    /// The row that the accelerations of `next`, the solution after `last`, violate most: `D u' - gamma* = e (lambda - lambda_last)`.
+    #[cold]
+    pub(crate) fn least_satisfied(&self, next: &Solution<S, M>, last: &Solution<S, M>) -> usize
+    where
+        S: Real,
+    {
+        row_of_largest(difference::<S, M>(next, last).as_slice())
     }
 
     fn solve_for(&self, lower: &M::Multipliers<S>) -> Solution<S, M> {
@@ -120,6 +126,19 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
             iterations: 1,
         }
     }
+}
+
+/// The difference of the multipliers of two solutions.
+fn difference<S: Scalar, M: Mechanism>(
+    next: &Solution<S, M>,
+    last: &Solution<S, M>,
+) -> M::Multipliers<S> {
+    let mut difference = next.multipliers;
+    let pairs = difference.as_mut_slice().iter_mut();
+    for (new, &old) in pairs.zip(last.multipliers.as_slice()) {
+        *new = *new - old;
+    }
+    difference
 }
 
 /// Accelerations and multipliers of the saddle system.

@@ -6,6 +6,7 @@ mod counters;
 mod crank;
 mod dense;
 mod driven;
+mod messages;
 #[cfg(feature = "recorder")]
 mod recorder;
 mod rod;

@@ -315,7 +315,7 @@ fn an_iteration_that_does_not_converge_is_reported() {
         .run(1.0..=2.0, every(0.1), |_| ControlFlow::Continue(()))
         .expect_err("two iterations are not enough");
     assert!(
-        matches!(error.fault, Fault::NotConverged { iterations: 2, residual } if residual > 0.0),
+        matches!(error.fault, Fault::NotConverged { iterations: 2, residual, joint: Some("pivot") } if residual > 0.0),
         "{error}"
     );
     assert_eq!(error.time, 1.0);
@@ -339,7 +339,10 @@ fn what_cannot_be_assembled_is_left_as_it_was() {
     let before = state;
     let fault = parted.assemble(0.0, &mut state).expect_err("impossible");
     assert!(
-        matches!(fault, Fault::NotConverged { residual, .. } if residual > 0.1),
+        matches!(
+            fault,
+            Fault::NotConverged { residual, joint: Some("here" | "there"), .. } if residual > 0.1
+        ),
         "{fault}"
     );
     assert_eq!(state, before);
@@ -349,6 +352,41 @@ fn what_cannot_be_assembled_is_left_as_it_was() {
         .expect_err("impossible");
     assert!(matches!(error.fault, Fault::NotConverged { .. }), "{error}");
     assert_eq!((error.time, error.state), (0.0, before));
+}
+
+#[test]
+fn no_convergence_names_the_joint_that_is_violated_most() {
+    let model = Bead::default();
+    let constants = model.constants().expect("acceptable");
+    let described = model.described_state::<f64>().expect("described");
+    let untouched = Projection {
+        max_iterations: 0,
+        ..Projection::default()
+    };
+    for (x, joint) in [(-1.0, "right"), (1.0, "left")] {
+        // Below the other end of the rod that is not violated.
+        let mut state = described;
+        *state.coordinates_mut() = [x, 0.0, -1.25_f64.sqrt()];
+        let fault = untouched.correct::<Bead>(&constants, 0.0, &mut state);
+        let Err(Fault::NotConverged {
+            iterations: 0,
+            residual,
+            joint: Some(name),
+        }) = fault
+        else {
+            panic!("{fault:?}");
+        };
+        assert_eq!(name, joint);
+        assert!((residual - 4.0).abs() < 1e-12, "{residual}");
+        // Along the other rod's circle.
+        let mut state = described;
+        *state.velocities_mut() = [-0.5 * x, 0.0, 1.0];
+        let fault = untouched.correct::<Bead>(&constants, 0.0, &mut state);
+        assert!(
+            matches!(fault, Err(Fault::NotConverged { joint: Some(name), .. }) if name == joint),
+            "{fault:?}"
+        );
+    }
 }
 
 /// A point of a body that is to be in two places, 1 m apart.
