@@ -143,6 +143,22 @@ where
         }
     }
 
+    /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly vanished at a state.
+    #[cold]
+    pub(crate) fn explained(&self, fault: Fault, time: S, state: &M::State<S>) -> Fault {
+        /// A pivot that has lost this part of its size.
+        const NEARLY_VANISHED: f64 = 1e-4;
+        let Fault::StepSizeUnderflow { step, .. } = fault else {
+            return fault;
+        };
+        let joint = self.evaluate(time, state).ok().and_then(|(evaluation, _)| {
+            let Pivot { relative, joint } = evaluation.pivot;
+            let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
+            near.then(|| field::<M>(joint.to_f64() as usize))
+        });
+        Fault::StepSizeUnderflow { step, joint }
+    }
+
     /// The evaluation in one straight line.
     #[inline(always)]
     fn evaluate_fused(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
@@ -280,7 +296,12 @@ fn singular<S: Real, M: Mechanism>(pivot: &Pivot<S>) -> Fault {
     let joint = pivot.joint.to_f64() as usize;
     Fault::Singular {
         joint,
-        name: M::REPORT.joints.get(joint).map_or("", |info| info.name),
+        name: field::<M>(joint),
         relative_pivot: pivot.relative.to_f64(),
     }
+}
+
+/// The field of a joint.
+fn field<M: Mechanism>(joint: usize) -> &'static str {
+    M::REPORT.joints.get(joint).map_or("", |info| info.name)
 }

@@ -67,10 +67,19 @@ pub enum Fault {
         /// The joint whose equations are violated most, by accelerations in the augmented Lagrangian, where it is known.
         joint: Option<&'static str>,
     },
-    /// The step size fell below what the time's own digits resolve.
+    /// The step control found no step with an error within the tolerance, down to what the time's own digits resolve.
     StepSizeUnderflow {
-        /// The step asked for (s).
+        /// The last step that was tried (s).
         step: f64,
+        /// The joint whose pivot has nearly vanished, where that is the cause, see [`crate::Pivot`].
+        joint: Option<&'static str>,
+    },
+    /// A step that was asked for is below what the time's own digits resolve.
+    StepTooShort {
+        /// The step (s).
+        step: f64,
+        /// The time (s).
+        time: f64,
     },
     /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer than velocities.
     NotDriven {
@@ -118,12 +127,26 @@ impl fmt::Display for Fault {
                 }
                 write!(f, " (residual {residual:e})")
             }
-            Self::StepSizeUnderflow { step } => {
+            Self::StepSizeUnderflow { step, joint } => {
                 write!(
                     f,
-                    "the step size {step:e} s is below the resolution of the time"
-                )
+                    "the step size {step:e} s is below the resolution of the time; "
+                )?;
+                match joint {
+                    Some(joint) => write!(
+                        f,
+                        "the constraints all but depend on each other at joint `{joint}`: a singular configuration, or constraints that cannot be met beyond it"
+                    ),
+                    None => write!(
+                        f,
+                        "constraints that cannot be met, a singular configuration, and forces that jump or grow without bound are the usual causes"
+                    ),
+                }
             }
+            Self::StepTooShort { step, time } => write!(
+                f,
+                "a step of {step:e} s is below the resolution of the time {time} s"
+            ),
             Self::NotDriven { degrees_of_freedom } => {
                 let (velocities, each) = match degrees_of_freedom {
                     1 => ("velocity", "it"),

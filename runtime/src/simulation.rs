@@ -215,7 +215,9 @@ where
         let mut flow = log.show(&dynamics, start, &state);
         let mut shown = (start, state);
         while course.time() < end && flow.is_continue() {
-            course.advance(&mut dynamics)?;
+            if let Err(fault) = course.advance(&mut dynamics) {
+                return Err(dynamics.explained(fault, course.time(), course.state()));
+            }
             while let Some(time) = schedule.within(course.time()) {
                 let mut state = course.at(&mut dynamics, time)?;
                 if let Some(projection) = self.projection {

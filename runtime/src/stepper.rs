@@ -4,7 +4,7 @@ use crate::array::finite;
 use crate::dynamics::{Dynamics, Iterations};
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::Scheme;
+use crate::integrate::{Scheme, positive};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
 use crate::project::Projection;
@@ -144,9 +144,13 @@ where
     /// # Errors
     /// Why the step could not be done. State and time are then as before.
     pub fn step(&mut self, state: &mut M::State<S>, dt: S) -> Result<(), Fault> {
-        let end = self.time + dt;
-        if !(dt.is_finite() && end > self.time) {
-            return Err(Fault::StepSizeUnderflow { step: dt.to_f64() });
+        let end = self.time + positive("step", dt)?;
+        let forward = end > self.time;
+        if !forward {
+            return Err(Fault::StepTooShort {
+                step: dt.to_f64(),
+                time: self.time.to_f64(),
+            });
         }
         if !finite(state) {
             return Err(Fault::StateNotFinite);

@@ -155,6 +155,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
                     Err(fault) => fault,
                     Ok(_) => Fault::StepSizeUnderflow {
                         step: size.to_f64(),
+                        joint: None,
                     },
                 });
             }

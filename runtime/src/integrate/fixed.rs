@@ -106,8 +106,9 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
             step = end - self.time;
         }
         if end <= self.time {
-            return Err(Fault::StepSizeUnderflow {
+            return Err(Fault::StepTooShort {
                 step: step.to_f64(),
+                time: self.time.to_f64(),
             });
         }
         let mut system = Counted {

@@ -15,6 +15,21 @@ fn not_converged(iterations: usize, joint: Option<&'static str>) -> Fault {
 }
 
 #[test]
+fn a_step_size_that_vanishes_names_a_cause() {
+    let underflow = |joint| Fault::StepSizeUnderflow { step: 4e-16, joint };
+    assert_eq!(
+        underflow(None).to_string(),
+        "the step size 4e-16 s is below the resolution of the time; constraints that cannot be met, a singular configuration, \
+         and forces that jump or grow without bound are the usual causes"
+    );
+    assert_eq!(
+        underflow(Some("pull")).to_string(),
+        "the step size 4e-16 s is below the resolution of the time; the constraints all but depend on each other at joint `pull`: \
+         a singular configuration, or constraints that cannot be met beyond it"
+    );
+}
+
+#[test]
 fn one_is_singular_and_more_are_plural() {
     let not_driven = |degrees_of_freedom| Fault::NotDriven { degrees_of_freedom };
     for (fault, message) in [

@@ -48,10 +48,18 @@ fn a_step_that_fails_leaves_state_and_time() {
     let mut state = rod.described_state().unwrap();
     let before: State<f64, 7, 6> = state;
     assert_eq!(stepper.step(&mut state, 0.1), Err(Fault::RatesNotFinite));
-    assert!(matches!(
-        stepper.step(&mut state, 0.0),
-        Err(Fault::StepSizeUnderflow { .. })
-    ));
+    for step in [0.0, -0.1, f64::INFINITY] {
+        let refused = Fault::Setting {
+            name: "step",
+            value: step,
+        };
+        assert_eq!(stepper.step(&mut state, step), Err(refused));
+    }
+    let short = Fault::StepTooShort {
+        step: 1e-17,
+        time: 1.0,
+    };
+    assert_eq!(stepper.step(&mut state, 1e-17), Err(short));
     assert_eq!((state, stepper.time()), (before, 1.0));
     Rod::set_velocity(&mut state, ROD, nalgebra::Vector3::new(f64::NAN, 0.0, 0.0));
     assert_eq!(stepper.step(&mut state, 0.1), Err(Fault::StateNotFinite));

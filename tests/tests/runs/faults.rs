@@ -260,7 +260,7 @@ fn a_step_size_that_vanishes_ends_the_run_with_the_last_good_state() {
         })
         .expect_err("the motion ends at 1 s");
     assert!(
-        matches!(error.fault, Fault::StepSizeUnderflow { step } if step < 1e-14),
+        matches!(error.fault, Fault::StepSizeUnderflow { step, joint: None } if step < 1e-14),
         "{error}"
     );
     // The step control of 1e-6 does not know the end better.

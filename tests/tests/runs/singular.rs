@@ -52,3 +52,40 @@ fn an_arm_pulled_beyond_its_reach_stops() {
         "{fault:?}"
     );
 }
+
+/// With rigid constraints nothing yields: the accelerations grow without bound, and the step control gives up.
+#[test]
+fn a_step_control_that_gives_up_names_the_joint() {
+    let arm = Arm::default();
+    let error = Simulation::new(&arm, StandardLagrange, DormandPrince::default())
+        .assembled()
+        .run(0.0..=3.0, every(0.1), |_| ControlFlow::Continue(()))
+        .expect_err("out of reach");
+    println!("{error}");
+    assert!((1.99..2.001).contains(&error.time), "{}", error.time);
+    let Fault::StepSizeUnderflow {
+        joint: Some(joint), ..
+    } = error.fault
+    else {
+        panic!("{error}");
+    };
+    assert!(["upper", "lower", "pull"].contains(&joint), "{error}");
+}
+
+/// The same arm in a kinematic analysis: no pose is found.
+#[test]
+fn an_analysis_beyond_reach_names_a_joint() {
+    let arm = Arm::default();
+    let error = KinematicAnalysis::new(&arm, StandardLagrange)
+        .run(0.0..=3.0, every(0.1), |_| ControlFlow::Continue(()))
+        .expect_err("out of reach");
+    println!("{error}");
+    assert!((1.9..2.001).contains(&error.time), "{}", error.time);
+    let Fault::NotConverged {
+        joint: Some(joint), ..
+    } = error.fault
+    else {
+        panic!("{error}");
+    };
+    assert!(["upper", "lower", "pull"].contains(&joint), "{error}");
+}
