@@ -7,7 +7,9 @@ use crate::error::{Fault, ParameterError};
 use crate::handle::BodyHandle;
 use crate::mechanism::Mechanism;
 use crate::project::{Correction, Projection};
-use crate::rotation::{conjugate, cross, normalised, product, read, rotate, rotate_back, write};
+use crate::rotation::{
+    conjugate, cross, normalised, normalised_or_zero, product, read, rotate, rotate_back, write,
+};
 use crate::scalar::{Real, Scalar};
 
 /// Where a body is.
@@ -78,7 +80,8 @@ pub trait MechanismExt: Mechanism {
         }
     }
 
-    /// Sets position and orientation of a body; the orientation may have any length but zero.
+    /// Sets position and orientation of a body; the orientation may have any length but zero, which whatever uses the state
+    /// refuses with [`Fault::ZeroOrientation`].
     ///
     /// Angles that count turns do not follow: their axes are among the constants of the mechanism. A run, [`MechanismExt::assemble`]
     /// and [`Mechanism::recount`] take the whole turns from the value in the state and the rest from the orientations, so that a pose
@@ -90,7 +93,7 @@ pub trait MechanismExt: Mechanism {
         if let Some((_, place)) = body.orientation() {
             let [x, y, z, w] = pose.orientation.coords.into();
             let axes = Self::user_axes(body.index()).map(S::constant);
-            let p = product(&normalised(&[w, x, y, z]), &conjugate(&axes));
+            let p = product(&normalised_or_zero(&[w, x, y, z]), &conjugate(&axes));
             write(coordinates, place, p);
         }
     }

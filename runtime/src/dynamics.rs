@@ -11,7 +11,7 @@ use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
     Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
 };
-use crate::rotation::with_unit_orientations;
+use crate::rotation::{check_state, with_unit_orientations};
 use crate::scalar::Real;
 use crate::view::View;
 
@@ -282,8 +282,8 @@ fn vanishes<S: Real, T: Terms>(pivot: &Pivot<S>) -> bool {
 #[cold]
 #[inline(never)]
 fn fault<S: Real, M: Mechanism, T: Terms>(pivot: Pivot<S>, state: &M::State<S>) -> Fault {
-    if !finite(state) {
-        Fault::StateNotFinite
+    if let Err(fault) = check_state::<S, M>(state) {
+        fault
     } else if vanishes::<S, T>(&pivot) {
         singular::<S, M>(&pivot)
     } else {

@@ -47,6 +47,11 @@ impl core::error::Error for ParameterError {}
 pub enum Fault {
     /// The state holds NaN or infinity.
     StateNotFinite,
+    /// The Euler parameters of a body in the state have the length zero: no orientation.
+    ZeroOrientation {
+        /// The body's field.
+        body: &'static str,
+    },
     /// The rates came out as NaN or infinity: forces beyond the range of numbers, or a singular system.
     RatesNotFinite,
     /// The constraints depend on each other here: at this joint the pivot vanishes.
@@ -106,6 +111,9 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::StateNotFinite => write!(f, "the state holds a number that is not finite"),
+            Self::ZeroOrientation { body } => {
+                write!(f, "the Euler parameters of body `{body}` have no length")
+            }
             Self::RatesNotFinite => write!(f, "the rates of the state are not finite"),
             Self::Singular {
                 name,

@@ -2,7 +2,7 @@
 
 use core::ops::{ControlFlow, RangeInclusive};
 
-use crate::array::{Array, StateParts, finite};
+use crate::array::{Array, StateParts};
 use crate::displace::advanced;
 use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError};
@@ -11,6 +11,7 @@ use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Evaluation, Mechanism};
 use crate::project::{Projection, free_share};
 use crate::reporting::{Reporting, Schedule, check_interval};
+use crate::rotation::check_state;
 use crate::sample::Sample;
 use crate::scalar::Real;
 
@@ -180,9 +181,7 @@ where
         last_good.1 = state;
         check_interval(start, end)?;
         let mut schedule = Schedule::new(start, end, reporting)?;
-        if !finite(&state) {
-            return Err(Fault::StateNotFinite);
-        }
+        check_state::<S, M>(&state)?;
         let degrees_of_freedom = M::REPORT.degrees_of_freedom;
         if degrees_of_freedom > 0 {
             return Err(Fault::NotDriven { degrees_of_freedom });

@@ -1,11 +1,11 @@
 //! Correction of positions and velocities onto the constraints.
 
-use crate::array::{Array, StateParts, finite};
+use crate::array::{Array, StateParts};
 use crate::displace::displaced;
 use crate::error::Fault;
 use crate::integrate::positive;
 use crate::mechanism::{Compliant, Mechanism, Stabilisation};
-use crate::rotation::with_unit_orientations;
+use crate::rotation::{check_state, with_unit_orientations};
 use crate::scalar::{Real, Scalar};
 use crate::self_stress::self_stressed;
 use crate::view::square;
@@ -69,7 +69,7 @@ impl<S: Real> Projection<S> {
     /// Corrects positions, then velocities; Euler parameters come out at length 1.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] with the largest `|Phi|` or `|Phi'|` left and its joint, [`Fault::StateNotFinite`], or [`Fault::Setting`] for a
+    /// [`Fault::NotConverged`] with the largest `|Phi|` or `|Phi'|` left and its joint, [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], or [`Fault::Setting`] for a
     /// tolerance that is not finite and positive; the state is then as before.
     pub fn correct<M: Mechanism>(
         &self,
@@ -98,9 +98,7 @@ impl<S: Real> Projection<S> {
         state: &mut M::State<S>,
     ) -> Result<Correction<S>, Fault> {
         positive("tolerance of the projection", self.tolerance)?;
-        if !finite(state) {
-            return Err(Fault::StateNotFinite);
-        }
+        check_state::<S, M>(state)?;
         let phi = |state: &M::State<S>| M::constraints(constants, time, state);
         let phi_rate = |state: &M::State<S>| M::constraint_rates(constants, time, state);
         let (position_before, velocity_before) = (phi(state), phi_rate(state));

@@ -3,10 +3,12 @@
 //! Euler parameters are `(e0, e1, e2, e3)`, scalar first; `A(p)` takes components along body axes to components along global
 //! axes. Nikravesh, *Computer-Aided Analysis of Mechanical Systems* (1988), chapter 6.
 
-use crate::array::{Array, StateParts};
+use crate::array::{Array, StateParts, finite};
+use crate::error::Fault;
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
 use crate::scalar::{Real, Scalar};
+use crate::view::square;
 
 /// `N` elements from a place on; zeros where the slice ends before.
 pub(crate) fn read<S: Scalar, const N: usize>(slice: &[S], place: usize) -> [S; N] {
@@ -84,6 +86,31 @@ pub(crate) fn normalised<S: Scalar>(p: &[S; 4]) -> [S; 4] {
     let [e0, e1, e2, e3] = *p;
     let scale = (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3).sqrt().reciprocal();
     [e0 * scale, e1 * scale, e2 * scale, e3 * scale]
+}
+
+/// `p / |p|`, and `p` as it is where its length is zero, which [`check_state`] refuses.
+pub(crate) fn normalised_or_zero<S: Scalar>(p: &[S; 4]) -> [S; 4] {
+    let [e0, e1, e2, e3] = *p;
+    let square = e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3;
+    let scale = S::zero().select(square, square.sqrt().reciprocal(), S::one());
+    [e0 * scale, e1 * scale, e2 * scale, e3 * scale]
+}
+
+/// Refuses a state that holds a number that is not finite, or Euler parameters that are zero.
+pub(crate) fn check_state<S: Real, M: Mechanism>(state: &M::State<S>) -> Result<(), Fault> {
+    if !finite(state) {
+        return Err(Fault::StateNotFinite);
+    }
+    let coordinates = state.coordinates().as_slice();
+    for body in M::REPORT.bodies {
+        if body.kind == BodyKind::Rigid {
+            let p: [S; 4] = read(coordinates, body.coordinate + 3);
+            if square(&p) == S::zero() {
+                return Err(Fault::ZeroOrientation { body: body.name });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The Euler parameters of a rotation vector (rad): a turn about its direction by its length.

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use core::ops::{ControlFlow, RangeInclusive};
 
-use crate::array::{Array, StateParts, finite};
+use crate::array::{Array, StateParts};
 use crate::dynamics::{Dynamics, Iterations};
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
@@ -12,6 +12,7 @@ use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
 use crate::project::Projection;
 use crate::reporting::{Reporting, Schedule, check_interval};
+use crate::rotation::check_state;
 use crate::sample::Sample;
 use crate::scalar::Real;
 
@@ -190,9 +191,7 @@ where
         last_good.1 = state;
         check_interval(start, end)?;
         let mut schedule = Schedule::new(start, end, reporting)?;
-        if !finite(&state) {
-            return Err(Fault::StateNotFinite);
-        }
+        check_state::<S, M>(&state)?;
         M::recount(&constants, &mut state);
         if let Some(projection) = self.assemble {
             projection.correct::<M>(&constants, start, &mut state)?;

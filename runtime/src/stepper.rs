@@ -1,6 +1,5 @@
 //! Steps for a loop that somebody else owns.
 
-use crate::array::finite;
 use crate::dynamics::{Dynamics, Iterations};
 use crate::error::Fault;
 use crate::formulation::Formulation;
@@ -8,6 +7,7 @@ use crate::integrate::{Scheme, positive};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
 use crate::project::Projection;
+use crate::rotation::check_state;
 use crate::scalar::Real;
 use crate::view::View;
 
@@ -152,9 +152,7 @@ where
                 time: self.time.to_f64(),
             });
         }
-        if !finite(state) {
-            return Err(Fault::StateNotFinite);
-        }
+        check_state::<S, M>(state)?;
         let mut next = *state;
         self.scheme
             .step(&mut self.dynamics, self.time, &mut next, dt)?;

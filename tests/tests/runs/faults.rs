@@ -85,6 +85,40 @@ fn a_state_that_is_not_finite_is_refused() {
 }
 
 #[test]
+fn an_orientation_without_length_names_its_body() {
+    let rod = RodPendulum::default();
+    for size in [0.0, 1e-170] {
+        let mut state = rod.described_state().expect("described");
+        let pose = holonom::Pose {
+            position: [0.0, 0.1, 0.2].into(),
+            orientation: nalgebra::Quaternion::new(0.0, size, size, 0.0),
+        };
+        RodPendulum::set_pose(&mut state, RodPendulum::HANDLES.rod, pose);
+        let state: holonom::State<f64, 7, 6> = state;
+        assert!(state.coordinates().iter().all(|q| q.is_finite()));
+        let refused = Fault::ZeroOrientation { body: "rod" };
+        let error = Simulation::new(&rod, Penalty::default(), DormandPrince::default())
+            .orientation::<Raw>()
+            .initial_state(state)
+            .run(2.0..=3.0, every(0.1), |_| panic!("it must not begin"))
+            .expect_err("no orientation");
+        assert_eq!(
+            error.to_string(),
+            "at 2 s: the Euler parameters of body `rod` have no length"
+        );
+        let mut stepper = Stepper::new(&rod, Penalty::default(), Rk4).expect("acceptable");
+        let mut stepped = state;
+        assert_eq!(stepper.step(&mut stepped, 0.1), Err(refused));
+        assert_eq!(
+            stepper.dynamics().evaluate(0.0, &state).err(),
+            Some(refused)
+        );
+        assert_eq!(rod.assemble(0.0, &mut stepped), Err(refused));
+        assert_eq!(stepped, state);
+    }
+}
+
+#[test]
 fn a_singular_system_names_a_joint() {
     let door = Door::default();
     for with_forces in [false, true] {
