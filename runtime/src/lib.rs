@@ -199,7 +199,7 @@ pub mod prelude {
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, KinematicAnalysis,
         Loads, Mechanism, MechanismExt, Normalised, ParameterError, Particle, Penalty, Projection,
         Raw, Rk4, RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange,
-        Stepper, Tolerance, every, every_step,
+        StateParts, Stepper, Tolerance, every, every_step,
     };
 }
 

@@ -29,6 +29,9 @@ impl<S: Scalar, M: Mechanism> Copy for View<'_, S, M> {}
 
 impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// A view of a state; for the kernels it is read with Euler parameters of length 1.
+    ///
+    /// Constants and state do not tell the mechanism: two may have the same sizes. A handle does; where none is used, write
+    /// `View::<_, Swing>::new(..)`.
     #[must_use]
     pub fn new(constants: &'a M::Constants<S>, time: S, state: &'a M::State<S>) -> Self {
         Self {
