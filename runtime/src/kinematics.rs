@@ -135,7 +135,8 @@ where
     A: AppliedForces<S, M>,
 {
     /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at the reporting times and at
-    /// the end; `ControlFlow::Break(())` stops it. [`every_step`](crate::every_step) reports at start and end.
+    /// the end; `ControlFlow::Break(())` stops it, so an observer that never does so ends with `ControlFlow::Continue(())`.
+    /// [`every_step`](crate::every_step) reports at start and end.
     ///
     /// # Errors
     /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a mechanism with fewer equations than

@@ -145,7 +145,7 @@ where
     A: AppliedForces<S, M>,
 {
     /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the reporting times and at the
-    /// end; `ControlFlow::Break(())` stops the run.
+    /// end; `ControlFlow::Break(())` stops the run, so an observer that never does so ends with `ControlFlow::Continue(())`.
     ///
     /// An interval of length zero reports once and evaluates nothing.
     ///

@@ -65,6 +65,11 @@ pub trait System<S: Real> {
 }
 
 /// A method that integrates over an interval and decides on its steps.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not integrate over an interval",
+    label = "no integrator: it does not know its steps",
+    note = "a run takes a method with its steps: `Rk4::every(h)`, `DormandPrince::every(h)` or `DormandPrince::new(tolerance)`"
+)]
 pub trait Integrator<S: Real>: Copy + Debug {
     /// An integration under way, with all the memory that it needs.
     type Course<X: Vector<S>>: Course<S, X>;
@@ -109,6 +114,11 @@ pub trait Course<S: Real, X: Vector<S>> {
 }
 
 /// A one-step method of fixed coefficients.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not take single steps",
+    label = "no one-step method",
+    note = "a `Stepper` takes a method without a step, `Rk4` or `DormandPrince5`, and the step with every `step(&mut state, dt)`"
+)]
 pub trait Scheme<S: Real>: Copy + Debug {
     /// The memory of a step: slopes at the inner stages.
     type Stages<X: Vector<S>>;
