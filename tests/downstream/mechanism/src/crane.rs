@@ -51,6 +51,6 @@ pub fn sway() -> Result<f64, ParameterError> {
     let coefficients = Trolley::coefficients(&constants, &rigid);
     let evaluation =
         Trolley::evaluate::<f64, mech::Plain, Raw>(&constants, &coefficients, 0.0, &state);
-    let [x, _, _] = *mech::StateParts::velocities(&evaluation.rates);
+    let [x, _, _] = *evaluation.rates.velocities();
     Ok(x)
 }
