@@ -9,6 +9,7 @@ mod force;
 pub mod functions;
 mod identities;
 mod kept;
+mod node;
 pub mod scene;
 mod start;
 pub mod twist;

@@ -1,0 +1,156 @@
+//! What an arena holds: signed references, numbers known later, operations.
+
+/// A signed reference to a node: its value, or the value with the other sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Expr(u32);
+
+impl Expr {
+    pub(super) const fn new(node: u32, negative: bool) -> Self {
+        Self(node << 1 | negative as u32)
+    }
+
+    /// The place of the node in the arena.
+    #[must_use]
+    pub const fn node(self) -> usize {
+        (self.0 >> 1) as usize
+    }
+
+    /// Whether the sign is turned.
+    #[must_use]
+    pub const fn is_negative(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    /// The reference without its sign.
+    #[must_use]
+    pub const fn abs(self) -> Self {
+        Self(self.0 & !1)
+    }
+
+    /// The other sign where asked for. Zero, the first node, has no sign.
+    pub(super) const fn with_sign_of(self, negative: bool) -> Self {
+        if self.0 >> 1 == 0 {
+            Self(0)
+        } else {
+            Self(self.0 ^ negative as u32)
+        }
+    }
+}
+
+impl std::ops::Neg for Expr {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self.with_sign_of(true)
+    }
+}
+
+/// A number that is known only when the generated code runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Input {
+    /// A number of the description that the macro cannot see.
+    Symbol(u32),
+    /// `2 a`, the factor of `Phi'` in `gamma*`.
+    RateGain,
+    /// `b^2`, the factor of `Phi` in `gamma*`.
+    PositionGain,
+    /// `e`, the compliance.
+    Compliance,
+    /// The time.
+    Time,
+    /// An element of the coordinates, auxiliary variables behind those of bodies.
+    Coordinate(u32),
+    /// An element of the velocities.
+    Velocity(u32),
+    /// An element of the upper right-hand side (forces).
+    Upper(u32),
+    /// An element of the lower right-hand side (rows).
+    Lower(u32),
+}
+
+/// When a number is known: a node is as late as the latest of its operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// At expansion.
+    Literal,
+    /// Once per mechanism, in `prepare`.
+    Parameter,
+    /// Once per formulation, in `coefficients`.
+    Coefficient,
+    /// At every evaluation.
+    State,
+    /// With the right-hand side, after the factorisation.
+    RightHandSide,
+}
+
+impl Input {
+    /// When the input is known.
+    #[must_use]
+    pub const fn stage(self) -> Stage {
+        match self {
+            Self::Symbol(_) => Stage::Parameter,
+            Self::RateGain | Self::PositionGain | Self::Compliance => Stage::Coefficient,
+            Self::Time | Self::Coordinate(_) | Self::Velocity(_) => Stage::State,
+            Self::Upper(_) | Self::Lower(_) => Stage::RightHandSide,
+        }
+    }
+}
+
+/// An operation. Constants are positive; the first operand of a sum and both factors of a product are unsigned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A positive number (or zero), as bits.
+    Constant(u64),
+    /// A number known later.
+    Input(Input),
+    /// A sum or a difference.
+    Add(Expr, Expr),
+    /// A product.
+    Multiply(Expr, Expr),
+    /// `1 / x`.
+    Reciprocal(Expr),
+    /// The square root.
+    SquareRoot(Expr),
+    /// -1 where the operand is negative, else 1.
+    Sign(Expr),
+    /// The operand, at least 0 and at most 1.
+    Clamp(Expr),
+    /// The nearest integer.
+    Round(Expr),
+    /// The sine.
+    Sine(Expr),
+    /// The cosine.
+    Cosine(Expr),
+    /// The exponential function.
+    Exponential(Expr),
+    /// The angle of a point, from sine and cosine.
+    Angle(Expr, Expr),
+}
+
+impl Node {
+    /// The operands.
+    pub fn operands(self) -> impl Iterator<Item = Expr> {
+        let (first, second) = match self {
+            Self::Constant(_) | Self::Input(_) => (None, None),
+            Self::Add(a, b) | Self::Multiply(a, b) | Self::Angle(a, b) => (Some(a), Some(b)),
+            Self::Reciprocal(a)
+            | Self::SquareRoot(a)
+            | Self::Sign(a)
+            | Self::Clamp(a)
+            | Self::Round(a)
+            | Self::Sine(a)
+            | Self::Cosine(a)
+            | Self::Exponential(a) => (Some(a), None),
+        };
+        first.into_iter().chain(second)
+    }
+
+    /// Whether the node costs an operation.
+    #[must_use]
+    pub const fn is_operation(self) -> bool {
+        !matches!(
+            self,
+            Self::Constant(_) | Self::Input(_) | Self::Sign(_) | Self::Clamp(_) | Self::Round(_)
+        )
+    }
+}
