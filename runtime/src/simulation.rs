@@ -10,7 +10,7 @@ use crate::formulation::Formulation;
 use crate::integrate::{Counts, Course, Integrator, Span};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
-use crate::project::Projection;
+use crate::project::{Projection, settle};
 use crate::reporting::{Reporting, Schedule, check_interval};
 use crate::rotation::check_state;
 use crate::sample::Sample;
@@ -232,9 +232,9 @@ where
             if flow.is_break() {
                 break;
             }
-            if let Some(projection) = self.projection {
+            if self.projection.is_some() || M::REPORT.auxiliaries > 0 {
                 let mut state = *course.state();
-                projection.correct_in_motion::<M>(&constants, course.time(), &mut state)?;
+                settle::<S, M>(self.projection, &constants, course.time(), &mut state)?;
                 course.replace(state);
             }
             *last_good = (course.time(), *course.state());

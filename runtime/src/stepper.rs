@@ -6,7 +6,7 @@ use crate::formulation::Formulation;
 use crate::integrate::{Scheme, positive};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
-use crate::project::Projection;
+use crate::project::{Projection, settle};
 use crate::rotation::check_state;
 use crate::scalar::Real;
 use crate::view::View;
@@ -156,11 +156,7 @@ where
         let mut next = *state;
         self.scheme
             .step(&mut self.dynamics, self.time, &mut next, dt)?;
-        // The counters and the orientations carry errors of their own, which must not grow apart over any number of turns.
-        M::recount(self.dynamics.constants(), &mut next);
-        if let Some(projection) = self.projection {
-            projection.correct_in_motion::<M>(self.dynamics.constants(), end, &mut next)?;
-        }
+        settle::<S, M>(self.projection, self.dynamics.constants(), end, &mut next)?;
         *state = next;
         self.time = end;
         Ok(())

@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::{Gear, Prismatic, RackAndPinion, Revolute, Screw};
 use holonom::prelude::*;
 use holonom::{Array, StateParts};
@@ -237,4 +238,33 @@ fn bevel_gears_turn_backwards_for_a_hundred_turns() {
         let [seen, expected] = [sample.angle(gear.b), 1.5 * turned].map(f64::sin_cos);
         assert!((seen.0 - expected.0).abs() < ERROR && (seen.1 - expected.1).abs() < ERROR);
     });
+}
+
+/// A ball that spins on a soft spring, whose energy tells the angle.
+#[derive(Debug, Mechanism)]
+struct Ball {
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], angular_velocity = [0.0, 0.0, 20.0 * PI])]
+    ball: Body,
+    #[force(between = [ground, ball], axis = [0.0, 0.0, 1.0], stiffness = 2e-9)]
+    spring: TorsionalSpringDamper,
+}
+
+/// Coarse steps let orientation and counter part, by a turn within seconds: the count follows the orientation.
+#[test]
+fn a_counter_stays_with_its_angle() {
+    const STEP: f64 = 0.02;
+    let ball = Ball::default();
+    let mut last = -RATE * STEP;
+    Simulation::new(&ball, StandardLagrange, Rk4::every(STEP))
+        .run(0.0..=10.0, every(STEP), |sample| {
+            let angle = (sample.potential_energy() / 1e-9).sqrt();
+            let advance = angle - last;
+            // A turn too many or too few is five times the advance.
+            assert!((advance / (RATE * STEP) - 1.0).abs() < 0.5, "{advance}");
+            last = angle;
+            ControlFlow::Continue(())
+        })
+        .expect("free");
+    // That the two did part is what this is about.
+    assert!((RATE * 10.0 - last).abs() > TAU, "{last}");
 }

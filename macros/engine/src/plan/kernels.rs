@@ -93,7 +93,7 @@ pub struct Kernels {
     pub potential_energy: Kernel,
     /// `q'`.
     pub coordinate_rates: Kernel,
-    /// Coordinates, then velocities, of the described state.
+    /// Coordinates, auxiliary variables, then velocities, of the described state.
     pub initial_state: Kernel,
     /// The auxiliary variables, as the angles that they count.
     pub counters: Kernel,
