@@ -11,7 +11,9 @@ use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
     Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
 };
-use crate::rotation::{check_state, with_unit_orientations};
+use crate::rotation::{
+    bring_to_unit_length, check_state, scale_euler_rates, with_unit_orientations,
+};
 use crate::scalar::Real;
 use crate::view::View;
 
@@ -163,7 +165,11 @@ where
     #[inline(always)]
     fn evaluate_fused(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
         let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let evaluation = M::evaluate::<S, F::Terms, P>(constants, coefficients, time, state);
+        let mut evaluation = M::evaluate::<S, F::Terms, P>(constants, coefficients, time, state);
+        if P::NORMALISED_RATES {
+            let rates = evaluation.rates.coordinates_mut();
+            scale_euler_rates::<S, M>(rates, state, |length| length.reciprocal());
+        }
         if sound::<S, M, F::Terms>(&evaluation) {
             Ok(evaluation)
         } else {
@@ -207,8 +213,11 @@ where
             terms: PhantomData,
         };
         let solution = self.formulation.solve(&saddle)?;
-        let rates =
-            M::State::from_parts(M::coordinate_rates(constants, read), solution.accelerations);
+        let mut coordinate_rates = M::coordinate_rates(constants, read);
+        if P::NORMALISED && !P::NORMALISED_RATES {
+            scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
+        }
+        let rates = M::State::from_parts(coordinate_rates, solution.accelerations);
         let multipliers = solution.multipliers;
         let evaluation = Evaluation {
             rates,
@@ -262,6 +271,14 @@ where
             self.iterations.largest = self.iterations.largest.max(iterations);
         }
         Ok(evaluation.rates)
+    }
+
+    #[inline]
+    fn settle(&self, state: &mut M::State<S>, rates: Option<&mut M::State<S>>) {
+        if P::NORMALISED && !P::NORMALISED_RATES {
+            bring_to_unit_length::<S, M>(state, rates);
+        }
+        M::recount(&self.constants, state);
     }
 }
 

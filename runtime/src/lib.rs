@@ -172,8 +172,8 @@ pub use integrate::{
 pub use kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
 pub use mechanism::{
-    Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw, Stabilisation,
-    Stabilised, Terms,
+    Chapter15, Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw,
+    Stabilisation, Stabilised, Terms,
 };
 pub use nalgebra;
 pub use project::{Correction, Projection};

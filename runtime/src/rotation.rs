@@ -140,3 +140,53 @@ pub(crate) fn with_unit_orientations<S: Scalar, M: Mechanism>(state: &M::State<S
     }
     unit
 }
+
+/// Scales the Euler parameters of every body to length 1, and their rates, which are linear in them, by the same factors.
+#[inline]
+pub(crate) fn bring_to_unit_length<S: Scalar, M: Mechanism>(
+    state: &mut M::State<S>,
+    mut rates: Option<&mut M::State<S>>,
+) {
+    for body in M::REPORT.bodies {
+        if body.kind == BodyKind::Rigid {
+            let place = body.coordinate + 3;
+            let p: [S; 4] = read(state.coordinates().as_slice(), place);
+            let factor = length(&p).reciprocal();
+            scale(state.coordinates_mut().as_mut_slice(), place, factor);
+            if let Some(rates) = rates.as_deref_mut() {
+                scale(rates.coordinates_mut().as_mut_slice(), place, factor);
+            }
+        }
+    }
+}
+
+/// Multiplies the rates `1/2 L(p)^T w` of Euler parameters by a function of their length in a state: they are linear in `p`.
+#[inline]
+pub(crate) fn scale_euler_rates<S: Scalar, M: Mechanism>(
+    rates: &mut <M::State<S> as StateParts<S>>::Coordinates,
+    state: &M::State<S>,
+    factor: impl Fn(S) -> S,
+) {
+    for body in M::REPORT.bodies {
+        if body.kind == BodyKind::Rigid {
+            let place = body.coordinate + 3;
+            let p: [S; 4] = read(state.coordinates().as_slice(), place);
+            scale(rates.as_mut_slice(), place, factor(length(&p)));
+        }
+    }
+}
+
+/// `|p|`, summed as generated kernels do, so that the compiler sees the same sum.
+#[inline(always)]
+fn length<S: Scalar>(p: &[S; 4]) -> S {
+    let [e0, e1, e2, e3] = p.map(|e| e * e);
+    ((e0 + e1) + (e2 + e3)).sqrt()
+}
+
+/// Multiplies the four Euler parameters at a place.
+#[inline(always)]
+fn scale<S: Scalar>(coordinates: &mut [S], place: usize, factor: S) {
+    for e in coordinates.iter_mut().skip(place).take(4) {
+        *e = *e * factor;
+    }
+}

@@ -4,8 +4,8 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use holonom::{
-    Counts, Course as _, Fault, Formulation, Integrator, Iterations, Mechanism, Sample, Simulation,
-    Span, System, every,
+    Counts, Course as _, Fault, Formulation, Integrator, Iterations, Mechanism, Orientation,
+    Sample, Simulation, Span, System, every,
 };
 
 use crate::error::StudyError;
@@ -27,11 +27,11 @@ pub struct Recording<T> {
 }
 
 /// Runs a mechanism over `span` and reads what `read` wants at its start, at every multiple of `span.first_output` after it,
-/// and at its end. Euler parameters are normalised inside the evaluation.
+/// and at its end. `P` says how Euler parameters are read.
 ///
 /// # Errors
 /// [`StudyError::Run`] under `name` where the run or a reading stops.
-pub fn record<M, F, I, T>(
+pub fn record<P, M, F, I, T>(
     name: &str,
     mechanism: &M,
     (formulation, integrator): (F, I),
@@ -39,6 +39,7 @@ pub fn record<M, F, I, T>(
     mut read: impl FnMut(&Sample<'_, f64, M>) -> Result<T, Fault>,
 ) -> Result<Recording<T>, StudyError>
 where
+    P: Orientation,
     M: Mechanism,
     F: Formulation<f64>,
     I: Integrator<f64>,
@@ -48,7 +49,7 @@ where
         reason,
     };
     let (mut reports, mut fault) = (Vec::new(), None);
-    let simulation = Simulation::new(mechanism, formulation, integrator);
+    let simulation = Simulation::new(mechanism, formulation, integrator).orientation::<P>();
     let run = simulation.run(
         span.start..=span.end,
         every(span.first_output),

@@ -135,7 +135,8 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
                 self.time + size
             };
             let outcome = self.attempt(system, size, end);
-            if let Ok(Trial::Accepted { state, error }) = outcome {
+            if let Ok(Trial::Accepted { mut state, error }) = outcome {
+                system.settle(&mut state, Some(&mut self.last));
                 self.counts.accepted += 1;
                 self.start = self.time;
                 self.step = end - self.time;

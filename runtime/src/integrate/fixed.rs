@@ -120,12 +120,13 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
             state: &self.state,
             slope: &self.last,
         };
-        let state = self
+        let mut state = self
             .scheme
             .stride(&mut system, start, step, &mut self.stages)?;
         if !finite(&state) {
             return Err(Fault::StateNotFinite);
         }
+        system.settle(&mut state, None);
         self.counts.accepted += 1;
         core::mem::swap(&mut self.first, &mut self.last);
         self.known = false;

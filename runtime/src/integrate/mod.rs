@@ -62,6 +62,12 @@ pub trait System<S: Real> {
     /// # Errors
     /// Rates that are not finite, and what else keeps the system from having rates here.
     fn rates(&mut self, time: S, state: &Self::State) -> Result<Self::State, Fault>;
+
+    /// Brings a state that a step has led to into its normal form, and its rates, where they are known, with it.
+    ///
+    /// What the state says must not change, so that the rates stay valid; a step that goes on from it uses both as they come out.
+    #[inline(always)]
+    fn settle(&self, _state: &mut Self::State, _rates: Option<&mut Self::State>) {}
 }
 
 /// A method that integrates over an interval and decides on its steps.
@@ -160,10 +166,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
             state: &*state,
             slope: &slope,
         };
-        let next = self.stride(system, start, step, &mut stages)?;
+        let mut next = self.stride(system, start, step, &mut stages)?;
         if !finite(&next) {
             return Err(Fault::StateNotFinite);
         }
+        system.settle(&mut next, None);
         *state = next;
         Ok(())
     }
@@ -232,6 +239,11 @@ impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
     fn rates(&mut self, time: S, state: &Y::State) -> Result<Y::State, Fault> {
         self.counts.evaluations += 1;
         self.system.rates(time, state)
+    }
+
+    #[inline(always)]
+    fn settle(&self, state: &mut Y::State, rates: Option<&mut Y::State>) {
+        self.system.settle(state, rates);
     }
 }
 

@@ -230,7 +230,7 @@ impl Mechanism for Rod {
         let upper = Self::forces(c, time, read);
         let (accelerations, multipliers) =
             Self::solve::<S, T>(c, coefficients, &factors, &upper, &lower);
-        let rates = State::from_parts(Self::coordinate_rates(c, read), accelerations);
+        let rates = State::from_parts(Self::coordinate_rates(c, state), accelerations);
         Evaluation {
             rates,
             multipliers,

@@ -1,5 +1,7 @@
-//! Chapter 15 of Flores (2015): four formulations on one pendulum, 10 s, `ode45` at 1e-6 and 1e-9, reports every 0.02 s.
+//! Chapter 15 of Flores (2015): four formulations on one pendulum, 10 s, `ode45` at 1e-6 and 1e-9, reports every 0.02 s, Euler
+//! parameters read as the chapter's programs do.
 
+use holonom::Chapter15;
 use holonom::prelude::*;
 use holonom_models::RodPendulum;
 
@@ -18,6 +20,7 @@ fn run<F: Formulation<f64>>(method: F) -> Run {
     let rod = RodPendulum::default();
     let (mut violation, mut last) = ([0.0_f64; 2], 0.0);
     let report = Simulation::new(&rod, method, DormandPrince::default())
+        .orientation::<Chapter15>()
         .run(0.0..=10.0, every(0.02), |sample| {
             let time = sample.time();
             for (worst, within) in violation.iter_mut().zip([time <= 1.0, time >= 9.0]) {

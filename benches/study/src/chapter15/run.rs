@@ -1,9 +1,9 @@
 //! The four runs, and the race that times them.
 
 use holonom::{
-    AugmentedLagrangian, Baumgarte, BodyHandle, DormandPrince, Dynamics, Fault, Formulation,
-    HasAngle, Integrator, JointHandle, Mechanism, Penalty, Sample, Span, StandardLagrange,
-    Tolerance,
+    AugmentedLagrangian, Baumgarte, BodyHandle, Chapter15, DormandPrince, Dynamics, Fault,
+    Formulation, HasAngle, Integrator, JointHandle, Mechanism, Penalty, Sample, Span,
+    StandardLagrange, Tolerance,
 };
 
 use super::outcome::{Instant, Outcome, Prices};
@@ -187,6 +187,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
                     reason: fault.to_string(),
                 }
             })?;
+        let dynamics = dynamics.orientation::<Chapter15>();
         let start = M::initial_state(dynamics.constants());
         Ok((
             recording,
@@ -194,7 +195,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
         ))
     }
 
-    /// Runs one formulation and reads what the study compares.
+    /// Runs one formulation, Euler parameters read as the chapter's programs do, and reads what the study compares.
     ///
     /// # Errors
     /// [`StudyError::Run`] where the run stops.
@@ -206,7 +207,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
         span: Span<f64>,
     ) -> Result<Recording<Instant>, StudyError> {
         let read = |sample: &Sample<'_, f64, M>| self.read(sample);
-        record(
+        record::<Chapter15, _, _, _, _>(
             method.name(),
             self.mechanism,
             (formulation, integrator),

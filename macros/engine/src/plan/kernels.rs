@@ -10,7 +10,7 @@ use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::count::Count;
 use crate::symbolic::fixed::{initial_orientation, triple};
-use crate::symbolic::scene::{Orientation, Reading, Scene};
+use crate::symbolic::scene::{Reading, Scene};
 use crate::symbolic::vector::{Frame, Triple};
 
 /// Outputs over an arena.
@@ -276,7 +276,9 @@ fn potential_energy(model: &Model) -> Kernel {
     })
 }
 
-/// `r' = v`, `p' = 1/2 L(p)^T w` (Nikravesh 1988, eq. 6.111, body axes), and the rates of auxiliary variables.
+/// `r' = v`, `p' = 1/2 L(p)^T w` with `p` as stored (Nikravesh 1988, eq. 6.111, body axes), and the rates of auxiliary variables.
+///
+/// Of whatever length `p` is, `p / |p|` then turns at `w`: with `p / |p|` in these rates it would turn at `w / |p|`.
 fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
     let mut rates = Vec::new();
     for body in 0..model.bodies.len() {
@@ -285,11 +287,12 @@ fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
                 .space
                 .components(scene.motion.velocity[body], Frame::Global),
         );
-        let Some(Orientation { p, factor }) = scene.orientation[body] else {
+        let Some(p) = scene.orientation[body] else {
             continue;
         };
         let arena = &mut scene.space.arena;
-        let w = scene.motion.spin_components[body].map(|component| arena.mul(factor, component));
+        let half = arena.constant(0.5);
+        let w = scene.motion.spin_components[body].map(|component| arena.mul(half, component));
         let mut combination = |terms: [(usize, usize, bool); 3]| {
             let mut sum = Arena::ZERO;
             for (k, l, minus) in terms {

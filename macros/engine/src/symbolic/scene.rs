@@ -16,7 +16,7 @@ use crate::model::{BodyKind, ElementKind, Model, Row, Term};
 pub enum Reading {
     /// `A(p)` is `|p|^2` times a rotation.
     Raw,
-    /// `p / |p|` takes the place of `p`.
+    /// `p / |p|` takes the place of `p` in `A`.
     Normalised,
 }
 
@@ -71,16 +71,6 @@ impl Constrained {
     }
 }
 
-/// The Euler parameters of a body, and what `L(p)^T w` is to be multiplied by for their rates: one half, over `|p|` where they
-/// are normalised.
-#[derive(Clone, Copy, Debug)]
-pub struct Orientation {
-    /// As stored.
-    pub p: [Expr; 4],
-    /// One half, or less.
-    pub factor: Expr,
-}
-
 /// A mechanism in symbols.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -90,8 +80,8 @@ pub struct Scene {
     pub motion: Motion,
     /// The constraints of all joints, in order.
     pub constraints: Vec<Constrained>,
-    /// Euler parameters, `None` for a particle.
-    pub orientation: Vec<Option<Orientation>>,
+    /// Euler parameters as stored, `None` for a particle.
+    pub orientation: Vec<Option<[Expr; 4]>>,
     /// Masses.
     pub mass: Vec<Expr>,
     /// Principal moments of inertia.
@@ -135,9 +125,9 @@ pub fn homogeneous_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     with_diagonal(arena, p, doubled, diagonal)
 }
 
-/// The rotation of `p / |p|`, row by row, and `|p|^2`. The vector part is doubled and divided by `p.p` at once, so that
+/// The rotation of `p / |p|`, row by row. The vector part is doubled and divided by `p.p` at once, so that
 /// no square root stands in the way. 33 operations.
-fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> ([Triple; 3], Expr) {
+fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     let squares = p.map(|e| arena.square(e));
     let (first, second) = (
         arena.add(squares[0], squares[1]),
@@ -152,7 +142,7 @@ fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> ([Triple; 3], Expr) {
         let sum = arena.add(a, b);
         arena.sub(Arena::ONE, sum)
     });
-    (with_diagonal(arena, p, doubled, diagonal), norm)
+    with_diagonal(arena, p, doubled, diagonal)
 }
 
 /// The rotation of unit Euler parameters, row by row. 24 operations.
@@ -214,17 +204,12 @@ impl Scene {
                 BodyKind::Particle => (super::vector::ZERO, None),
                 BodyKind::Rigid => {
                     let p = [3, 4, 5, 6].map(|k| arena.input(at(k)));
-                    let half = arena.constant(0.5);
-                    let (matrix, factor) = match rotation {
-                        Rotation::Homogeneous => (homogeneous_rotation(&mut arena, p), half),
-                        Rotation::Unit => (unit_rotation(&mut arena, p), half),
-                        Rotation::Normalised => {
-                            let (matrix, square) = normalised_rotation(&mut arena, p);
-                            let norm = arena.sqrt(square);
-                            (matrix, arena.div(half, norm))
-                        }
+                    let matrix = match rotation {
+                        Rotation::Homogeneous => homogeneous_rotation(&mut arena, p),
+                        Rotation::Unit => unit_rotation(&mut arena, p),
+                        Rotation::Normalised => normalised_rotation(&mut arena, p),
                     };
-                    orientation[place] = Some(Orientation { p, factor });
+                    orientation[place] = Some(p);
                     for (k, row) in matrix.iter().enumerate() {
                         for (l, entry) in row.iter().enumerate() {
                             arena.name(*entry, || format!("{}_a{}{}", body.name, k + 1, l + 1));
