@@ -267,7 +267,7 @@ where
         }
         let (evaluation, iterations) = self.evaluate_in_parts(time, state)?;
         if F::ITERATED {
-            self.iterations.total += iterations;
+            self.iterations.total = self.iterations.total.saturating_add(iterations);
             self.iterations.largest = self.iterations.largest.max(iterations);
         }
         Ok(evaluation.rates)

@@ -35,6 +35,7 @@ compile_error!(
 
 mod access;
 mod array;
+mod clock;
 mod displace;
 mod dynamics;
 mod error;
@@ -182,7 +183,8 @@ pub use readout::{AngleParts, DisplacementParts, ForceParts};
 #[cfg(feature = "recorder")]
 pub use recorder::{RecordError, Recorder};
 pub use report::{
-    Block, BodyInfo, BodyKind, ForceInfo, JointInfo, Kernel, Operations, Rank, RedundantRow, Report,
+    Block, BodyInfo, BodyKind, ExplicitTime, ForceInfo, JointInfo, Kernel, Operations, Rank,
+    RedundantRow, Report,
 };
 pub use reporting::{Reporting, every, every_step};
 pub use sample::Sample;

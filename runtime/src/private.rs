@@ -216,6 +216,7 @@ macro_rules! __stub_mechanism {
                     rank: $crate::Rank::NotDecided,
                     redundant: &[],
                     degrees_of_freedom: 0,
+                    time: $crate::ExplicitTime::NONE,
                     kernels: &[],
                     plan: "",
                 };

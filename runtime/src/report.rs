@@ -1,7 +1,7 @@
 //! What the generator found out about a mechanism, as constants.
 
 /// Sizes, names and operation counts of a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// The name of the annotated struct.
     pub name: &'static str,
@@ -27,10 +27,42 @@ pub struct Report {
     pub redundant: &'static [RedundantRow],
     /// Velocities less the rank where it was decided; else velocities less equations (Gruebler's count).
     pub degrees_of_freedom: isize,
+    /// Where the time itself stands in the equations.
+    pub time: ExplicitTime,
     /// What the kernels cost, one evaluation each.
     pub kernels: &'static [Kernel],
     /// The order of elimination and the frames of the multiplier rows, in words.
     pub plan: &'static str,
+}
+
+/// Where the time itself stands in the equations of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExplicitTime {
+    /// In the constraints: the mechanism has drivers.
+    pub constraints: bool,
+    /// In forces.
+    pub forces: bool,
+    /// In potential energies.
+    pub potential: bool,
+    /// The instants (s), in order, at which a `smooth_step` of the time begins or ends: those whose numbers the macro can see. A run begins its
+    /// integration anew there, so that no step passes over a pulse.
+    pub breaks: &'static [f64],
+}
+
+impl ExplicitTime {
+    /// The time stands nowhere.
+    pub const NONE: Self = Self {
+        constraints: false,
+        forces: false,
+        potential: false,
+        breaks: &[],
+    };
+
+    /// Whether the time stands anywhere.
+    #[must_use]
+    pub const fn is_anywhere(&self) -> bool {
+        self.constraints || self.forces || self.potential
+    }
 }
 
 /// The rank of `D`, found at expansion: the number of independent equations.

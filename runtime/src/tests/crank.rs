@@ -97,6 +97,10 @@ impl Mechanism for Crank {
         auxiliaries: 1,
         equations: 6,
         degrees_of_freedom: 0,
+        time: ExplicitTime {
+            constraints: true,
+            ..ExplicitTime::NONE
+        },
         ..Rod::REPORT
     };
 

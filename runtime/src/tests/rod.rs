@@ -103,6 +103,7 @@ impl Mechanism for Rod {
         },
         redundant: &[],
         degrees_of_freedom: 1,
+        time: ExplicitTime::NONE,
         kernels: &[],
         plan: "",
     };

@@ -9,7 +9,7 @@ use holonom::{Array, Integrator};
 
 /// A body that nothing holds, at 20 rad/s about a principal axis.
 #[derive(Mechanism)]
-struct Spinning {
+pub(crate) struct Spinning {
     #[body(mass = 1.0, inertia = [0.2, 0.3, 0.4], angular_velocity = [0.0, 0.0, 20.0], free)]
     body: Body,
 }

@@ -9,6 +9,7 @@ use crate::model::{JointUse, Model, Rank};
 use crate::plan::Plan;
 use crate::plan::kernels::{Kernel, Kernels};
 use crate::plan::system::Terms;
+use crate::plan::time::ExplicitTime;
 use crate::symbolic::arena::Stage;
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::scene::Reading;
@@ -142,6 +143,20 @@ fn operations(count: Count, facade: &TokenStream) -> TokenStream {
     }
 }
 
+fn explicit_time(time: &ExplicitTime, facade: &TokenStream) -> TokenStream {
+    let ExplicitTime {
+        constraints,
+        forces,
+        potential,
+        breaks,
+    } = time;
+    quote! {
+        #facade::ExplicitTime {
+            constraints: #constraints, forces: #forces, potential: #potential, breaks: &[#(#breaks),*],
+        }
+    }
+}
+
 /// The constant `REPORT`.
 #[must_use]
 pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenStream {
@@ -210,6 +225,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (joint, row) = (redundant.joint, redundant.row);
         quote!(#facade::RedundantRow { joint: #joint, row: #row, dropped: #dropped })
     });
+    let time = explicit_time(&ExplicitTime::of(kernels), facade);
     let plan = describe(model, &kernels.plan, &layout);
     quote! {
         #facade::Report {
@@ -225,6 +241,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             rank: #rank,
             redundant: &[#(#redundant),*],
             degrees_of_freedom: #degrees_of_freedom,
+            time: #time,
             kernels: &[#(#counts),*],
             plan: #plan,
         }

@@ -10,6 +10,7 @@ pub mod kernels;
 mod order;
 pub mod readings;
 pub mod system;
+pub mod time;
 
 use crate::symbolic::vector::Frame;
 

@@ -1,0 +1,131 @@
+//! Where the time itself stands in the equations, and the instants at which laws of it have a break.
+
+use super::kernels::{Kernel, Kernels};
+use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+
+/// Where the time stands, besides in the motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ExplicitTime {
+    /// In the constraints: drivers.
+    pub constraints: bool,
+    /// In forces.
+    pub forces: bool,
+    /// In potential energies.
+    pub potential: bool,
+    /// The instants (s), in order, at which a smooth step of the time begins or ends, as far as the macro can see them.
+    pub breaks: Vec<f64>,
+}
+
+impl ExplicitTime {
+    /// Reads it off the kernels of a mechanism.
+    #[must_use]
+    pub fn of(kernels: &Kernels) -> Self {
+        let mut breaks = Vec::new();
+        for kernel in [&kernels.constraints, &kernels.forces] {
+            add_breaks(kernel, &mut breaks);
+        }
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        Self {
+            constraints: has_time(&kernels.constraints),
+            forces: has_time(&kernels.forces),
+            potential: has_time(&kernels.potential_energy),
+            breaks,
+        }
+    }
+}
+
+fn has_time(kernel: &Kernel) -> bool {
+    let live = kernel.arena.live(&kernel.outputs, Stage::Literal);
+    live.into_iter()
+        .any(|place| kernel.arena.node(place) == Node::Input(Input::Time))
+}
+
+/// Where the argument of a smooth step, held between 0 and 1, comes to either end.
+fn add_breaks(Kernel { arena, outputs }: &Kernel, breaks: &mut Vec<f64>) {
+    let live = arena.live(outputs, Stage::Literal);
+    let lines = Lines::of(arena, &live);
+    for place in live {
+        let Node::Clamp(argument) = arena.node(place) else {
+            continue;
+        };
+        if let Some(Line { start, slope }) = lines.get(argument)
+            && slope != 0.0
+        {
+            let ends = [-start / slope, (1.0 - start) / slope];
+            breaks.extend(ends.into_iter().filter(|end| end.is_finite()));
+        }
+    }
+}
+
+/// `start + slope * time`.
+#[derive(Clone, Copy)]
+struct Line {
+    start: f64,
+    slope: f64,
+}
+
+/// The nodes that are straight lines over the time.
+struct Lines(Vec<Option<Line>>);
+
+impl Lines {
+    fn of(arena: &Arena, live: &[usize]) -> Self {
+        let mut lines = Self(vec![None; arena.len()]);
+        for &place in live {
+            lines.0[place] = match arena.node(place) {
+                Node::Constant(bits) => Some(Line {
+                    start: f64::from_bits(bits),
+                    slope: 0.0,
+                }),
+                Node::Input(Input::Time) => Some(Line {
+                    start: 0.0,
+                    slope: 1.0,
+                }),
+                Node::Add(a, b) => lines.get(a).zip(lines.get(b)).map(|(a, b)| Line {
+                    start: a.start + b.start,
+                    slope: a.slope + b.slope,
+                }),
+                Node::Multiply(a, b) => lines
+                    .get(a)
+                    .zip(lines.get(b))
+                    .filter(|(a, b)| a.slope == 0.0 || b.slope == 0.0)
+                    .map(|(a, b)| Line {
+                        start: a.start * b.start,
+                        slope: a.start * b.slope + a.slope * b.start,
+                    }),
+                _ => None,
+            };
+        }
+        lines
+    }
+
+    fn get(&self, expr: Expr) -> Option<Line> {
+        let sign = if expr.is_negative() { -1.0 } else { 1.0 };
+        self.0[expr.node()].map(|line| Line {
+            start: sign * line.start,
+            slope: sign * line.slope,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::add_breaks;
+    use crate::plan::kernels::Kernel;
+    use crate::symbolic::arena::{Arena, Input};
+
+    #[test]
+    fn a_smooth_step_has_two_breaks() {
+        // (2 - time) / 4, and one that begins with a coordinate.
+        let mut arena = Arena::new();
+        let (time, x) = (arena.input(Input::Time), arena.input(Input::Coordinate(0)));
+        let (two, quarter) = (arena.constant(2.0), arena.constant(0.25));
+        let falling = arena.sub(two, time);
+        let falling = arena.mul(quarter, falling);
+        let other = arena.mul(time, x);
+        let outputs = vec![arena.clamp(falling), arena.clamp(other)];
+        let mut breaks = Vec::new();
+        add_breaks(&Kernel { arena, outputs }, &mut breaks);
+        assert_eq!(breaks, [2.0, -2.0]);
+    }
+}
