@@ -9,13 +9,14 @@ use crate::formulation::{Formulation, Saddle};
 use crate::integrate::System;
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
-    Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
+    Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Stabilisation, Terms,
 };
 use crate::rotation::{
-    bring_to_unit_length, check_state, scale_euler_rates, with_unit_orientations,
+    bring_to_unit_length, check_state, scale_euler_rates, stretch, with_unit_orientations,
 };
 use crate::scalar::Real;
 use crate::view::View;
+use crate::watch::{Seen, Step, Watch};
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
@@ -27,6 +28,7 @@ pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A 
     formulation: F,
     forces: A,
     iterations: Iterations,
+    seen: Seen<S, M>,
     orientation: PhantomData<P>,
 }
 
@@ -54,6 +56,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
             formulation,
             forces: NoForces,
             iterations: Iterations::default(),
+            seen: Seen::nothing(),
             orientation: PhantomData,
         })
     }
@@ -86,6 +89,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
             formulation: self.formulation,
             forces: forces(self.forces),
             iterations: self.iterations,
+            seen: self.seen,
             orientation: PhantomData,
         }
     }
@@ -104,6 +108,21 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     #[must_use]
     pub fn constants(&self) -> &M::Constants<S> {
         &self.constants
+    }
+
+    pub(crate) fn formulation(&self) -> &F {
+        &self.formulation
+    }
+
+    /// Euler parameters of length 1 where they are normalised, and counters right.
+    pub(crate) fn bring_to_normal_form(&self, state: &mut M::State<S>)
+    where
+        P: Orientation,
+    {
+        if P::NORMALISED && !P::NORMALISED_RATES {
+            bring_to_unit_length::<S, M>(state, None);
+        }
+        M::recount(&self.constants, state);
     }
 
     /// How often the augmented Lagrangian solved its system in [`System::rates`]; zero for other formulations.
@@ -139,7 +158,8 @@ where
         state: &M::State<S>,
     ) -> Result<(Evaluation<S, M>, usize), Fault> {
         if A::PRESENT || F::ITERATED {
-            self.evaluate_in_parts(time, state)
+            let parts = self.evaluate_in_parts(time, state)?;
+            Ok((parts.evaluation, parts.iterations))
         } else {
             Ok((self.evaluate_fused(time, state)?, 1))
         }
@@ -178,11 +198,7 @@ where
     }
 
     /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
-    fn evaluate_in_parts(
-        &self,
-        time: S,
-        state: &M::State<S>,
-    ) -> Result<(Evaluation<S, M>, usize), Fault> {
+    fn evaluate_in_parts(&self, time: S, state: &M::State<S>) -> Result<Parts<S, M>, Fault> {
         let unit;
         let read = if P::NORMALISED {
             unit = with_unit_orientations::<S, M>(state);
@@ -196,9 +212,16 @@ where
             return Err(singular::<S, M>(&pivot));
         }
         let mut upper = M::forces(constants, time, read);
+        let mut applied_power = S::zero();
         if A::PRESENT {
+            let described = upper;
             self.forces
                 .apply(time, read, &mut Loads::new(read, &mut upper));
+            let velocities = read.velocities().as_slice();
+            let loads = upper.as_slice().iter().zip(described.as_slice());
+            for ((&whole, &own), &u) in loads.zip(velocities) {
+                applied_power = (whole - own).fused(u, applied_power);
+            }
         }
         let lower = self.stabilised(time, read);
         let saddle = Saddle::<S, M, F::Terms> {
@@ -225,7 +248,11 @@ where
             pivot,
         };
         if sound::<S, M, F::Terms>(&evaluation) {
-            Ok((evaluation, solution.iterations))
+            Ok(Parts {
+                evaluation,
+                iterations: solution.iterations,
+                applied_power,
+            })
         } else {
             Err(fault::<S, M, F::Terms>(pivot, state))
         }
@@ -261,11 +288,17 @@ where
     #[inline(always)]
     fn rates(&mut self, time: S, state: &M::State<S>) -> Result<M::State<S>, Fault> {
         if !(A::PRESENT || F::ITERATED) {
-            return self
-                .evaluate_fused(time, state)
-                .map(|evaluation| evaluation.rates);
+            let evaluation = self.evaluate_fused(time, state)?;
+            self.look(&evaluation, time);
+            return Ok(evaluation.rates);
         }
-        let (evaluation, iterations) = self.evaluate_in_parts(time, state)?;
+        let Parts {
+            evaluation,
+            iterations,
+            applied_power,
+        } = self.evaluate_in_parts(time, state)?;
+        self.look(&evaluation, time);
+        self.seen.applied_power = applied_power;
         if F::ITERATED {
             self.iterations.total = self.iterations.total.saturating_add(iterations);
             self.iterations.largest = self.iterations.largest.max(iterations);
@@ -274,11 +307,96 @@ where
     }
 
     #[inline]
-    fn settle(&self, state: &mut M::State<S>, rates: Option<&mut M::State<S>>) {
-        if P::NORMALISED && !P::NORMALISED_RATES {
-            bring_to_unit_length::<S, M>(state, rates);
-        }
+    fn settle(&mut self, state: &mut M::State<S>, rates: Option<&mut M::State<S>>) {
+        let stretch = if P::NORMALISED && !P::NORMALISED_RATES {
+            bring_to_unit_length::<S, M>(state, rates)
+        } else {
+            stretch::<S, M>(state)
+        };
+        self.seen.stretch = self.seen.stretch.max(stretch);
         M::recount(&self.constants, state);
+    }
+}
+
+/// An evaluation from its parts.
+struct Parts<S: Real, M: Mechanism> {
+    evaluation: Evaluation<S, M>,
+    iterations: usize,
+    /// The power (W) of the forces of a closure.
+    applied_power: S,
+}
+
+/// What the watch wants to know.
+impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+{
+    /// Whether accelerations are off by what a compliance leaves.
+    const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
+
+    #[inline(always)]
+    fn look(&mut self, evaluation: &Evaluation<S, M>, time: S) {
+        if !F::Terms::COMPLIANT {
+            self.seen.pivot(evaluation.pivot, time);
+        }
+        if Self::YIELDS || M::REPORT.time.constraints {
+            self.seen.multipliers = evaluation.multipliers;
+        }
+        if Self::YIELDS {
+            self.seen.accelerations = *evaluation.rates.velocities();
+        }
+    }
+
+    /// Shows the end of a step to the watch, with what was seen at the last evaluation.
+    #[inline]
+    pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
+        let step = Step {
+            constants: &self.constants,
+            time,
+            state,
+            power: self.power(time, state),
+            pivot: self.pivot(time, state),
+            compliance: Self::YIELDS.then_some(self.stabilisation.compliance),
+        };
+        watch.step(step, &mut self.seen);
+    }
+
+    /// The power (W) of all forces without a potential, and of drivers, whose multipliers work against `Phi_t`.
+    fn power(&self, time: S, state: &M::State<S>) -> Option<S> {
+        let is_driven = M::REPORT.time.constraints;
+        if M::REPORT.forces.is_empty() && !is_driven && !A::PRESENT {
+            return None;
+        }
+        let mut power = M::power(&self.constants, time, state) + self.seen.applied_power;
+        if is_driven {
+            let at_rest = M::State::from_parts(*state.coordinates(), M::Velocities::<S>::zeros());
+            let by_time = M::constraint_rates(&self.constants, time, &at_rest);
+            let rows = by_time
+                .as_slice()
+                .iter()
+                .zip(self.seen.multipliers.as_slice());
+            power = rows.fold(power, |sum, (&rate, &multiplier)| {
+                rate.fused(multiplier, sum)
+            });
+        }
+        Some(power)
+    }
+
+    /// The relative pivot at the end of a step; with a compliance, by a factorisation without it. `None` where equations that depend on others are
+    /// kept: their pivots tell nothing.
+    fn pivot(&self, time: S, state: &M::State<S>) -> Option<Pivot<S>> {
+        if M::REPORT.equations == 0 || M::REPORT.redundant.iter().any(|row| !row.dropped) {
+            return None;
+        }
+        Some(if F::Terms::COMPLIANT {
+            M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1
+        } else {
+            self.seen.last
+        })
     }
 }
 

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::readable::{Given, Measured};
+
 /// A number of the description that the macro could not see is not acceptable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParameterError {
@@ -86,6 +88,27 @@ pub enum Fault {
         /// The time (s).
         time: f64,
     },
+    /// A fixed step that is too long for the rate at which the formulation makes violations decay: the motion grew beyond all numbers.
+    StepTooLong {
+        /// The step (s).
+        step: f64,
+        /// The rate (1/s).
+        rate: f64,
+    },
+    /// A run has taken as many evaluations as it may, see [`StepLimits::evaluations`](crate::StepLimits::evaluations).
+    Budget {
+        /// How many it has taken.
+        evaluations: usize,
+    },
+    /// A run was to begin where a joint is open, or where its bodies move against it.
+    InconsistentStart {
+        /// The joint's field.
+        joint: &'static str,
+        /// What is violated.
+        quantity: Quantity,
+        /// By how much, in the unit of the quantity.
+        violation: f64,
+    },
     /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer than velocities.
     NotDriven {
         /// Velocities less equations.
@@ -105,6 +128,32 @@ pub enum Fault {
     },
     /// A parameter of the mechanism is not acceptable.
     Parameter(ParameterError),
+}
+
+/// What a joint's equations are about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A length (m).
+    Length,
+    /// An angle (rad).
+    Angle,
+    /// A speed (m/s).
+    Speed,
+    /// An angular velocity (rad/s).
+    AngularVelocity,
+}
+
+impl Quantity {
+    /// Its unit.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Angle => "rad",
+            Self::Speed => "m/s",
+            Self::AngularVelocity => "rad/s",
+        }
+    }
 }
 
 impl fmt::Display for Fault {
@@ -150,6 +199,42 @@ impl fmt::Display for Fault {
                         "constraints that cannot be met, a singular configuration, and forces that jump or grow without bound are the usual causes"
                     ),
                 }
+            }
+            Self::StepTooLong { step, rate } => write!(
+                f,
+                "the numbers grew without bound: a step of {} s is too long for violations that decay at {} 1/s, explicit steps must stay below \
+                 about {} s",
+                Given(step),
+                Given(rate),
+                Measured(2.0 / rate)
+            ),
+            Self::Budget { evaluations } => write!(
+                f,
+                "{evaluations} evaluations are used up: a singular configuration or a stiff formulation are the usual causes; \
+                 `DormandPrince::budget` allows more"
+            ),
+            Self::InconsistentStart {
+                joint,
+                quantity,
+                violation,
+            } => {
+                let (violation, unit) = (Measured(violation), quantity.unit());
+                match quantity {
+                    Quantity::Length | Quantity::Angle => {
+                        write!(
+                            f,
+                            "joint `{joint}` is open by {violation} {unit} at the start"
+                        )?;
+                    }
+                    Quantity::Speed | Quantity::AngularVelocity => write!(
+                        f,
+                        "the bodies of joint `{joint}` move against it at {violation} {unit} at the start"
+                    )?,
+                }
+                write!(
+                    f,
+                    ": `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
+                )
             }
             Self::StepTooShort { step, time } => write!(
                 f,

@@ -47,18 +47,23 @@ mod load;
 mod mechanism;
 mod project;
 mod reaction;
+mod readable;
 mod readout;
 #[cfg(feature = "recorder")]
 mod recorder;
 mod report;
 mod reporting;
 mod rotation;
+mod run;
+mod run_report;
 mod sample;
 mod scalar;
 mod self_stress;
 mod simulation;
+mod start;
 mod stepper;
 mod view;
+mod watch;
 
 #[cfg(test)]
 mod tests;
@@ -158,7 +163,7 @@ pub use holonom_macros::Mechanism;
 pub use access::{MechanismExt, Pose};
 pub use array::{Array, State, StateParts, Vector};
 pub use dynamics::{Dynamics, Iterations};
-pub use error::{Fault, ParameterError, ParameterFault, SimulationError};
+pub use error::{Fault, ParameterError, ParameterFault, Quantity, SimulationError};
 pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, Penalty, Saddle, Solution, StandardLagrange,
 };
@@ -167,8 +172,8 @@ pub use handle::{
 };
 pub use integrate::{
     AdaptiveCourse, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages,
-    FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, Stride, System,
-    Tolerance,
+    FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, StepLimits, Stride,
+    System, Tolerance,
 };
 pub use kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
@@ -187,11 +192,13 @@ pub use report::{
     RedundantRow, Report,
 };
 pub use reporting::{Reporting, every, every_step};
+pub use run_report::{RunReport, RunResult};
 pub use sample::Sample;
 pub use scalar::{Real, Scalar};
-pub use simulation::{RunReport, RunResult, Simulation};
+pub use simulation::Simulation;
 pub use stepper::Stepper;
 pub use view::View;
+pub use watch::{Doubt, Doubts, Excused, SmallestPivot, Violation, Watch};
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in `holonom::joints`, by name.
 pub mod prelude {

@@ -161,6 +161,8 @@ pub struct JointInfo {
     pub has_angle: bool,
     /// Whether the joint's definition has a displacement.
     pub has_displacement: bool,
+    /// Whether the joint's definition has a point, to which reactions are reduced; else they are reduced to the centre of mass.
+    pub has_point: bool,
     /// What the joint costs by itself: `Phi`, `D` (rows along global axes) and `gamma` together, as functions of position, Euler
     /// parameters of length 1, velocity and angular velocity of its bodies, the last in global axes too. In the kernels of a
     /// mechanism joints share operations, with each other and with the solution.

@@ -11,6 +11,34 @@ pub enum Reporting<S> {
     Every(S),
     /// At the end of every step.
     EveryStep,
+    /// At `t0 + k dt` (s), at the end, and after so many steps without a report.
+    EveryOrSteps {
+        /// The interval `dt` (s).
+        interval: S,
+        /// How many steps.
+        steps: usize,
+    },
+}
+
+impl<S> Reporting<S> {
+    /// Reports after so many steps without a report, too: a word for the observer of a run whose steps have become short, which may then stop it.
+    #[must_use]
+    pub fn or_steps(self, steps: usize) -> Self {
+        match self {
+            Self::Every(interval) | Self::EveryOrSteps { interval, .. } => {
+                Self::EveryOrSteps { interval, steps }
+            }
+            Self::EveryStep => self,
+        }
+    }
+
+    /// The interval (s) between reports, where there is one.
+    fn interval(self) -> Option<S> {
+        match self {
+            Self::Every(interval) | Self::EveryOrSteps { interval, .. } => Some(interval),
+            Self::EveryStep => None,
+        }
+    }
 }
 
 /// Reports at `t0 + k dt` (s) and at the end.
@@ -39,8 +67,15 @@ pub(crate) struct Schedule<S> {
 
 impl<S: Real> Schedule<S> {
     pub(crate) fn new(start: S, end: S, reporting: Reporting<S>) -> Result<Self, Fault> {
-        if let Reporting::Every(dt) = reporting {
+        if let Some(dt) = reporting.interval() {
             positive("reporting step", dt)?;
+            let latest = if end.abs() > start.abs() { end } else { start };
+            if dt < round_off(latest) {
+                return Err(Fault::StepTooShort {
+                    step: dt.to_f64(),
+                    time: latest.to_f64(),
+                });
+            }
         }
         Ok(Self {
             start,
@@ -50,11 +85,11 @@ impl<S: Real> Schedule<S> {
         })
     }
 
-    /// The time from the start to the first report after it.
-    pub(crate) fn first(&self) -> S {
-        match self.reporting {
-            Reporting::Every(dt) => dt.min(self.end - self.start),
-            Reporting::EveryStep => self.end - self.start,
+    /// The time from a time to the next report.
+    pub(crate) fn first(&self, from: S) -> S {
+        match self.next() {
+            Some(next) if next - from > round_off(next) => next - from,
+            _ => self.reporting.interval().unwrap_or(self.end - from),
         }
     }
 
@@ -65,15 +100,16 @@ impl<S: Real> Schedule<S> {
         before.then(|| self.count(next))
     }
 
-    /// The time to report, if it is `reached` but for round-off.
-    pub(crate) fn at(&mut self, reached: S) -> Option<S> {
-        match self.next() {
-            Some(next) => {
-                let here = (reached - next).abs() <= round_off(reached);
-                here.then(|| self.count(next))
-            }
-            None => Some(reached),
+    /// Whether `reached`, the end of a step, is a time to report, after so many steps without a report.
+    pub(crate) fn at(&mut self, reached: S, unseen: usize) -> bool {
+        let Some(next) = self.next() else {
+            return true;
+        };
+        if (reached - next).abs() <= round_off(reached) {
+            self.count(next);
+            return true;
         }
+        matches!(self.reporting, Reporting::EveryOrSteps { steps, .. } if unseen >= steps)
     }
 
     /// The next time to report, counted; none where times are not given.
@@ -84,9 +120,7 @@ impl<S: Real> Schedule<S> {
 
     /// The next time, where times are given.
     fn next(&self) -> Option<S> {
-        let Reporting::Every(dt) = self.reporting else {
-            return None;
-        };
+        let dt = self.reporting.interval()?;
         let next = S::constant((self.done + 1) as f64).fused(dt, self.start);
         Some(if next + round_off(self.end) >= self.end {
             self.end

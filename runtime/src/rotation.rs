@@ -141,23 +141,45 @@ pub(crate) fn with_unit_orientations<S: Scalar, M: Mechanism>(state: &M::State<S
     unit
 }
 
-/// Scales the Euler parameters of every body to length 1, and their rates, which are linear in them, by the same factors.
+/// Scales the Euler parameters of every body to length 1, and their rates, which are linear in them, by the same factors. Returns the largest
+/// `| |p| - 1 |` that they had.
 #[inline]
-pub(crate) fn bring_to_unit_length<S: Scalar, M: Mechanism>(
+pub(crate) fn bring_to_unit_length<S: Real, M: Mechanism>(
     state: &mut M::State<S>,
     mut rates: Option<&mut M::State<S>>,
-) {
+) -> S {
+    let mut stretch = S::zero();
     for body in M::REPORT.bodies {
         if body.kind == BodyKind::Rigid {
             let place = body.coordinate + 3;
             let p: [S; 4] = read(state.coordinates().as_slice(), place);
-            let factor = length(&p).reciprocal();
+            let length = length(&p);
+            stretch = stretch.max((length - S::one()).abs());
+            // Numbers beyond all bounds stay what they are, for whoever uses them to refuse.
+            if !(length.is_finite() && length > S::zero()) {
+                continue;
+            }
+            let factor = length.reciprocal();
             scale(state.coordinates_mut().as_mut_slice(), place, factor);
             if let Some(rates) = rates.as_deref_mut() {
                 scale(rates.coordinates_mut().as_mut_slice(), place, factor);
             }
         }
     }
+    stretch
+}
+
+/// The largest `| |p| - 1 |` of the Euler parameters of a state.
+pub(crate) fn stretch<S: Real, M: Mechanism>(state: &M::State<S>) -> S {
+    let rigid = M::REPORT.bodies.iter();
+    let rigid = rigid.filter(|body| body.kind == BodyKind::Rigid);
+    let lengths = rigid.map(|body| {
+        let p: [S; 4] = read(state.coordinates().as_slice(), body.coordinate + 3);
+        length(&p)
+    });
+    lengths.fold(S::zero(), |most, length| {
+        most.max((length - S::one()).abs())
+    })
 }
 
 /// Multiplies the rates `1/2 L(p)^T w` of Euler parameters by a function of their length in a state: they are linear in `p`.

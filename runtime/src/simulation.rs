@@ -4,17 +4,21 @@ use core::marker::PhantomData;
 use core::ops::{ControlFlow, RangeInclusive};
 
 use crate::array::{Array, StateParts};
-use crate::dynamics::{Dynamics, Iterations};
+use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
-use crate::integrate::{Counts, Course, Integrator, Span};
+use crate::integrate::{Counts, Integrator};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
-use crate::project::{Projection, settle};
+use crate::project::Projection;
 use crate::reporting::{Reporting, Schedule, check_interval};
 use crate::rotation::check_state;
+use crate::run::{Log, Run};
+use crate::run_report::{RunReport, RunResult};
 use crate::sample::Sample;
 use crate::scalar::Real;
+use crate::start::check_start;
+use crate::watch::Watch;
 
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
@@ -28,34 +32,11 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoFor
     initial: Option<M::State<S>>,
     assemble: Option<Projection<S>>,
     projection: Option<Projection<S>>,
+    breaks: &'a [S],
+    accepts_any_start: bool,
+    is_watched: bool,
     orientation: PhantomData<P>,
 }
-
-/// What a run came to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct RunReport<S, X> {
-    /// Evaluations of the rates by the integrator.
-    pub evaluations: usize,
-    /// Steps that were accepted.
-    pub accepted: usize,
-    /// Steps that were tried and rejected.
-    pub rejected: usize,
-    /// The largest `Phi^T Phi` at a reporting time.
-    pub worst_violation: S,
-    /// How often the augmented Lagrangian solved its system; zero for other formulations.
-    pub iterations: Iterations,
-    /// The time (s) of the last state: the end, or the reporting time at which the observer stopped the run.
-    pub time: S,
-    /// The last state.
-    pub state: X,
-    /// Whether the observer stopped the run.
-    pub stopped: bool,
-}
-
-/// The report of a run, or why it could not go on.
-pub type RunResult<S, M> =
-    Result<RunReport<S, <M as Mechanism>::State<S>>, SimulationError<<M as Mechanism>::State<S>>>;
 
 impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<'a, S, M, F, I> {
     /// A simulation from the state that the attributes describe, with Euler parameters normalised inside the
@@ -70,6 +51,9 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<
             initial: None,
             assemble: None,
             projection: None,
+            breaks: &[],
+            accepts_any_start: false,
+            is_watched: true,
             orientation: PhantomData,
         }
     }
@@ -104,6 +88,29 @@ where
         self
     }
 
+    /// Accepts a start that violates the constraints by more than four digits, in positions or velocities, which is refused with
+    /// [`Fault::InconsistentStart`] otherwise.
+    #[must_use]
+    pub fn inconsistent_start(mut self) -> Self {
+        self.accepts_any_start = true;
+        self
+    }
+
+    /// Begins the integration anew at these instants (s), in any order: where a law or a closure jumps or has a short pulse, which a step would pass over
+    /// otherwise. Those of a `smooth_step` of the time with literal numbers are known without ([`ExplicitTime::breaks`](crate::ExplicitTime::breaks)).
+    #[must_use]
+    pub fn breaks(mut self, instants: &'a [S]) -> Self {
+        self.breaks = instants;
+        self
+    }
+
+    /// Runs without the watch that [`RunReport::doubts`] speaks of, some percent faster.
+    #[must_use]
+    pub fn unwatched(mut self) -> Self {
+        self.is_watched = false;
+        self
+    }
+
     /// Reads Euler parameters in another way: `.orientation::<Raw>()`.
     #[must_use]
     pub fn orientation<P2: Orientation>(self) -> Simulation<'a, S, M, F, I, P2, A> {
@@ -130,6 +137,9 @@ where
             initial: self.initial,
             assemble: self.assemble,
             projection: self.projection,
+            breaks: self.breaks,
+            accepts_any_start: self.accepts_any_start,
+            is_watched: self.is_watched,
             orientation: PhantomData,
         }
     }
@@ -165,7 +175,7 @@ where
         let (start, end) = interval.into_inner();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
         let mut last_good = (start, self.initial.unwrap_or_else(zeros));
-        self.attempt(start, end, reporting, &mut observe, &mut last_good)
+        self.attempt((start, end), reporting, &mut observe, &mut last_good)
             .map_err(|fault| {
                 let (time, state) = last_good;
                 SimulationError {
@@ -176,120 +186,44 @@ where
             })
     }
 
-    fn attempt(
+    fn attempt<O>(
         &self,
-        start: S,
-        end: S,
+        (start, end): (S, S),
         reporting: Reporting<S>,
-        observe: &mut impl FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+        observe: &mut O,
         last_good: &mut (S, M::State<S>),
-    ) -> Result<RunReport<S, M::State<S>>, Fault> {
-        let mut dynamics =
+    ) -> Result<RunReport<S, M>, Fault>
+    where
+        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+    {
+        let dynamics =
             Dynamics::new(self.mechanism, self.formulation)?.exchange::<P, &A>(|_| &self.forces);
         let constants = *dynamics.constants();
         let mut state = self.initial.unwrap_or_else(|| M::initial_state(&constants));
         last_good.1 = state;
         check_interval(start, end)?;
-        let mut schedule = Schedule::new(start, end, reporting)?;
+        let schedule = Schedule::new(start, end, reporting)?;
         check_state::<S, M>(&state)?;
         M::recount(&constants, &mut state);
         if let Some(projection) = self.assemble {
             projection.correct::<M>(&constants, start, &mut state)?;
-            last_good.1 = state;
         }
-        let mut log = Log {
-            observe,
-            worst_violation: S::zero(),
+        last_good.1 = state;
+        if !self.accepts_any_start {
+            check_start::<S, M>(&constants, (start, end - start), &state)?;
+        }
+        let watch = self.is_watched.then(|| {
+            Watch::new(&constants, start, &state).with_tolerance(self.integrator.tolerance())
+        });
+        let run = Run {
+            dynamics,
+            projection: self.projection,
+            schedule,
+            breaks: self.breaks,
+            watch,
+            log: Log::new(observe, start, state),
+            counts: Counts::default(),
         };
-        if start >= end {
-            let flow = log.show(&dynamics, start, &state);
-            return Ok(log.report(Counts::default(), Iterations::default(), start, state, flow));
-        }
-        let span = Span {
-            start,
-            end,
-            first_output: schedule.first(),
-        };
-        let mut course = self.integrator.start(&mut dynamics, span, state)?;
-        let mut flow = log.show(&dynamics, start, &state);
-        let mut shown = (start, state);
-        while course.time() < end && flow.is_continue() {
-            if let Err(fault) = course.advance(&mut dynamics) {
-                return Err(dynamics.explained(fault, course.time(), course.state()));
-            }
-            while let Some(time) = schedule.within(course.time()) {
-                let mut state = course.at(&mut dynamics, time)?;
-                if let Some(projection) = self.projection {
-                    projection.correct_in_motion::<M>(&constants, time, &mut state)?;
-                }
-                shown = (time, state);
-                *last_good = shown;
-                flow = log.show(&dynamics, time, &state);
-                if flow.is_break() {
-                    break;
-                }
-            }
-            if flow.is_break() {
-                break;
-            }
-            if self.projection.is_some() || M::REPORT.auxiliaries > 0 {
-                let mut state = *course.state();
-                settle::<S, M>(self.projection, &constants, course.time(), &mut state)?;
-                course.replace(state);
-            }
-            *last_good = (course.time(), *course.state());
-            if let Some(time) = schedule.at(course.time()) {
-                shown = (time, *course.state());
-                flow = log.show(&dynamics, time, course.state());
-            }
-        }
-        let (time, state) = shown;
-        Ok(log.report(course.counts(), dynamics.iterations(), time, state, flow))
-    }
-}
-
-/// Shows states to the observer and keeps the worst violation.
-struct Log<'a, S, O> {
-    observe: &'a mut O,
-    worst_violation: S,
-}
-
-impl<S: Real, O> Log<'_, S, O> {
-    fn show<M, F, P, A>(
-        &mut self,
-        dynamics: &Dynamics<S, M, F, P, A>,
-        time: S,
-        state: &M::State<S>,
-    ) -> ControlFlow<()>
-    where
-        M: Mechanism,
-        F: Formulation<S>,
-        P: Orientation,
-        A: AppliedForces<S, M>,
-        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
-    {
-        let view = dynamics.view(time, state);
-        self.worst_violation = self.worst_violation.max(view.violation());
-        (self.observe)(&Sample::new(view, dynamics))
-    }
-
-    fn report<X>(
-        &self,
-        counts: Counts,
-        iterations: Iterations,
-        time: S,
-        state: X,
-        flow: ControlFlow<()>,
-    ) -> RunReport<S, X> {
-        RunReport {
-            evaluations: counts.evaluations,
-            accepted: counts.accepted,
-            rejected: counts.rejected,
-            worst_violation: self.worst_violation,
-            iterations,
-            time,
-            state,
-            stopped: flow.is_break(),
-        }
+        run.go(&self.integrator, (start, end), last_good)
     }
 }

@@ -1,6 +1,6 @@
 //! The augmented Lagrangian formulation.
 
-use super::{Formulation, Saddle, Solution, penalty};
+use super::{Formulation, Saddle, Solution, faster_decay, penalty};
 use crate::array::Array;
 use crate::error::Fault;
 use crate::integrate::positive;
@@ -65,6 +65,10 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
     type Terms = Compliant;
 
     const ITERATED: bool = true;
+
+    fn decay_rate(&self) -> Option<S> {
+        Some(faster_decay(self.omega * self.mu, self.omega))
+    }
 
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault> {
         positive("tolerance of the augmented Lagrangian", self.tolerance)?;

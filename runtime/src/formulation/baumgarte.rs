@@ -1,6 +1,6 @@
 //! Baumgarte's stabilisation.
 
-use super::Formulation;
+use super::{Formulation, faster_decay};
 use crate::error::Fault;
 use crate::integrate::positive;
 use crate::mechanism::{Stabilisation, Stabilised};
@@ -36,6 +36,10 @@ impl<S: Real> Default for Baumgarte<S> {
 
 impl<S: Real> Formulation<S> for Baumgarte<S> {
     type Terms = Stabilised;
+
+    fn decay_rate(&self) -> Option<S> {
+        Some(faster_decay(self.alpha, self.beta))
+    }
 
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault> {
         let alpha = positive("alpha of Baumgarte", self.alpha)?;

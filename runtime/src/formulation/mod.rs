@@ -38,6 +38,11 @@ use crate::project::row_of_largest;
 use crate::scalar::{Real, Scalar};
 use crate::self_stress::self_stressed;
 
+/// The faster rate of decay of `x'' + 2 a x' + b^2 x = 0`, or the size of both where it oscillates.
+fn faster_decay<S: Real>(a: S, b: S) -> S {
+    if a > b { a + (a * a - b * b).sqrt() } else { b }
+}
+
 /// How constraints enter the equations of motion.
 pub trait Formulation<S: Real>: Copy + Debug {
     /// The terms of the saddle system that this formulation has.
@@ -51,6 +56,12 @@ pub trait Formulation<S: Real>: Copy + Debug {
     /// # Errors
     /// [`Fault::Setting`] for a coefficient that is not finite and positive.
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault>;
+
+    /// The rate (1/s) at which violations decay, the faster one of two: explicit steps must be shorter than about two over it. `None` for a formulation
+    /// that lets them stay.
+    fn decay_rate(&self) -> Option<S> {
+        None
+    }
 
     /// Accelerations and multipliers from the factorised system: solves it once, with `lambda_previous = 0`.
     ///

@@ -1,6 +1,6 @@
 //! The penalty formulation.
 
-use super::Formulation;
+use super::{Formulation, faster_decay};
 use crate::error::Fault;
 use crate::integrate::positive;
 use crate::mechanism::{Compliant, Stabilisation};
@@ -39,6 +39,10 @@ impl<S: Real> Default for Penalty<S> {
 
 impl<S: Real> Formulation<S> for Penalty<S> {
     type Terms = Compliant;
+
+    fn decay_rate(&self) -> Option<S> {
+        Some(faster_decay(self.omega * self.mu, self.omega))
+    }
 
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault> {
         stabilisation(self.alpha, self.omega, self.mu)

@@ -4,8 +4,8 @@ use core::mem::{replace, swap};
 
 use super::controller::Controller;
 use super::{
-    Counted, Counts, Course, DormandPrince5, DormandPrinceStages, Scheme, Span, Start, Stride,
-    System, Tolerance,
+    Counted, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages, Scheme, Span,
+    Start, Stride, System,
 };
 use crate::array::{Vector, finite};
 use crate::error::Fault;
@@ -40,12 +40,12 @@ enum Trial<S, X> {
 
 impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
     pub(super) fn start<Y: System<S, State = X>>(
-        tolerance: Tolerance<S>,
+        method: &DormandPrince<S>,
         system: &mut Y,
         span: Span<S>,
         state: X,
     ) -> Result<Self, Fault> {
-        let controller = Controller::new(tolerance, &span)?;
+        let controller = Controller::new(method, &span)?;
         let mut counts = Counts::default();
         let last = Counted {
             system,
@@ -120,7 +120,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
         } else {
             swap(&mut self.first, &mut self.last);
         }
-        let smallest = Controller::smallest(self.time);
+        let smallest = self.controller.smallest(self.time);
         let remaining = self.end - self.time;
         let mut size = self.controller.limited(self.time, self.next_step);
         let mut stretched = S::constant(1.1) * size >= remaining;

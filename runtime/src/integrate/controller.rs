@@ -1,6 +1,6 @@
 //! The step control of MATLAB's `ode45`, as pure functions.
 
-use super::{Span, positive};
+use super::{DormandPrince, Span, positive};
 use crate::error::Fault;
 use crate::scalar::Real;
 
@@ -31,31 +31,41 @@ pub(super) struct Controller<S> {
     relative: S,
     /// `absolute / relative`: the element below which the absolute tolerance counts.
     pub(super) floor: S,
+    first: Option<S>,
+    least: S,
     largest: S,
 }
 
 impl<S: Real> Controller<S> {
-    pub(super) fn new(tolerance: Tolerance<S>, span: &Span<S>) -> Result<Self, Fault> {
+    pub(super) fn new(method: &DormandPrince<S>, span: &Span<S>) -> Result<Self, Fault> {
+        let DormandPrince { tolerance, limits } = method;
         let relative = positive("relative tolerance", tolerance.relative)?;
         let absolute = positive("absolute tolerance", tolerance.absolute)?;
         let duration = positive("end of the interval less its start", span.end - span.start)?;
         positive("time to the first output", span.first_output)?;
         let relative = relative.max(S::constant(100.0) * S::EPSILON);
-        let largest = S::constant(0.1) * duration;
+        let set = |name, step: Option<S>| step.map(|step| positive(name, step)).transpose();
+        let largest = set("largest step", limits.largest)?;
+        let least = set("least step", limits.least)?.unwrap_or(S::zero());
         Ok(Self {
             relative,
             floor: absolute.quotient(relative),
-            largest,
+            first: set("first step", limits.first)?,
+            least,
+            largest: largest.unwrap_or(S::constant(0.1) * duration).max(least),
         })
     }
 
     /// The smallest step at a time.
-    pub(super) fn smallest(time: S) -> S {
-        S::constant(16.0) * time.ulp()
+    pub(super) fn smallest(&self, time: S) -> S {
+        self.least.max(S::constant(16.0) * time.ulp())
     }
 
     /// The first step; `slope` is `max |f0| / max(|y0|, floor)`.
     pub(super) fn first(&self, span: &Span<S>, slope: S) -> S {
+        if let Some(first) = self.first {
+            return self.limited(span.start, first);
+        }
         let rate = slope.quotient(S::constant(0.8) * self.relative.powf(0.2));
         let step = self.largest.min(span.first_output);
         let step = if step * rate > S::one() {
@@ -63,12 +73,12 @@ impl<S: Real> Controller<S> {
         } else {
             step
         };
-        step.max(Self::smallest(span.start))
+        step.max(self.smallest(span.start))
     }
 
     /// A step within its limits.
     pub(super) fn limited(&self, time: S, step: S) -> S {
-        self.largest.min(Self::smallest(time).max(step))
+        self.largest.min(self.smallest(time).max(step))
     }
 
     /// Whether a trial with this error is accepted; not if the error is NaN.

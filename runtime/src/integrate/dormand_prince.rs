@@ -34,13 +34,84 @@ use crate::scalar::{Real, Scalar};
 pub struct DormandPrince<S> {
     /// The error to be allowed in a step.
     pub tolerance: Tolerance<S>,
+    /// What steps are held to besides.
+    pub limits: StepLimits<S>,
+}
+
+/// What a step control is held to besides its tolerance. Nothing of it is set by default but the budget.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepLimits<S> {
+    /// The first step (s), in the place of that of `ode45`.
+    pub first: Option<S>,
+    /// The smallest step (s): where a smaller one would be needed, the integration ends with
+    /// [`Fault::StepSizeUnderflow`]. Never below the resolution of the time.
+    pub least: Option<S>,
+    /// The largest step (s), in the place of a tenth of the interval. What happens within a step and leaves no trace at its stages, such as a
+    /// short pulse of a force, is not seen: a step must not be longer than that.
+    pub largest: Option<S>,
+    /// How many evaluations a run may take, [`StepLimits::EVALUATIONS`] by default: then it ends with [`Fault::Budget`].
+    pub evaluations: usize,
+}
+
+impl<S> StepLimits<S> {
+    /// Ten million evaluations, some seconds for a mechanism of ten bodies: ten thousand seconds of a pendulum take a tenth of it. What takes more is
+    /// most often caught at a singular configuration, or stiff.
+    pub const EVALUATIONS: usize = 10_000_000;
+
+    /// No limits but the budget of evaluations.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            first: None,
+            least: None,
+            largest: None,
+            evaluations: Self::EVALUATIONS,
+        }
+    }
+}
+
+impl<S> Default for StepLimits<S> {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl<S> DormandPrince<S> {
     /// The method with a tolerance.
     #[must_use]
     pub const fn new(tolerance: Tolerance<S>) -> Self {
-        Self { tolerance }
+        Self {
+            tolerance,
+            limits: StepLimits::new(),
+        }
+    }
+
+    /// Begins with this step (s).
+    #[must_use]
+    pub fn first_step(mut self, step: S) -> Self {
+        self.limits.first = Some(step);
+        self
+    }
+
+    /// Takes no step shorter than this (s); see [`StepLimits::least`].
+    #[must_use]
+    pub fn least_step(mut self, step: S) -> Self {
+        self.limits.least = Some(step);
+        self
+    }
+
+    /// Takes no step longer than this (s); see [`StepLimits::largest`].
+    #[must_use]
+    pub fn largest_step(mut self, step: S) -> Self {
+        self.limits.largest = Some(step);
+        self
+    }
+
+    /// Lets a run take so many evaluations; see [`StepLimits::evaluations`].
+    #[must_use]
+    pub fn budget(mut self, evaluations: usize) -> Self {
+        self.limits.evaluations = evaluations;
+        self
     }
 
     /// The same method at a fixed step (s), without control of the error; see [`DormandPrince5`].
@@ -69,7 +140,15 @@ impl<S: Real> Integrator<S> for DormandPrince<S> {
         span: Span<S>,
         state: Y::State,
     ) -> Result<AdaptiveCourse<S, Y::State>, Fault> {
-        AdaptiveCourse::start(self.tolerance, system, span, state)
+        AdaptiveCourse::start(self, system, span, state)
+    }
+
+    fn budget(&self) -> Option<usize> {
+        Some(self.limits.evaluations)
+    }
+
+    fn tolerance(&self) -> Option<Tolerance<S>> {
+        Some(self.tolerance)
     }
 }
 

@@ -50,6 +50,10 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
             step: S::zero(),
         })
     }
+
+    fn fixed_step(&self) -> Option<S> {
+        Some(self.step)
+    }
 }
 
 /// An integration with a [`FixedStep`] under way.

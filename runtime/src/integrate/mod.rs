@@ -21,7 +21,7 @@ mod tests;
 
 pub use adaptive::AdaptiveCourse;
 pub use controller::Tolerance;
-pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
+pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages, StepLimits};
 pub use fixed::{FixedCourse, FixedStep};
 pub use rk4::{Rk4, Rk4Stages};
 
@@ -67,7 +67,7 @@ pub trait System<S: Real> {
     ///
     /// What the state says must not change, so that the rates stay valid; a step that goes on from it uses both as they come out.
     #[inline(always)]
-    fn settle(&self, _state: &mut Self::State, _rates: Option<&mut Self::State>) {}
+    fn settle(&mut self, _state: &mut Self::State, _rates: Option<&mut Self::State>) {}
 }
 
 /// A method that integrates over an interval and decides on its steps.
@@ -90,6 +90,21 @@ pub trait Integrator<S: Real>: Copy + Debug {
         span: Span<S>,
         state: Y::State,
     ) -> Result<Self::Course<Y::State>, Fault>;
+
+    /// How many evaluations a run may take, where there is a limit.
+    fn budget(&self) -> Option<usize> {
+        None
+    }
+
+    /// The step (s) of a method that does not choose it.
+    fn fixed_step(&self) -> Option<S> {
+        None
+    }
+
+    /// The error to be allowed in a step, for a method that controls it.
+    fn tolerance(&self) -> Option<Tolerance<S>> {
+        None
+    }
 }
 
 /// An integration under way.
@@ -226,6 +241,17 @@ pub struct Counts {
     pub rejected: usize,
 }
 
+impl Counts {
+    /// These and those of a course that went on.
+    pub(crate) fn plus(self, more: Self) -> Self {
+        Self {
+            evaluations: self.evaluations.saturating_add(more.evaluations),
+            accepted: self.accepted.saturating_add(more.accepted),
+            rejected: self.rejected.saturating_add(more.rejected),
+        }
+    }
+}
+
 /// A system that counts its evaluations.
 struct Counted<'a, Y> {
     system: &'a mut Y,
@@ -242,7 +268,7 @@ impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
     }
 
     #[inline(always)]
-    fn settle(&self, state: &mut Y::State, rates: Option<&mut Y::State>) {
+    fn settle(&mut self, state: &mut Y::State, rates: Option<&mut Y::State>) {
         self.system.settle(state, rates);
     }
 }

@@ -83,6 +83,7 @@ impl Mechanism for Crank {
             bodies: &[None, Some(0)],
             has_angle: true,
             has_displacement: true,
+            has_point: true,
             operations: Operations::NONE,
         }],
         blocks: &[Block {

@@ -81,6 +81,7 @@ impl Mechanism for Rod {
             bodies: &[None, Some(0)],
             has_angle: true,
             has_displacement: false,
+            has_point: true,
             operations: Operations::NONE,
         }],
         forces: &[],

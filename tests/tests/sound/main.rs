@@ -3,4 +3,8 @@
 #![forbid(unsafe_code)]
 
 mod clock;
+mod limits;
+mod long;
 mod orientation;
+mod singular;
+mod start;

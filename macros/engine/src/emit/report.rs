@@ -173,12 +173,13 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (row, rows) = (layout.row[place], model.equations(joint));
         let bodies = places(joint);
         let has_angle = definition.angle.is_some();
+        let has_point = definition.reaction_point().is_some();
         let has_displacement = definition.displacement.is_some();
         let operations = operations(kernels.alone[place], facade);
         quote! {
             #facade::JointInfo {
                 name: #name, kind: #kind, row: #row, rows: #rows, bodies: &[#(#bodies),*], has_angle: #has_angle,
-                has_displacement: #has_displacement, operations: #operations,
+                has_displacement: #has_displacement, has_point: #has_point, operations: #operations,
             }
         }
     });

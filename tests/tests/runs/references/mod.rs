@@ -36,7 +36,7 @@ fn at_times<M: Mechanism, F: Formulation<f64>>(
     step: f64,
     times: &[f64],
     mut look: impl FnMut(usize, &Sample<'_, f64, M>),
-) -> RunReport<f64, M::State<f64>> {
+) -> RunReport<f64, M> {
     let end = times.last().copied().expect("a time");
     let mut seen = 0;
     let report = Simulation::new(model, method, tight())

@@ -1,0 +1,214 @@
+//! A run under way: segments of integration between breaks, corrections, reports, and the watch over them.
+
+use core::ops::ControlFlow;
+
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{Counts, Course, Integrator, Span};
+use crate::load::AppliedForces;
+use crate::mechanism::{Mechanism, Orientation};
+use crate::project::Projection;
+use crate::reporting::Schedule;
+use crate::run_report::RunReport;
+use crate::sample::Sample;
+use crate::scalar::Real;
+use crate::watch::Watch;
+
+/// A run under way.
+pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, P, A, O> {
+    pub(crate) dynamics: Dynamics<S, M, F, P, A>,
+    pub(crate) projection: Option<Projection<S>>,
+    pub(crate) schedule: Schedule<S>,
+    /// Instants (s) at which the integration begins anew, in any order, besides those of the description.
+    pub(crate) breaks: &'r [S],
+    pub(crate) watch: Option<Watch<S, M>>,
+    pub(crate) log: Log<'r, S, M, O>,
+    pub(crate) counts: Counts,
+}
+
+/// Shows states to the observer.
+pub(crate) struct Log<'r, S: Real, M: Mechanism, O> {
+    observe: &'r mut O,
+    worst_violation: S,
+    shown: (S, M::State<S>),
+    flow: ControlFlow<()>,
+    /// Steps since a state was shown.
+    unseen: usize,
+}
+
+impl<'r, S: Real, M: Mechanism, O> Log<'r, S, M, O> {
+    pub(crate) fn new(observe: &'r mut O, start: S, state: M::State<S>) -> Self {
+        Self {
+            observe,
+            worst_violation: S::zero(),
+            shown: (start, state),
+            flow: ControlFlow::Continue(()),
+            unseen: 0,
+        }
+    }
+}
+
+impl<S, M, F, P, A, O> Run<'_, S, M, F, P, A, O>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+    O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+{
+    /// Goes from a state to the end; keeps the last good state.
+    pub(crate) fn go<I: Integrator<S>>(
+        mut self,
+        integrator: &I,
+        (start, end): (S, S),
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<RunReport<S, M>, Fault> {
+        let mut from = start;
+        self.show(start, last_good.1);
+        while from < end && self.log.flow.is_continue() {
+            let until = self.next_break(from, end);
+            let span = Span {
+                start: from,
+                end: until,
+                first_output: self.schedule.first(from).min(until - from),
+            };
+            self.segment(integrator, span, last_good)
+                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+            from = until;
+        }
+        Ok(self.report())
+    }
+
+    /// The first break after a time, or the end.
+    fn next_break(&self, from: S, end: S) -> S {
+        let described = M::REPORT.time.breaks.iter();
+        let described = described.map(|&time| S::constant(time));
+        let beyond = |time: S, bound: S| time - bound > S::constant(16.0) * bound.max(time).ulp();
+        described
+            .chain(self.breaks.iter().copied())
+            .filter(|&time| beyond(time, from) && beyond(end, time))
+            .fold(end, S::min)
+    }
+
+    /// Integrates over an interval without breaks.
+    fn segment<I: Integrator<S>>(
+        &mut self,
+        integrator: &I,
+        span: Span<S>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
+        let mut course = integrator.start(&mut self.dynamics, span, last_good.1)?;
+        if let Some(watch) = &mut self.watch {
+            watch.restart();
+            self.dynamics.watch(watch, span.start, course.state());
+        }
+        let before = self.counts;
+        let budget = integrator.budget().unwrap_or(usize::MAX);
+        while course.time() < span.end {
+            course.advance(&mut self.dynamics)?;
+            self.counts = before.plus(course.counts());
+            while let Some(time) = self.schedule.within(course.time()) {
+                let mut state = course.at(&mut self.dynamics, time)?;
+                self.settle(time, &mut state)?;
+                *last_good = (time, state);
+                self.show(time, state);
+                if self.log.flow.is_break() {
+                    return Ok(());
+                }
+            }
+            let time = course.time();
+            if self.projection.is_some() {
+                let mut state = *course.state();
+                self.correct(time, &mut state)?;
+                course.replace(state);
+            }
+            *last_good = (time, *course.state());
+            if let Some(watch) = &mut self.watch {
+                self.dynamics.watch(watch, time, course.state());
+            }
+            self.log.unseen += 1;
+            if self.schedule.at(time, self.log.unseen) {
+                self.show(time, *course.state());
+                if self.log.flow.is_break() {
+                    return Ok(());
+                }
+            }
+            if self.counts.evaluations >= budget && time < span.end {
+                return Err(Fault::Budget {
+                    evaluations: self.counts.evaluations,
+                });
+            }
+        }
+        self.counts = before.plus(course.counts());
+        Ok(())
+    }
+
+    /// Brings a state between two steps into its normal form, and onto the constraints if that is wanted.
+    fn settle(&mut self, time: S, state: &mut M::State<S>) -> Result<(), Fault> {
+        self.dynamics.bring_to_normal_form(state);
+        if self.projection.is_some() {
+            self.correct(time, state)?;
+        }
+        Ok(())
+    }
+
+    fn correct(&mut self, time: S, state: &mut M::State<S>) -> Result<(), Fault> {
+        if let Some(projection) = self.projection {
+            projection.correct_in_motion::<M>(self.dynamics.constants(), time, state)?;
+        }
+        Ok(())
+    }
+
+    fn show(&mut self, time: S, state: M::State<S>) {
+        let view = self.dynamics.view(time, &state);
+        let log = &mut self.log;
+        log.worst_violation = log.worst_violation.max(view.violation());
+        log.flow = (log.observe)(&Sample::new(view, &self.dynamics));
+        log.shown = (time, state);
+        log.unseen = 0;
+    }
+
+    fn report(self) -> RunReport<S, M> {
+        let (time, state) = self.log.shown;
+        RunReport {
+            evaluations: self.counts.evaluations,
+            accepted: self.counts.accepted,
+            rejected: self.counts.rejected,
+            worst_violation: self.log.worst_violation,
+            iterations: self.dynamics.iterations(),
+            time,
+            state,
+            stopped: self.log.flow.is_break(),
+            watch: self.watch,
+        }
+    }
+
+    /// A fault with what the run knows of its cause.
+    #[cold]
+    fn explained<I: Integrator<S>>(
+        &self,
+        integrator: &I,
+        fault: Fault,
+        (time, state): (S, M::State<S>),
+    ) -> Fault {
+        /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5 up to about this over `a`, and grows for some time
+        /// from somewhat less on.
+        const STABLE: f64 = 2.0;
+        let not_finite = matches!(fault, Fault::RatesNotFinite | Fault::StateNotFinite);
+        if not_finite
+            && let (Some(step), Some(rate)) = (
+                integrator.fixed_step(),
+                self.dynamics.formulation().decay_rate(),
+            )
+            && step * rate > S::constant(STABLE)
+        {
+            return Fault::StepTooLong {
+                step: step.to_f64(),
+                rate: rate.to_f64(),
+            };
+        }
+        self.dynamics.explained(fault, time, &state)
+    }
+}

@@ -1,0 +1,66 @@
+//! Whether a run may begin where it is told to.
+
+use crate::array::{Array, StateParts};
+use crate::error::{Fault, Quantity};
+use crate::mechanism::Mechanism;
+use crate::scalar::Real;
+use crate::watch::{Rows, extent};
+
+/// A violation at the start that counts as an inexact number of a description, over the length of the mechanism, over a radian, and over the velocities of
+/// the mechanism: four digits.
+const INEXACT: f64 = 1e-4;
+
+/// Refuses a start at which a joint is open, or its bodies move against it so fast that it would open over the run.
+pub(crate) fn check_start<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    (time, duration): (S, S),
+    state: &M::State<S>,
+) -> Result<(), Fault> {
+    let rows = Rows::<S, M>::at(constants, time, state);
+    let length = extent::<S, M>(constants, state);
+    let inexact = S::constant(INEXACT);
+    let size = |is_length: bool| if is_length { length } else { S::one() };
+    let phi = M::constraints(constants, time, state);
+    let resolution = S::constant(64.0) * S::EPSILON * largest(state.coordinates().as_slice());
+    for (row, (&phi, &factor)) in phi.as_slice().iter().zip(rows.factors()).enumerate() {
+        let is_length = rows.is_length(row);
+        let violation = phi.abs() * factor;
+        if violation > inexact * size(is_length) + resolution {
+            let quantity = if is_length {
+                Quantity::Length
+            } else {
+                Quantity::Angle
+            };
+            return Err(fault::<S, M>(row, quantity, violation));
+        }
+    }
+    let phi_rate = M::constraint_rates(constants, time, state);
+    let fastest = largest(state.velocities().as_slice());
+    for (row, (&rate, &factor)) in phi_rate.as_slice().iter().zip(rows.factors()).enumerate() {
+        let is_length = rows.is_length(row);
+        let violation = rate.abs() * factor;
+        let opens = violation * duration > inexact * size(is_length);
+        // Small beside the velocities in lengths of the mechanism, it is a number of few digits.
+        if opens && violation > inexact * fastest * size(is_length).min(S::one()) {
+            let quantity = if is_length {
+                Quantity::Speed
+            } else {
+                Quantity::AngularVelocity
+            };
+            return Err(fault::<S, M>(row, quantity, violation));
+        }
+    }
+    Ok(())
+}
+
+fn largest<S: Real>(elements: &[S]) -> S {
+    elements.iter().fold(S::zero(), |most, x| most.max(x.abs()))
+}
+
+fn fault<S: Real, M: Mechanism>(row: usize, quantity: Quantity, violation: S) -> Fault {
+    Fault::InconsistentStart {
+        joint: M::REPORT.joint_of(row).unwrap_or_default(),
+        quantity,
+        violation: violation.to_f64(),
+    }
+}

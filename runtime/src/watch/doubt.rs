@@ -1,0 +1,273 @@
+//! What is to be doubted of a run.
+
+use core::array::IntoIter;
+use core::fmt;
+use core::iter::Flatten;
+
+use crate::readable::Measured;
+
+/// A reason not to trust the result of a run as it is. `Display` says it in a sentence, with what to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// The run was not watched.
+    Unwatched,
+    /// A joint was open.
+    Open {
+        /// The joint's field.
+        joint: &'static str,
+        /// By so much (m), or so much (rad) where the first is zero.
+        length: f64,
+        /// See `length`.
+        angle: f64,
+        /// When it was widest open (s).
+        time: f64,
+    },
+    /// The bodies of a joint moved against it.
+    Slipping {
+        /// The joint's field.
+        joint: &'static str,
+        /// So fast (m/s), or so fast (rad/s) where the first is zero.
+        length: f64,
+        /// See `length`.
+        angle: f64,
+        /// When it was fastest (s).
+        time: f64,
+    },
+    /// A singular configuration was passed, or nearly.
+    NearlySingular {
+        /// The joint whose pivot all but vanished.
+        joint: &'static str,
+        /// The smallest relative pivot over the largest of the run.
+        fall: f64,
+        /// When (s).
+        time: f64,
+    },
+    /// Energy came or went that no force and no driver accounts for.
+    Energy {
+        /// The change over the energy that the mechanism exchanges, where it was largest.
+        change: f64,
+        /// When (s).
+        time: f64,
+    },
+    /// A small change of energy has shifted the phase of a long motion.
+    Phase {
+        /// The change of energy over the energy that the mechanism exchanges, at the end.
+        change: f64,
+        /// Radians of motion.
+        travel: f64,
+        /// The shift (rad), estimated.
+        shift: f64,
+    },
+    /// The errors of many steps add up, and there is no balance of energy to tell how far.
+    ManySteps {
+        /// Steps that were accepted.
+        steps: usize,
+        /// The relative tolerance of each.
+        tolerance: f64,
+    },
+    /// The absolute tolerance is coarse for a mechanism of this size.
+    CoarseTolerance {
+        /// The absolute tolerance.
+        absolute: f64,
+        /// The size of the mechanism (m).
+        size: f64,
+    },
+    /// Steps are long for the angular velocity: Euler parameters leave length 1 within a step.
+    Orientation {
+        /// The largest `| |p| - 1 |` at the end of a step.
+        drift: f64,
+    },
+    /// A penalty yields so much that the motion is another.
+    Compliance {
+        /// What it leaves of the accelerations, over them.
+        bias: f64,
+        /// Radians of motion over which it adds up.
+        travel: f64,
+    },
+    /// Corrections or evaluations were accepted that did not converge.
+    Excused {
+        /// Corrections of a projection.
+        corrections: usize,
+        /// Evaluations of the augmented Lagrangian.
+        evaluations: usize,
+        /// The time (s) of the first.
+        time: f64,
+    },
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Unwatched => write!(f, "nothing was watched: the run was told not to"),
+            Self::Open {
+                joint,
+                length,
+                angle,
+                time,
+            } => {
+                write!(f, "joint `{joint}` was open by ")?;
+                amount(f, (length, "m"), (angle, "rad"))?;
+                write!(
+                    f,
+                    " at {} s: use a projection, Baumgarte's terms, or a smaller tolerance or step",
+                    Measured(time)
+                )
+            }
+            Self::Slipping {
+                joint,
+                length,
+                angle,
+                time,
+            } => {
+                write!(f, "the bodies of joint `{joint}` moved against it at ")?;
+                amount(f, (length, "m/s"), (angle, "rad/s"))?;
+                write!(
+                    f,
+                    " at {} s: use a projection, Baumgarte's terms, or a smaller tolerance or step",
+                    Measured(time)
+                )
+            }
+            Self::NearlySingular { joint, fall, time } => write!(
+                f,
+                "passed a singular configuration, or nearly, at {} s, joint `{joint}` (its pivot fell to {} of the largest): which way it went \
+                 on is not certain; use a projection and compare two tolerances",
+                Measured(time),
+                Measured(fall)
+            ),
+            Self::Energy { change, time } => write!(
+                f,
+                "the energy changed by {} of what the mechanism exchanges, without a force, at {} s: use a smaller tolerance or step, or a \
+                 projection",
+                Measured(change),
+                Measured(time)
+            ),
+            Self::Phase {
+                change,
+                travel,
+                shift,
+            } => write!(
+                f,
+                "the energy changed by {} of what the mechanism exchanges, without a force: over {} rad of motion that shifts its phase by \
+                 about {} rad; use a smaller tolerance or step",
+                Measured(change),
+                Measured(travel),
+                Measured(shift)
+            ),
+            Self::ManySteps { steps, tolerance } => write!(
+                f,
+                "the errors of {steps} steps, {} of the state each, may add up, and there is no balance of energy to tell: compare with a \
+                 smaller tolerance",
+                Measured(tolerance)
+            ),
+            Self::CoarseTolerance { absolute, size } => write!(
+                f,
+                "the absolute tolerance {} is coarse for a mechanism of {} m: give one in proportion to its size",
+                Measured(absolute),
+                Measured(size)
+            ),
+            Self::Orientation { drift } => write!(
+                f,
+                "Euler parameters left length 1 by {} within a step: steps are too long for the angular velocities, or `Raw` reads too much \
+                 drift",
+                Measured(drift)
+            ),
+            Self::Compliance { bias, travel } => write!(
+                f,
+                "the penalty leaves {} of the accelerations, over {} rad of motion: give a larger `alpha` for these masses, or use the \
+                 augmented Lagrangian",
+                Measured(bias),
+                Measured(travel)
+            ),
+            Self::Excused {
+                corrections,
+                evaluations,
+                time,
+            } => {
+                let (what, count) = if corrections > 0 {
+                    ("corrections of the projection", corrections)
+                } else {
+                    ("evaluations of the augmented Lagrangian", evaluations)
+                };
+                write!(
+                    f,
+                    "{count} {what} were accepted without convergence from {} s on, where equations are nearly dependent: compare two tolerances",
+                    Measured(time)
+                )
+            }
+        }
+    }
+}
+
+/// The first amount, or the second where the first is zero.
+fn amount(
+    f: &mut fmt::Formatter<'_>,
+    (length, metres): (f64, &str),
+    (angle, radians): (f64, &str),
+) -> fmt::Result {
+    if length == 0.0 {
+        write!(f, "{} {radians}", Measured(angle))
+    } else {
+        write!(f, "{} {metres}", Measured(length))
+    }
+}
+
+/// The kinds of doubt that one run may raise.
+const KINDS: usize = 10;
+
+/// What is to be doubted of a run, the gravest first; empty where nothing is.
+///
+/// `Display` writes a line for each, and "no doubts" where there are none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doubts {
+    doubts: [Option<Doubt>; KINDS],
+}
+
+impl Doubts {
+    pub(super) fn new(doubts: [Option<Doubt>; KINDS]) -> Self {
+        Self { doubts }
+    }
+
+    /// Of a run that was not watched.
+    pub(crate) fn unwatched() -> Self {
+        let mut doubts = [None; KINDS];
+        if let Some(first) = doubts.first_mut() {
+            *first = Some(Doubt::Unwatched);
+        }
+        Self { doubts }
+    }
+
+    /// Whether the run can be trusted as far as the watch can tell.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.doubts.iter().all(Option::is_none)
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.doubts.iter().flatten().count()
+    }
+}
+
+impl IntoIterator for Doubts {
+    type Item = Doubt;
+    type IntoIter = Flatten<IntoIter<Option<Doubt>, KINDS>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.doubts.into_iter().flatten()
+    }
+}
+
+impl fmt::Display for Doubts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_empty() {
+            return f.write_str("no doubts");
+        }
+        for (place, doubt) in self.into_iter().enumerate() {
+            let separator = if place > 0 { "\n" } else { "" };
+            write!(f, "{separator}{doubt}")?;
+        }
+        Ok(())
+    }
+}

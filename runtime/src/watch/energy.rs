@@ -1,0 +1,131 @@
+//! The balance of energy of a run.
+
+use crate::scalar::Real;
+
+/// Change of energy against the work that was put in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Balance<S> {
+    /// Kinetic and potential energy at the start (J).
+    start: S,
+    /// Work of all forces without a potential, drivers included, since the start (J).
+    work: S,
+    /// The potential energy at the start, and the largest difference from it.
+    potential: (S, S),
+    /// The largest kinetic energy, the largest work so far, and the largest size of the potential energy.
+    kinetic: S,
+    exchanged: S,
+    height: S,
+    /// The last power (W) and the time of it, and the divided difference before.
+    before: Option<(S, S)>,
+    slope: Option<(S, S)>,
+    /// What no force accounts for (J), where it was largest, and when.
+    worst: (S, S),
+    last: S,
+}
+
+impl<S: Real> Balance<S> {
+    pub(super) fn new(kinetic: S, potential: S) -> Self {
+        let zero = S::zero();
+        Self {
+            start: kinetic + potential,
+            work: zero,
+            potential: (potential, zero),
+            kinetic,
+            exchanged: zero,
+            height: potential.abs(),
+            before: None,
+            slope: None,
+            worst: (zero, zero),
+            last: zero,
+        }
+    }
+
+    /// The power jumps here: what was before says nothing of what comes.
+    pub(super) fn restart(&mut self) {
+        self.before = None;
+        self.slope = None;
+    }
+
+    /// Takes the end of a step.
+    #[inline]
+    pub(super) fn step(&mut self, time: S, kinetic: S, potential: S, power: Option<S>) {
+        if let Some(power) = power {
+            self.add_work(time, power);
+        }
+        self.kinetic = self.kinetic.max(kinetic);
+        self.height = self.height.max(potential.abs());
+        self.potential.1 = self.potential.1.max((potential - self.potential.0).abs());
+        self.last = kinetic + potential - self.start - self.work;
+        if self.last.abs() > self.worst.0.abs() {
+            self.worst = (self.last, time);
+        }
+    }
+
+    /// The integral of the power over a step, by the parabola through this step's ends and the end before.
+    fn add_work(&mut self, time: S, power: S) {
+        if let Some((then, last)) = self.before {
+            let step = time - then;
+            let slope = (power - last).quotient(step);
+            let mut work = S::constant(0.5) * step * (power + last);
+            if let Some((former, former_step)) = self.slope {
+                let curvature = (slope - former).quotient(step + former_step);
+                work = work - curvature * step * step * step * S::constant(1.0 / 6.0);
+            }
+            self.work = self.work + work;
+            self.exchanged = self.exchanged.max(self.work.abs());
+            self.slope = Some((slope, step));
+        }
+        self.before = Some((time, power));
+    }
+
+    /// The energy that the mechanism exchanges (J).
+    pub(super) fn size(&self) -> S {
+        self.kinetic.max(self.potential.1).max(self.exchanged)
+    }
+
+    /// What no force accounts for at the end, over what is exchanged; zero where it is below the digits of the energies.
+    pub(super) fn drift(&self) -> S {
+        self.relative(self.last)
+    }
+
+    /// The same where it is largest, and its time.
+    pub(super) fn worst(&self) -> (S, S) {
+        (self.relative(self.worst.0), self.worst.1)
+    }
+
+    fn relative(&self, energy: S) -> S {
+        // Round-off of the energies themselves, as in a mechanism far from the origin.
+        let digits = S::constant(64.0) * S::EPSILON * (self.height + self.kinetic);
+        if energy.abs() <= digits {
+            S::zero()
+        } else {
+            energy.quotient(self.size())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Balance;
+
+    #[test]
+    fn work_that_is_put_in_balances() {
+        // A unit mass under the force cos t: v = sin t, power sin t cos t.
+        let mut balance = Balance::new(0.0, 0.0);
+        for step in 0..=60 {
+            let t = 0.1 * f64::from(step);
+            let (v, power) = (t.sin(), t.sin() * t.cos());
+            balance.step(t, 0.5 * v * v, 0.0, Some(power));
+        }
+        assert!(balance.drift().abs() < 1e-3, "{}", balance.drift());
+        balance.step(6.1, 5.0, 0.0, Some(0.0));
+        assert!(balance.drift() > 0.5);
+    }
+
+    #[test]
+    fn round_off_is_no_drift() {
+        let mut balance = Balance::new(0.0, 1e9);
+        balance.step(1.0, 0.0, 1e9 + 1e-7, None);
+        assert_eq!(balance.drift(), 0.0);
+    }
+}

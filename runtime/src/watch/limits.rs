@@ -1,0 +1,37 @@
+//! From where on a run is to be doubted: every limit with its reason.
+//!
+//! A result is taken to be trusted where it is right to about a hundredth.
+
+/// A violation of a position, over the length of the joint or in radians, above which a joint counts as open: what a joint lets slip
+/// shows in the motion by about as much, and more where it adds up.
+pub(super) const OPEN: f64 = 1e-3;
+
+/// A violation of a velocity, over the velocities of the joint's own bodies: what slips at this rate for the time of one radian of motion opens the joint by [`OPEN`]
+/// ten times over.
+pub(super) const SLIPPING: f64 = 1e-2;
+
+/// The least relative pivot, over the largest of the run, that counts as near to a singular configuration.
+///
+/// A pivot goes with the square of the distance, in radians or lengths, from the configuration in which it vanishes: a distance of about 0.03. Pivots
+/// that are small all along, by masses that differ, are no sign of one, so it is the fall that counts.
+pub(super) const NEARLY_SINGULAR: f64 = 1e-3;
+
+/// A change of energy that no force accounts for, over the energy that the mechanism exchanges.
+pub(super) const ENERGY: f64 = 1e-2;
+
+/// A shift of phase (rad) that follows from a change of energy: half the relative change for every radian of motion, for the period of an oscillation goes with
+/// its energy to first order.
+pub(super) const PHASE: f64 = 1e-2;
+
+/// Errors of single steps, as the step control estimates them, added up over a run of which no balance of energy tells more.
+pub(super) const ADDED_UP: f64 = 3e-2;
+
+/// The absolute tolerance over the length of the mechanism: below it elements of the state are right to that tolerance only.
+pub(super) const COARSE: f64 = 1e-4;
+
+/// `| |p| - 1 |` in a step: twice that is what a rotation matrix is off by where `p` is read as it is, and about what an angle is off by in one step
+/// elsewhere.
+pub(super) const LENGTH: f64 = 1e-3;
+
+/// What a compliance leaves of the accelerations, over the accelerations themselves, times the radians of motion over which it adds up.
+pub(super) const BIAS: f64 = 1e-2;

@@ -1,0 +1,380 @@
+//! The watch over a run: what tells whether its result can be trusted.
+//!
+//! After every step it looks at the violation of every row by position and velocity, the pivots, the balance of energy and the length of the
+//! Euler parameters; at the end [`Doubts`] says what is to be doubted. It costs some kernels a step: `Phi`, `Phi'`, the energies, and, for a formulation
+//! with a compliance, a factorisation without it.
+
+mod doubt;
+mod energy;
+mod limits;
+mod rows;
+mod seen;
+mod singular;
+mod verdict;
+
+pub use doubt::{Doubt, Doubts};
+pub(crate) use rows::{Rows, extent};
+pub(crate) use seen::Seen;
+
+use self::energy::Balance;
+use self::singular::Approach;
+use crate::array::{Array, StateParts};
+use crate::handle::JointHandle;
+use crate::mechanism::Mechanism;
+use crate::report::{BodyKind, JointInfo};
+use crate::rotation::read;
+use crate::scalar::{Real, Scalar};
+use crate::view::square;
+
+/// What the watch over a run saw: violations by joint, pivots, energy.
+pub struct Watch<S: Scalar, M: Mechanism> {
+    rows: Rows<S, M>,
+    /// The length of the mechanism (m) at the start.
+    length: S,
+    start: S,
+    position: Worst<S, M>,
+    velocity: Worst<S, M>,
+    approach: Option<Approach<S>>,
+    balance: Option<Balance<S>>,
+    /// The largest speed (m/s) and angular velocity (rad/s).
+    speed: S,
+    spin: S,
+    /// Radians of motion: of the body that turns fastest, or moves by lengths of the mechanism.
+    travel: S,
+    /// The time of the last step.
+    time: S,
+    stretch: S,
+    /// Steps, and what was excused in them.
+    excused: Excused<S>,
+    /// The tolerance of a method that controls its steps: relative, absolute.
+    tolerance: Option<(S, S)>,
+    steps: usize,
+    /// The largest acceleration that a penalty left of its constraints (m/s^2, angles by the length of the mechanism), and the largest of all.
+    left: S,
+    acceleration: S,
+}
+
+/// What was accepted although an iteration did not converge, near a singular configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excused<S> {
+    /// Corrections of a [`Projection`](crate::Projection).
+    pub corrections: usize,
+    /// Evaluations of the augmented Lagrangian.
+    pub evaluations: usize,
+    /// The time (s) of the first.
+    pub since: Option<S>,
+}
+
+/// The largest violation of a joint's equations over a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Violation<S> {
+    /// Of equations between lengths (m; of their rates m/s): the distance by which the joint is open.
+    pub length: S,
+    /// Of equations between directions (rad; of their rates rad/s).
+    pub angle: S,
+    /// When it was largest (s), against lengths of the mechanism or radians.
+    pub time: S,
+}
+
+/// The smallest relative pivot of a run, see [`Pivot`](crate::Pivot).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmallestPivot<S> {
+    /// The pivot, met or found between two steps.
+    pub relative: S,
+    /// The joint's field.
+    pub joint: &'static str,
+    /// When (s).
+    pub time: S,
+}
+
+/// The largest size of every row, as a length or an angle, and when.
+struct Worst<S: Scalar, M: Mechanism> {
+    size: M::Multipliers<S>,
+    time: M::Multipliers<S>,
+}
+
+impl<S: Scalar, M: Mechanism> Clone for Worst<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Worst<S, M> {}
+
+impl<S: Real, M: Mechanism> Worst<S, M> {
+    fn none(start: S) -> Self {
+        let mut time = M::Multipliers::<S>::zeros();
+        time.as_mut_slice().fill(start);
+        Self {
+            size: M::Multipliers::<S>::zeros(),
+            time,
+        }
+    }
+
+    #[inline]
+    fn take(&mut self, rows: &[S], factors: &[S], now: S) {
+        let places = self.size.as_mut_slice().iter_mut();
+        let places = places.zip(self.time.as_mut_slice());
+        for ((size, time), (&row, &factor)) in places.zip(rows.iter().zip(factors)) {
+            let here = row.abs() * factor;
+            if exceeds(here, *size) {
+                (*size, *time) = (here, now);
+            }
+        }
+    }
+
+    fn of(&self, rows: &Rows<S, M>, joint: &JointInfo) -> Violation<S> {
+        let mut violation = Violation {
+            length: S::zero(),
+            angle: S::zero(),
+            time: S::zero(),
+        };
+        let mut largest = -S::one();
+        let sizes = self.size.as_slice().iter().zip(self.time.as_slice());
+        let own = sizes.enumerate().skip(joint.row).take(joint.rows);
+        for (row, (&size, &time)) in own {
+            let kind = if rows.is_length(row) {
+                &mut violation.length
+            } else {
+                &mut violation.angle
+            };
+            *kind = kind.max(size);
+            if size > largest {
+                (largest, violation.time) = (size, time);
+            }
+        }
+        violation
+    }
+}
+
+/// Whether a value is above a bound; NaN is above every bound.
+fn exceeds<S: Real>(value: S, bound: S) -> bool {
+    let within = value <= bound;
+    !within
+}
+
+/// A step, as the watch sees it.
+pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
+    pub(crate) constants: &'a M::Constants<S>,
+    pub(crate) time: S,
+    pub(crate) state: &'a M::State<S>,
+    /// The power (W) of all forces without a potential, drivers included; `None` where there are none.
+    pub(crate) power: Option<S>,
+    /// The relative pivot at this state, of formulations that have one.
+    pub(crate) pivot: Option<crate::mechanism::Pivot<S>>,
+    /// That of a formulation that yields to it.
+    pub(crate) compliance: Option<S>,
+}
+
+impl<S: Real, M: Mechanism> Watch<S, M> {
+    pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
+        let has_balance = !M::REPORT.time.potential;
+        Self {
+            rows: Rows::at(constants, time, state),
+            length: extent::<S, M>(constants, state),
+            start: time,
+            position: Worst::none(time),
+            velocity: Worst::none(time),
+            approach: None,
+            balance: has_balance.then(|| {
+                let kinetic = M::kinetic_energy(constants, state);
+                Balance::new(kinetic, M::potential_energy(constants, time, state))
+            }),
+            speed: S::zero(),
+            spin: S::zero(),
+            travel: S::zero(),
+            time,
+            stretch: S::zero(),
+            excused: Excused {
+                corrections: 0,
+                evaluations: 0,
+                since: None,
+            },
+            tolerance: None,
+            steps: 0,
+            left: S::zero(),
+            acceleration: S::zero(),
+        }
+    }
+
+    pub(crate) fn with_tolerance(mut self, tolerance: Option<crate::Tolerance<S>>) -> Self {
+        self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
+        self
+    }
+
+    /// Takes the end of a step, or the start of a run.
+    #[inline]
+    pub(crate) fn step(&mut self, step: Step<'_, S, M>, seen: &mut Seen<S, M>) {
+        let Step {
+            constants,
+            time,
+            state,
+            power,
+            pivot,
+            compliance,
+        } = step;
+        let factors = self.rows.factors();
+        let phi = M::constraints(constants, time, state);
+        self.position.take(phi.as_slice(), factors, time);
+        let phi_rate = M::constraint_rates(constants, time, state);
+        self.velocity.take(phi_rate.as_slice(), factors, time);
+        let on_the_way = seen.take_least();
+        if let Some(pivot) = pivot {
+            let approach = self.approach.get_or_insert_with(Approach::new);
+            approach.step(time, pivot, on_the_way);
+        }
+        if let Some(balance) = &mut self.balance {
+            let kinetic = M::kinetic_energy(constants, state);
+            let potential = M::potential_energy(constants, time, state);
+            balance.step(time, kinetic, potential, power);
+        }
+        self.motion(time, state);
+        self.stretch = self.stretch.max(seen.stretch);
+        if let Some(compliance) = compliance {
+            self.yielded(compliance, &seen.multipliers, &seen.accelerations);
+        }
+        self.steps = self.steps.saturating_add(1);
+    }
+
+    fn motion(&mut self, time: S, state: &M::State<S>) {
+        let velocities = state.velocities().as_slice();
+        let (mut speed, mut spin) = (S::zero(), S::zero());
+        for body in M::REPORT.bodies {
+            speed = speed.max(square(&read::<S, 3>(velocities, body.velocity)));
+            if body.kind == BodyKind::Rigid {
+                spin = spin.max(square(&read::<S, 3>(velocities, body.velocity + 3)));
+            }
+        }
+        let (speed, spin) = (speed.sqrt(), spin.sqrt());
+        self.speed = self.speed.max(speed);
+        self.spin = self.spin.max(spin);
+        let rate = spin.max(speed.quotient(self.length));
+        self.travel = rate.fused(time - self.time, self.travel);
+        self.time = time;
+    }
+
+    /// With a compliance `e` accelerations satisfy `D u' - gamma* = e lambda`.
+    fn yielded(
+        &mut self,
+        compliance: S,
+        multipliers: &M::Multipliers<S>,
+        accelerations: &M::Velocities<S>,
+    ) {
+        let rows = multipliers.as_slice().iter().zip(self.rows.factors());
+        for (row, (&multiplier, &factor)) in rows.enumerate() {
+            let left = (compliance * multiplier * factor).abs();
+            let length = if self.rows.is_length(row) {
+                S::one()
+            } else {
+                self.length
+            };
+            self.left = self.left.max(left * length);
+        }
+        let elements = accelerations.as_slice();
+        for body in M::REPORT.bodies {
+            let linear = square(&read::<S, 3>(elements, body.velocity)).sqrt();
+            self.acceleration = self.acceleration.max(linear);
+            if body.kind == BodyKind::Rigid {
+                let angular = square(&read::<S, 3>(elements, body.velocity + 3)).sqrt();
+                self.acceleration = self.acceleration.max(angular * self.length);
+            }
+        }
+    }
+
+    /// What a penalty left of the accelerations, over the largest of them.
+    fn bias(&self) -> S {
+        if self.acceleration > S::zero() {
+            self.left.quotient(self.acceleration)
+        } else {
+            S::zero()
+        }
+    }
+
+    /// Forces may jump here.
+    pub(crate) fn restart(&mut self) {
+        if let Some(balance) = &mut self.balance {
+            balance.restart();
+        }
+    }
+
+    /// Counts what was accepted without convergence.
+    pub(crate) fn excuse(&mut self, corrections: usize, evaluations: usize, time: S) {
+        if corrections + evaluations > 0 {
+            let Excused { since, .. } = self.excused;
+            self.excused = Excused {
+                corrections: self.excused.corrections.saturating_add(corrections),
+                evaluations: self.excused.evaluations.saturating_add(evaluations),
+                since: since.or(Some(time)),
+            };
+        }
+    }
+
+    /// By how much a joint was open, at the worst: over all steps, not at reporting times only.
+    #[must_use]
+    pub fn violation<J>(&self, joint: JointHandle<M, J>) -> Violation<S> {
+        self.of(&self.position, joint.index())
+    }
+
+    /// How fast the bodies of a joint moved against it, at the worst (m/s, rad/s).
+    #[must_use]
+    pub fn velocity_violation<J>(&self, joint: JointHandle<M, J>) -> Violation<S> {
+        self.of(&self.velocity, joint.index())
+    }
+
+    fn of(&self, worst: &Worst<S, M>, joint: usize) -> Violation<S> {
+        match M::REPORT.joints.get(joint) {
+            Some(info) => worst.of(&self.rows, info),
+            None => Violation {
+                length: S::zero(),
+                angle: S::zero(),
+                time: self.start,
+            },
+        }
+    }
+
+    /// The smallest relative pivot with its joint and its time; `None` where constraints were never factorised without a compliance, because equations
+    /// are kept that depend on others.
+    #[must_use]
+    pub fn smallest_pivot(&self) -> Option<SmallestPivot<S>> {
+        let nearest = self.approach.as_ref()?.least()?;
+        let joint = M::REPORT.joints.get(nearest.pivot.joint.to_f64() as usize);
+        Some(SmallestPivot {
+            relative: nearest.pivot.relative,
+            joint: joint.map_or("", |info| info.name),
+            time: nearest.time,
+        })
+    }
+
+    /// The change of energy that no force and no driver accounts for, over the energy that the mechanism exchanges; `None` for potentials that change with time
+    /// by themselves. The work of forces is summed from step to step, good to some thousandths.
+    #[must_use]
+    pub fn energy_drift(&self) -> Option<S> {
+        self.balance.as_ref().map(Balance::drift)
+    }
+
+    /// The largest `| |p| - 1 |` of Euler parameters at the end of a step, before they were brought to length 1.
+    #[must_use]
+    pub fn orientation_drift(&self) -> S {
+        self.stretch
+    }
+
+    /// What was accepted without convergence.
+    #[must_use]
+    pub fn excused(&self) -> Excused<S> {
+        self.excused
+    }
+
+    /// How far the mechanism moved, in radians of its fastest body.
+    #[must_use]
+    pub fn travel(&self) -> S {
+        self.travel
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Clone for Watch<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Watch<S, M> {}

@@ -1,0 +1,185 @@
+//! From what the watch saw to what is to be doubted.
+
+use super::doubt::{Doubt, Doubts};
+use super::limits;
+use super::{Violation, Watch, Worst, exceeds};
+use crate::mechanism::Mechanism;
+use crate::report::JointInfo;
+use crate::scalar::Real;
+
+impl<S: Real, M: Mechanism> Watch<S, M> {
+    /// What is to be doubted.
+    #[must_use]
+    pub(crate) fn doubts(&self) -> Doubts {
+        Doubts::new([
+            self.energy(),
+            self.open(),
+            self.slipping(),
+            self.nearly_singular(),
+            self.excuses(),
+            self.phase(),
+            self.compliance(),
+            self.many_steps(),
+            self.coarse(),
+            self.orientation(),
+        ])
+    }
+
+    fn energy(&self) -> Option<Doubt> {
+        let (change, time) = self.balance.as_ref()?.worst();
+        above(change.abs(), limits::ENERGY).then(|| Doubt::Energy {
+            change: change.to_f64(),
+            time: time.to_f64(),
+        })
+    }
+
+    fn phase(&self) -> Option<Doubt> {
+        let balance = self.balance.as_ref()?;
+        let change = balance.drift();
+        let shift = S::constant(0.5) * change.abs() * self.travel;
+        (above(shift, limits::PHASE) && self.energy().is_none()).then(|| Doubt::Phase {
+            change: change.to_f64(),
+            travel: self.travel.to_f64(),
+            shift: shift.to_f64(),
+        })
+    }
+
+    fn open(&self) -> Option<Doubt> {
+        let length = S::constant(limits::OPEN) * self.length;
+        let (
+            info,
+            Violation {
+                length,
+                angle,
+                time,
+            },
+        ) = self.worst(&self.position, (length, S::constant(limits::OPEN)))?;
+        Some(Doubt::Open {
+            joint: info.name,
+            length: length.to_f64(),
+            angle: angle.to_f64(),
+            time: time.to_f64(),
+        })
+    }
+
+    fn slipping(&self) -> Option<Doubt> {
+        let spin = self.spin.max(self.speed.quotient(self.length));
+        let speed = self.speed.max(self.spin * self.length);
+        let limit = S::constant(limits::SLIPPING);
+        let (
+            info,
+            Violation {
+                length,
+                angle,
+                time,
+            },
+        ) = self.worst(&self.velocity, (limit * speed, limit * spin))?;
+        Some(Doubt::Slipping {
+            joint: info.name,
+            length: length.to_f64(),
+            angle: angle.to_f64(),
+            time: time.to_f64(),
+        })
+    }
+
+    /// The joint that is beyond its limits by most, with the kind of violation that is: the other is zero.
+    fn worst(
+        &self,
+        worst: &Worst<S, M>,
+        (length, angle): (S, S),
+    ) -> Option<(&'static JointInfo, Violation<S>)> {
+        let mut found = None;
+        let mut most = S::one();
+        for info in M::REPORT.joints {
+            let violation = worst.of(&self.rows, info);
+            let none = S::zero();
+            for (size, limit, one) in [
+                (
+                    violation.length,
+                    length,
+                    Violation {
+                        angle: none,
+                        ..violation
+                    },
+                ),
+                (
+                    violation.angle,
+                    angle,
+                    Violation {
+                        length: none,
+                        ..violation
+                    },
+                ),
+            ] {
+                // NaN is beyond every limit; nothing is beyond a limit of zero where nothing moves.
+                let beyond = if size == none {
+                    none
+                } else {
+                    size.quotient(limit)
+                };
+                if exceeds(beyond, most) {
+                    most = beyond;
+                    found = Some((info, one));
+                }
+            }
+        }
+        found
+    }
+
+    fn nearly_singular(&self) -> Option<Doubt> {
+        let fall = self.approach.as_ref()?.fall();
+        let nearest = self.smallest_pivot()?;
+        (!above(fall, limits::NEARLY_SINGULAR)).then(|| Doubt::NearlySingular {
+            joint: nearest.joint,
+            fall: fall.to_f64(),
+            time: nearest.time.to_f64(),
+        })
+    }
+
+    fn excuses(&self) -> Option<Doubt> {
+        let time = self.excused.since?;
+        Some(Doubt::Excused {
+            corrections: self.excused.corrections,
+            evaluations: self.excused.evaluations,
+            time: time.to_f64(),
+        })
+    }
+
+    /// Only where there is no balance of energy.
+    fn many_steps(&self) -> Option<Doubt> {
+        let (relative, _) = self.tolerance.filter(|_| self.balance.is_none())?;
+        let sum = S::constant(self.steps as f64) * relative;
+        above(sum, limits::ADDED_UP).then(|| Doubt::ManySteps {
+            steps: self.steps,
+            tolerance: relative.to_f64(),
+        })
+    }
+
+    fn coarse(&self) -> Option<Doubt> {
+        let (_, absolute) = self.tolerance?;
+        let moved = self.travel > S::zero() && !M::REPORT.bodies.is_empty();
+        let coarse = absolute > S::constant(limits::COARSE) * self.length;
+        (coarse && moved).then(|| Doubt::CoarseTolerance {
+            absolute: absolute.to_f64(),
+            size: self.length.to_f64(),
+        })
+    }
+
+    fn orientation(&self) -> Option<Doubt> {
+        above(self.stretch, limits::LENGTH).then(|| Doubt::Orientation {
+            drift: self.stretch.to_f64(),
+        })
+    }
+
+    fn compliance(&self) -> Option<Doubt> {
+        let bias = self.bias();
+        above(bias * self.travel, limits::BIAS).then(|| Doubt::Compliance {
+            bias: bias.to_f64(),
+            travel: self.travel.to_f64(),
+        })
+    }
+}
+
+fn above<S: Real>(value: S, limit: f64) -> bool {
+    exceeds(value, S::constant(limit))
+}

@@ -1,0 +1,165 @@
+//! What steps are held to: budgets, largest steps, breaks; and an observer's word between reports.
+
+use holonom::forces::Actuator;
+use holonom::joints::{PointOnLine, Revolute};
+use holonom::prelude::*;
+
+/// A particle on a line, pushed by 100 N for 20 ms after five seconds: 2 m/s less the ramps.
+#[derive(Mechanism)]
+struct Pushed {
+    #[body(mass = 1.0, position = [1.0, 0.0, 0.0])]
+    cart: Particle,
+    #[joint(between = [ground, cart], point = [1.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    track: PointOnLine,
+    #[force(
+        between = [ground, cart],
+        head = [0.0, 0.0, 0.0],
+        tail = [1.0, 0.0, 0.0],
+        force = 100.0 * (smooth_step((time - 5.0) / 0.01) - smooth_step((time - 5.02) / 0.01))
+    )]
+    push: Actuator,
+}
+
+/// The same with a law whose instants are known at run time only.
+#[derive(Mechanism)]
+struct PushedLater {
+    #[body(mass = 1.0, position = [1.0, 0.0, 0.0])]
+    cart: Particle,
+    #[joint(between = [ground, cart], point = [1.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    track: PointOnLine,
+    #[force(
+        between = [ground, cart],
+        head = [0.0, 0.0, 0.0],
+        tail = [1.0, 0.0, 0.0],
+        force = 100.0 * (smooth_step((time - start) / 0.01) - smooth_step((time - start - 0.02) / 0.01))
+    )]
+    push: Actuator,
+    #[param]
+    start: f64,
+}
+
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81])]
+struct Rod {
+    #[body(mass = 2.0, inertia = [0.2, 0.01, 0.2], position = [0.0, 0.5, 0.0])]
+    rod: Body,
+    #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    hinge: Revolute,
+}
+
+/// 100 N for 20 ms on 1 kg: the ramps up and down are symmetric.
+const REACHED: f64 = 2.0;
+
+#[test]
+fn a_pulse_of_a_law_is_not_stepped_over() {
+    let breaks = Pushed::REPORT.time.breaks;
+    let expected = [5.0, 5.01, 5.02, 5.03];
+    assert!(
+        breaks
+            .iter()
+            .zip(expected)
+            .all(|(a, b)| (a - b).abs() < 1e-12),
+        "{breaks:?}"
+    );
+    let report = Simulation::new(
+        &Pushed::default(),
+        StandardLagrange,
+        DormandPrince::default(),
+    )
+    .run(0.0..=10.0, every(10.0), |_| ControlFlow::Continue(()))
+    .expect("nothing stops it");
+    let speed = Pushed::velocity(&report.state, Pushed::HANDLES.cart).x;
+    assert!((speed - REACHED).abs() < 1e-6, "{speed}");
+    assert!(report.doubts().is_empty(), "{}", report.doubts());
+}
+
+#[test]
+fn breaks_and_largest_steps_of_a_run() {
+    let pushed = PushedLater::new(5.0).expect("acceptable");
+    let cart = PushedLater::HANDLES.cart;
+    let ode45 = DormandPrince::default();
+    let run = |integrator, breaks: &[f64]| {
+        let report = Simulation::new(&pushed, StandardLagrange, integrator)
+            .breaks(breaks)
+            .run(0.0..=10.0, every(10.0), |_| ControlFlow::Continue(()))
+            .expect("nothing stops it");
+        PushedLater::velocity(&report.state, cart).x
+    };
+    // In any order, some of them outside the run.
+    let speed = run(ode45, &[5.03, 20.0, 5.0, -1.0, 5.0]);
+    assert!((speed - REACHED).abs() < 1e-6, "{speed}");
+    let speed = run(ode45.largest_step(0.01), &[]);
+    assert!((speed - REACHED).abs() < 1e-6, "{speed}");
+    // What a run passes over without either.
+    assert_eq!(run(ode45, &[]), 0.0);
+}
+
+#[test]
+fn a_stiff_stabilisation_ends_with_the_budget() {
+    let rod = Rod::default();
+    let started = std::time::Instant::now();
+    let error = Simulation::new(&rod, Baumgarte::new(1e12, 1e12), DormandPrince::default())
+        .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
+        .expect_err("it would take for ever");
+    println!("{error} after {:?}", started.elapsed());
+    assert!(
+        matches!(
+            error.fault,
+            Fault::Budget { .. } | Fault::StepSizeUnderflow { .. }
+        ),
+        "{error}"
+    );
+    let error = Simulation::new(
+        &rod,
+        Baumgarte::default(),
+        DormandPrince::default().budget(100),
+    )
+    .run(0.0..=10.0, every(0.1), |_| ControlFlow::Continue(()))
+    .expect_err("a hundred are not enough");
+    assert!(
+        matches!(
+            error.fault,
+            Fault::Budget {
+                evaluations: 100..=120
+            }
+        ),
+        "{error}"
+    );
+    assert!(error.time > 0.0 && error.time < 10.0);
+}
+
+#[test]
+fn an_observer_has_a_word_between_reports() {
+    let rod = Rod::default();
+    let mut shown = 0;
+    let report = Simulation::new(&rod, Baumgarte::new(1e9, 1e9), DormandPrince::default())
+        .run(0.0..=1.0, every(1.0).or_steps(1000), |_| {
+            shown += 1;
+            if shown == 5 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+        .expect("stopped in time");
+    assert!(report.stopped && report.accepted == 4000, "{report:?}");
+}
+
+#[test]
+fn reports_closer_than_the_time_can_tell_are_refused() {
+    let rod = Rod::default();
+    let error = Simulation::new(&rod, StandardLagrange, DormandPrince::default())
+        .run(0.0..=1.0, every(1e-17), |_| ControlFlow::Continue(()))
+        .expect_err("two million samples of one instant");
+    assert!(matches!(error.fault, Fault::StepTooShort { .. }), "{error}");
+}
+
+#[test]
+fn a_step_beyond_the_limit_of_stability_is_named() {
+    let rod = Rod::default();
+    let error = Simulation::new(&rod, Baumgarte::new(1000.0, 1000.0), Rk4::every(0.01))
+        .run(0.0..=10.0, every(0.1), |_| ControlFlow::Continue(()))
+        .expect_err("it explodes");
+    println!("{error}");
+    assert!(matches!(error.fault, Fault::StepTooLong { .. }), "{error}");
+}

@@ -1,0 +1,80 @@
+//! Long runs: right to a hundredth, or doubted.
+
+use holonom::Integrator;
+use holonom::prelude::*;
+use holonom_models::{RodPendulum, SimplePendulum};
+
+use crate::orientation::Spinning;
+
+/// Whether a run over 10^4 s is doubted, and the largest change of energy (of what it exchanges) that the observer saw.
+fn long<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
+    model: &M,
+    (method, integrator, projected): (F, I, bool),
+) -> (bool, f64) {
+    let mut simulation = Simulation::new(model, method, integrator);
+    if projected {
+        simulation = simulation.projection(Projection::default());
+    }
+    let (mut first, mut worst, mut largest) = (None, 0.0_f64, 0.0_f64);
+    let report = simulation
+        .run(0.0..=1e4, every(0.37), |sample| {
+            let energy = sample.energy();
+            largest = largest.max(sample.kinetic_energy());
+            worst = worst.max((energy - *first.get_or_insert(energy)).abs());
+            ControlFlow::Continue(())
+        })
+        .expect("nothing stops it");
+    let drift = worst / largest;
+    println!(
+        "{method:?}, projected: {projected}: energy {drift:.1e}, watch {:?}",
+        report.watch.and_then(|w| w.energy_drift())
+    );
+    println!("{}", report.doubts());
+    (!report.doubts().is_empty(), drift)
+}
+
+#[test]
+fn ten_thousand_seconds_of_a_pendulum_are_doubted() {
+    let rod = RodPendulum::default();
+    let ode45 = DormandPrince::<f64>::default();
+    for projected in [false, true] {
+        // All of them lose the phase of thirty thousand radians at 1e-6.
+        assert!(long(&rod, (StandardLagrange, ode45, projected)).0);
+        assert!(long(&rod, (Baumgarte::default(), ode45, projected)).0);
+        assert!(long(&rod, (Penalty::default(), ode45, projected)).0);
+        assert!(long(&rod, (AugmentedLagrangian::default(), ode45, projected)).0);
+    }
+    assert!(
+        long(
+            &SimplePendulum::default(),
+            (Baumgarte::default(), ode45, false)
+        )
+        .0
+    );
+}
+
+#[test]
+fn what_turns_evenly_is_not_doubted() {
+    let (doubted, drift) = long(
+        &Spinning::default(),
+        (StandardLagrange, DormandPrince::default(), false),
+    );
+    assert!(!doubted && drift < 1e-12);
+}
+
+/// A tolerance that suits the length of the run takes the doubts away.
+#[test]
+fn a_tight_run_is_trusted() {
+    let rod = RodPendulum::default();
+    let tight = DormandPrince::new(Tolerance {
+        relative: 1e-12,
+        absolute: 1e-14,
+    });
+    let mut simulation = Simulation::new(&rod, Baumgarte::default(), tight);
+    simulation = simulation.projection(Projection::default());
+    let report = simulation
+        .run(0.0..=1e3, every(1.0), |_| ControlFlow::Continue(()))
+        .expect("nothing stops it");
+    println!("{:?}", report.watch.and_then(|watch| watch.energy_drift()));
+    assert!(report.doubts().is_empty(), "{}", report.doubts());
+}

@@ -1,0 +1,181 @@
+//! Motions through singular configurations, with every formulation, with and without a projection, at every tolerance and step: none ends wrong without
+//! an error or a doubt, and none goes on for ever.
+
+use std::time::{Duration, Instant};
+
+use holonom::joints::{PointOnLine, Prismatic, Revolute};
+use holonom::prelude::*;
+use holonom::{BodyHandle, Doubt, Integrator, Rk4};
+use holonom_models::FourBar;
+use nalgebra::Vector3;
+
+/// A slider-crank whose crank and rod are of 1 m both: a quarter of a turn on, the slider passes over the crank's axis, where it may stay while the links
+/// turn on together.
+#[derive(Mechanism)]
+struct EqualLinks {
+    #[body(
+        mass = 1.0,
+        inertia = [0.1, 0.1, 0.1],
+        position = [0.4, 0.3, 0.0],
+        velocity = [-0.9, 1.2, 0.0],
+        angular_velocity = [0.0, 0.0, 3.0]
+    )]
+    crank: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [0.1, 0.1, 0.1],
+        position = [1.2, 0.3, 0.0],
+        velocity = [-2.7, 1.2, 0.0],
+        angular_velocity = [0.0, 0.0, -3.0]
+    )]
+    rod: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.6, 0.0, 0.0], velocity = [-3.6, 0.0, 0.0])]
+    slider: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    bearing: Revolute,
+    #[joint(between = [crank, rod], point = [0.8, 0.6, 0.0], axis = [0.0, 0.0, 1.0])]
+    crank_pin: Revolute,
+    #[joint(between = [ground, slider], point = [1.6, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    guide: Prismatic,
+    #[joint(between = [slider, rod], point = [1.6, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    slider_pin: PointOnLine,
+}
+
+/// A body, a point on it, and where that should be at the end of a run (m).
+struct Mark<M> {
+    body: BodyHandle<M>,
+    point: Vector3<f64>,
+    place: Vector3<f64>,
+    duration: f64,
+}
+
+/// The top left pin after five turns and ten times on a line: closed form, see the references.
+fn four_bar() -> Mark<FourBar> {
+    Mark {
+        body: FourBar::HANDLES.left,
+        point: FourBar::TOP.into(),
+        place: Vector3::new(0.478_385_057_760_970_56, 0.878_150_178_791_209_3, 0.0),
+        duration: 10.0,
+    }
+}
+
+/// The crank pin after some turns: `I(theta) theta'^2` stays, integrated by small steps.
+fn equal_links() -> Mark<EqualLinks> {
+    let inertia = |theta: f64| {
+        let (sine, cosine) = theta.sin_cos();
+        0.25 + 0.1 + 0.1 + (1.5 * sine).powi(2) + (0.5 * cosine).powi(2) + (2.0 * sine).powi(2)
+    };
+    let start = 0.6_f64.atan2(0.8);
+    let momentum = 3.0 * inertia(start).sqrt();
+    let rate = |theta: f64| momentum / inertia(theta).sqrt();
+    let (mut theta, duration, steps) = (start, 5.0, 100_000);
+    let h = duration / f64::from(steps);
+    for _ in 0..steps {
+        let a = rate(theta);
+        let b = rate(theta + 0.5 * h * a);
+        let c = rate(theta + 0.5 * h * b);
+        let d = rate(theta + h * c);
+        theta += h / 6.0 * (a + 2.0 * (b + c) + d);
+    }
+    Mark {
+        body: EqualLinks::HANDLES.crank,
+        // The user's axes stood along the global ones: the pin from the centre of mass.
+        point: Vector3::new(0.4, 0.3, 0.0),
+        place: {
+            let (sine, cosine) = theta.sin_cos();
+            Vector3::new(cosine, sine, 0.0)
+        },
+        duration,
+    }
+}
+
+/// What is right to a hundredth is right.
+const RIGHT: f64 = 1e-2;
+/// Of a build with some optimisation on a machine that does other things too.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
+    model: &M,
+    mark: &Mark<M>,
+    (method, integrator, projected): (F, I, bool),
+) {
+    let mut simulation = Simulation::new(model, method, integrator);
+    if projected {
+        simulation = simulation.projection(Projection::default());
+    }
+    let started = Instant::now();
+    let mut error = f64::NAN;
+    let outcome = simulation.run(0.0..=mark.duration, every(mark.duration), |sample| {
+        error = (sample.point(mark.body, mark.point) - mark.place).norm();
+        ControlFlow::Continue(())
+    });
+    let took = started.elapsed();
+    let what = format!("{method:?}, {integrator:?}, projected: {projected}");
+    match outcome {
+        Ok(report) => {
+            let is_right = error <= RIGHT;
+            let doubts = report.doubts();
+            println!(
+                "{what}: off by {error:.1e} m, {} doubts, {} evaluations, {took:.1?}",
+                doubts.len(),
+                report.evaluations
+            );
+            for doubt in doubts {
+                println!("    {doubt}");
+            }
+            assert!(
+                is_right || !doubts.is_empty(),
+                "{what}: wrong without a word"
+            );
+            // Right or wrong, it was a matter of luck.
+            let told = |doubt: &Doubt| !matches!(doubt, Doubt::CoarseTolerance { .. });
+            assert!(
+                doubts.into_iter().any(|doubt| told(&doubt)),
+                "{what}: passed without a word"
+            );
+        }
+        Err(error) => println!("{what}: {error}, {took:.1?}"),
+    }
+    assert!(took < PATIENCE, "{what} took {took:?}");
+}
+
+fn sweep<M: Mechanism, F: Formulation<f64>>(model: &M, mark: &Mark<M>, method: F) {
+    for projected in [false, true] {
+        for exponent in 5..=11 {
+            let relative = 10.0_f64.powi(-exponent);
+            let absolute = 1e-2 * relative;
+            let integrator = DormandPrince::new(Tolerance { relative, absolute });
+            run(model, mark, (method, integrator, projected));
+        }
+        for step in [1e-2, 1e-3, 1e-4] {
+            run(model, mark, (method, Rk4::every(step), projected));
+        }
+    }
+}
+
+macro_rules! sweeps {
+    ($($name:ident: $method:expr;)*) => {
+        mod a_parallelogram {
+            use super::*;
+            $(#[test]
+            fn $name() {
+                sweep(&FourBar::default(), &four_bar(), $method);
+            })*
+        }
+
+        mod a_slider_crank_of_equal_links {
+            use super::*;
+            $(#[test]
+            fn $name() {
+                sweep(&EqualLinks::default(), &equal_links(), $method);
+            })*
+        }
+    };
+}
+
+sweeps! {
+    standard: StandardLagrange;
+    baumgarte: Baumgarte::default();
+    penalty: Penalty::default();
+    augmented_lagrangian: AugmentedLagrangian::default();
+}
