@@ -114,17 +114,6 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
         &self.formulation
     }
 
-    /// Euler parameters of length 1 where they are normalised, and counters right.
-    pub(crate) fn bring_to_normal_form(&self, state: &mut M::State<S>)
-    where
-        P: Orientation,
-    {
-        if P::NORMALISED && !P::NORMALISED_RATES {
-            bring_to_unit_length::<S, M>(state, None);
-        }
-        M::recount(&self.constants, state);
-    }
-
     /// How often the augmented Lagrangian solved its system in [`System::rates`]; zero for other formulations.
     #[must_use]
     pub fn iterations(&self) -> Iterations {
@@ -289,7 +278,7 @@ where
     fn rates(&mut self, time: S, state: &M::State<S>) -> Result<M::State<S>, Fault> {
         if !(A::PRESENT || F::ITERATED) {
             let evaluation = self.evaluate_fused(time, state)?;
-            self.look(&evaluation, time);
+            self.look(&evaluation);
             return Ok(evaluation.rates);
         }
         let Parts {
@@ -297,7 +286,7 @@ where
             iterations,
             applied_power,
         } = self.evaluate_in_parts(time, state)?;
-        self.look(&evaluation, time);
+        self.look(&evaluation);
         self.seen.applied_power = applied_power;
         if F::ITERATED {
             self.iterations.total = self.iterations.total.saturating_add(iterations);
@@ -339,9 +328,9 @@ where
     const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
 
     #[inline(always)]
-    fn look(&mut self, evaluation: &Evaluation<S, M>, time: S) {
+    fn look(&mut self, evaluation: &Evaluation<S, M>) {
         if !F::Terms::COMPLIANT {
-            self.seen.pivot(evaluation.pivot, time);
+            self.seen.last = evaluation.pivot;
         }
         if Self::YIELDS || M::REPORT.time.constraints {
             self.seen.multipliers = evaluation.multipliers;
@@ -353,7 +342,7 @@ where
 
     /// Shows the end of a step to the watch, with what was seen at the last evaluation.
     #[inline]
-    pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
+    pub(crate) fn watch(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
         let step = Step {
             constants: &self.constants,
             time,
@@ -362,7 +351,7 @@ where
             pivot: self.pivot(time, state),
             compliance: Self::YIELDS.then_some(self.stabilisation.compliance),
         };
-        watch.step(step, &mut self.seen);
+        watch.step(step, &self.seen);
     }
 
     /// The power (W) of all forces without a potential, and of drivers, whose multipliers work against `Phi_t`.

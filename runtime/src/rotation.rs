@@ -153,13 +153,21 @@ pub(crate) fn bring_to_unit_length<S: Real, M: Mechanism>(
         if body.kind == BodyKind::Rigid {
             let place = body.coordinate + 3;
             let p: [S; 4] = read(state.coordinates().as_slice(), place);
-            let length = length(&p);
-            stretch = stretch.max((length - S::one()).abs());
-            // Numbers beyond all bounds stay what they are, for whoever uses them to refuse.
-            if !(length.is_finite() && length > S::zero()) {
-                continue;
-            }
-            let factor = length.reciprocal();
+            let excess = norm(&p) - S::one();
+            // `1 / sqrt(1 + x)` by its series: after a step of any accuracy there is no need of a root.
+            let factor = if excess.abs() < S::constant(1e-5) {
+                let (half, three_eighths) = (S::constant(-0.5), S::constant(0.375));
+                stretch = stretch.max(half.abs() * excess.abs());
+                excess.fused(three_eighths, half).fused(excess, S::one())
+            } else {
+                let length = length(&p);
+                stretch = stretch.max((length - S::one()).abs());
+                // Numbers beyond all bounds stay what they are, for whoever uses them to refuse.
+                if !(length.is_finite() && length > S::zero()) {
+                    continue;
+                }
+                length.reciprocal()
+            };
             scale(state.coordinates_mut().as_mut_slice(), place, factor);
             if let Some(rates) = rates.as_deref_mut() {
                 scale(rates.coordinates_mut().as_mut_slice(), place, factor);
@@ -198,11 +206,17 @@ pub(crate) fn scale_euler_rates<S: Scalar, M: Mechanism>(
     }
 }
 
-/// `|p|`, summed as generated kernels do, so that the compiler sees the same sum.
+/// `p.p`, summed as generated kernels do, so that the compiler sees the same sum.
+#[inline(always)]
+fn norm<S: Scalar>(p: &[S; 4]) -> S {
+    let [e0, e1, e2, e3] = p.map(|e| e * e);
+    (e0 + e1) + (e2 + e3)
+}
+
+/// `|p|`.
 #[inline(always)]
 fn length<S: Scalar>(p: &[S; 4]) -> S {
-    let [e0, e1, e2, e3] = p.map(|e| e * e);
-    ((e0 + e1) + (e2 + e3)).sqrt()
+    norm(p).sqrt()
 }
 
 /// Multiplies the four Euler parameters at a place.

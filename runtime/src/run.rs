@@ -1,5 +1,6 @@
 //! A run under way: segments of integration between breaks, corrections, reports, and the watch over them.
 
+use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use crate::dynamics::Dynamics;
@@ -31,18 +32,18 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, P, A, O> {
 pub(crate) struct Log<'r, S: Real, M: Mechanism, O> {
     observe: &'r mut O,
     worst_violation: S,
-    shown: (S, M::State<S>),
+    mechanism: PhantomData<fn() -> M>,
     flow: ControlFlow<()>,
     /// Steps since a state was shown.
     unseen: usize,
 }
 
 impl<'r, S: Real, M: Mechanism, O> Log<'r, S, M, O> {
-    pub(crate) fn new(observe: &'r mut O, start: S, state: M::State<S>) -> Self {
+    pub(crate) fn new(observe: &'r mut O) -> Self {
         Self {
             observe,
             worst_violation: S::zero(),
-            shown: (start, state),
+            mechanism: PhantomData,
             flow: ControlFlow::Continue(()),
             unseen: 0,
         }
@@ -66,7 +67,7 @@ where
         last_good: &mut (S, M::State<S>),
     ) -> Result<RunReport<S, M>, Fault> {
         let mut from = start;
-        self.show(start, last_good.1);
+        self.show(start, &last_good.1);
         while from < end && self.log.flow.is_continue() {
             let until = self.next_break(from, end);
             let span = Span {
@@ -78,7 +79,7 @@ where
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
             from = until;
         }
-        Ok(self.report())
+        Ok(self.report(*last_good))
     }
 
     /// The first break after a time, or the end.
@@ -104,17 +105,17 @@ where
             watch.restart();
             self.dynamics.watch(watch, span.start, course.state());
         }
-        let before = self.counts;
         let budget = integrator.budget().unwrap_or(usize::MAX);
+        let budget = budget.saturating_sub(self.counts.evaluations);
         while course.time() < span.end {
             course.advance(&mut self.dynamics)?;
-            self.counts = before.plus(course.counts());
             while let Some(time) = self.schedule.within(course.time()) {
                 let mut state = course.at(&mut self.dynamics, time)?;
-                self.settle(time, &mut state)?;
+                self.correct(time, &mut state)?;
                 *last_good = (time, state);
-                self.show(time, state);
+                self.show(time, &last_good.1);
                 if self.log.flow.is_break() {
+                    self.counts = self.counts.plus(course.counts());
                     return Ok(());
                 }
             }
@@ -130,30 +131,22 @@ where
             }
             self.log.unseen += 1;
             if self.schedule.at(time, self.log.unseen) {
-                self.show(time, *course.state());
+                self.show(time, course.state());
                 if self.log.flow.is_break() {
-                    return Ok(());
+                    break;
                 }
             }
-            if self.counts.evaluations >= budget && time < span.end {
-                return Err(Fault::Budget {
-                    evaluations: self.counts.evaluations,
-                });
+            let evaluations = course.counts().evaluations;
+            if evaluations >= budget && time < span.end {
+                let evaluations = self.counts.evaluations.saturating_add(evaluations);
+                return Err(Fault::Budget { evaluations });
             }
         }
-        self.counts = before.plus(course.counts());
+        self.counts = self.counts.plus(course.counts());
         Ok(())
     }
 
-    /// Brings a state between two steps into its normal form, and onto the constraints if that is wanted.
-    fn settle(&mut self, time: S, state: &mut M::State<S>) -> Result<(), Fault> {
-        self.dynamics.bring_to_normal_form(state);
-        if self.projection.is_some() {
-            self.correct(time, state)?;
-        }
-        Ok(())
-    }
-
+    /// Brings a state onto the constraints, if that is wanted.
     fn correct(&mut self, time: S, state: &mut M::State<S>) -> Result<(), Fault> {
         if let Some(projection) = self.projection {
             projection.correct_in_motion::<M>(self.dynamics.constants(), time, state)?;
@@ -161,17 +154,16 @@ where
         Ok(())
     }
 
-    fn show(&mut self, time: S, state: M::State<S>) {
-        let view = self.dynamics.view(time, &state);
+    fn show(&mut self, time: S, state: &M::State<S>) {
+        let view = self.dynamics.view(time, state);
         let log = &mut self.log;
         log.worst_violation = log.worst_violation.max(view.violation());
         log.flow = (log.observe)(&Sample::new(view, &self.dynamics));
-        log.shown = (time, state);
         log.unseen = 0;
     }
 
-    fn report(self) -> RunReport<S, M> {
-        let (time, state) = self.log.shown;
+    /// The last state is one that was shown.
+    fn report(self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
         RunReport {
             evaluations: self.counts.evaluations,
             accepted: self.counts.accepted,

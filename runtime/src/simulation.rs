@@ -221,7 +221,7 @@ where
             schedule,
             breaks: self.breaks,
             watch,
-            log: Log::new(observe, start, state),
+            log: Log::new(observe),
             counts: Counts::default(),
         };
         run.go(&self.integrator, (start, end), last_good)

@@ -204,7 +204,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Takes the end of a step, or the start of a run.
     #[inline]
-    pub(crate) fn step(&mut self, step: Step<'_, S, M>, seen: &mut Seen<S, M>) {
+    pub(crate) fn step(&mut self, step: Step<'_, S, M>, seen: &Seen<S, M>) {
         let Step {
             constants,
             time,
@@ -218,10 +218,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.position.take(phi.as_slice(), factors, time);
         let phi_rate = M::constraint_rates(constants, time, state);
         self.velocity.take(phi_rate.as_slice(), factors, time);
-        let on_the_way = seen.take_least();
         if let Some(pivot) = pivot {
             let approach = self.approach.get_or_insert_with(Approach::new);
-            approach.step(time, pivot, on_the_way);
+            approach.step(time, pivot);
         }
         if let Some(balance) = &mut self.balance {
             let kinetic = M::kinetic_energy(constants, state);

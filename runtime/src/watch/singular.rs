@@ -1,13 +1,20 @@
 //! How near a run came to a singular configuration.
 
-use super::seen::Nearest;
 use crate::mechanism::Pivot;
 use crate::scalar::Real;
 
+/// A relative pivot, its joint and its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Nearest<S> {
+    pub(super) pivot: Pivot<S>,
+    pub(super) time: S,
+}
+
 /// The course of the relative pivot over the steps of a run.
 ///
-/// A pivot goes with the square of the distance from the configuration in which it vanishes, and steps may pass over that: so a parabola through
-/// three steps in which the middle one is least tells how small it was in between.
+/// A pivot goes with the square of the distance from the configuration in which it vanishes, and steps may pass over that. So three steps in which the
+/// middle one is least are looked at twice: a parabola through them tells how small the pivot was in between, and where its root, the distance
+/// with a sign, runs more smoothly through zero than back, it was zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach<S> {
     /// The largest relative pivot at the end of a step.
@@ -22,17 +29,23 @@ impl<S: Real> Approach<S> {
     pub(super) fn new() -> Self {
         Self {
             largest: S::zero(),
-            least: Nearest::none(),
+            least: Nearest {
+                pivot: Pivot {
+                    relative: S::constant(f64::INFINITY),
+                    joint: S::zero(),
+                },
+                time: S::zero(),
+            },
             before: [None; 2],
         }
     }
 
-    /// Takes the end of a step: the pivot there, and the least of all evaluations on the way.
+    /// Takes the pivot at the end of a step.
     #[inline]
-    pub(super) fn step(&mut self, time: S, pivot: Pivot<S>, on_the_way: Nearest<S>) {
+    pub(super) fn step(&mut self, time: S, pivot: Pivot<S>) {
         self.largest = self.largest.max(pivot.relative);
-        if on_the_way.pivot.relative < self.least.pivot.relative {
-            self.least = on_the_way;
+        if pivot.relative < self.least.pivot.relative {
+            self.least = Nearest { pivot, time };
         }
         let [first, second] = self.before;
         if let (Some(first), Some(second)) = (first, second)
@@ -44,22 +57,22 @@ impl<S: Real> Approach<S> {
         self.before = [second, Some((time, pivot.relative))];
     }
 
-    /// The lowest point of the parabola through three points of which the second is lowest, at most that; zero where it lies below.
-    fn between(&mut self, [a, b, c]: [(S, S); 3], joint: S) {
-        let slopes = [
-            (b.1 - a.1).quotient(b.0 - a.0),
-            (c.1 - b.1).quotient(c.0 - b.0),
-        ];
-        let curvature = (slopes[1] - slopes[0]).quotient(c.0 - a.0);
-        let slope = slopes[0] + curvature * (b.0 - a.0);
-        let four = S::constant(4.0);
-        let lowest = b.1 - (slope * slope).quotient(four * curvature);
+    /// The lowest point between three of which the second is lowest.
+    fn between(&mut self, points: [(S, S); 3], joint: S) {
+        let [a, b, c] = points;
+        let (slope, curvature) = parabola(points);
+        let mut lowest = b.1 - (slope * slope).quotient(S::constant(4.0) * curvature);
+        if passes_zero(points) {
+            lowest = S::zero();
+        }
         if lowest.is_finite() && lowest < self.least.pivot.relative {
-            let relative = lowest.max(S::zero());
-            let half = S::constant(-0.5);
+            let middle = b.0 - S::constant(0.5) * slope.quotient(curvature);
             self.least = Nearest {
-                pivot: Pivot { relative, joint },
-                time: b.0 + half * slope.quotient(curvature),
+                pivot: Pivot {
+                    relative: lowest.max(S::zero()),
+                    joint,
+                },
+                time: middle.max(a.0).min(c.0),
             };
         }
     }
@@ -79,22 +92,43 @@ impl<S: Real> Approach<S> {
     }
 }
 
+/// Slope at the middle of three points and curvature of the parabola through them.
+fn parabola<S: Real>([a, b, c]: [(S, S); 3]) -> (S, S) {
+    let slopes = [
+        (b.1 - a.1).quotient(b.0 - a.0),
+        (c.1 - b.1).quotient(c.0 - b.0),
+    ];
+    let curvature = (slopes[1] - slopes[0]).quotient(c.0 - a.0);
+    (slopes[0] + curvature * (b.0 - a.0), curvature)
+}
+
+/// Whether the roots of three values bend ten times less if their sign changes on the way.
+fn passes_zero<S: Real>(points: [(S, S); 3]) -> bool {
+    let [a, b, c] = points.map(|(time, value)| (time, value.max(S::zero()).sqrt()));
+    let bend = |points: [(S, S); 3]| parabola(points).1.abs();
+    let minus = |(time, root): (S, S)| (time, -root);
+    let through = bend([minus(a), b, c]).min(bend([minus(a), minus(b), c]));
+    S::constant(10.0) * through < bend([a, b, c])
+}
+
 #[cfg(test)]
 mod tests {
     use super::Approach;
     use crate::mechanism::Pivot;
-    use crate::watch::seen::Nearest;
 
     /// Steps over `c ((t - t0)^2 + d^2)`, and the fall that is found.
     fn fall(step: f64, distance: f64) -> f64 {
         let mut approach = Approach::new();
-        for k in 0..40 {
-            let time = step * (f64::from(k) - 19.7);
+        for k in -40..40 {
+            let time = step * (f64::from(k) + 0.3);
+            if time.abs() > 1.5 {
+                continue;
+            }
             let pivot = Pivot {
                 relative: 0.5 * (time.sin().powi(2) + distance * distance),
                 joint: 2.0,
             };
-            approach.step(time, pivot, Nearest::none());
+            approach.step(time, pivot);
         }
         assert_eq!(approach.least().unwrap().pivot.joint, 2.0);
         assert!(approach.least().unwrap().time.abs() < step);
@@ -103,8 +137,10 @@ mod tests {
 
     #[test]
     fn what_is_passed_between_two_steps_is_found() {
-        for step in [0.01, 0.03, 0.07] {
+        for step in [0.01, 0.03, 0.07, 0.3, 0.5] {
             assert!(fall(step, 0.0) < 1e-4, "{step}: {}", fall(step, 0.0));
+        }
+        for step in [0.01, 0.03, 0.07, 0.3] {
             assert!(fall(step, 0.2) > 1e-2, "{step}: {}", fall(step, 0.2));
         }
     }
