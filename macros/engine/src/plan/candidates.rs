@@ -5,8 +5,10 @@
 //! accelerations, and in whether point rows are paired with accelerations or left to the Schur complement.
 
 use super::Plan;
-use super::order::{Order, StartValues, tree};
+use super::order::{Kinds, Order, StartValues};
+use super::reach::Reach;
 use super::system::{System, Terms, coupling};
+use super::tree::{Tree, tree};
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Expr, Stage};
 use crate::symbolic::count::count;
@@ -20,41 +22,52 @@ struct Strategy {
     body_accelerations: bool,
     /// Rows in the axes of the body that is carried.
     body_rows: bool,
-    /// Point rows paired with accelerations.
-    saddles: bool,
-    /// Two single rows paired with two components of the angular acceleration.
-    forbidden: bool,
+    kinds: Kinds,
+}
+
+impl Strategy {
+    const fn new(body_accelerations: bool, body_rows: bool, kinds: Kinds) -> Self {
+        Self {
+            body_accelerations,
+            body_rows,
+            kinds,
+        }
+    }
 }
 
 const STRATEGIES: [Strategy; 7] = {
-    const fn strategy(axes: (bool, bool), pivots: (bool, bool)) -> Strategy {
-        let (body_accelerations, body_rows) = axes;
-        let (saddles, forbidden) = pivots;
-        Strategy {
-            body_accelerations,
-            body_rows,
-            saddles,
-            forbidden,
-        }
-    }
+    const ALONE: Kinds = Kinds {
+        saddles: false,
+        forbidden: false,
+    };
+    const SADDLES: Kinds = Kinds {
+        saddles: true,
+        ..ALONE
+    };
+    const PAIRS: Kinds = Kinds {
+        forbidden: true,
+        ..SADDLES
+    };
     [
-        strategy((true, true), (true, true)),
-        strategy((true, true), (true, false)),
-        strategy((false, false), (true, true)),
-        strategy((false, false), (true, false)),
-        strategy((true, true), (false, false)),
-        strategy((false, true), (false, false)),
-        strategy((false, false), (false, false)),
+        Strategy::new(true, true, PAIRS),
+        Strategy::new(true, true, SADDLES),
+        Strategy::new(false, false, PAIRS),
+        Strategy::new(false, false, SADDLES),
+        Strategy::new(true, true, ALONE),
+        Strategy::new(false, true, ALONE),
+        Strategy::new(false, false, ALONE),
     ]
 };
 
 /// The cheapest plan for a model, by the operations of its standard evaluation.
 #[must_use]
 pub fn choose(model: &Model) -> Plan {
-    let tree = tree(model);
+    let reach = Reach::new(model);
+    let tree = tree(model, &reach);
+    let start = StartValues::new(model);
     let mut best: Option<(Plan, usize)> = None;
     for strategy in STRATEGIES {
-        let plan = plan(model, &tree, strategy);
+        let plan = plan(model, &tree, &reach, &start, strategy);
         if best.as_ref().is_some_and(|(known, _)| *known == plan) {
             continue;
         }
@@ -94,7 +107,13 @@ pub fn equations_of_motion(
     (solution, system)
 }
 
-fn plan(model: &Model, tree: &super::order::Tree, strategy: Strategy) -> Plan {
+fn plan(
+    model: &Model,
+    tree: &Tree,
+    reach: &Reach,
+    start: &StartValues,
+    strategy: Strategy,
+) -> Plan {
     let frame_of = |body: usize, wanted: bool| match model.bodies[body].kind {
         BodyKind::Rigid if wanted => Frame::Body(body),
         _ => Frame::Global,
@@ -129,15 +148,12 @@ fn plan(model: &Model, tree: &super::order::Tree, strategy: Strategy) -> Plan {
     };
     let kinds: Vec<BodyKind> = model.bodies.iter().map(|body| body.kind).collect();
     let coupling = coupling(&mut scene, &kinds, &plan);
-    let start = StartValues::new(model);
-    let mut order = Order {
-        scene: &scene,
-        coupling: &coupling,
-        kinds: &kinds,
-        start: &start,
-        done: Vec::new(),
+    let mut order = Order::new(&scene, &coupling, &kinds, start, reach);
+    (plan.pivots, plan.determinants) = order.pivots(tree, strategy.kinds);
+    let compliant = Kinds {
+        forbidden: false,
+        ..strategy.kinds
     };
-    (plan.pivots, plan.determinants) = order.pivots(tree, strategy.saddles, strategy.forbidden);
-    (plan.compliant_pivots, _) = order.pivots(tree, strategy.saddles, false);
+    (plan.compliant_pivots, _) = order.pivots(tree, compliant);
     plan
 }

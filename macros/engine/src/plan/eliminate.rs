@@ -149,45 +149,152 @@ pub struct Factors {
 
 /// Factorises a matrix.
 ///
-/// `determinants` are those of the blocks [`Pivot::Forbidden`] at the start.
+/// `determinants` are those of the blocks [`Pivot::Forbidden`] at the start, in order. Whatever the plan says, the result solves the
+/// system: a block that an earlier step has filled, so that it is not what its kind of pivot is safe for, is eliminated
+/// one unknown after the other, and a multiplier waits until its pivot is not zero by structure. What is zero to the end is
+/// zero because rows depend on each other, and is recorded.
+///
+/// # Panics
+/// If the plan does not eliminate every unknown once, or lacks a determinant.
 pub fn factorise(
     arena: &mut Arena,
-    mut matrix: Symmetric,
+    matrix: Symmetric,
     pivots: &[Pivot],
     determinants: &[f64],
 ) -> Factors {
+    let size = matrix.rows.len();
+    let mut elimination = Elimination {
+        original: matrix.clone(),
+        matrix,
+        eliminated: Vec::new(),
+        waiting: Vec::new(),
+        factors: Factors {
+            steps: Vec::new(),
+            checks: Vec::new(),
+        },
+    };
     let mut determinants = determinants.iter();
-    let mut steps = Vec::new();
-    let mut checks = Vec::new();
-    let original = matrix.clone();
-    let mut eliminated: Vec<usize> = Vec::new();
     for &pivot in pivots {
-        let unknowns = pivot.unknowns();
-        if let Pivot::Multiplier(k) = pivot {
-            let value = matrix.get(k, k);
-            if arena.literal(value).is_none_or(|value| value == 0.0) {
-                let before = original.schur_diagonal(arena, k, &eliminated);
-                checks.push(Check {
-                    unknown: k,
-                    pivot: value,
-                    before,
-                });
-            }
+        let determinant = match pivot {
+            Pivot::Forbidden(..) => *determinants
+                .next()
+                .expect("a plan has a determinant for every forbidden motion"),
+            _ => 1.0,
+        };
+        for pivot in elimination.sound(pivot) {
+            elimination.take(arena, pivot, determinant);
         }
+    }
+    for row in std::mem::take(&mut elimination.waiting) {
+        elimination.step(arena, Pivot::Multiplier(row), 1.0);
+    }
+    let mut eliminated = elimination.eliminated;
+    eliminated.sort_unstable();
+    assert!(
+        eliminated.iter().copied().eq(0..size),
+        "a plan eliminates every unknown once, not {eliminated:?} of {size}"
+    );
+    elimination.factors
+}
+
+/// The state of an elimination.
+struct Elimination {
+    /// As assembled.
+    original: Symmetric,
+    /// What is left.
+    matrix: Symmetric,
+    /// In order.
+    eliminated: Vec<usize>,
+    /// Rows whose pivot is zero so far.
+    waiting: Vec<usize>,
+    factors: Factors,
+}
+
+impl Elimination {
+    /// A pivot, or its unknowns one by one where the block is not what its kind is safe for.
+    fn sound(&self, pivot: Pivot) -> Vec<Pivot> {
+        let entry = |k: usize, l: usize| self.matrix.get(k, l);
+        let is_sound = match pivot {
+            Pivot::Acceleration(_) | Pivot::Multiplier(_) => true,
+            // `-a e - c^2` cannot vanish for `c = 1`, whatever was added to `a` or to `e`.
+            Pivot::Saddle(k, l) => entry(k, l).abs() == Arena::ONE,
+            Pivot::Forbidden(_, [m, n]) => {
+                [(m, m), (m, n), (n, n)].map(|(k, l)| entry(k, l)) == [Arena::ZERO; 3]
+            }
+        };
+        match pivot {
+            _ if is_sound => vec![pivot],
+            Pivot::Saddle(k, l) => vec![Pivot::Acceleration(k), Pivot::Multiplier(l)],
+            Pivot::Forbidden([k, l], [m, n]) => vec![
+                Pivot::Acceleration(k),
+                Pivot::Acceleration(l),
+                Pivot::Multiplier(m),
+                Pivot::Multiplier(n),
+            ],
+            _ => vec![pivot],
+        }
+    }
+
+    /// Eliminates what can be eliminated now, and rows that waited for it.
+    fn take(&mut self, arena: &mut Arena, pivot: Pivot, determinant: f64) {
+        match pivot {
+            Pivot::Multiplier(row) if self.matrix.get(row, row) == Arena::ZERO => {
+                self.waiting.push(row);
+            }
+            _ => self.step(arena, pivot, determinant),
+        }
+        while let Some(place) = self.ready() {
+            let row = self.waiting.remove(place);
+            self.step(arena, Pivot::Multiplier(row), 1.0);
+        }
+    }
+
+    /// The first of the waiting rows that need not wait any longer.
+    fn ready(&self) -> Option<usize> {
+        let has_pivot = |row: &usize| self.matrix.get(*row, *row) != Arena::ZERO;
+        self.waiting.iter().position(has_pivot)
+    }
+
+    /// The check of a multiplier, `None` where its pivot is a number that stands out.
+    fn check(&self, arena: &mut Arena, row: usize) -> Option<Check> {
+        /// A number below this, relative to what it was made of, is taken for round-off: left to the kernels to report.
+        const ROUND_OFF: f64 = 1e-9;
+        let pivot = self.matrix.get(row, row);
+        let before = self.original.schur_diagonal(arena, row, &self.eliminated);
+        let is_safe = match (arena.literal(pivot), arena.literal(before)) {
+            (Some(pivot), Some(before)) => pivot.abs() > ROUND_OFF * before.abs(),
+            _ => false,
+        };
+        (!is_safe).then_some(Check {
+            unknown: row,
+            pivot,
+            before,
+        })
+    }
+
+    fn step(&mut self, arena: &mut Arena, pivot: Pivot, determinant: f64) {
+        let unknowns = pivot.unknowns();
         let inverse = match pivot {
             Pivot::Forbidden(accelerations, rows) => {
-                let (inverse, determinant) = invert_forbidden(arena, &matrix, accelerations, rows);
-                let at_start = determinants.next().copied().unwrap_or(1.0);
-                let before = arena.constant(at_start);
-                checks.push(Check {
+                let (inverse, pivot) = invert_forbidden(arena, &self.matrix, accelerations, rows);
+                let before = arena.constant(determinant);
+                self.factors.checks.push(Check {
                     unknown: rows[0],
-                    pivot: determinant,
+                    pivot,
                     before,
                 });
                 inverse
             }
-            _ => Inverse::Matrix(invert(arena, &matrix, &unknowns)),
+            Pivot::Multiplier(row) => {
+                let check = self.check(arena, row);
+                self.factors.checks.extend(check);
+                Inverse::Matrix(invert(arena, &self.matrix, &unknowns))
+            }
+            Pivot::Acceleration(_) | Pivot::Saddle(..) => {
+                Inverse::Matrix(invert(arena, &self.matrix, &unknowns))
+            }
         };
+        let matrix = &mut self.matrix;
         let coupled: Vec<usize> = {
             let mut coupled: Vec<usize> = unknowns
                 .iter()
@@ -218,14 +325,13 @@ pub fn factorise(
         for &unknown in &unknowns {
             matrix.remove(unknown);
         }
-        eliminated.extend(&unknowns);
-        steps.push(Step {
+        self.eliminated.extend(&unknowns);
+        self.factors.steps.push(Step {
             unknowns,
             inverse,
             lower,
         });
     }
-    Factors { steps, checks }
 }
 
 fn invert(arena: &mut Arena, matrix: &Symmetric, unknowns: &[usize]) -> Vec<Vec<Expr>> {
@@ -243,7 +349,7 @@ fn invert(arena: &mut Arena, matrix: &Symmetric, unknowns: &[usize]) -> Vec<Vec<
             );
             vec![vec![c, -b], vec![-b, a]]
         }
-        _ => Vec::new(),
+        _ => unreachable!("a pivot that is inverted entry by entry has one or two unknowns"),
     }
 }
 
@@ -325,5 +431,28 @@ mod tests {
                 assert!((value - expected).abs() < 1e-15, "{values:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_number_that_is_round_off_is_recorded() {
+        // Two rows on one acceleration: the second pivot is 9e-16, not zero.
+        let mut arena = Arena::new();
+        let mut matrix = Symmetric::new(3);
+        for (k, l, value) in [(0, 0, 0.7), (0, 1, 0.9), (0, 2, 1.7)] {
+            let value = arena.constant(value);
+            matrix.set(k, l, value);
+        }
+        let pivots = [
+            Pivot::Acceleration(0),
+            Pivot::Multiplier(1),
+            Pivot::Multiplier(2),
+        ];
+        let factors = factorise(&mut arena, matrix, &pivots, &[]);
+        let [check] = factors.checks[..] else {
+            panic!("{:?}", factors.checks)
+        };
+        let pivot = arena.literal(check.pivot).expect("folds");
+        let is_round_off = pivot != 0.0 && pivot.abs() < 1e-14;
+        assert!(check.unknown == 2 && is_round_off, "{check:?} {pivot:e}");
     }
 }

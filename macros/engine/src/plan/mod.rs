@@ -8,9 +8,11 @@ pub mod candidates;
 pub mod eliminate;
 pub mod kernels;
 mod order;
+mod reach;
 pub mod readings;
 pub mod system;
 pub mod time;
+mod tree;
 
 use crate::symbolic::vector::Frame;
 

@@ -1,10 +1,19 @@
-//! The order of elimination: bodies from the leaves of a spanning tree to the ground, rows of a body's joint right behind it,
-//! closing joints last.
+//! The order of elimination: bodies from the leaves of a spanning tree to the ground, rows of a body's joint behind it as soon as
+//! they are safe, closing joints last.
+//!
+//! A row may follow the bodies that are eliminated already if their accelerations determine its multiplier in every regular
+//! configuration. The bodies that rows have tied together so far make a part of the mechanism, and what is left of the
+//! mechanism is felt through these rows only. Were their gradients on the part dependent, a combination of the rows would act with
+//! no force and no moment on the part; where they hold it against *one* other body, or against the ground, reaction and action
+//! cancel, and it would act on nothing: the rows of `D` would be dependent. With two bodies outside the part this does
+//! not follow, and the row waits.
 
-use std::collections::VecDeque;
+use std::collections::BTreeSet;
 
 use super::Pivot;
 use super::kernels::initial_state;
+use super::reach::Reach;
+use super::tree::Tree;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::evaluate::evaluate;
@@ -12,57 +21,6 @@ use crate::symbolic::scene::{Constraint, Scene};
 use crate::symbolic::twist::{ScalarExpr, VectorExpr};
 use crate::symbolic::vector::Triple;
 
-/// Bodies from the leaves to the ground with the joint towards the ground, and the joints left over.
-pub(super) struct Tree {
-    bodies: Vec<(usize, Option<usize>)>,
-    closing: Vec<usize>,
-    /// The body that each joint carries, `None` for a closing joint.
-    pub(super) child: Vec<Option<usize>>,
-}
-
-/// A spanning tree of the bodies, breadth first from the ground.
-pub(super) fn tree(model: &Model) -> Tree {
-    let mut parent: Vec<Option<Option<usize>>> = vec![None; model.bodies.len()];
-    let mut child = vec![None; model.joints.len()];
-    let mut order = Vec::new();
-    let mut queue = VecDeque::from([None]);
-    for root in 0..=model.bodies.len() {
-        while let Some(at) = queue.pop_front() {
-            for (place, joint) in model.joints.iter().enumerate() {
-                if !joint.bodies.contains(&at) {
-                    continue;
-                }
-                for &next in joint.bodies.iter().flatten() {
-                    if parent[next].is_none() && child[place].is_none() {
-                        parent[next] = Some(Some(place));
-                        child[place] = Some(next);
-                        order.push(next);
-                        queue.push_back(Some(next));
-                    }
-                }
-            }
-        }
-        // Bodies without a way to the ground: the next one is a root.
-        if root < model.bodies.len() && parent[root].is_none() {
-            parent[root] = Some(None);
-            order.push(root);
-            queue.push_back(Some(root));
-        }
-    }
-    order.reverse();
-    let closing = (0..model.joints.len())
-        .filter(|&joint| child[joint].is_none())
-        .collect();
-    let bodies = order
-        .into_iter()
-        .map(|body| (body, parent[body].flatten()))
-        .collect();
-    Tree {
-        bodies,
-        closing,
-        child,
-    }
-}
 /// Coordinates at the start, where the macro can see them.
 pub(super) struct StartValues {
     coordinates: Vec<Option<f64>>,
@@ -89,67 +47,176 @@ impl StartValues {
     }
 }
 
+/// A part of the mechanism that is eliminated and held together by rows that are.
+#[derive(Clone, Default)]
+struct Part {
+    bodies: BTreeSet<usize>,
+    /// What its rows hold it against.
+    outside: BTreeSet<Option<usize>>,
+}
+
+/// The kinds of pivots to look for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Kinds {
+    /// Point rows paired with accelerations.
+    pub(super) saddles: bool,
+    /// Two single rows paired with two components of the angular acceleration.
+    pub(super) forbidden: bool,
+}
+
 /// Picks pivots.
 pub(super) struct Order<'a> {
     pub(super) scene: &'a Scene,
     pub(super) coupling: &'a [Vec<(usize, Expr)>],
     pub(super) kinds: &'a [BodyKind],
     pub(super) start: &'a StartValues,
-    pub(super) done: Vec<bool>,
+    pub(super) reach: &'a Reach,
+    done: Vec<bool>,
+    parts: Vec<Part>,
 }
 
-impl Order<'_> {
+impl<'a> Order<'a> {
+    pub(super) fn new(
+        scene: &'a Scene,
+        coupling: &'a [Vec<(usize, Expr)>],
+        kinds: &'a [BodyKind],
+        start: &'a StartValues,
+        reach: &'a Reach,
+    ) -> Self {
+        Self {
+            scene,
+            coupling,
+            kinds,
+            start,
+            reach,
+            done: Vec::new(),
+            parts: Vec::new(),
+        }
+    }
+
     /// Pivots from first to last, and the determinants of the forbidden motions at the start.
-    pub(super) fn pivots(
-        &mut self,
-        tree: &Tree,
-        saddles: bool,
-        forbidden: bool,
-    ) -> (Vec<Pivot>, Vec<f64>) {
+    pub(super) fn pivots(&mut self, tree: &Tree, kinds: Kinds) -> (Vec<Pivot>, Vec<f64>) {
         let scene = self.scene;
         let velocities = scene.layout.velocities;
         self.done = vec![false; velocities + scene.layout.rows];
+        self.parts = Vec::new();
         let mut pivots = Vec::new();
         let mut determinants = Vec::new();
+        let mut waiting: Vec<usize> = Vec::new();
         for &(body, joint) in &tree.bodies {
             let first = scene.layout.velocity[body];
-            if let Some(joint) = joint.filter(|_| saddles) {
+            self.enter(body);
+            if let Some(joint) = joint.filter(|_| kinds.saddles) {
                 for row in self.carried_rows(joint, first) {
+                    let rows = [row, row + 1, row + 2];
+                    let is_free = |row: &usize| self.is_first_on(*row, body);
+                    if !rows.iter().all(is_free) || !self.hold(&rows) {
+                        continue;
+                    }
                     for k in 0..3 {
                         self.take(&mut pivots, Pivot::Saddle(first + k, velocities + row + k));
                     }
                 }
             }
-            if let Some(joint) = joint.filter(|_| forbidden)
-                && let Some((pivot, determinant)) = self.forbidden_motion(joint, body)
-                && self.take(&mut pivots, pivot)
+            if let Some(joint) = joint.filter(|_| kinds.forbidden)
+                && let Some((accelerations, rows, determinant)) = self.forbidden_motion(joint, body)
+                && rows.iter().all(|&row| self.is_first_on(row, body))
+                && self.hold(&rows)
             {
+                let rows = rows.map(|row| velocities + row);
+                self.take(&mut pivots, Pivot::Forbidden(accelerations, rows));
                 determinants.push(determinant);
             }
             for k in 0..self.kinds[body].velocities() {
                 self.take(&mut pivots, Pivot::Acceleration(first + k));
             }
-            for row in joint.map_or_else(Vec::new, |joint| rows_of(scene, joint)) {
-                self.take(&mut pivots, Pivot::Multiplier(velocities + row));
-            }
+            waiting.extend(joint.map_or_else(Vec::new, |joint| rows_of(scene, joint)));
+            waiting.retain(|&row| {
+                let ready = self.done[velocities + row] || self.hold(&[row]);
+                if ready {
+                    self.take(&mut pivots, Pivot::Multiplier(velocities + row));
+                }
+                !ready
+            });
         }
-        for &joint in &tree.closing {
-            for row in rows_of(scene, joint) {
-                self.take(&mut pivots, Pivot::Multiplier(velocities + row));
-            }
+        let closing = tree.closing.iter().flat_map(|&joint| rows_of(scene, joint));
+        for row in waiting.into_iter().chain(closing) {
+            self.take(&mut pivots, Pivot::Multiplier(velocities + row));
         }
         (pivots, determinants)
     }
 
+    /// The accelerations of a body are eliminated from here on.
+    fn enter(&mut self, body: usize) {
+        let part = Part {
+            bodies: BTreeSet::from([body]),
+            outside: BTreeSet::new(),
+        };
+        self.parts.push(part);
+        self.join(|part| part.bodies.contains(&body) || part.outside.contains(&Some(body)));
+    }
+
+    /// Makes one part of several.
+    fn join(&mut self, joined: impl Fn(&Part) -> bool) {
+        let (together, mut rest): (Vec<Part>, Vec<Part>) =
+            self.parts.drain(..).partition(|part| joined(part));
+        let mut whole = Part::default();
+        for part in together {
+            whole.bodies.extend(part.bodies);
+            whole.outside.extend(part.outside);
+        }
+        let Part { bodies, outside } = &mut whole;
+        outside.retain(|body| body.is_none_or(|body| !bodies.contains(&body)));
+        rest.push(whole);
+        self.parts = rest;
+    }
+
+    /// Adds rows to what holds the parts together, if their multipliers are determined with them.
+    fn hold(&mut self, rows: &[usize]) -> bool {
+        let touched: BTreeSet<Option<usize>> = rows
+            .iter()
+            .flat_map(|&row| self.reach.rows[row].iter().copied())
+            .collect();
+        let is_held = |part: &Part| {
+            part.bodies
+                .iter()
+                .any(|&body| touched.contains(&Some(body)))
+        };
+        let held: Vec<&Part> = self.parts.iter().filter(|part| is_held(part)).collect();
+        let is_inside = |body: Option<usize>| {
+            body.is_some_and(|body| held.iter().any(|part| part.bodies.contains(&body)))
+        };
+        let outside: BTreeSet<Option<usize>> = held
+            .iter()
+            .flat_map(|part| part.outside.iter().copied())
+            .chain(touched.iter().copied())
+            .filter(|&body| !is_inside(body))
+            .collect();
+        if held.is_empty() || outside.len() > 1 {
+            return false;
+        }
+        self.join(is_held);
+        if let Some(whole) = self.parts.last_mut() {
+            whole.outside = outside;
+        }
+        true
+    }
+
+    /// Whether no body that a row acts on was eliminated before this one, so that the row is as it was assembled.
+    fn is_first_on(&self, row: usize, body: usize) -> bool {
+        let mut bodies = self.reach.rows[row].iter().flatten();
+        bodies.all(|&other| {
+            other == body || !self.parts.iter().any(|part| part.bodies.contains(&other))
+        })
+    }
+
     /// Adds a pivot if none of its unknowns was eliminated before.
-    fn take(&mut self, pivots: &mut Vec<Pivot>, pivot: Pivot) -> bool {
+    fn take(&mut self, pivots: &mut Vec<Pivot>, pivot: Pivot) {
         let unknowns = pivot.unknowns();
-        let free = unknowns.iter().all(|&k| !self.done[k]);
-        if free {
+        if unknowns.iter().all(|&k| !self.done[k]) {
             unknowns.iter().for_each(|&k| self.done[k] = true);
             pivots.push(pivot);
         }
-        free
     }
 
     /// The first rows of the constraints of a joint that carry the accelerations from `first` on.
@@ -175,7 +242,7 @@ impl Order<'_> {
     ///
     /// The rows must prescribe the scalar products of one vector `h` on the body with two vectors `a`, `b` on another: then
     /// the determinant is `(a x b) . h`, whose size the constraints fix.
-    fn forbidden_motion(&self, joint: usize, body: usize) -> Option<(Pivot, f64)> {
+    fn forbidden_motion(&self, joint: usize, body: usize) -> Option<([usize; 2], [usize; 2], f64)> {
         if self.kinds[body] != BodyKind::Rigid {
             return None;
         }
@@ -223,11 +290,7 @@ impl Order<'_> {
         );
         let determinant = a * d - b * c;
         let well_posed = determinant.abs() > 0.1 * a.hypot(b) * c.hypot(d);
-        let velocities = self.scene.layout.velocities;
-        well_posed.then_some((
-            Pivot::Forbidden([k, l], [velocities + m, velocities + n]),
-            determinant,
-        ))
+        well_posed.then_some(([k, l], [m, n], determinant))
     }
 }
 

@@ -1,0 +1,7 @@
+//! Plans: what they say is correct, whatever it is, and does not depend on the order of declaration.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod dense;
+mod library;
+mod pivots;
