@@ -96,11 +96,19 @@ impl Reach {
         Self { rows, constraints }
     }
 
-    /// Whether a joint acts on a body at all.
-    pub(super) fn acts(&self, joint: usize, body: usize) -> bool {
+    /// How many rows of a joint act on a body, those of vector constraints counted twice; `None` if none does.
+    pub(super) fn weight(&self, joint: usize, body: usize) -> Option<usize> {
         let own = self.constraints.iter().filter(|(of, _)| *of == joint);
-        own.flat_map(|(_, rows)| rows.clone())
-            .any(|row| self.rows[row].contains(&Some(body)))
+        let weight: usize = own
+            .map(|(_, rows)| {
+                let acts = |row: &usize| self.rows[*row].contains(&Some(body));
+                match rows.clone().filter(acts).count() {
+                    3 => 6,
+                    count => count,
+                }
+            })
+            .sum();
+        (weight > 0).then_some(weight)
     }
 }
 

@@ -14,75 +14,69 @@ pub(super) struct Tree {
 }
 
 /// What speaks for a joint to carry a body, most important first.
-type Merit = (Reverse<usize>, Reverse<usize>, String, String);
+type Merit = (Reverse<usize>, usize, String, String);
 
-/// A spanning tree of the bodies, breadth first from the ground.
+/// A spanning tree of the bodies, grown from the ground.
 ///
-/// Among the joints that could carry a body, the one that takes most of its freedom does: points in common first, then the number
-/// of equations, then the names. The order of the fields has no say.
+/// Of all joints that could carry a body, the one with most equations on it does, where those of a vector count twice because they are
+/// eliminated together with accelerations; then the one nearest to the ground, and among equals the names decide. The order of
+/// the fields has no say.
 pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
-    let merit = |joint: usize, body: usize| -> Merit {
-        let (mut vectors, mut rows) = (0, 0);
-        for (_, own) in reach.constraints.iter().filter(|(of, _)| *of == joint) {
-            let acting = |row: &usize| reach.rows[*row].contains(&Some(body));
-            let acting = own.clone().filter(acting).count();
-            rows += acting;
-            vectors += usize::from(acting == 3);
-        }
-        // Equations that are left out follow from others: the joint forbids what it was defined to.
-        rows += model.joints[joint].dropped.len();
-        (
-            Reverse(vectors),
-            Reverse(rows),
-            model.joints[joint].name.to_string(),
-            model.bodies[body].name.to_string(),
-        )
-    };
     let mut parent: Vec<Option<usize>> = vec![None; model.bodies.len()];
     let mut child = vec![None; model.joints.len()];
-    let mut order: Vec<usize> = Vec::new();
-    let mut reached = vec![None];
+    // How many joints each body is away from the ground, or from the root of its tree.
+    let mut depth: Vec<Option<usize>> = vec![None; model.bodies.len()];
     loop {
-        let mut offers: Vec<(Merit, usize, usize)> = Vec::new();
+        let mut best: Option<(Merit, usize, usize)> = None;
         for (place, joint) in model.joints.iter().enumerate() {
-            if child[place].is_some() || !joint.bodies.iter().any(|body| reached.contains(body)) {
+            let known = joint.bodies.iter().filter_map(|body| match body {
+                Some(body) => depth[*body],
+                None => Some(0),
+            });
+            let Some(from) = known.min().filter(|_| child[place].is_none()) else {
                 continue;
-            }
+            };
             for &body in joint.bodies.iter().flatten() {
-                let acts = reach.acts(place, body);
-                if acts && !order.contains(&body) {
-                    offers.push((merit(place, body), place, body));
+                let Some(weight) = reach.weight(place, body) else {
+                    continue;
+                };
+                // Equations that are left out follow from others: the joint forbids what it was defined to.
+                let weight = Reverse(weight + joint.dropped.len());
+                let names = [&joint.name, &model.bodies[body].name].map(ToString::to_string);
+                let [name, body_name] = names;
+                let merit = (weight, from, name, body_name);
+                let is_better = best.as_ref().is_none_or(|(known, ..)| merit < *known);
+                if depth[body].is_none() && is_better {
+                    best = Some((merit, place, body));
                 }
             }
         }
-        offers.sort();
-        reached = Vec::new();
-        for (_, joint, body) in offers {
-            if child[joint].is_none() && parent[body].is_none() {
-                parent[body] = Some(joint);
-                child[joint] = Some(body);
-                reached.push(Some(body));
-            }
+        if let Some(((_, from, ..), joint, body)) = best {
+            parent[body] = Some(joint);
+            child[joint] = Some(body);
+            depth[body] = Some(from + 1);
+            continue;
         }
-        // The strongest joint of a level is the last here, and the first to be eliminated.
-        order.extend(reached.iter().rev().flatten());
-        if reached.is_empty() {
-            // Bodies without a way to the ground: the one with most joints is a root.
-            let joints = |body: usize| {
-                let joints = model.joints.iter();
-                joints
-                    .filter(|joint| joint.bodies.contains(&Some(body)))
-                    .count()
-            };
-            let rest = (0..model.bodies.len()).filter(|body| !order.contains(body));
-            let root = rest
-                .min_by_key(|&body| (Reverse(joints(body)), model.bodies[body].name.to_string()));
-            let Some(root) = root else { break };
-            order.push(root);
-            reached.push(Some(root));
-        }
+        // Bodies without a way to the ground: the one with most joints is a root.
+        let joints = |body: usize| {
+            let joints = model.joints.iter();
+            joints
+                .filter(|joint| joint.bodies.contains(&Some(body)))
+                .count()
+        };
+        let rest = (0..model.bodies.len()).filter(|&body| depth[body].is_none());
+        let root =
+            rest.min_by_key(|&body| (Reverse(joints(body)), model.bodies[body].name.to_string()));
+        let Some(root) = root else { break };
+        depth[root] = Some(0);
     }
-    order.reverse();
+    let mut order: Vec<usize> = (0..model.bodies.len()).collect();
+    order.sort_by_key(|&body| {
+        let weight = parent[body].and_then(|joint| reach.weight(joint, body));
+        let joint = parent[body].map(|joint| model.joints[joint].name.to_string());
+        let name = model.bodies[body].name.to_string();
+        (Reverse(depth[body]), Reverse(weight), joint, name)
+    });
     let mut closing: Vec<usize> = (0..model.joints.len())
         .filter(|&joint| child[joint].is_none())
         .collect();

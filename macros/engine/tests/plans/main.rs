@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod declaration;
 mod dense;
 mod library;
 mod pivots;
