@@ -74,17 +74,19 @@ pub fn write(
         writer.operands.clear();
         writer.node(place);
     }
-    let outputs = outputs
+    let references = outputs
         .iter()
         .map(|&output| {
-            let reference = writer.reference(output);
-            writer.last_use.insert(output.node(), usize::MAX);
-            reference
+            writer.operands.clear();
+            writer.reference(output)
         })
         .collect();
+    // Behind all statements, also those that load an output.
+    let used_last = outputs.iter().map(|output| (output.node(), usize::MAX));
+    writer.last_use.extend(used_last);
     StraightLine {
         statements: writer.written(),
-        outputs,
+        outputs: references,
     }
 }
 
