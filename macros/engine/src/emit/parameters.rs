@@ -43,7 +43,7 @@ fn positive_symbols(model: &Model) -> impl Iterator<Item = &Symbol> {
             .into_iter()
             .chain(body.inertia)
             .filter_map(|number| match number {
-                Number::Symbol(place) => model.symbols.get(place as usize),
+                Number::Symbol(place) => Some(&model.symbols[place as usize]),
                 Number::Literal(_) => None,
             })
     })
@@ -188,10 +188,7 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
 fn number(model: &Model, number: Number) -> TokenStream {
     match number {
         Number::Literal(value) => quote!(#value),
-        Number::Symbol(place) => model
-            .symbols
-            .get(place as usize)
-            .map_or(quote!(0.0), |s| s.expression.clone()),
+        Number::Symbol(place) => model.symbols[place as usize].expression.clone(),
     }
 }
 

@@ -499,6 +499,36 @@ impl JointDef {
         rows.chain(actions).chain(&self.displacement)
     }
 
+    /// The first body on which a vector parameter is used; the first of all if it is used nowhere.
+    #[must_use]
+    pub fn first_body_of(&self, parameter: usize) -> usize {
+        let mut first: Option<usize> = None;
+        let mut meet = |body: usize| first = Some(first.map_or(body, |known| known.min(body)));
+        let turns = self.turns.iter().chain(&self.angle);
+        for turn in turns.filter(|turn| turn.axis == parameter) {
+            meet(turn.from);
+            meet(turn.to);
+        }
+        let defaults = self.parameters.iter().filter_map(|p| p.default.as_ref());
+        for term in self.terms().chain(defaults) {
+            term.visit(&mut |term| match term {
+                Term::Point { body, parameter: p }
+                | Term::Fixed { body, parameter: p }
+                | Term::Normal {
+                    body, parameter: p, ..
+                } if *p == parameter => {
+                    meet(*body);
+                }
+                Term::Angle(turn) if turn.axis == parameter => {
+                    meet(turn.from);
+                    meet(turn.to);
+                }
+                _ => (),
+            });
+        }
+        first.unwrap_or(0)
+    }
+
     /// The place of the parameter at whose point reactions are given.
     #[must_use]
     pub fn reaction_point(&self) -> Option<usize> {

@@ -47,9 +47,8 @@ fn angles(model: &Model) -> Vec<(usize, Kernel)> {
             continue;
         };
         let kernel = with_scene(model, |scene| {
-            let Some(copies) = scene.copies[place][angle.axis].clone() else {
-                return Vec::new();
-            };
+            let copies = scene.copies[place][angle.axis].clone();
+            let copies = copies.expect("the axis of an angle has copies");
             let (i, j) = (joint.bodies[angle.from], joint.bodies[angle.to]);
             let counter = Counter {
                 element: place,
@@ -58,9 +57,9 @@ fn angles(model: &Model) -> Vec<(usize, Kernel)> {
             let counter = model.counters().iter().position(|known| *known == counter);
             let frame = |body: Option<usize>| body.map_or(Frame::Global, Frame::Body);
             let space = &mut scene.space;
-            let [n1, n2] = copies.normals[0].map(|n| space.native(frame(i), n));
-            let moving = space.native(frame(j), copies.normals[1][0]);
-            let axis = space.native(frame(i), copies.vector[0]);
+            let [n1, n2] = copies.normals[angle.from].map(|n| space.native(frame(i), n));
+            let moving = space.native(frame(j), copies.normals[angle.to][0]);
+            let axis = space.native(frame(i), copies.vector[angle.from]);
             let spin = |body: Option<usize>| -> Option<VectorId> {
                 body.map(|body| scene.motion.spin[body])
             };
@@ -93,9 +92,8 @@ fn points(model: &Model) -> Vec<(usize, usize, Kernel)> {
         };
         for body in 0..joint.bodies.len() {
             let kernel = with_scene(model, |scene| {
-                scene.copies[place][parameter]
-                    .as_ref()
-                    .map_or(vec![Arena::ZERO; 3], |copies| copies.vector[body].into())
+                let copies = scene.copies[place][parameter].as_ref();
+                copies.expect("a point has copies").vector[body].into()
             });
             points.push((place, body, kernel));
         }
@@ -112,9 +110,8 @@ fn displacements(model: &Model) -> Vec<(usize, Kernel)> {
     });
     with.map(|joint| {
         let kernel = with_scene(model, |scene| {
-            let Some(displacement) = scene.displacements[joint].clone() else {
-                return Vec::new();
-            };
+            let displacement = scene.displacements[joint].clone();
+            let displacement = displacement.expect("its definition has a displacement");
             let (space, motion) = (&mut scene.space, &scene.motion);
             vec![
                 displacement.value(space, motion),

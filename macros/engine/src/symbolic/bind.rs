@@ -6,7 +6,7 @@ use super::functions::AngleExpr;
 use super::start;
 use super::twist::{ScalarExpr, VectorExpr};
 use super::vector::{Triple, ZERO};
-use crate::model::{Action, Binding, Function, JointUse, LawTerm, Model, Number, Term, Turn};
+use crate::model::{Action, Binding, Function, JointUse, LawTerm, Model, Term, Turn};
 
 /// What a force does, bound to bodies.
 #[derive(Clone, Debug)]
@@ -29,12 +29,10 @@ pub(super) fn all_copies(arena: &mut Arena, model: &Model) -> Vec<Vec<Option<Cop
             let parameters = &model.definition(element).parameters;
             parameters
                 .iter()
-                .zip(&element.bindings)
-                .map(|(parameter, binding)| {
-                    parameter
-                        .kind
-                        .is_vector()
-                        .then(|| copies(arena, model, element, parameter.kind, binding))
+                .enumerate()
+                .map(|(place, parameter)| {
+                    let is_vector = parameter.kind.is_vector();
+                    is_vector.then(|| copies(arena, model, element, place))
                 })
                 .collect()
         })
@@ -52,15 +50,16 @@ pub(super) struct Binder<'a> {
 
 impl Binder<'_> {
     fn copy(&self, parameter: usize, body: usize) -> Triple {
-        self.copies[parameter]
-            .as_ref()
-            .map_or(ZERO, |copies| copies.vector[body])
+        self.of(parameter).vector[body]
+    }
+
+    fn of(&self, parameter: usize) -> &Copies {
+        let copies = self.copies[parameter].as_ref();
+        copies.expect("a parameter that is used as a vector has copies")
     }
 
     fn normal(&self, parameter: usize, body: usize, which: usize) -> VectorExpr {
-        let normal = self.copies[parameter]
-            .as_ref()
-            .map_or(ZERO, |copies| copies.normals[body][which]);
+        let normal = self.of(parameter).normals[body][which];
         VectorExpr::Fixed(self.element.bodies[body], normal)
     }
 
@@ -175,7 +174,7 @@ impl Binder<'_> {
                     .collect();
                 match &self.element.bindings[*parameter] {
                     Binding::Law(law) => expand(arena, law, &arguments),
-                    _ => ScalarExpr::Constant(Arena::ZERO),
+                    other => unreachable!("a law is bound to a law, not to {other:?}"),
                 }
             }
             Term::Point { .. }
@@ -196,7 +195,10 @@ impl Binder<'_> {
         ) {
             (Binding::Scalar(value), _) => ScalarExpr::Constant(number(arena, *value)),
             (_, Some(default)) => self.scalar(arena, default),
-            _ => ScalarExpr::Constant(number(arena, Number::ZERO)),
+            (other, None) => unreachable!(
+                "a number is given or has a default, but `{}` is {other:?}",
+                definition.parameters[parameter].name
+            ),
         }
     }
 

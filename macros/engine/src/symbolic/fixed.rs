@@ -68,11 +68,14 @@ pub(super) fn apply(arena: &mut Arena, m: [Triple; 3], v: Triple) -> Triple {
     m.map(|row| dot(arena, row, v))
 }
 
-/// Takes components that are round-off beside `size` as zero, so that they fold.
+/// Takes components that are round-off beside `size` as zero, and those that are `size` but for round-off as `size`, so that they fold.
 pub(super) fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
+    let round_off = 8.0 * f64::EPSILON * size;
     v.map(|component| match arena.literal(component) {
-        Some(value) if value.abs() <= 8.0 * f64::EPSILON * size => Arena::ZERO,
-        Some(value) if size == 1.0 => arena.constant(snap(value)),
+        Some(value) if value.abs() <= round_off => Arena::ZERO,
+        Some(value) if (value.abs() - size).abs() < round_off => {
+            arena.constant(size.copysign(value))
+        }
         _ => component,
     })
 }
@@ -168,71 +171,128 @@ pub struct Copies {
 }
 
 /// The copies of a vector parameter on the bodies of a joint.
-pub fn copies(
-    arena: &mut Arena,
-    model: &Model,
-    joint: &JointUse,
-    kind: ParameterKind,
-    binding: &Binding,
-) -> Copies {
+///
+/// All bodies have the same normals in the described configuration where their axes are the same, and so angles are zero there. Axes that
+/// are given by body need not be parallel: then the normals are those of the first body that the definition speaks of, taken along by
+/// the least rotation that makes the axes parallel, so that every body has a right-handed frame with its own axis.
+pub fn copies(arena: &mut Arena, model: &Model, joint: &JointUse, parameter: usize) -> Copies {
+    let definition = model.definition(joint);
+    let kind = definition.parameters[parameter].kind;
+    let binding = &joint.bindings[parameter];
     let placements: Vec<_> = joint
         .bodies
         .iter()
         .map(|&body| placement(arena, model, body))
         .collect();
-    let mut result = Copies {
-        vector: Vec::new(),
-        normals: Vec::new(),
-    };
-    let mut normals: Option<[Triple; 2]> = None;
-    for (place, at) in placements.iter().enumerate() {
-        let into_body = transpose(at.axes);
-        let mut vector = match binding {
-            Binding::Scalar(_) | Binding::Law(_) | Binding::Default => super::vector::ZERO,
-            Binding::Local(given) => {
-                let given = triple(
-                    arena,
-                    given.get(place).copied().unwrap_or([Number::ZERO; 3]),
-                );
-                let scale = size(arena, given);
-                let turned = apply(arena, at.user_axes, given);
-                clean(arena, turned, scale)
-            }
-            Binding::Global(given) => {
-                let given = triple(arena, *given);
-                if kind == ParameterKind::Point {
-                    let scale = size(arena, given).max(size(arena, at.position));
-                    let arm = [0, 1, 2].map(|k| arena.sub(given[k], at.position[k]));
-                    let turned = apply(arena, into_body, arm);
-                    clean(arena, turned, scale)
-                } else {
-                    let scale = size(arena, given);
-                    let turned = apply(arena, into_body, given);
-                    clean(arena, turned, scale)
-                }
-            }
+    let mut vector: Vec<Triple> = placements
+        .iter()
+        .enumerate()
+        .map(|(place, at)| copy(arena, kind, binding, place, at))
+        .collect();
+    if kind != ParameterKind::Axis {
+        return Copies {
+            vector,
+            normals: Vec::new(),
         };
-        if kind == ParameterKind::Axis {
-            vector = normalise(arena, vector);
-            let global = *normals.get_or_insert_with(|| {
-                // From the first body; the others get the same normals at the start, so that angles start at zero.
-                let on_first = match binding {
-                    Binding::Global(given) => {
-                        let given = triple(arena, *given);
-                        normalise(arena, given)
-                    }
-                    _ => apply(arena, at.axes, vector),
-                };
-                let first = normal(arena, on_first);
-                let second = cross(arena, on_first, first);
-                [first, clean(arena, second, 1.0)]
-            });
-            result.normals.push(global.map(|n| {
+    }
+    vector = vector
+        .into_iter()
+        .map(|axis| normalise(arena, axis))
+        .collect();
+    let of_body = |arena: &mut Arena, place: usize| -> Triple {
+        apply(arena, placements[place].axes, vector[place])
+    };
+    let (first, is_common) = match binding {
+        Binding::Global(given) => {
+            let given = triple(arena, *given);
+            (normalise(arena, given), true)
+        }
+        _ => (of_body(arena, definition.first_body_of(parameter)), false),
+    };
+    let normals = {
+        let n = normal(arena, first);
+        let second = cross(arena, first, n);
+        [n, clean(arena, second, 1.0)]
+    };
+    let normals = (0..placements.len())
+        .map(|place| {
+            let own = if is_common {
+                normals
+            } else {
+                let axis = of_body(arena, place);
+                taken_along(arena, normals, first, axis)
+            };
+            let into_body = transpose(placements[place].axes);
+            own.map(|n| {
                 let turned = apply(arena, into_body, n);
                 clean(arena, turned, 1.0)
-            }));
+            })
+        })
+        .collect();
+    Copies { vector, normals }
+}
+
+/// The components of a vector parameter in the principal axes of a body.
+fn copy(
+    arena: &mut Arena,
+    kind: ParameterKind,
+    binding: &Binding,
+    place: usize,
+    at: &Placement,
+) -> Triple {
+    match binding {
+        Binding::Local(given) => {
+            let given = triple(arena, given[place]);
+            let turned = apply(arena, at.user_axes, given);
+            let scale = size(arena, given);
+            clean(arena, turned, scale)
         }
-        result.vector.push(vector);
+        Binding::Global(given) => {
+            let given = triple(arena, *given);
+            let (arm, scale) = if kind == ParameterKind::Point {
+                let scale = size(arena, given).max(size(arena, at.position));
+                let arm = [0, 1, 2].map(|k| arena.sub(given[k], at.position[k]));
+                (arm, scale)
+            } else {
+                (given, size(arena, given))
+            };
+            let turned = apply(arena, transpose(at.axes), arm);
+            clean(arena, turned, scale)
+        }
+        Binding::Scalar(_) | Binding::Law(_) | Binding::Default => {
+            unreachable!("points, axes and vectors have three components: `check` has seen to it")
+        }
     }
-    result
+}
+
+/// Two normals of an axis `a`, taken along by the least rotation that makes `a` parallel to another axis, in its direction or
+/// against it: `n - (n . b) (a + b) / (1 + a . b)` with `b` the other axis or its opposite, whichever is nearer. The second is turned where `b` is the
+/// opposite, so that both are right-handed with the other axis.
+fn taken_along(arena: &mut Arena, normals: [Triple; 2], a: Triple, axis: Triple) -> [Triple; 2] {
+    let cosine = dot(arena, a, axis);
+    let sign = arena.sign(cosine);
+    let b = axis.map(|component| arena.mul(sign, component));
+    let difference = [0, 1, 2].map(|k| arena.sub(b[k], a[k]));
+    let is_parallel = |component: &Expr| {
+        let value = arena.literal(*component);
+        value.is_some_and(|value| value.abs() <= 8.0 * f64::EPSILON)
+    };
+    let [first, second] = if difference.iter().all(is_parallel) {
+        normals
+    } else {
+        let along = arena.mul(sign, cosine);
+        let denominator = arena.add(Arena::ONE, along);
+        let factor = arena.reciprocal(denominator);
+        normals.map(|n| {
+            let share = dot(arena, n, b);
+            let share = arena.mul(share, factor);
+            let turned = [0, 1, 2].map(|k| {
+                let sum = arena.add(a[k], b[k]);
+                let term = arena.mul(share, sum);
+                arena.sub(n[k], term)
+            });
+            clean(arena, turned, 1.0)
+        })
+    };
+    [first, second.map(|component| arena.mul(sign, component))]
 }

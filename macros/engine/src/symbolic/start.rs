@@ -20,17 +20,17 @@ pub(super) fn vector(arena: &mut Arena, model: &Model, expr: &VectorExpr) -> Tri
             let turned = apply(arena, axes, *s);
             let scale = size(arena, *s).max(size(arena, position));
             let point = [0, 1, 2].map(|k| arena.add(position[k], turned[k]));
-            clean(arena, point, scale.max(2.0))
+            clean(arena, point, 2.0 * scale)
         }
         VectorExpr::Sum(terms) => {
             let mut sum = ZERO;
             let mut scale = 0.0_f64;
             for (factor, term) in terms {
                 let term = vector(arena, model, term);
+                let term = term.map(|component| arena.mul(*factor, component));
                 scale = scale.max(size(arena, term));
                 for (sum, component) in sum.iter_mut().zip(term) {
-                    let product = arena.mul(*factor, component);
-                    *sum = arena.add(*sum, product);
+                    *sum = arena.add(*sum, component);
                 }
             }
             clean(arena, sum, scale)
