@@ -3,7 +3,7 @@
 use syn::{Expr, ExprLit, Lit};
 
 use crate::diag::{Faults, did_you_mean, list};
-use crate::model::{Model, Rank, Redundant, RedundantRow};
+use crate::model::{Contradiction, Model, Rank, Redundant, RedundantRow};
 use crate::rank::judge;
 use crate::syntax::ungroup;
 
@@ -38,6 +38,13 @@ pub(super) fn check(
     faults: &mut Faults,
 ) {
     model.independence = judge(model);
+    // Without the time nothing goes wrong unseen: the start cannot be assembled.
+    if model.independence.is_driven || wish == Redundant::Drop {
+        contradictions(model, faults);
+        if faults.any() {
+            return;
+        }
+    }
     match wish {
         Redundant::Drop if !matches!(model.independence.rank, Rank::Decided { .. }) => {
             faults.at(expr, undecided(model));
@@ -51,6 +58,65 @@ pub(super) fn check(
             model.independence.dropped = true;
         }
     }
+}
+
+/// One fault for each equation that contradicts others.
+fn contradictions(model: &Model, faults: &mut Faults) {
+    for contradiction in &model.independence.contradictions {
+        let Contradiction {
+            joint,
+            row,
+            against,
+            time,
+            by_speed,
+        } = contradiction;
+        let name = &model.joints[*joint].name;
+        let equations = match against.as_slice() {
+            [] => "what cannot change".into(),
+            several => {
+                let names = several.iter().map(|&joint| &model.joints[joint].name);
+                format!("equations of {}", list(names))
+            }
+        };
+        let (what, cure) = match (model.independence.is_driven, by_speed) {
+            (false, _) => (
+                "where those hold, it does not".into(),
+                "look for a point, an axis, a length or a law that does not fit",
+            ),
+            (true, by_speed) => {
+                let how = if *by_speed {
+                    "it asks for another speed"
+                } else {
+                    "it is violated"
+                };
+                let time = brief(*time);
+                (
+                    format!(
+                        "where those hold, {how} at time = {time} s, so that no motion satisfies all of them"
+                    ),
+                    "let them ask for the same, or leave one out",
+                )
+            }
+        };
+        faults.at(
+            name,
+            format!(
+                "`{name}[{row}]` contradicts {equations}: {what}; {cure} (`redundant` is no cure)"
+            ),
+        );
+    }
+}
+
+/// A time to three digits.
+fn brief(time: f64) -> String {
+    let digits = if time == 0.0 {
+        0
+    } else {
+        2 - time.abs().log10().floor() as i32
+    };
+    let scale = 10.0_f64.powi(digits);
+    let rounded = (time * scale).round() / scale;
+    format!("{rounded}")
 }
 
 /// Why equations that follow from others cannot be found, and what to do.

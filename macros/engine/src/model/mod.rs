@@ -11,4 +11,4 @@ pub use joint::{
 };
 pub use mechanism::{Binding, Body, BodyKind, JointUse, LawTerm, Model, RunTimeValue};
 pub use number::{Number, Symbol};
-pub use rank::{Independence, Rank, Redundant, RedundantRow};
+pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};

@@ -45,13 +45,32 @@ pub struct RedundantRow {
     pub follows_from: Vec<usize>,
 }
 
+/// An equation that cannot hold together with others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contradiction {
+    /// The joint.
+    pub joint: usize,
+    /// The place among the equations of the joint's definition.
+    pub row: usize,
+    /// The joints, in order, of the equations that it contradicts; itself among them if so.
+    pub against: Vec<usize>,
+    /// When it shows (s).
+    pub time: f64,
+    /// Whether it holds then, but asks for another speed.
+    pub by_speed: bool,
+}
+
 /// What was found out about the equations of a mechanism.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Independence {
     /// The rank.
     pub rank: Rank,
     /// The equations that can go so that the others are independent and say the same.
     pub redundant: Vec<RedundantRow>,
+    /// The equations that no motion satisfies together with the others. If there are any, redundant ones are not looked for.
+    pub contradictions: Vec<Contradiction>,
+    /// Whether the time stands in an equation.
+    pub is_driven: bool,
     /// Whether they are gone.
     pub dropped: bool,
 }

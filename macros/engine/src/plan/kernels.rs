@@ -142,7 +142,7 @@ impl Kernels {
                 .map(|joint| alone(model, joint).count())
                 .collect(),
             initial_state: initial_state(model),
-            counters: with_scene(model, counters),
+            counters: counters(model),
             power: with_scene(model, |scene| {
                 let powers = (0..model.forces.len()).map(|k| scene.energy_and_power(k)[1]);
                 let powers: Vec<Expr> = powers.collect();
@@ -336,7 +336,21 @@ fn turning(scene: &mut Scene, counter: usize) -> Expr {
     rate
 }
 
-fn counters(scene: &mut Scene) -> Vec<Expr> {
+/// The rates of the auxiliary variables.
+pub(crate) fn counter_rates(model: &Model) -> Kernel {
+    with_scene(model, |scene| {
+        (0..scene.counters.len())
+            .map(|place| turning(scene, place))
+            .collect()
+    })
+}
+
+/// The auxiliary variables, as the angles that they count.
+pub(crate) fn counters(model: &Model) -> Kernel {
+    with_scene(model, counted_angles)
+}
+
+fn counted_angles(scene: &mut Scene) -> Vec<Expr> {
     let Scene {
         space,
         motion,

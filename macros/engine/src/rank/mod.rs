@@ -7,16 +7,24 @@
 //! Which equations to leave out is a choice, and one that is sound here may be singular after half a turn. So where there is a
 //! choice, the mechanism is led on a tour through its motion, and rows are kept that stand out from each other all along.
 //!
+//! Where the time stands in an equation, rows may depend on each other at the start only, and equations that agree there may contradict
+//! each other later. So where there is a choice, the mechanism is followed in time, too.
+//!
 //! Columns are made comparable by the size of the mechanism, rows by their own length. A row that stands out from the
 //! others by less than [`TOLERANCE`] of its length depends on them.
 
+mod assemble;
 mod choice;
+mod contradiction;
 mod dense;
+mod geometry;
 mod motion;
+mod tour;
 
+use self::contradiction::Contradicted;
 use self::dense::{Rows, dot, independent, solve_normal};
-use self::motion::Constraints;
-use crate::model::{Independence, Model, Rank, RedundantRow};
+use self::motion::{Configuration, Constraints};
+use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
 
 /// Relative to the length of a row. Configurations are good to about 1e-12, and lengths and axes given to six digits
 /// are to count as what they are.
@@ -43,15 +51,143 @@ pub fn judge(model: &Model) -> Independence {
         return not(Rank::NotDecided);
     };
     let Some(start) = constraints.assembled(&described) else {
-        return not(Rank::NotAssembled);
+        let found = contradiction::at_start(&constraints, &described, &mut random);
+        let found = found.and_then(|(found, kept)| {
+            let rows = constraints.directions(&described, TOLERANCE)?;
+            Some(contradictions(model, found, &kept, &rows))
+        });
+        return Independence {
+            contradictions: found.unwrap_or_default(),
+            is_driven: constraints.is_driven(),
+            ..not(Rank::NotAssembled)
+        };
     };
+    let configurations = walk(&constraints, start.clone(), None, &mut random);
+    let Some(mut found) = Found::at(&constraints, configurations) else {
+        return not(Rank::NotDecided);
+    };
+    let has_choice = found.rank < model.layout().rows;
+    let mut missed = Vec::new();
+    let mut way = Vec::new();
+    if has_choice && constraints.is_driven() {
+        let agrees =
+            |near: &Configuration| contradiction::agreeing(&constraints, &start, &found.kept, near);
+        let course = tour::course(&constraints, &start, agrees);
+        let followed = course.reached.iter().take(course.followed);
+        way = followed
+            .filter_map(|at| constraints.directions(at, TOLERANCE))
+            .collect();
+        missed = course.missed;
+        let mut configurations = found.configurations;
+        let last = course.reached.len().saturating_sub(1);
+        for from in [last / 4, last / 2, last] {
+            if let Some(from) = course.reached.get(from) {
+                configurations.extend(walk(&constraints, from.clone(), None, &mut random));
+            }
+        }
+        configurations.extend(course.reached);
+        let Some(later) = Found::at(&constraints, configurations) else {
+            return not(Rank::NotDecided);
+        };
+        found = later;
+    }
+    let Found {
+        configurations,
+        directions,
+        rank,
+        at_start,
+        first_regular,
+        mut kept,
+    } = found;
+    let mut against = Vec::new();
+    if rank < model.layout().rows {
+        if constraints.is_driven() {
+            against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
+        }
+        if against.is_empty() {
+            against = parted(&constraints, &start, &kept, &missed, &mut random);
+        }
+        let contradictions = contradictions(model, against, &kept, &directions[first_regular]);
+        if !contradictions.is_empty() {
+            return Independence {
+                contradictions,
+                is_driven: constraints.is_driven(),
+                ..not(Rank::Decided { rank, at_start })
+            };
+        }
+        let heading = random.motion(model.layout().velocities);
+        let mut tour = tour::tour(&constraints, &start, heading);
+        // One way through the start.
+        tour.reverse();
+        tour.extend(way);
+        kept = choice::steady(kept, &tour, TOLERANCE);
+    }
+    Independence {
+        redundant: redundant(model, &kept, &directions[first_regular]),
+        is_driven: constraints.is_driven(),
+        ..not(Rank::Decided { rank, at_start })
+    }
+}
+
+/// What configurations tell of the rank.
+struct Found {
+    configurations: Vec<Configuration>,
+    directions: Vec<Rows>,
+    /// The largest.
+    rank: usize,
+    /// At the first.
+    at_start: usize,
+    /// The first configuration of the largest rank.
+    first_regular: usize,
+    /// As many rows, independent at all configurations of that rank if there are such.
+    kept: Vec<usize>,
+}
+
+impl Found {
+    fn at(constraints: &Constraints, configurations: Vec<Configuration>) -> Option<Self> {
+        let directions: Option<Vec<Rows>> = configurations
+            .iter()
+            .map(|at| constraints.directions(at, TOLERANCE))
+            .collect();
+        let directions = directions?;
+        let sets: Vec<Vec<usize>> = directions
+            .iter()
+            .map(|rows| independent(std::slice::from_ref(rows), TOLERANCE))
+            .collect();
+        let rank = sets.iter().map(Vec::len).max().unwrap_or(0);
+        let regular: Vec<usize> = (0..sets.len()).filter(|&k| sets[k].len() == rank).collect();
+        let first_regular = *regular.first()?;
+        let among: Vec<Rows> = regular.iter().map(|&k| directions[k].clone()).collect();
+        let mut kept = independent(&among, TOLERANCE);
+        if kept.len() < rank {
+            // No set serves all samples within the tolerance: one that serves the first.
+            kept.clone_from(&sets[first_regular]);
+        }
+        Some(Self {
+            at_start: sets.first().map_or(0, Vec::len),
+            configurations,
+            directions,
+            rank,
+            first_regular,
+            kept,
+        })
+    }
+}
+
+/// A configuration, and some more that random motions lead to, each from the last: they walk away from the first. All satisfy the
+/// given rows, `None` for all.
+fn walk(
+    constraints: &Constraints,
+    start: Configuration,
+    rows: Option<&[usize]>,
+    random: &mut Random,
+) -> Vec<Configuration> {
     let mut configurations = vec![start];
     for _ in 0..SAMPLES {
-        // From the last one: the samples walk away from the start.
         let from = &configurations[configurations.len() - 1];
-        let mut motion = random.motion(model.layout().velocities);
+        let mut motion = random.motion(constraints.velocities());
         for _ in 0..=HALVINGS {
-            let reached = constraints.assembled(&constraints.moved(from, &motion));
+            let reached = constraints.assembled_of(&constraints.moved(from, &motion), rows);
             if let Some(reached) = reached {
                 configurations.push(reached);
                 break;
@@ -59,36 +195,52 @@ pub fn judge(model: &Model) -> Independence {
             motion.iter_mut().for_each(|x| *x *= 0.5);
         }
     }
-    let directions: Option<Vec<Rows>> = configurations
-        .iter()
-        .map(|at| constraints.directions(at, TOLERANCE))
-        .collect();
-    let Some(directions) = directions else {
-        return not(Rank::NotDecided);
-    };
-    let sets: Vec<Vec<usize>> = directions
-        .iter()
-        .map(|rows| independent(std::slice::from_ref(rows), TOLERANCE))
-        .collect();
-    let rank = sets.iter().map(Vec::len).max().unwrap_or(0);
-    let at_start = sets.first().map_or(0, Vec::len);
-    let regular: Vec<usize> = (0..sets.len()).filter(|&k| sets[k].len() == rank).collect();
-    let among: Vec<Rows> = regular.iter().map(|&k| directions[k].clone()).collect();
-    let mut kept = independent(&among, TOLERANCE);
-    if kept.len() < rank {
-        // No set serves all samples within the tolerance: one that serves the first.
-        kept.clone_from(&sets[regular[0]]);
+    configurations
+}
+
+/// The rows that part from the kept ones where a mechanism could not be followed in time: those that are violated at
+/// all configurations that were aimed at in vain.
+fn parted(
+    constraints: &Constraints,
+    start: &Configuration,
+    kept: &[usize],
+    missed: &[Configuration],
+    random: &mut Random,
+) -> Vec<Contradicted> {
+    let mut found: Option<Vec<Contradicted>> = None;
+    // The last one is the first in time.
+    for near in missed {
+        let here = contradiction::by_place(constraints, start, kept, near, random);
+        let before = found.take();
+        let is_common = |row: usize| {
+            let before = before.as_ref();
+            before.is_none_or(|before| before.iter().any(|known| known.row == row))
+        };
+        found = Some(here.into_iter().filter(|new| is_common(new.row)).collect());
     }
-    if rank < model.layout().rows {
-        let heading = random.motion(model.layout().velocities);
-        let tour = motion::tour(&constraints, &configurations[0], heading);
-        kept = choice::steady(kept, &tour, TOLERANCE);
-    }
-    Independence {
-        rank: Rank::Decided { rank, at_start },
-        redundant: redundant(model, &kept, &among[0]),
-        dropped: false,
-    }
+    found.unwrap_or_default()
+}
+
+/// Contradictions as the model has them.
+fn contradictions(
+    model: &Model,
+    found: Vec<Contradicted>,
+    kept: &[usize],
+    rows: &Rows,
+) -> Vec<Contradiction> {
+    let follow = redundant(model, kept, rows);
+    let layout = model.layout();
+    let found = found.into_iter().filter_map(|contradicted| {
+        let place = |known: &&RedundantRow| layout.row[known.joint] + known.row == contradicted.row;
+        follow.iter().find(place).map(|row| Contradiction {
+            joint: row.joint,
+            row: row.row,
+            against: row.follows_from.clone(),
+            time: contradicted.time,
+            by_speed: contradicted.by_speed,
+        })
+    });
+    found.collect()
 }
 
 /// The rows that are not kept, and the joints whose rows they follow from.

@@ -1,28 +1,39 @@
-//! A mechanism as numbers: its constraints at a configuration, small motions, and the way back onto the constraints.
+//! A mechanism as numbers: its constraints at a configuration, and motions.
 //!
 //! Motions are measured without dimension: translations by the size of the mechanism, rotations in radians.
 
 use super::TOLERANCE;
-use super::dense::{Rows, norm, orthonormal, remove_all, solve_normal, transposed};
+use super::dense::{Rows, norm, solve_normal, transposed};
+use super::geometry::{along_screw, length, turned};
 use crate::model::mechanism::Layout;
-use crate::model::number::literals;
-use crate::model::{Binding, BodyKind, Model, ParameterKind};
-use crate::plan::kernels::{Block, Kernel, initial_state, jacobian, rows};
-use crate::symbolic::arena::{Arena, Input};
+use crate::model::{BodyKind, Model};
+use crate::plan::kernels::{Block, Kernel, counter_rates, counters, initial_state, jacobian, rows};
+use crate::symbolic::arena::{Arena, Input, Node, Stage};
 use crate::symbolic::evaluate::evaluate;
 
 /// A row of which no more than this is left anywhere is round-off, over the size that it should have at least.
 const VANISHING: f64 = 1e-13;
-/// Violations up to this, over the size of the row's gradient, are round-off.
-const ASSEMBLED: f64 = 1e-9;
-/// A violation this small that a step does not make ten times smaller is left as it is: it is round-off, or the constraints
-/// touch each other only, and nearer to the point of contact their rows could not be told apart.
-const FINE: f64 = 1e-12;
-const STEPS: usize = 50;
-const ATTEMPTS: usize = 12;
+/// A time of no particular meaning (s).
+const LATER: f64 = 0.6180;
 
-/// The coordinates of a configuration.
-pub(super) type Configuration = Vec<f64>;
+/// A configuration at a time.
+#[derive(Clone, Debug)]
+pub(super) struct Configuration {
+    /// Those of the bodies; behind them the auxiliary variables.
+    coordinates: Vec<f64>,
+    /// In s.
+    pub(super) time: f64,
+}
+
+impl Configuration {
+    /// The same at another time.
+    pub(super) fn at(&self, time: f64) -> Self {
+        Self {
+            coordinates: self.coordinates.clone(),
+            time,
+        }
+    }
+}
 
 /// The constraints of a mechanism, ready to be evaluated.
 pub(super) struct Constraints {
@@ -33,10 +44,14 @@ pub(super) struct Constraints {
     phi: Kernel,
     jacobian: Kernel,
     blocks: Vec<Block>,
+    /// `Phi'` without motion, which is how the equations change with time; `None` where they do not.
+    driven: Option<Kernel>,
+    /// The rates of the auxiliary variables, and what they count; `None` where no equation asks for an angle over turns.
+    counted: Option<[Kernel; 2]>,
     /// The size of the mechanism (m).
     length: f64,
     /// The size of each row's gradient near the start; `None` for a row that vanishes everywhere.
-    sizes: Vec<Option<f64>>,
+    pub(super) sizes: Vec<Option<f64>>,
     /// What the size of a row is at least: that of an angle, a length or a squared length.
     least: f64,
 }
@@ -57,6 +72,16 @@ impl Constraints {
         let start = start?;
         let (jacobian, blocks) = jacobian(model);
         let length = length(model);
+        let phi = rows(model, [Arena::ONE, Arena::ZERO, Arena::ZERO]);
+        let is_driven = reads(&phi, |input| input == Input::Time);
+        let counts = reads(
+            &phi,
+            |input| matches!(input, Input::Coordinate(place) if place as usize >= layout.coordinates),
+        );
+        let start = Configuration {
+            coordinates: start,
+            time: 0.0,
+        };
         let mut constraints = Self {
             kinds: model.bodies.iter().map(|body| body.kind).collect(),
             counts: model
@@ -64,7 +89,9 @@ impl Constraints {
                 .iter()
                 .map(|joint| model.equations(joint))
                 .collect(),
-            phi: rows(model, [Arena::ONE, Arena::ZERO, Arena::ZERO]),
+            phi,
+            driven: is_driven.then(|| rows(model, [Arena::ZERO, Arena::ONE, Arena::ZERO])),
+            counted: counts.then(|| [counter_rates(model), counters(model)]),
             jacobian,
             blocks,
             length,
@@ -74,33 +101,99 @@ impl Constraints {
         };
         constraints.evaluate(&constraints.phi, &start)?;
         // Off the constraints, so that a gradient that vanishes on them has a size.
-        let mut sizes = vec![0.0_f64; constraints.layout.rows];
-        for place in 0..3 {
-            let mut at = start.clone();
-            if place > 0 {
-                at = constraints.moved(&at, &motion(constraints.layout.velocities));
-            }
-            for (size, row) in sizes.iter_mut().zip(constraints.gradients(&at)?) {
-                *size = size.max(norm(&row));
+        let mut places = vec![start.clone()];
+        for _ in 1..3 {
+            places.push(constraints.moved(&start, &motion(constraints.layout.velocities)));
+        }
+        let mut sizes = constraints.largest_gradients(&places)?;
+        if is_driven {
+            // So that one that vanishes at the start only has a size, too.
+            let later = places.iter().map(|at| at.at(LATER)).collect::<Vec<_>>();
+            let later = constraints.largest_gradients(&later);
+            for (size, later) in sizes.iter_mut().zip(later.into_iter().flatten()) {
+                *size = size.or(later);
             }
         }
-        let least = VANISHING * constraints.least;
-        constraints.sizes = sizes
-            .into_iter()
-            .map(|size| (size > least).then_some(size))
-            .collect();
+        constraints.sizes = sizes;
         Some((constraints, start))
     }
 
+    /// The largest gradient of each row among some configurations; `None` for a row of which only round-off is left.
+    fn largest_gradients(&self, places: &[Configuration]) -> Option<Vec<Option<f64>>> {
+        let mut sizes = vec![0.0_f64; self.layout.rows];
+        for at in places {
+            for (size, row) in sizes.iter_mut().zip(self.gradients(at)?) {
+                *size = size.max(norm(&row));
+            }
+        }
+        let least = VANISHING * self.least;
+        let sizes = sizes.into_iter();
+        Some(sizes.map(|size| (size > least).then_some(size)).collect())
+    }
+
+    /// The number of velocities.
+    pub(super) fn velocities(&self) -> usize {
+        self.layout.velocities
+    }
+
+    /// Whether the time stands in an equation.
+    pub(super) fn is_driven(&self) -> bool {
+        self.driven.is_some()
+    }
+
+    /// The times after the start at which a smooth step begins, is half done or ends, in order. Those of which the argument is no
+    /// linear function of time are not known.
+    pub(super) fn breaks(&self) -> Vec<f64> {
+        let arena = &self.phi.arena;
+        let mut breaks = Vec::new();
+        for place in arena.live(&self.phi.outputs, Stage::Literal) {
+            let Node::Clamp(argument) = arena.node(place) else {
+                continue;
+            };
+            let at = |time: f64| {
+                let known = |input| (input == Input::Time).then_some(time);
+                evaluate(arena, &[argument], known)
+                    .first()
+                    .copied()
+                    .flatten()
+            };
+            let (Some(a), Some(b), Some(c)) = (at(0.0), at(1.0), at(2.0)) else {
+                continue;
+            };
+            let is_linear = (a - 2.0 * b + c).abs() <= 1e-9 * (a.abs() + b.abs() + c.abs());
+            let times = [0.0, 0.5, 1.0].map(|value| (value - a) / (b - a));
+            breaks.extend(
+                times
+                    .into_iter()
+                    .filter(|time| is_linear && *time > 0.0 && time.is_finite()),
+            );
+        }
+        breaks.sort_unstable_by(f64::total_cmp);
+        breaks.dedup();
+        breaks
+    }
+
     /// The outputs of a kernel; `None` where one is not known, or beyond all numbers.
-    fn evaluate(&self, kernel: &Kernel, at: &[f64]) -> Option<Vec<f64>> {
+    fn evaluate(&self, kernel: &Kernel, at: &Configuration) -> Option<Vec<f64>> {
+        self.evaluate_moving(kernel, at, &[])
+    }
+
+    /// The same with velocities; those that are not given are zero.
+    fn evaluate_moving(
+        &self,
+        kernel: &Kernel,
+        at: &Configuration,
+        velocities: &[f64],
+    ) -> Option<Vec<f64>> {
         let values = evaluate(&kernel.arena, &kernel.outputs, |input| match input {
-            Input::Coordinate(place) => at.get(place as usize).copied(),
+            Input::Coordinate(place) => at.coordinates.get(place as usize).copied(),
+            Input::Time => Some(at.time),
+            Input::Velocity(place) => {
+                Some(velocities.get(place as usize).copied().unwrap_or_default())
+            }
             Input::Symbol(_) => None,
-            // The time at the start; neither Phi nor D depends on the others.
-            Input::Time
-            | Input::Velocity(_)
-            | Input::RateGain
+            // Nothing that is evaluated here depends on the others.
+            Input::RateGain
             | Input::PositionGain
             | Input::Compliance
             | Input::Upper(_)
@@ -113,7 +206,7 @@ impl Constraints {
     }
 
     /// `D` over motions without dimension.
-    fn gradients(&self, at: &[f64]) -> Option<Rows> {
+    pub(super) fn gradients(&self, at: &Configuration) -> Option<Rows> {
         let values = self.evaluate(&self.jacobian, at)?;
         let mut rows = vec![vec![0.0; self.layout.velocities]; self.layout.rows];
         for &Block {
@@ -135,7 +228,7 @@ impl Constraints {
     }
 
     /// The rows of `D` over motions without dimension, of unit length; those beneath the tolerance are zero.
-    pub(super) fn directions(&self, at: &[f64], tolerance: f64) -> Option<Rows> {
+    pub(super) fn directions(&self, at: &Configuration, tolerance: f64) -> Option<Rows> {
         let mut rows = self.gradients(at)?;
         for (row, size) in rows.iter_mut().zip(&self.sizes) {
             let length = norm(row);
@@ -146,8 +239,35 @@ impl Constraints {
         Some(rows)
     }
 
+    /// How fast the equations change with time (1/s), over the lengths of their gradients: minus the speeds that they ask for, along
+    /// the rows of [`Self::directions`]. Zero where those are.
+    pub(super) fn demands(&self, at: &Configuration, tolerance: f64) -> Option<Vec<f64>> {
+        let Some(driven) = &self.driven else {
+            return Some(vec![0.0; self.layout.rows]);
+        };
+        let mut rates = self.evaluate(driven, at)?;
+        let rows = self.gradients(at)?;
+        for ((rate, row), size) in rates.iter_mut().zip(rows).zip(&self.sizes) {
+            let length = norm(&row);
+            let is_sound = size.is_some_and(|size| length > tolerance * size);
+            *rate = if is_sound { *rate / length } else { 0.0 };
+        }
+        Some(rates)
+    }
+
+    /// The smallest motion (1/s) that does what the equations ask for.
+    pub(super) fn velocity(&self, at: &Configuration) -> Option<Vec<f64>> {
+        // Where equations contradict each other, a compromise.
+        const DAMPING: f64 = 1e-12;
+        let directions = self.directions(at, TOLERANCE)?;
+        let demands = self.demands(at, TOLERANCE)?;
+        let speeds: Vec<f64> = demands.iter().map(|demand| -demand).collect();
+        let shares = solve_normal(&directions, &speeds, DAMPING)?;
+        Some(transposed(&directions, &shares))
+    }
+
     /// The violations, over the sizes of the gradients: about the distances to where the constraints hold.
-    fn violations(&self, at: &[f64]) -> Option<Vec<f64>> {
+    pub(super) fn violations(&self, at: &Configuration) -> Option<Vec<f64>> {
         let mut values = self.evaluate(&self.phi, at)?;
         for (value, size) in values.iter_mut().zip(&self.sizes) {
             if *value != 0.0 {
@@ -157,160 +277,66 @@ impl Constraints {
         Some(values)
     }
 
-    /// Another configuration after a motion without dimension. Coordinates that belong to no body stay as they are.
-    pub(super) fn moved(&self, at: &[f64], motion: &[f64]) -> Configuration {
-        let mut moved = at.to_vec();
+    /// Another configuration after a motion without dimension, straight on. Auxiliary variables move along.
+    pub(super) fn moved(&self, at: &Configuration, motion: &[f64]) -> Configuration {
+        self.moved_along(at, motion, |_, _, translation| translation)
+    }
+
+    /// Another configuration after a motion without dimension, each body along a screw: exact for one that turns about an axis at
+    /// rest, however far.
+    pub(super) fn screwed(&self, at: &Configuration, motion: &[f64]) -> Configuration {
+        self.moved_along(at, motion, along_screw)
+    }
+
+    fn moved_along(
+        &self,
+        at: &Configuration,
+        motion: &[f64],
+        path: impl Fn([f64; 4], [f64; 3], [f64; 3]) -> [f64; 3],
+    ) -> Configuration {
+        let mut moved = at.clone();
+        let mut velocities = motion.to_vec();
         for (body, kind) in self.kinds.iter().enumerate() {
             let (q, u) = (self.layout.coordinate[body], self.layout.velocity[body]);
-            for k in 0..3 {
-                moved[q + k] += self.length * motion[u + k];
-            }
+            let mut translation = [0, 1, 2].map(|k| self.length * motion[u + k]);
+            velocities[u..u + 3].copy_from_slice(&translation);
             if *kind == BodyKind::Rigid {
-                let turned = turned(
-                    [3, 4, 5, 6].map(|k| at[q + k]),
-                    [3, 4, 5].map(|k| motion[u + k]),
-                );
-                moved[q + 3..q + 7].copy_from_slice(&turned);
+                let p = [3, 4, 5, 6].map(|k| at.coordinates[q + k]);
+                let rotation = [3, 4, 5].map(|k| motion[u + k]);
+                translation = path(p, rotation, translation);
+                moved.coordinates[q + 3..q + 7].copy_from_slice(&turned(p, rotation));
+            }
+            for (coordinate, way) in moved.coordinates[q..q + 3].iter_mut().zip(translation) {
+                *coordinate += way;
+            }
+        }
+        if let Some([rates, _]) = &self.counted
+            && let Some(rates) = self.evaluate_moving(rates, at, &velocities)
+        {
+            let counters = moved.coordinates.iter_mut().skip(self.layout.coordinates);
+            for (counter, rate) in counters.zip(rates) {
+                *counter += rate;
             }
         }
         moved
     }
 
-    /// A configuration near the given one that satisfies the constraints (Levenberg and Marquardt: steps of least length
-    /// where the gradients are independent, and no worse where they are not).
-    pub(super) fn assembled(&self, from: &[f64]) -> Option<Configuration> {
-        const BOUND: f64 = 0.5;
-        let mut at = from.to_vec();
-        let mut violations = self.violations(&at)?;
-        let mut size = norm(&violations);
-        let mut caution = 1.0;
-        for _ in 0..STEPS {
-            if size == 0.0 {
-                break;
-            }
-            let mut gradients = self.gradients(&at)?;
-            for (row, size) in gradients.iter_mut().zip(&self.sizes) {
-                let factor = size.map_or(0.0, f64::recip);
-                row.iter_mut().for_each(|x| *x *= factor);
-            }
-            let mut next = None;
-            for _ in 0..ATTEMPTS {
-                let damping = (caution * size * size).max(1e-14);
-                if let Some(y) = solve_normal(&gradients, &violations, damping) {
-                    let step = transposed(&gradients, &y);
-                    let factor = -(BOUND / norm(&step)).min(1.0);
-                    let step: Vec<f64> = step.iter().map(|x| factor * x).collect();
-                    let reached = self.moved(&at, &step);
-                    let violations = self.violations(&reached)?;
-                    let reduced = norm(&violations);
-                    if reduced < size {
-                        next = Some((reached, violations, reduced));
-                        break;
-                    }
-                }
-                if size <= FINE {
-                    break;
-                }
-                caution *= 10.0;
-            }
-            let Some((reached, reached_violations, reduced)) = next else {
-                break;
-            };
-            let is_done = reduced <= FINE && reduced > 0.1 * size;
-            (at, violations, size) = (reached, reached_violations, reduced);
-            caution = (0.1 * caution).max(1.0);
-            if is_done {
-                break;
-            }
+    /// Auxiliary variables as the angles that they count.
+    pub(super) fn recount(&self, at: &mut Configuration) {
+        if let Some([_, angles]) = &self.counted
+            && let Some(angles) = self.evaluate(angles, at)
+        {
+            at.coordinates.truncate(self.layout.coordinates);
+            at.coordinates.extend(angles);
         }
-        (size <= ASSEMBLED).then_some(at)
     }
 }
 
-/// The rows of `D` at configurations along a motion that the constraints leave free, straight on as far as they let it: a few turns
-/// of what turns fastest. None where nothing can move.
-pub(super) fn tour(constraints: &Constraints, start: &[f64], mut heading: Vec<f64>) -> Vec<Rows> {
-    const STOPS: usize = 60;
-    const STEP: f64 = 0.3;
-    let mut rows = Vec::new();
-    let mut at = start.to_vec();
-    for _ in 0..STOPS {
-        let Some(here) = constraints.directions(&at, TOLERANCE) else {
-            break;
-        };
-        remove_all(&mut heading, &orthonormal(&here, TOLERANCE));
-        rows.push(here);
-        let largest = heading.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if largest < TOLERANCE {
-            break;
-        }
-        heading.iter_mut().for_each(|x| *x *= STEP / largest);
-        let Some(reached) = constraints.assembled(&constraints.moved(&at, &heading)) else {
-            break;
-        };
-        at = reached;
-    }
-    rows
-}
-
-/// Euler parameters, of unit length, after a small rotation about an axis of the body.
-fn turned(p: [f64; 4], rotation: [f64; 3]) -> [f64; 4] {
-    let [x, y, z] = rotation.map(|component| 0.5 * component);
-    let turned = crate::model::inertia::compose(p, [1.0, x, y, z]);
-    let length = norm(&turned);
-    turned.map(|e| e / length)
-}
-
-/// The largest distance of a body or a joint's point from the mean of all of them; one where there is none.
-fn length(model: &Model) -> f64 {
-    let mut points: Vec<[f64; 3]> = model
-        .bodies
-        .iter()
-        .filter_map(|body| literals(&body.position))
-        .collect();
-    for joint in &model.joints {
-        let parameters = &model.definition(joint).parameters;
-        for (parameter, binding) in parameters.iter().zip(&joint.bindings) {
-            if parameter.kind != ParameterKind::Point {
-                continue;
-            }
-            match binding {
-                Binding::Global(point) => points.extend(literals(point)),
-                Binding::Local(arms) => {
-                    for (arm, body) in arms.iter().zip(&joint.bodies) {
-                        let centre = body.map_or(Some([0.0; 3]), |body| {
-                            literals(&model.bodies[body].position)
-                        });
-                        // Its direction does not matter for a size.
-                        if let (Some(arm), Some(centre)) = (literals(arm), centre) {
-                            points.push([0, 1, 2].map(|k| centre[k] + arm[k]));
-                        }
-                    }
-                }
-                Binding::Scalar(_) | Binding::Law(_) | Binding::Default => {}
-            }
-        }
-    }
-    let count = points.len() as f64;
-    let mean = [0, 1, 2].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count);
-    let largest = points
-        .iter()
-        .map(|point| norm(&[0, 1, 2].map(|k| point[k] - mean[k])))
-        .fold(0.0, f64::max);
-    if largest.is_normal() { largest } else { 1.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::turned;
-
-    #[test]
-    fn a_small_rotation_is_about_an_axis_of_the_body() {
-        let [w, x, y, z] = turned([0.5, 0.5, 0.5, 0.5], [0.0, 0.0, 2e-3]);
-        // The body's z axis is the global x axis here: p' = 1/2 (0, w, 0, 0) p.
-        let expected = [0.5 - 5e-4, 0.5 + 5e-4, 0.5 - 5e-4, 0.5 + 5e-4];
-        for (found, expected) in [w, x, y, z].into_iter().zip(expected) {
-            assert!((found - expected).abs() < 1e-6);
-        }
-    }
+/// Whether a kernel reads an input.
+fn reads(kernel: &Kernel, wanted: impl Fn(Input) -> bool) -> bool {
+    let arena = &kernel.arena;
+    arena
+        .live(&kernel.outputs, Stage::Literal)
+        .into_iter()
+        .any(|place| matches!(arena.node(place), Node::Input(input) if wanted(input)))
 }

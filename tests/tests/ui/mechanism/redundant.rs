@@ -95,6 +95,18 @@ struct Apart {
     upper: Spherical,
 }
 
+/// Rods that do not meet: each by itself could be satisfied from somewhere else.
+#[derive(Mechanism)]
+#[mechanism(redundant = "drop")]
+struct Short {
+    #[body(mass = 1.0)]
+    bead: Particle,
+    #[joint(between = [ground, bead], head = [-1.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], length = 0.9)]
+    left: Distance,
+    #[joint(between = [ground, bead], head = [1.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], length = 0.9)]
+    right: Distance,
+}
+
 /// Nothing is redundant: either wish is granted.
 #[derive(Mechanism)]
 #[mechanism(redundant = "drop")]

@@ -1,0 +1,180 @@
+//! Whether equations whose rows depend on others say the same as those, at all times.
+//!
+//! Where the rows of `D` depend on the kept ones all over the configurations that satisfy these, an equation is constant there: it holds
+//! everywhere, or nowhere. With a time in the equations it must hold at all times, so that the speeds that it asks for must be those
+//! that the kept ones ask for: `Y^T Phi_t = 0` where `Y^T D = 0`.
+
+use super::dense::{Rows, dot, independent, norm, solve_normal};
+use super::motion::{Configuration, Constraints};
+use super::{Random, TOLERANCE, walk};
+
+/// To what fraction of themselves laws agree that are given to seven digits, as [`TOLERANCE`] has it for lengths.
+const AGREEMENT: f64 = 10.0 * TOLERANCE;
+/// Speeds below this fraction of the largest are what configurations leave of none: they are good to [`super::assemble::ASSEMBLED`].
+const STILL: f64 = super::assemble::ASSEMBLED;
+/// By how much of their length kept rows stand out from each other where speeds can be compared.
+const SOUND: f64 = 1e-3;
+
+/// A row that contradicts the kept ones.
+pub(super) struct Contradicted {
+    pub(super) row: usize,
+    /// When it is seen (s).
+    pub(super) time: f64,
+    /// Whether it holds then and asks for another speed.
+    pub(super) by_speed: bool,
+}
+
+/// The largest violation that counts as none: laws over long ways have as many digits as those over short ones.
+fn bound(constraints: &Constraints, start: &Configuration, time: f64) -> f64 {
+    let way = constraints.violations(&start.at(time));
+    let way = way
+        .iter()
+        .flatten()
+        .fold(0.0_f64, |most, x| most.max(x.abs()));
+    AGREEMENT * (1.0 + way)
+}
+
+/// The rows that are violated by more than counts as none, behind their violations.
+fn violated(
+    constraints: &Constraints,
+    start: &Configuration,
+    here: &Configuration,
+) -> Option<Vec<usize>> {
+    let bound = bound(constraints, start, here.time);
+    let violations = constraints.violations(here)?;
+    let violated = violations.iter().enumerate();
+    Some(
+        violated
+            .filter(|(_, violation)| violation.abs() > bound)
+            .map(|(row, _)| row)
+            .collect(),
+    )
+}
+
+/// A configuration of the kept rows near another where all others hold as well, to what laws are given to.
+pub(super) fn agreeing(
+    constraints: &Constraints,
+    start: &Configuration,
+    kept: &[usize],
+    near: &Configuration,
+) -> Option<Configuration> {
+    let here = constraints.assembled_of(near, Some(kept))?;
+    violated(constraints, start, &here)?
+        .is_empty()
+        .then_some(here)
+}
+
+/// The rows that do not hold where the kept ones do, near a configuration, although they depend on them: none where the kept ones do
+/// not hold either, or where rows become independent on the way.
+pub(super) fn by_place(
+    constraints: &Constraints,
+    start: &Configuration,
+    kept: &[usize],
+    near: &Configuration,
+    random: &mut Random,
+) -> Vec<Contradicted> {
+    let mut find = || {
+        let here = constraints.assembled_of(near, Some(kept))?;
+        let violated = violated(constraints, start, &here)?;
+        let time = here.time;
+        for at in walk(constraints, here, Some(kept), random) {
+            let rows = constraints.directions(&at, TOLERANCE)?;
+            if independent(&[rows], TOLERANCE).len() > kept.len() {
+                return None;
+            }
+        }
+        Some((violated, time))
+    };
+    let (rows, time) = find().unwrap_or_default();
+    let rows = rows.into_iter().filter(|row| !kept.contains(row));
+    rows.map(|row| Contradicted {
+        row,
+        time,
+        by_speed: false,
+    })
+    .collect()
+}
+
+/// What contradicts at the start, where no configuration satisfies all equations: the rows, and the kept ones.
+pub(super) fn at_start(
+    constraints: &Constraints,
+    described: &Configuration,
+    random: &mut Random,
+) -> Option<(Vec<Contradicted>, Vec<usize>)> {
+    let mut rows = constraints.directions(described, TOLERANCE)?;
+    let mut here = described.clone();
+    let mut kept: Vec<usize> = Vec::new();
+    loop {
+        let more = independent(&[rows], TOLERANCE);
+        if more.len() <= kept.len() {
+            break;
+        }
+        // Rows may be independent at a configuration that satisfies those found so far.
+        kept = more;
+        here = constraints.assembled_of(&here, Some(&kept))?;
+        let mut found = walk(constraints, here.clone(), Some(&kept), random).into_iter();
+        let mut best = (0, Rows::new());
+        for at in found.by_ref() {
+            let rows = constraints.directions(&at, TOLERANCE)?;
+            let rank = independent(std::slice::from_ref(&rows), TOLERANCE).len();
+            if rank > best.0 {
+                best = (rank, rows);
+            }
+        }
+        rows = best.1;
+    }
+    let found = by_place(constraints, described, &kept, &here, random);
+    Some((found, kept))
+}
+
+/// The rows that ask for other speeds than the kept ones do, at the first of some configurations where one does.
+pub(super) fn by_speed(
+    constraints: &Constraints,
+    configurations: &[Configuration],
+    directions: &[Rows],
+    kept: &[usize],
+) -> Vec<Contradicted> {
+    let demands: Vec<Vec<f64>> = configurations
+        .iter()
+        .map(|at| constraints.demands(at, TOLERANCE).unwrap_or_default())
+        .collect();
+    let largest = demands
+        .iter()
+        .flatten()
+        .fold(0.0_f64, |most, x| most.max(x.abs()));
+    for ((at, rows), demands) in configurations.iter().zip(directions).zip(&demands) {
+        let basis: Rows = kept.iter().map(|&row| rows[row].clone()).collect();
+        if demands.len() != rows.len()
+            || independent(std::slice::from_ref(&basis), SOUND).len() < kept.len()
+        {
+            continue;
+        }
+        let disagrees = |&row: &usize| {
+            let products: Vec<f64> = basis.iter().map(|other| dot(other, &rows[row])).collect();
+            let Some(shares) = solve_normal(&basis, &products, 0.0) else {
+                return false;
+            };
+            let parts = shares
+                .iter()
+                .zip(kept)
+                .map(|(share, &row)| share * demands[row]);
+            let parts: Vec<f64> = parts.collect();
+            let difference = demands[row] - parts.iter().sum::<f64>();
+            let size = demands[row].abs() + parts.iter().map(|part| part.abs()).sum::<f64>();
+            norm(&rows[row]) > 0.0 && difference.abs() > AGREEMENT * size + STILL * largest
+        };
+        let found: Vec<Contradicted> = (0..rows.len())
+            .filter(|row| !kept.contains(row))
+            .filter(disagrees)
+            .map(|row| Contradicted {
+                row,
+                time: at.time,
+                by_speed: true,
+            })
+            .collect();
+        if !found.is_empty() {
+            return found;
+        }
+    }
+    Vec::new()
+}
