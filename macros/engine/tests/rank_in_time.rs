@@ -314,11 +314,10 @@ fn an_arm_drawn_beyond_its_reach_contradicts_nothing() {
     }
 }
 
-#[test]
-fn a_parallelogram_is_driven_over_its_flat_position() {
-    // Three cranks and two bars; the third crank's equations follow from the others', and the drive leads through both dead points.
-    let mut text = String::from("#[mechanism(redundant = \"drop\")] struct Driven {");
-    for k in 0..3 {
+/// Cranks side by side on one bar, the first of them driven.
+fn parallelogram(wish: &str, cranks: usize) -> String {
+    let mut text = format!("#[mechanism({wish})] struct Driven {{");
+    for k in 0..cranks {
         text += &format!(
             "#[body(mass = 1.0, inertia = [0.1, 0.2, 0.15], position = [{k}.0, 0.5, 0.0])] crank{k}: Body,
              #[joint(between = [ground, crank{k}], point = [{k}.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])] foot{k}: Revolute,"
@@ -326,13 +325,18 @@ fn a_parallelogram_is_driven_over_its_flat_position() {
     }
     text +=
         "#[body(mass = 1.0, inertia = [0.1, 0.2, 0.15], position = [1.0, 1.0, 0.0])] bar: Body,";
-    for k in 0..3 {
+    for k in 0..cranks {
         text += &format!(
             "#[joint(between = [crank{k}, bar], point = [{k}.0, 1.0, 0.0], axis = [0.0, 0.0, 1.0])] head{k}: Revolute,"
         );
     }
-    text += "#[joint(between = [ground, crank0], axis = [0.0, 0.0, 1.0], motion = 2.0 * time)] motor: AngleDriver, }";
-    let model = model(&text);
+    text + "#[joint(between = [ground, crank0], axis = [0.0, 0.0, 1.0], motion = 2.0 * time)] motor: AngleDriver, }"
+}
+
+#[test]
+fn a_parallelogram_is_driven_over_its_flat_position() {
+    // The third crank's equations follow from the others', and the drive leads through both dead points.
+    let model = model(&parallelogram("redundant = \"drop\"", 3));
     let rank = Rank::Decided {
         rank: 24,
         at_start: 24,
@@ -396,6 +400,7 @@ fn times() {
             "two motors",
             wheel("redundant = \"keep\"", &["time", "time"]),
         ),
+        ("five cranks", parallelogram("redundant = \"keep\"", 5)),
         ("one motor", wheel("", &["time"])),
         (
             "four-bar",
