@@ -40,6 +40,19 @@ pub fn deg(x: f64) -> f64 {
     x.to_radians()
 }
 
+/// Whether principal moments of inertia are those of no body: one is larger than the others together.
+#[must_use]
+pub fn is_no_inertia(a: f64, b: f64, c: f64) -> bool {
+    let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
+    excess(a, b, c) || excess(b, c, a) || excess(c, a, b)
+}
+
+/// Whether all components are zero.
+#[must_use]
+pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
+    components.iter().all(|component| *component == 0.0)
+}
+
 /// Defines a joint: a constraint between bodies, symbolically, so that mechanisms in any crate can use it.
 ///
 /// ```
@@ -174,6 +187,7 @@ macro_rules! __stub_mechanism {
     ) => {
         #[allow(warnings, clippy::all, clippy::pedantic)]
         const _: () = {
+            use ::core::primitive::{f64, usize};
             pub struct __Handles<__M> {
                 $(pub $field: $crate::__stub_mechanism!(@handle $kind $($path)?),)*
                 __mechanism: ::core::marker::PhantomData<fn() -> __M>,

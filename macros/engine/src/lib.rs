@@ -76,7 +76,10 @@ pub fn derive(tokens: TokenStream) -> TokenStream {
         let mut faults = Faults::new();
         let input = faults
             .accept(syntax::depth::of_input(&tokens))
-            .and_then(|()| faults.accept(syn::parse2::<DeriveInput>(tokens.clone())));
+            .and_then(|()| {
+                let tokens = syntax::words::raw(tokens.clone());
+                faults.accept(syn::parse2::<DeriveInput>(tokens))
+            });
         let Some(input) = input else {
             return faults.into_tokens();
         };
@@ -116,6 +119,7 @@ pub fn assemble(tokens: TokenStream) -> TokenStream {
         else {
             return faults.into_tokens();
         };
+        let payload = syntax::words::raw(payload);
         let Some(input) = faults.accept(syn::parse2::<DeriveInput>(payload)) else {
             return faults.into_tokens();
         };

@@ -34,7 +34,7 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
             impl #declared #name #arguments #clause {
                 #[allow(warnings, missing_docs)]
                 pub fn new(
-                    #(#parameters: f64),*
+                    #(#parameters: ::core::primitive::f64),*
                 ) -> ::core::result::Result<Self, #facade::ParameterError> {
                     loop {}
                 }

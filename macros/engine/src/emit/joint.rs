@@ -32,9 +32,9 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
         ElementKind::Force => quote! {
             #[automatically_derived]
             impl #facade::Force for #name {
-                const NAME: &'static str = #text;
-                const BODIES: usize = #bodies;
-                const FINGERPRINT: u64 = #fingerprint;
+                const NAME: &'static ::core::primitive::str = #text;
+                const BODIES: ::core::primitive::usize = #bodies;
+                const FINGERPRINT: ::core::primitive::u64 = #fingerprint;
             }
         },
         ElementKind::Joint => {
@@ -46,16 +46,16 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
                 let row = joint.and_then(|joint| joint.drive).unwrap_or_default();
                 quote! {
                     #[automatically_derived]
-                    impl #facade::Driven for #name { const ROW: usize = #row; }
+                    impl #facade::Driven for #name { const ROW: ::core::primitive::usize = #row; }
                 }
             });
             quote! {
                 #[automatically_derived]
                 impl #facade::Joint for #name {
-                    const NAME: &'static str = #text;
-                    const EQUATIONS: usize = #equations;
-                    const BODIES: usize = #bodies;
-                    const FINGERPRINT: u64 = #fingerprint;
+                    const NAME: &'static ::core::primitive::str = #text;
+                    const EQUATIONS: ::core::primitive::usize = #equations;
+                    const BODIES: ::core::primitive::usize = #bodies;
+                    const FINGERPRINT: ::core::primitive::u64 = #fingerprint;
                 }
                 #angle
                 #displacement
@@ -66,7 +66,10 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
     quote! {
         #(#attributes)*
         #documentation
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        #[derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default, ::core::cmp::PartialEq,
+            ::core::cmp::Eq,
+        )]
         #visibility struct #name;
 
         #traits

@@ -90,7 +90,8 @@ impl Writer<'_> {
                 trivial_numeric_casts, unused_qualifications, variant_size_differences, elided_lifetimes_in_paths
             )]
             const _: () = {
-                use ::core::iter::Iterator as _;
+                // Types of the same names may stand beside the struct.
+                use ::core::primitive::{f64, usize};
                 use #facade::{Array as _, Scalar as _, StateParts as _};
 
                 #handles_type
@@ -311,7 +312,7 @@ impl Writer<'_> {
         let documentation = format!("The handles of [`{name}`], one per field.");
         let declared = quote! {
             #[doc = #documentation]
-            #[derive(Clone, Copy, Debug)]
+            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
             pub struct __Handles { #declared }
         };
         (declared, quote!(__Handles { #values }))

@@ -1,8 +1,9 @@
 //! The numbers that the macro cannot see: checked by the compiler where it can evaluate them, else in `parameters`.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Literal, Span, TokenStream};
 use quote::quote;
 
+use super::local;
 use crate::check::number::value_name;
 use crate::model::{ElementKind, Model, Number, Symbol};
 
@@ -15,7 +16,9 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
             "`{}` of `{}` must be positive",
             symbol.attribute, symbol.field
         );
-        tokens.extend(quote::quote_spanned! {symbol.span=>
+        // At the user's place, but with the meaning that words have in the edition of this crate.
+        let at = symbol.span.resolved_at(Span::call_site());
+        tokens.extend(quote::quote_spanned! {at=>
             const _: () = ::core::assert!((#expression) > 0.0_f64, #message);
         });
     }
@@ -77,6 +80,7 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
         values.map(|value| &value.name).collect::<Vec<_>>()
     };
     let (inputs, given) = (of(true), of(false));
+    let mechanism = local("mechanism");
     if given.is_empty() {
         return quote! {
             #[automatically_derived]
@@ -106,13 +110,13 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
             /// # Errors
             /// A number that is not finite, or a mass, inertia, axis or orientation made of it that is not acceptable.
             pub fn new(#(#given: f64),*) -> ::core::result::Result<Self, #facade::ParameterError> {
-                let mechanism = Self {
+                let #mechanism = Self {
                     #( #parts: ::core::default::Default::default(), )*
                     #( #given, )*
                     #( #inputs: 0.0, )*
                 };
-                <Self as #facade::Mechanism>::parameters::<f64>(&mechanism)?;
-                ::core::result::Result::Ok(mechanism)
+                <Self as #facade::Mechanism>::parameters::<f64>(&#mechanism)?;
+                ::core::result::Result::Ok(#mechanism)
             }
         }
     }
@@ -140,8 +144,8 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
         });
     };
     for value in &model.values {
-        let local = value_name(&value.name);
-        let condition = quote!(!f64::is_finite(#local));
+        let name = value_name(&value.name);
+        let condition = quote!(!f64::is_finite(#name));
         refuse(
             condition,
             &value.name.to_string(),
@@ -171,15 +175,11 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
     }
     for (field, attribute, moments) in symbolic_inertias(model) {
         let [a, b, c] = moments;
-        let condition = quote!({
-            let (a, b, c): (f64, f64, f64) = (#a, #b, #c);
-            let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
-            excess(a, b, c) || excess(b, c, a) || excess(c, a, b)
-        });
+        let condition = quote!(#facade::__private::is_no_inertia(#a, #b, #c));
         refuse(condition, &field, attribute, quote!(TriangleInequality));
     }
     for (field, attribute, vector) in symbolic_directions(model) {
-        let condition = quote!([#(#vector),*].iter().all(|component: &f64| *component == 0.0));
+        let condition = quote!(#facade::__private::is_zero([#(#vector),*]));
         refuse(condition, &field, &attribute, quote!(ZeroLength));
     }
     tokens

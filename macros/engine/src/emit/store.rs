@@ -145,7 +145,7 @@ fn load_input(input: Input) -> TokenStream {
 }
 
 fn field(name: &str) -> TokenStream {
-    let (stabilisation, field) = (local("stabilisation"), local(name));
+    let (stabilisation, field) = (local("stabilisation"), quote::format_ident!("{name}"));
     quote!(#stabilisation.#field)
 }
 
