@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 
 pub use super::node::{Expr, Input, Node, Stage};
+use super::table::Table;
 
 /// A place in the history of an arena, to come back to.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +18,8 @@ pub struct Mark(usize);
 pub struct Arena {
     nodes: Vec<Node>,
     stages: Vec<Stage>,
-    index: HashMap<Node, u32>,
-    identities: HashMap<Node, Expr>,
+    index: Table<Node, u32>,
+    identities: Table<Node, Expr>,
     labels: HashMap<u32, String>,
 }
 
@@ -40,8 +41,8 @@ impl Arena {
         let mut arena = Self {
             nodes: Vec::new(),
             stages: Vec::new(),
-            index: HashMap::new(),
-            identities: HashMap::new(),
+            index: Table::default(),
+            identities: Table::default(),
             labels: HashMap::new(),
         };
         arena.intern(Node::Constant(0.0_f64.to_bits()));

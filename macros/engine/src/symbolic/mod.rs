@@ -12,5 +12,6 @@ mod kept;
 mod node;
 pub mod scene;
 mod start;
+mod table;
 pub mod twist;
 pub mod vector;

@@ -7,9 +7,8 @@
 //! That is true where `A` is a rotation. A space that has to be exact for `A` of any scale ([`Space::exact`]) computes every
 //! vector in its home, the frame in which it is defined, and turns it from there.
 
-use std::collections::HashMap;
-
 use super::arena::{Arena, Expr, Mark};
+use super::table::Table;
 
 /// The axes that components refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -68,8 +67,8 @@ pub struct Space {
     /// The scalar level.
     pub arena: Arena,
     vectors: Vec<Vector>,
-    index: HashMap<Vector, VectorId>,
-    components: HashMap<(VectorId, Frame), Triple>,
+    index: Table<Vector, VectorId>,
+    components: Table<(VectorId, Frame), Triple>,
     history: Vec<(VectorId, Frame)>,
     /// `A` of every body, from body to global axes, row by row; `None` for a body without orientation.
     rotations: Vec<Option<[Triple; 3]>>,
