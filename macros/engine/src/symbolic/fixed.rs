@@ -207,7 +207,11 @@ pub fn copies(arena: &mut Arena, model: &Model, joint: &JointUse, parameter: usi
             let given = triple(arena, *given);
             (normalise(arena, given), true)
         }
-        _ => (of_body(arena, definition.first_body_of(parameter)), false),
+        _ => {
+            let axis = of_body(arena, definition.first_body_of(parameter));
+            // Round-off must not decide which of equal components is the smallest.
+            (clean(arena, axis, 1.0), false)
+        }
     };
     let normals = {
         let n = normal(arena, first);

@@ -38,7 +38,7 @@ impl Scene {
                 }
                 Effect::Moment(moment, Some(body)) => {
                     let moment = moment.value(space, motion);
-                    let moment = space.outside(moment, *body);
+                    let moment = space.moment_on(moment, *body);
                     gradient.add_moment(*body, moment);
                 }
                 Effect::Moment(_, None) => {}

@@ -319,6 +319,18 @@ impl Space {
         self.native(Frame::Global, components)
     }
 
+    /// A vector as the factor of what turns with a body. Where `A` may have any scale, it is known by its components `A^T a` in the axes of the
+    /// body: a sum with the moments of forces, which are given there, would be turned out and back otherwise.
+    pub fn moment_on(&mut self, vector: VectorId, body: usize) -> VectorId {
+        if !self.exact {
+            return vector;
+        }
+        let frame = Frame::Body(body);
+        let outside = self.outside(vector, body);
+        let components = self.components(outside, frame);
+        self.native(frame, components)
+    }
+
     /// Says that the components of a vector in a frame are known.
     pub fn give(&mut self, vector: VectorId, frame: Frame, components: Triple) {
         self.components.insert((vector, frame), components);
