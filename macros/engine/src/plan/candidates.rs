@@ -59,24 +59,28 @@ const STRATEGIES: [Strategy; 7] = {
     ]
 };
 
-/// The cheapest plan for a model, by the operations of its standard evaluation.
+/// The plans worth counting, each once.
 #[must_use]
-pub fn choose(model: &Model) -> Plan {
+pub fn all(model: &Model) -> Vec<Plan> {
     let reach = Reach::new(model);
     let tree = tree(model, &reach);
     let start = StartValues::new(model);
-    let mut best: Option<(Plan, usize)> = None;
+    let mut plans: Vec<Plan> = Vec::new();
     for strategy in STRATEGIES {
         let plan = plan(model, &tree, &reach, &start, strategy);
-        if best.as_ref().is_some_and(|(known, _)| *known == plan) {
-            continue;
-        }
-        let cost = cost(model, &plan);
-        if best.as_ref().is_none_or(|(_, least)| cost < *least) {
-            best = Some((plan, cost));
+        if !plans.contains(&plan) {
+            plans.push(plan);
         }
     }
-    best.expect("there are strategies").0
+    plans
+}
+
+/// The cheapest plan for a model, by the operations of its standard evaluation.
+#[must_use]
+pub fn choose(model: &Model) -> Plan {
+    let plans = all(model).into_iter();
+    let cheapest = plans.min_by_key(|plan| cost(model, plan));
+    cheapest.expect("there are strategies")
 }
 
 /// The operations of the standard evaluation with a plan.

@@ -417,7 +417,9 @@ fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotC
     (pivots, checks)
 }
 
-fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) -> Evaluation {
+/// The fused evaluation with a plan.
+#[must_use]
+pub fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) -> Evaluation {
     let mut scene = Scene::for_solution(model, reading);
     let (solution, system) = equations_of_motion(&mut scene, model, plan.clone(), terms);
     let mut outputs = coordinate_rates(&mut scene, model);
@@ -436,7 +438,9 @@ fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) -> Eva
     }
 }
 
-fn solver(model: &Model, plan: &Plan, terms: Terms) -> Solver {
+/// Factorisation and back-substitution with a plan.
+#[must_use]
+pub fn solver(model: &Model, plan: &Plan, terms: Terms) -> Solver {
     let mut scene = Scene::for_solution(model, Reading::Raw);
     let kinds = kinds(model);
     let system = System::new(&mut scene, &kinds, plan.clone(), terms);
