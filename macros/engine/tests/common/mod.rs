@@ -129,6 +129,14 @@ pub(crate) fn delivered(
     item: &TokenStream,
     find: impl Fn(&str) -> Option<(ElementKind, TokenStream)>,
 ) -> Model {
+    checked(item, find).unwrap_or_else(|faults| panic!("faults: {faults}"))
+}
+
+/// What an annotated struct means, with definitions of one's own, or what is wrong with it.
+pub(crate) fn checked(
+    item: &TokenStream,
+    find: impl Fn(&str) -> Option<(ElementKind, TokenStream)>,
+) -> Result<Model, String> {
     let input = syn::parse2(item.clone()).expect("a struct");
     let mut faults = Faults::new();
     let written = syntax::mechanism::parse(&input, &mut faults);
@@ -143,7 +151,7 @@ pub(crate) fn delivered(
                 let joint = syntax::joint::parse_transported(body, kind, &mut faults);
                 let joint = joint.and_then(|joint| check::joint::check(&joint, &mut faults));
                 let Some(joint) = joint else {
-                    panic!("faults of `{path}`: {}", faults.into_tokens());
+                    return Err(format!("of `{path}`: {}", faults.into_tokens()));
                 };
                 definitions.push(joint);
                 Definition::Element(definitions.len() - 1)
@@ -153,8 +161,9 @@ pub(crate) fn delivered(
     }
     let facade = quote!(::holonom);
     let model = check::mechanism::check(&written, &types, definitions, &facade, &mut faults);
-    let errors = faults.into_tokens();
-    model.unwrap_or_else(|| panic!("faults: {errors}"))
+    let refused = faults.any();
+    let errors = faults.into_tokens().to_string();
+    model.filter(|_| !refused).ok_or(errors)
 }
 
 /// Everything that is generated for an annotated struct.

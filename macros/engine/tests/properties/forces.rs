@@ -17,9 +17,10 @@ const FORCES: usize = 40;
 fn judged(force: &Joint, state: &State) -> Option<(Vec<f64>, f64)> {
     let still = [0.0; 3];
     let mut scale = 1.0_f64;
+    let (element, starts) = force.read();
     let mut read = |poses: Vec<Pose>, rate: f64| {
         let time = Dual2_64::new(state.time, rate, 0.0);
-        let interpreter = Interpreter::new(force, poses, time, &state.turns);
+        let interpreter = Interpreter::new(&element, [&poses, &starts], &[], time, &state.turns);
         let actions = interpreter.actions();
         scale = scale.max(interpreter.scale.get());
         (!interpreter.singular.get()).then_some(actions)

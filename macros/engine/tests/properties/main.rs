@@ -12,8 +12,13 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod forces;
+#[path = "../common/language.rs"]
 mod language;
 mod random;
+#[path = "../common/reading.rs"]
+mod reading;
+#[path = "../common/writing.rs"]
+mod writing;
 
 use common::{delivered, tokens};
 use holonom_engine::model::{ElementKind, Model};
@@ -94,8 +99,9 @@ struct Judged {
 fn judged(joint: &Joint, state: &State) -> Option<Judged> {
     let still = [0.0; 3];
     let mut scale = 1.0_f64;
+    let (element, starts) = joint.read();
     let mut rows = |poses: Vec<Pose>, time: Dual2_64| {
-        let interpreter = Interpreter::new(joint, poses, time, &state.turns);
+        let interpreter = Interpreter::new(&element, [&poses, &starts], &[], time, &state.turns);
         let rows = interpreter.rows();
         scale = scale.max(interpreter.scale.get());
         (!interpreter.singular.get()).then_some(rows)

@@ -1,73 +1,15 @@
-//! Random joints, written in the language.
+//! Random joints between random bodies.
 
 use std::fmt::{Display, Formatter, Result};
 
 use holonom_engine::model::{ElementKind, Model};
 
 use crate::State;
+use crate::common::tokens;
 use crate::language::{Interpreter, Pose, constant};
-
-/// Numbers without a pattern, the same in every run (Marsaglia's xorshift).
-pub(crate) struct Dice(u64);
-
-impl Dice {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    fn roll(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 >> 11
-    }
-
-    /// Between -1 and 1.
-    pub(crate) fn number(&mut self) -> f64 {
-        self.roll() as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    pub(crate) fn below(&mut self, bound: usize) -> usize {
-        usize::try_from(self.roll() % bound as u64).unwrap_or(0)
-    }
-
-    fn one<'a>(&mut self, of: &[&'a str]) -> &'a str {
-        of[self.below(of.len())]
-    }
-
-    pub(crate) fn vector(&mut self, size: f64) -> [f64; 3] {
-        [0; 3].map(|_| size * self.number())
-    }
-
-    fn unit<const N: usize>(&mut self) -> [f64; N] {
-        loop {
-            let vector = [0; N].map(|_| self.number());
-            let length = vector.iter().map(|c| c * c).sum::<f64>().sqrt();
-            if length > 0.3 {
-                return vector.map(|c| c / length);
-            }
-        }
-    }
-
-    pub(crate) fn unit_quaternion(&mut self) -> [f64; 4] {
-        self.unit()
-    }
-}
-
-/// A statement of a joint.
-#[derive(Clone, Debug)]
-pub(crate) enum Statement {
-    Let(String, String),
-    Row(String),
-    Drive(String, String),
-    Potential(String),
-    /// Effort and coordinate.
-    Along(String, String),
-    /// Force and point.
-    Force(String, String),
-    /// Moment and body.
-    Moment(String, &'static str),
-}
+use crate::reading::{Described, Element};
+pub(crate) use crate::writing::Dice;
+use crate::writing::{Statement, Written, definition, law};
 
 /// A joint or a force between random bodies, with random parameters.
 pub(crate) struct Joint {
@@ -85,9 +27,6 @@ pub(crate) struct Joint {
     /// The angles that the statements speak of, in order.
     angles: Vec<(usize, usize, String)>,
 }
-
-/// The formal bodies.
-pub(crate) const BODIES: [&str; 3] = ["i", "j", "k"];
 
 impl Joint {
     pub(crate) fn random(kind: ElementKind, dice: &mut Dice) -> Self {
@@ -113,54 +52,15 @@ impl Joint {
             statements: Vec::new(),
             angles: Vec::new(),
         };
-        let mut writer = Writer {
-            dice,
-            bodies: count,
-            names: [Vec::new(), Vec::new()],
-            angles: Vec::new(),
-        };
-        for place in 0..2 {
-            let is_vector = writer.dice.below(2) == 1;
-            let text = if is_vector {
-                writer.vector(2, false)
-            } else {
-                writer.scalar(2, false)
-            };
-            let name = format!("part{place}");
-            joint.statements.push(Statement::Let(name.clone(), text));
-            writer.names[usize::from(is_vector)].push(name);
-        }
-        for _ in 0..=writer.dice.below(3) {
-            joint.statements.push(match kind {
-                ElementKind::Joint => writer.row(),
-                ElementKind::Force => writer.action(),
-            });
-        }
-        if kind == ElementKind::Joint && writer.dice.below(3) == 0 {
-            let driven = format!("{} + {}", writer.moving(), writer.scalar(2, false));
-            let law = format!("law({})", writer.scalar(1, false));
-            joint.statements.push(Statement::Drive(driven, law));
-        }
-        joint.angles = writer.angles;
+        let written = Written::random(kind, count, dice);
+        joint.statements = written.statements;
+        joint.angles = written.angles;
         joint
     }
 
     /// What stands behind the word `joint`.
     pub(crate) fn definition(&self) -> String {
-        let bodies = BODIES[..self.between.len()].join(", ");
-        let statements = self.statements.iter().map(|statement| match statement {
-            Statement::Let(name, text) => format!("let {name} = {text};\n"),
-            Statement::Row(text) => format!("{text};\n"),
-            Statement::Drive(driven, law) => format!("drive {driven} to {law};\n"),
-            Statement::Potential(energy) => format!("potential {energy};\n"),
-            Statement::Along(effort, coordinate) => format!("{effort} along {coordinate};\n"),
-            Statement::Force(force, point) => format!("force {force} at {point};\n"),
-            Statement::Moment(moment, body) => format!("moment {moment} on {body};\n"),
-        });
-        let statements: String = statements.collect();
-        format!(
-            "Any({bodies}; p: Point, q: Point, a: Axis, b: Axis, v: Vector, size: Length, ratio: Number, law: Law(x)) {{\n{statements}}}"
-        )
+        definition("Any", self.between.len(), &self.statements)
     }
 
     /// The annotated struct.
@@ -197,10 +97,17 @@ impl Joint {
         )
     }
 
-    /// The place of an angle among those that the joint speaks of.
-    pub(crate) fn angle_place(&self, from: usize, to: usize, axis: &str) -> Option<usize> {
-        let mut angles = self.angles.iter();
-        angles.position(|(i, j, known)| (*i, *j) == (from, to) && known == axis)
+    /// What the second reader makes of it: the joint, with all its angles counted, and where the bodies stand at the start.
+    pub(crate) fn read(&self) -> (Element, Vec<Pose>) {
+        let mut described =
+            Described::read(&tokens(&self.mechanism()), |_| Some(self.definition()));
+        let mut element = described.elements.remove(0);
+        element.turns.clone_from(&self.angles);
+        let bodies = 0..described.bodies.len();
+        (
+            element,
+            bodies.map(|body| described.start(Some(body))).collect(),
+        )
     }
 
     /// The angles that the engine counts, in its order, by their places among those of the joint.
@@ -208,20 +115,23 @@ impl Joint {
         let definition = &model.definitions[0];
         let places = definition.turns.iter().map(|turn| {
             let axis = definition.parameters[turn.axis].name.to_string();
-            let place = self.angle_place(turn.from, turn.to, &axis);
-            place.expect("the engine counts angles that the joint speaks of")
+            let known =
+                |known: &(usize, usize, String)| *known == (turn.from, turn.to, axis.clone());
+            self.angles
+                .iter()
+                .position(known)
+                .expect("the engine counts angles that the joint speaks of")
         });
         places.collect()
     }
 
     /// The values of the angles that the engine counts.
     pub(crate) fn angles(&self, counted: &[usize], state: &State) -> Vec<f64> {
-        let poses = state
-            .poses
-            .iter()
-            .map(|(r, p)| Pose::still(*r, *p))
-            .collect();
-        let interpreter = Interpreter::new(self, poses, constant(state.time), &state.turns);
+        let (element, starts) = self.read();
+        let poses = state.poses.iter().map(|(r, p)| Pose::still(*r, *p));
+        let poses: Vec<Pose> = poses.collect();
+        let time = constant(state.time);
+        let interpreter = Interpreter::new(&element, [&poses, &starts], &[], time, &state.turns);
         let angles = counted.iter().map(|&place| {
             let (from, to, axis) = &self.angles[place];
             interpreter.angle_now(*from, *to, axis)
@@ -233,200 +143,5 @@ impl Joint {
 impl Display for Joint {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         write!(f, "{}\n{}", self.definition(), self.mechanism())
-    }
-}
-
-/// A law of the time and of one argument.
-fn law(dice: &mut Dice) -> String {
-    let (a, b, c) = (dice.number(), dice.number(), dice.number());
-    match dice.below(5) {
-        0 => format!("{a:?} + {b:?} * time"),
-        1 => format!("{a:?} * sin({b:?} * time + x) - {c:?} * x"),
-        2 => format!("x * smooth_step(2.0 * time) + exp({a:?} * time) / (2.0 + cos(x))"),
-        3 => format!("sqrt(1.0 + x * x) * (time - {a:?}) / 2.0"),
-        _ => format!("{a:?} * time * time * x + {b:?} * cos(time) * x * x"),
-    }
-}
-
-/// Writes expressions.
-struct Writer<'a> {
-    dice: &'a mut Dice,
-    bodies: usize,
-    /// Names of scalars and of vectors.
-    names: [Vec<String>; 2],
-    angles: Vec<(usize, usize, String)>,
-}
-
-impl Writer<'_> {
-    fn body(&mut self) -> &'static str {
-        BODIES[self.dice.below(self.bodies)]
-    }
-
-    /// A vector fixed on a body.
-    fn fixed(&mut self) -> String {
-        let body = self.body();
-        let vector = self
-            .dice
-            .one(&["a", "b", "v", "a.normal()", "b.binormal()", "b.normal()"]);
-        format!("{body}.{vector}")
-    }
-
-    fn point(&mut self) -> String {
-        let body = self.body();
-        let point = self.dice.one(&["p", "q", "origin"]);
-        format!("{body}.{point}")
-    }
-
-    /// A vector; where the described configuration is meant, without time.
-    fn vector(&mut self, depth: usize, described: bool) -> String {
-        let named = self.names[1].len();
-        if depth == 0 || self.dice.below(4) == 0 {
-            return match self.dice.below(5) {
-                0 => self.point(),
-                1 => format!("({} - {})", self.point(), self.point()),
-                2 if named > 0 && !described => self.names[1][self.dice.below(named)].clone(),
-                _ => self.fixed(),
-            };
-        }
-        let depth = depth - 1;
-        match self.dice.below(8) {
-            0 => format!(
-                "({} + {})",
-                self.vector(depth, described),
-                self.vector(depth, described)
-            ),
-            1 => format!(
-                "({} - {})",
-                self.vector(depth, described),
-                self.vector(depth, described)
-            ),
-            2 => format!(
-                "cross({}, {})",
-                self.vector(depth, described),
-                self.vector(depth, described)
-            ),
-            3 => format!(
-                "{} * {}",
-                self.scalar(depth, described),
-                self.vector(depth, described)
-            ),
-            4 => format!(
-                "{} / (3.0 + cos({}))",
-                self.vector(depth, described),
-                self.scalar(depth, described)
-            ),
-            5 => format!(
-                "[{}, {}, 0.3]",
-                self.scalar(depth, described),
-                self.scalar(depth, described)
-            ),
-            6 => format!("fixed({}, {})", self.body(), self.vector(depth, true)),
-            _ => format!("-{}", self.vector(depth, described)),
-        }
-    }
-
-    /// A scalar; where the described configuration is meant, without time.
-    fn scalar(&mut self, depth: usize, described: bool) -> String {
-        let named = self.names[0].len();
-        if depth == 0 || self.dice.below(6) == 0 {
-            return match self.dice.below(8) {
-                0 => format!("{:.3}", 0.1 + self.dice.number().abs()),
-                1 => "size".into(),
-                2 => "ratio".into(),
-                3 if !described => "time".into(),
-                4 if named > 0 && !described => self.names[0][self.dice.below(named)].clone(),
-                5 => self.angle(),
-                _ => format!("dot({}, {})", self.fixed(), self.fixed()),
-            };
-        }
-        let depth = depth - 1;
-        match self.dice.below(14) {
-            0 => format!(
-                "({} + {})",
-                self.scalar(depth, described),
-                self.scalar(depth, described)
-            ),
-            1 => format!(
-                "({} - {})",
-                self.scalar(depth, described),
-                self.scalar(depth, described)
-            ),
-            2 => format!(
-                "{} * {}",
-                self.scalar(depth, described),
-                self.scalar(depth, described)
-            ),
-            3 => format!(
-                "{} / (2.0 + squared({}))",
-                self.scalar(depth, described),
-                self.vector(depth, described)
-            ),
-            4 | 5 => format!(
-                "dot({}, {})",
-                self.vector(depth, described),
-                self.vector(depth, described)
-            ),
-            6 => format!("squared({})", self.vector(depth, described)),
-            7 => format!("length({})", self.vector(depth, described)),
-            8 => format!("sqrt(1.0 + squared({}))", self.vector(depth, described)),
-            9 => format!("sin({})", self.scalar(depth, described)),
-            10 => format!("exp(0.2 * {})", self.scalar(depth, described)),
-            11 => format!("smooth_step({})", self.scalar(depth, described)),
-            12 if !described => format!("law({})", self.scalar(depth, described)),
-            _ => format!("initial({})", self.scalar(depth, true)),
-        }
-    }
-
-    /// An angle about one of the axes.
-    fn angle(&mut self) -> String {
-        let from = self.dice.below(self.bodies);
-        let to = (from + 1 + self.dice.below(self.bodies - 1)) % self.bodies;
-        let axis = self.dice.one(&["a", "b"]);
-        let angle = (from, to, axis.to_string());
-        if !self.angles.contains(&angle) {
-            self.angles.push(angle);
-        }
-        format!("angle({}, {}, {axis})", BODIES[from], BODIES[to])
-    }
-
-    fn moving(&mut self) -> String {
-        format!("dot({}, j.p - i.q)", self.fixed())
-    }
-
-    /// A force of any kind.
-    fn action(&mut self) -> Statement {
-        match self.dice.below(4) {
-            0 => Statement::Potential(format!("{} + {}", self.moving(), self.scalar(3, false))),
-            1 => {
-                let coordinate = format!("{} + {}", self.moving(), self.scalar(2, false));
-                let (rate, other) = (self.scalar(2, false), self.scalar(2, false));
-                Statement::Along(
-                    format!("-0.3 * rate({rate}) + law(rate(time * {rate})) - {other}"),
-                    coordinate,
-                )
-            }
-            2 => Statement::Force(self.vector(3, false), self.point()),
-            _ => Statement::Moment(self.vector(3, false), self.body()),
-        }
-    }
-
-    /// An equation or more, in which something moves.
-    fn row(&mut self) -> Statement {
-        let moving = self.moving();
-        match self.dice.below(6) {
-            0 | 1 => Statement::Row(format!("{moving} + {}", self.scalar(3, false))),
-            2 => Statement::Row(format!("j.p - i.q + {}", self.vector(3, false))),
-            3 => Statement::Row(format!("dot(i.a.normals(), {})", self.vector(3, false))),
-            4 => Statement::Row(format!(
-                "cross(j.b.normals(), {}) * {}",
-                self.vector(2, false),
-                self.scalar(2, false)
-            )),
-            _ => Statement::Row(format!(
-                "squared({} + j.p) * {}",
-                self.vector(3, false),
-                self.scalar(2, false)
-            )),
-        }
     }
 }

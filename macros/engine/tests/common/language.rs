@@ -1,11 +1,13 @@
-//! A second reader of the language: evaluates the text of a joint over dual numbers, without any derivative of its own.
+//! A second reader of the language: evaluates a definition over dual numbers, without any derivative of its own.
+#![allow(dead_code, reason = "every test uses a part of it")]
 
 use std::cell::Cell;
+use std::f64::consts::{PI, TAU};
 
 use num_dual::{Dual2_64, DualNum};
 use syn::{BinOp, Expr, Lit, Member, UnOp};
 
-use crate::random::{BODIES, Joint, Statement};
+use crate::reading::{Element, Given, Numbers, Statement};
 
 pub(crate) type Vector = [Dual2_64; 3];
 
@@ -66,17 +68,43 @@ impl Pose {
     fn inwards(&self, s: Vector) -> Vector {
         self.turned(s, -1.0)
     }
+
+    pub(crate) fn ground() -> Self {
+        Self::still([0.0; 3], [1.0, 0.0, 0.0, 0.0])
+    }
+
+    /// From body axes to global ones.
+    pub(crate) fn global_of(&self, s: Numbers) -> Numbers {
+        self.outwards(s.map(constant)).map(|c| c.re)
+    }
+
+    /// From global axes to those of the body.
+    pub(crate) fn local_of(&self, s: Numbers) -> Numbers {
+        self.inwards(s.map(constant)).map(|c| c.re)
+    }
 }
 
 /// The two unit vectors perpendicular to an axis, as the documentation has it: the first is `e_k x a`, normalised, where component
 /// `k` of `a` is the smallest; axis, first and second are right-handed.
-fn normals(axis: [f64; 3]) -> [[f64; 3]; 2] {
+pub(crate) fn normals(axis: Numbers) -> [Numbers; 2] {
+    // Round-off must not decide between equals.
+    let size = axis.map(|c| (c.abs() * 1e9).round());
+    let smallest = (0..3).fold(0, |k, l| if size[l] < size[k] { l } else { k });
     let [x, y, z] = axis;
-    let smallest = (0..3).fold(0, |k, l| if axis[l].abs() < axis[k].abs() { l } else { k });
     let first = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]][smallest];
     let length = first.iter().map(|c| c * c).sum::<f64>().sqrt();
     let [a, b, c] = first.map(|component| component / length);
     [[a, b, c], [y * c - z * b, z * a - x * c, x * b - y * a]]
+}
+
+/// The same of an axis that the macro cannot see (Duff et al. 2017).
+pub(crate) fn normals_without_cases([x, y, z]: Numbers) -> [Numbers; 2] {
+    let sign = if z < 0.0 { -1.0 } else { 1.0 };
+    let (a, b) = (-1.0 / (sign + z), -x * y / (sign + z));
+    [
+        [1.0 + sign * x * x * a, sign * b, -sign * x],
+        [b, sign + y * y * a, -y],
+    ]
 }
 
 /// What a force is made of, at one instant.
@@ -91,12 +119,15 @@ pub(crate) enum Acting {
     Moment(Vector, usize),
 }
 
-/// Reads the text of a joint at one instant.
+/// Reads a definition at one instant.
 pub(crate) struct Interpreter<'a> {
-    joint: &'a Joint,
+    element: &'a Element,
     /// Of the formal bodies, now and in the described configuration.
     poses: [Vec<Pose>; 2],
+    /// Run-time values of the mechanism.
+    values: &'a [(String, f64)],
     time: Dual2_64,
+    /// Whole turns of the angles that the state counts.
     turns: &'a [f64],
     /// The largest number so far.
     pub(crate) scale: Cell<f64>,
@@ -111,29 +142,28 @@ enum When {
     Described,
 }
 
+/// What names mean, besides the words of the language: those of the definition, or the arguments of a law.
+type Arguments<'a> = Option<&'a [(String, Dual2_64)]>;
+
 impl<'a> Interpreter<'a> {
-    /// The poses of the mechanism's bodies in order.
+    /// The poses of the mechanism's bodies in order, now and in the described configuration.
     pub(crate) fn new(
-        joint: &'a Joint,
-        poses: Vec<Pose>,
+        element: &'a Element,
+        [now, described]: [&[Pose]; 2],
+        values: &'a [(String, f64)],
         time: Dual2_64,
         turns: &'a [f64],
     ) -> Self {
-        let ground = Pose::still([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
         let formal = |poses: &[Pose]| {
-            let places = joint.between.iter();
+            let places = element.between.iter();
             places
-                .map(|place| place.map_or(ground, |place| poses[place]))
+                .map(|place| place.map_or_else(Pose::ground, |place| poses[place]))
                 .collect()
         };
-        let starts: Vec<Pose> = joint
-            .starts
-            .iter()
-            .map(|(r, p)| Pose::still(*r, *p))
-            .collect();
         Self {
-            joint,
-            poses: [formal(&poses), formal(&starts)],
+            element,
+            poses: [formal(now), formal(described)],
+            values,
             time,
             turns,
             scale: Cell::new(1.0),
@@ -144,9 +174,9 @@ impl<'a> Interpreter<'a> {
     /// The values of all equations.
     pub(crate) fn rows(&self) -> Vec<Dual2_64> {
         let mut rows = Vec::new();
-        for statement in &self.joint.statements {
+        for statement in &self.element.statements {
             match statement {
-                Statement::Row(text) => match self.text(text, When::Now) {
+                Statement::Row(expr) => match self.value(expr, When::Now, None) {
                     Value::Scalars(scalars) => rows.extend(scalars),
                     Value::Vectors(vectors) => rows.extend(vectors.into_iter().flatten()),
                 },
@@ -159,7 +189,7 @@ impl<'a> Interpreter<'a> {
 
     /// The values of what forces are made of.
     pub(crate) fn actions(&self) -> Vec<Acting> {
-        let statements = self.joint.statements.iter();
+        let statements = self.element.statements.iter();
         let actions = statements.filter_map(|statement| match statement {
             Statement::Potential(energy) => Some(Acting::Potential(self.number(energy))),
             Statement::Along(effort, coordinate) => {
@@ -169,7 +199,7 @@ impl<'a> Interpreter<'a> {
                 Some(Acting::Force(self.triple(force), self.triple(point)))
             }
             Statement::Moment(moment, body) => {
-                let place = BODIES.iter().position(|known| known == body);
+                let place = self.element.formal.iter().position(|known| body == known);
                 Some(Acting::Moment(self.triple(moment), place.expect("a body")))
             }
             _ => None,
@@ -177,20 +207,15 @@ impl<'a> Interpreter<'a> {
         actions.collect()
     }
 
-    fn number(&self, text: &str) -> Dual2_64 {
-        self.one(self.text(text, When::Now))
+    fn number(&self, expr: &Expr) -> Dual2_64 {
+        self.one(self.value(expr, When::Now, None))
     }
 
-    fn triple(&self, text: &str) -> Vector {
-        match self.text(text, When::Now) {
+    fn triple(&self, expr: &Expr) -> Vector {
+        match self.value(expr, When::Now, None) {
             Value::Vectors(vectors) if vectors.len() == 1 => vectors[0],
             _ => panic!("one vector is wanted"),
         }
-    }
-
-    fn text(&self, text: &str, when: When) -> Value {
-        let expr: Expr = syn::parse_str(text).expect("an expression");
-        self.value(&expr, when, None)
     }
 
     fn one(&self, value: Value) -> Dual2_64 {
@@ -206,8 +231,8 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    fn value(&self, expr: &Expr, when: When, argument: Option<Dual2_64>) -> Value {
-        let value = self.unmeasured(expr, when, argument);
+    fn value(&self, expr: &Expr, when: When, arguments: Arguments<'_>) -> Value {
+        let value = self.unmeasured(expr, when, arguments);
         let measure = |number: &Dual2_64| {
             let size = number.re.abs().max(number.v1.abs()).max(number.v2.abs());
             self.scale.set(self.scale.get().max(size));
@@ -219,8 +244,8 @@ impl<'a> Interpreter<'a> {
         value
     }
 
-    fn unmeasured(&self, expr: &Expr, when: When, argument: Option<Dual2_64>) -> Value {
-        let of = |expr: &Expr| self.value(expr, when, argument);
+    fn unmeasured(&self, expr: &Expr, when: When, arguments: Arguments<'_>) -> Value {
+        let of = |expr: &Expr| self.value(expr, when, arguments);
         match expr {
             Expr::Paren(inner) => of(&inner.expr),
             Expr::Lit(literal) => match &literal.lit {
@@ -260,48 +285,60 @@ impl<'a> Interpreter<'a> {
             }
             Expr::Path(path) => {
                 let name = path.path.get_ident().expect("a name").to_string();
-                match (name.as_str(), argument) {
-                    ("x", Some(argument)) => scalar(argument),
-                    ("time", _) => scalar(self.time),
-                    ("PI", _) => scalar(constant(std::f64::consts::PI)),
-                    ("TAU", _) => scalar(constant(std::f64::consts::TAU)),
-                    _ => self.named(&name, when),
-                }
+                self.named(&name, when, arguments)
             }
             Expr::Call(call) => {
                 let Expr::Path(path) = &*call.func else {
                     panic!("a function is wanted");
                 };
                 let name = path.path.get_ident().expect("a name").to_string();
-                let arguments: Vec<&Expr> = call.args.iter().collect();
-                self.call(&name, &arguments, when, argument)
+                let given: Vec<&Expr> = call.args.iter().collect();
+                self.call(&name, &given, when, arguments)
             }
             _ => panic!("not of the language"),
         }
     }
 
-    /// A scalar parameter, or what a `let` names.
-    fn named(&self, name: &str, when: When) -> Value {
-        let scalars = &self.joint.scalars;
-        if let Some((_, value)) = scalars.iter().find(|(known, _)| *known == name) {
-            return scalar(constant(*value));
+    /// An argument of a law, a run-time value; or a scalar parameter, or what a `let` names.
+    fn named(&self, name: &str, when: When, arguments: Arguments<'_>) -> Value {
+        match name {
+            "time" => return scalar(self.time),
+            "PI" => return scalar(constant(PI)),
+            "TAU" => return scalar(constant(TAU)),
+            _ => {}
         }
-        let found = self
-            .joint
-            .statements
-            .iter()
-            .find_map(|statement| match statement {
-                Statement::Let(known, text) if known == name => Some(text),
-                _ => None,
-            });
-        self.text(found.expect("a known name"), when)
+        if let Some(arguments) = arguments {
+            let known = arguments.iter().find(|(known, _)| known == name);
+            let value = self.values.iter().find(|(known, _)| known == name);
+            let value = value.map(|(_, value)| constant(*value));
+            return scalar(
+                known
+                    .map(|(_, value)| *value)
+                    .or(value)
+                    .expect("a known name"),
+            );
+        }
+        let mut numbers = self.element.numbers.iter();
+        if let Some((_, given)) = numbers.find(|(known, _)| known == name) {
+            return match given {
+                Given::Number(value) => scalar(constant(*value)),
+                Given::Default(expr) => self.value(expr, when, None),
+            };
+        }
+        let mut statements = self.element.statements.iter();
+        let found = statements.find_map(|statement| match statement {
+            Statement::Let(known, expr) if known == name => Some(expr),
+            _ => None,
+        });
+        self.value(found.expect("a known name"), when, None)
     }
 
     fn body(&self, expr: &Expr) -> usize {
         let Expr::Path(path) = expr else {
             panic!("a body is wanted");
         };
-        let place = BODIES.iter().position(|body| path.path.is_ident(body));
+        let mut formal = self.element.formal.iter();
+        let place = formal.position(|body| path.path.is_ident(body));
         place.expect("a body")
     }
 
@@ -317,34 +354,31 @@ impl<'a> Interpreter<'a> {
 
     /// A point, vector or axis of a body.
     fn fixed(&self, body: usize, name: &str, when: When) -> Vector {
-        let position = self.pose(body, when).position;
+        let pose = self.pose(body, when);
         if name == "origin" {
-            return position;
+            return pose.position;
         }
-        if let Some((_, axis)) = self.joint.axes.iter().find(|(known, _)| *known == name) {
-            return self.carried(body, axis.map(constant), when);
+        let mut vectors = self.element.vectors.iter();
+        let carried = vectors.find(|vector| vector.name == name);
+        let carried = carried.expect("a known name");
+        let arm = pose.outwards(carried.copies[body].map(constant));
+        if carried.is_point {
+            [0, 1, 2].map(|k| pose.position[k] + arm[k])
+        } else {
+            arm
         }
-        if let Some((_, given)) = self.joint.vectors.iter().find(|(known, _)| *known == name) {
-            return self.carried(body, given.map(constant), when);
-        }
-        let points = &self.joint.points;
-        let (_, point) = points
-            .iter()
-            .find(|(known, _)| *known == name)
-            .expect("a known name");
-        let start = self.pose(body, When::Described).position;
-        let arm = [0, 1, 2].map(|k| constant(point[k]) - start[k]);
-        let arm = self.carried(body, arm, when);
-        [0, 1, 2].map(|k| position[k] + arm[k])
     }
 
     fn normals(&self, body: usize, name: &str, when: When) -> [Vector; 2] {
-        let axes = &self.joint.axes;
-        let (_, axis) = axes
-            .iter()
-            .find(|(known, _)| *known == name)
-            .expect("a known axis");
-        normals(*axis).map(|normal| self.carried(body, normal.map(constant), when))
+        let mut vectors = self.element.vectors.iter();
+        let carried = vectors.find(|vector| vector.name == name);
+        let normals = carried.expect("a known axis").normals[body];
+        normals.map(|normal| self.pose(body, when).outwards(normal.map(constant)))
+    }
+
+    /// An axis of a body, now.
+    pub(crate) fn axis_now(&self, body: usize, name: &str) -> Vector {
+        self.fixed(body, name, When::Now)
     }
 
     fn binary(&self, op: BinOp, left: Value, right: Value) -> Value {
@@ -374,19 +408,20 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    fn call(
-        &self,
-        name: &str,
-        arguments: &[&Expr],
-        when: When,
-        argument: Option<Dual2_64>,
-    ) -> Value {
-        let of = |place: usize| self.value(arguments[place], when, argument);
+    fn call(&self, name: &str, given: &[&Expr], when: When, arguments: Arguments<'_>) -> Value {
+        let of = |place: usize| self.value(given[place], when, arguments);
         let number = |place: usize| self.one(of(place));
         let vectors = |place: usize| match of(place) {
             Value::Vectors(vectors) => vectors,
             Value::Scalars(_) => panic!("a vector is wanted"),
         };
+        if arguments.is_none()
+            && let Some(law) = self.element.laws.iter().find(|law| law.name == name)
+        {
+            let names = law.arguments.iter().cloned().enumerate();
+            let known: Vec<_> = names.map(|(place, name)| (name, number(place))).collect();
+            return self.value(&law.body, when, Some(&known));
+        }
         match name {
             "dot" => Value::Scalars(pairs(&vectors(0), &vectors(1), dot)),
             "cross" => Value::Vectors(pairs(&vectors(0), &vectors(1), cross)),
@@ -409,18 +444,14 @@ impl<'a> Interpreter<'a> {
                     _ => x * x * x * (x * (x * 6.0 - 15.0) + 10.0),
                 })
             }
-            "law" => {
-                let law: Expr = syn::parse_str(&self.joint.law).expect("an expression");
-                self.value(&law, when, Some(number(0)))
-            }
             "angle" => {
-                let (from, to) = (self.body(arguments[0]), self.body(arguments[1]));
-                scalar(self.angle(from, to, &name_of(arguments[2]), when))
+                let (from, to) = (self.body(given[0]), self.body(given[1]));
+                scalar(self.angle(from, to, &name_of(given[2]), when))
             }
-            "initial" => self.value(arguments[0], When::Described, argument),
+            "initial" => self.value(given[0], When::Described, None),
             "fixed" => {
-                let body = self.body(arguments[0]);
-                let described = self.value(arguments[1], When::Described, argument);
+                let body = self.body(given[0]);
+                let described = self.value(given[1], When::Described, None);
                 let Value::Vectors(described) = described else {
                     panic!("a vector is wanted");
                 };
@@ -444,9 +475,12 @@ impl<'a> Interpreter<'a> {
         let [turning, _] = self.normals(to, axis, when);
         let (sine, cosine) = (dot(second, turning), dot(first, turning));
         self.avoid(sine * sine + cosine * cosine);
-        let place = self.joint.angle_place(from, to, axis);
-        let turns = place.and_then(|place| self.turns.get(place)).copied();
-        sine.atan2(cosine) + std::f64::consts::TAU * turns.unwrap_or(0.0)
+        let mut turns = self.element.turns.iter().zip(self.turns);
+        let known = |turn: &(usize, usize, String)| (turn.0, turn.1, &*turn.2) == (from, to, axis);
+        let turns = turns
+            .find(|(turn, _)| known(turn))
+            .map_or(0.0, |(_, turns)| *turns);
+        sine.atan2(cosine) + TAU * turns
     }
 
     fn root(&self, square: Dual2_64) -> Dual2_64 {
