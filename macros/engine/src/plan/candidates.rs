@@ -59,6 +59,26 @@ const STRATEGIES: [Strategy; 7] = {
     ]
 };
 
+/// The number of candidates, of which some may be the same plan.
+pub const CANDIDATES: usize = STRATEGIES.len();
+
+/// One of the plans worth counting.
+///
+/// # Panics
+/// From [`CANDIDATES`] on.
+#[must_use]
+pub fn candidate(model: &Model, place: usize) -> Plan {
+    let reach = Reach::new(model);
+    let tree = tree(model, &reach);
+    plan(
+        model,
+        &tree,
+        &reach,
+        &StartValues::new(model),
+        STRATEGIES[place],
+    )
+}
+
 /// The plans worth counting, each once.
 #[must_use]
 pub fn all(model: &Model) -> Vec<Plan> {

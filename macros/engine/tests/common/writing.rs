@@ -4,18 +4,34 @@
 use holonom_engine::model::ElementKind;
 
 /// Numbers without a pattern, the same in every run (Marsaglia's xorshift).
-pub(crate) struct Dice(u64);
+pub(crate) struct Dice {
+    state: u64,
+    /// Choices that are made already.
+    made: Vec<u8>,
+}
 
 impl Dice {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+        Self {
+            state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1,
+            made: Vec::new(),
+        }
     }
 
-    pub(crate) fn roll(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 >> 11
+    /// With the first choices made by others; numbers are still without a pattern.
+    pub(crate) fn with_choices(seed: u64, choices: &[u8]) -> Self {
+        let made = choices.iter().rev().copied().collect();
+        Self {
+            made,
+            ..Self::new(seed)
+        }
+    }
+
+    fn roll(&mut self) -> u64 {
+        self.state ^= self.state << 13;
+        self.state ^= self.state >> 7;
+        self.state ^= self.state << 17;
+        self.state >> 11
     }
 
     /// Between -1 and 1.
@@ -24,7 +40,8 @@ impl Dice {
     }
 
     pub(crate) fn below(&mut self, bound: usize) -> usize {
-        usize::try_from(self.roll() % bound as u64).unwrap_or(0)
+        let choice = self.made.pop().map_or_else(|| self.roll(), u64::from);
+        usize::try_from(choice % bound as u64).unwrap_or(0)
     }
 
     pub(crate) fn one<'a>(&mut self, of: &[&'a str]) -> &'a str {

@@ -1,7 +1,8 @@
 //! A mechanism through the engine's passes, evaluated by numbers, against a dense solution of the same equations.
 
 use holonom_engine::model::Model;
-use holonom_engine::plan::candidates::all;
+use holonom_engine::plan::Plan;
+use holonom_engine::plan::candidates::{CANDIDATES, all, candidate};
 use holonom_engine::plan::kernels::{Evaluation, Kernels, evaluation};
 use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::scene::Reading;
@@ -19,12 +20,21 @@ const LARGE: usize = 30;
 /// States besides the described one.
 const STATES: usize = 2;
 
+/// How much of a mechanism is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// All kernels.
+    Full,
+    /// One kernel of motion by one plan; many mechanisms make up for that.
+    Quick,
+}
+
 /// Mechanism and kernels.
 pub(crate) struct Comparison<'a> {
     pub(crate) model: &'a Model,
     pub(crate) described: &'a Described,
-    pub(crate) kernels: Kernels,
-    /// Of the other plans.
+    pub(crate) kernels: Option<Kernels>,
+    /// Besides those of the kernels.
     pub(crate) others: Vec<Evaluation>,
     /// Of all rows of the definitions.
     dropped: Vec<bool>,
@@ -46,21 +56,44 @@ pub(crate) fn difference(found: &[f64], wanted: &[f64]) -> f64 {
     })
 }
 
+/// Evaluations by other plans than the chosen one.
+fn others(model: &Model, chosen: &Plan, seed: usize) -> Vec<Evaluation> {
+    let mut plans = all(model);
+    plans.retain(|plan| plan != chosen);
+    if model.layout().velocities + model.layout().rows > LARGE {
+        // One of them: they cost most of the time.
+        plans = plans.into_iter().skip(seed % 3).take(1).collect();
+    }
+    let terms = [Terms::Plain, Terms::Compliant];
+    let plans = plans.iter().enumerate();
+    plans
+        .map(|(place, plan)| evaluation(model, plan, Reading::Raw, terms[(place + seed) % 2]))
+        .collect()
+}
+
+/// One of all evaluations.
+fn any(model: &Model, seed: usize) -> Evaluation {
+    let plan = candidate(model, seed % CANDIDATES);
+    let seed = seed / CANDIDATES;
+    let reading = [Reading::Raw, Reading::Normalised][seed % 2];
+    evaluation(model, &plan, reading, Terms::ALL[(seed / 2) % 3])
+}
+
 impl<'a> Comparison<'a> {
-    pub(crate) fn new(model: &'a Model, described: &'a Described, seed: u64) -> Self {
-        let kernels = Kernels::new(model);
-        let mut others = all(model);
-        others.retain(|plan| *plan != kernels.plan);
-        if model.layout().velocities + model.layout().rows > LARGE {
-            // One of them: they cost most of the time.
-            others = others.into_iter().skip(seed as usize % 3).take(1).collect();
-        }
-        let terms = [Terms::Plain, Terms::Compliant];
-        let others = others.into_iter().enumerate().map(|(place, plan)| {
-            let terms = terms[(place + seed as usize) % 2];
-            evaluation(model, &plan, Reading::Raw, terms)
-        });
-        let others = others.collect();
+    pub(crate) fn new(
+        model: &'a Model,
+        described: &'a Described,
+        seed: u64,
+        extent: Extent,
+    ) -> Self {
+        let (kernels, others) = match extent {
+            Extent::Full => {
+                let kernels = Kernels::new(model);
+                let others = others(model, &kernels.plan, seed as usize);
+                (Some(kernels), others)
+            }
+            Extent::Quick => (None, vec![any(model, seed as usize)]),
+        };
         let mut dropped = Vec::new();
         for joint in &model.joints {
             let rows = model.definition(joint).equations();
@@ -145,6 +178,9 @@ impl<'a> Comparison<'a> {
         equations: &Equations,
         coefficients: Coefficients,
     ) -> Result<(), String> {
+        let Some(kernels) = self.kernels.take() else {
+            return Ok(());
+        };
         let inputs = Inputs::new(
             self.model,
             self.described,
@@ -153,22 +189,22 @@ impl<'a> Comparison<'a> {
             coefficients,
         );
         let (model, scale) = (self.model, equations.scale);
-        let found = inputs.of(&self.kernels.constraints);
+        let found = inputs.of(&kernels.constraints);
         self.within("Phi", &found, &equations.phi, scale)?;
-        let found = inputs.of(&self.kernels.constraint_rates);
+        let found = inputs.of(&kernels.constraint_rates);
         self.within("Phi'", &found, &equations.rate, scale)?;
-        let found = inputs.of(&self.kernels.gamma);
+        let found = inputs.of(&kernels.gamma);
         self.within("gamma", &found, &equations.gamma, scale)?;
-        let found = self.jacobian(&inputs);
+        let found = self.jacobian(&kernels, &inputs);
         for (row, (found, wanted)) in found.iter().zip(&equations.gradients).enumerate() {
             self.within(&format!("row {row} of D"), found, wanted, scale)?;
         }
-        let found = in_axes(model, &inputs.of(&self.kernels.forces), false);
+        let found = in_axes(model, &inputs.of(&kernels.forces), false);
         // A force times a derivative.
         self.within("g", &found, &equations.forces, scale * scale)?;
         for (body, described) in self.described.bodies.iter().enumerate() {
             let first = model.layout().velocity[body];
-            let found = inputs.of(&self.kernels.mass);
+            let found = inputs.of(&kernels.mass);
             self.within(
                 "a mass",
                 &found[first..first + 3],
@@ -189,36 +225,34 @@ impl<'a> Comparison<'a> {
             }
         }
         let rates = self.coordinate_rates(state, equations);
-        let found = inputs.of(&self.kernels.coordinate_rates);
+        let found = inputs.of(&kernels.coordinate_rates);
         self.within("q'", &found, &rates, scale)?;
         let energies = [
-            (
-                "kinetic energy",
-                &self.kernels.kinetic_energy,
-                equations.kinetic,
-            ),
+            ("kinetic energy", &kernels.kinetic_energy, equations.kinetic),
             (
                 "potential energy",
-                &self.kernels.potential_energy,
+                &kernels.potential_energy,
                 equations.potential,
             ),
-            ("power", &self.kernels.power, equations.power),
+            ("power", &kernels.power, equations.power),
         ];
         let energies = energies.map(|(what, kernel, wanted)| (what, inputs.of(kernel), wanted));
         for (what, found, wanted) in energies {
             self.within(what, &found, &[wanted], scale * scale)?;
         }
         let angles: Vec<f64> = equations.angles.iter().map(|(angle, _)| *angle).collect();
-        let found = inputs.of(&self.kernels.counters);
-        self.within("counted angles", &found, &angles, scale)
+        let found = inputs.of(&kernels.counters);
+        self.within("counted angles", &found, &angles, scale)?;
+        self.kernels = Some(kernels);
+        Ok(())
     }
 
     /// The rows of `D` in the user's axes.
-    fn jacobian(&self, inputs: &Inputs) -> Vec<Vec<f64>> {
+    fn jacobian(&self, kernels: &Kernels, inputs: &Inputs) -> Vec<Vec<f64>> {
         let (model, layout) = (self.model, self.model.layout());
-        let values = inputs.of(&self.kernels.jacobian);
+        let values = inputs.of(&kernels.jacobian);
         let mut rows = vec![vec![0.0; layout.velocities]; layout.rows];
-        for block in &self.kernels.blocks {
+        for block in &kernels.blocks {
             let width = model.bodies[block.body].kind.velocities();
             let first = layout.row[block.joint];
             for k in 0..model.equations(&model.joints[block.joint]) {

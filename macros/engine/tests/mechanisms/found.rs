@@ -2,6 +2,7 @@
 
 use holonom_engine::model::ElementKind;
 
+use crate::comparison::Extent;
 use crate::text::{Outcome, Text};
 
 /// A given moment and a spring on one body: their sum was turned out of the body and back, which multiplied the moment of the spring by
@@ -44,7 +45,7 @@ fn mechanisms_that_failed_once() {
             definitions: vec![("Own".into(), ElementKind::Joint, own.into())],
         };
         for seed in 0..5 {
-            match text.check(&text, seed) {
+            match text.check(&text, seed, Extent::Full) {
                 Ok(Outcome::Compared(_)) => {}
                 Ok(Outcome::Known(defect)) => panic!("{defect}:\n{text}"),
                 Ok(Outcome::Refused(why)) | Err(why) => panic!("{text}\n{why}"),

@@ -115,8 +115,8 @@ pub(crate) struct Generator {
 }
 
 impl Generator {
-    pub(crate) fn new(seed: u64) -> Self {
-        let mut dice = Dice::new(seed.wrapping_add(0x5851_f42d));
+    pub(crate) fn new(seed: u64, choices: &[u8]) -> Self {
+        let mut dice = Dice::with_choices(seed.wrapping_add(0x5851_f42d), choices);
         // The first numbers of neighbouring seeds are alike.
         (0..8).for_each(|_| _ = dice.number());
         let run_time = if dice.below(3) == 0 {

@@ -2,20 +2,21 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use crate::comparison::Extent;
 use crate::generator::{Generator, Mechanism};
 use crate::text::Outcome;
 use crate::writing::Dice;
 
-/// What becomes of the mechanism of a seed, and its text.
+/// What becomes of the mechanism of a seed, and its text. The first choices may be made already.
 ///
 /// # Panics
 /// If something differs: with the smallest mechanism found that fails as well.
-pub(crate) fn run(seed: u64) -> (Outcome, String) {
-    let mut mechanism = Generator::new(seed).mechanism();
+pub(crate) fn run(seed: u64, choices: &[u8], extent: Extent) -> (Outcome, String) {
+    let mut mechanism = Generator::new(seed, choices).mechanism();
     // What is refused is said otherwise: redundant equations left out, or kept.
     let mut wishes = [Some("drop"), Some("keep")].into_iter();
     loop {
-        let message = match outcome(&mechanism, seed) {
+        let message = match outcome(&mechanism, seed, extent) {
             Ok(Outcome::Refused(why)) => {
                 let Some(wish) = wishes.next() else {
                     return (Outcome::Refused(why), mechanism.text().item);
@@ -26,16 +27,16 @@ pub(crate) fn run(seed: u64) -> (Outcome, String) {
             Ok(outcome) => return (outcome, mechanism.text().item),
             Err(message) => message,
         };
-        let (mechanism, message) = shrink(mechanism, seed, message);
+        let (mechanism, message) = shrink(mechanism, seed, extent, message);
         panic!("seed {seed}\n{}\n{message}", mechanism.text());
     }
 }
 
 /// What becomes of a mechanism; a panic is a failure.
-fn outcome(mechanism: &Mechanism, seed: u64) -> Result<Outcome, String> {
+fn outcome(mechanism: &Mechanism, seed: u64, extent: Extent) -> Result<Outcome, String> {
     let text = mechanism.text();
     let shuffled = mechanism.shuffled(&mut Dice::new(seed)).text();
-    let run = catch_unwind(AssertUnwindSafe(|| text.check(&shuffled, seed)));
+    let run = catch_unwind(AssertUnwindSafe(|| text.check(&shuffled, seed, extent)));
     run.unwrap_or_else(|panic| {
         let message = panic.downcast_ref::<String>().cloned();
         let message = message.or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
@@ -44,10 +45,15 @@ fn outcome(mechanism: &Mechanism, seed: u64) -> Result<Outcome, String> {
 }
 
 /// Leaves out fields, then entries, as long as something fails.
-fn shrink(mut mechanism: Mechanism, seed: u64, mut message: String) -> (Mechanism, String) {
+fn shrink(
+    mut mechanism: Mechanism,
+    seed: u64,
+    extent: Extent,
+    mut message: String,
+) -> (Mechanism, String) {
     loop {
         let smaller = candidates(&mechanism).into_iter().find_map(|candidate| {
-            let failure = outcome(&candidate, seed).err()?;
+            let failure = outcome(&candidate, seed, extent).err()?;
             Some((candidate, failure))
         });
         match smaller {

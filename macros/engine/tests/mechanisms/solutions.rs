@@ -137,11 +137,8 @@ impl Comparison<'_> {
                 .find(|(known, _)| *known == terms)
                 .and_then(|(_, solution)| solution.as_ref())
         };
-        let evaluations = self
-            .kernels
-            .evaluations
-            .iter()
-            .map(|evaluation| ("chosen", evaluation));
+        let evaluations = self.kernels.iter().flat_map(|kernels| &kernels.evaluations);
+        let evaluations = evaluations.map(|evaluation| ("chosen", evaluation));
         let others = self.others.iter().map(|evaluation| ("other", evaluation));
         let layout = model.layout();
         let coordinates = layout.coordinates + layout.auxiliaries;
@@ -212,7 +209,8 @@ impl Comparison<'_> {
         inputs.upper = in_axes(self.model, upper, true);
         inputs.lower = lower.to_vec();
         let mut found = Vec::new();
-        for solver in &self.kernels.solvers {
+        let solvers = self.kernels.iter().flat_map(|kernels| &kernels.solvers);
+        for solver in solvers {
             let system = if solver.terms == Terms::Compliant {
                 soft
             } else {
@@ -230,15 +228,12 @@ impl Comparison<'_> {
         for (what, values, wanted) in found {
             self.solution(&what, &values, &wanted)?;
         }
-        let (Some(rigid), Some(soft)) = (rigid, soft) else {
+        let kernels = self.kernels.as_ref();
+        let mut solvers = kernels.iter().flat_map(|kernels| &kernels.solvers);
+        let compliant = solvers.find(|solver| solver.terms == Terms::Compliant);
+        let (Some(rigid), Some(soft), Some(compliant)) = (rigid, soft, compliant) else {
             return Ok(());
         };
-        let compliant = self
-            .kernels
-            .solvers
-            .iter()
-            .find(|s| s.terms == Terms::Compliant);
-        let compliant = compliant.expect("a compliant solver");
         let compliance = inputs.coefficients.compliance;
         let mut multipliers = vec![0.0; rows];
         let mut values = Vec::new();

@@ -10,7 +10,7 @@ use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::scene::Reading;
 
 use crate::common::{checked, tokens};
-use crate::comparison::{Comparison, difference};
+use crate::comparison::{Comparison, Extent, difference};
 use crate::inputs::{Coefficients, Inputs};
 use crate::known;
 use crate::library;
@@ -121,7 +121,12 @@ impl Text {
     }
 
     /// Compares everything, also with the same fields in another order; the error says what differs.
-    pub(crate) fn check(&self, shuffled: &Self, seed: u64) -> Result<Outcome, String> {
+    pub(crate) fn check(
+        &self,
+        shuffled: &Self,
+        seed: u64,
+        extent: Extent,
+    ) -> Result<Outcome, String> {
         let (model, described) = match self.read() {
             Ok(read) => read,
             Err(faults) => return Ok(Outcome::Refused(faults)),
@@ -129,8 +134,8 @@ impl Text {
         if let Some(defect) = known::defect(&model, &described, seed) {
             return Ok(Outcome::Known(defect));
         }
-        let statistics = Comparison::new(&model, &described, seed).run(seed)?;
-        if model.independence.dropped {
+        let statistics = Comparison::new(&model, &described, seed, extent).run(seed)?;
+        if extent == Extent::Quick || model.independence.dropped {
             // What is left out may be another choice.
             return Ok(Outcome::Compared(statistics));
         }
