@@ -81,14 +81,14 @@ pub fn describe(model: &Model, plan: &Plan, layout: &Layout) -> String {
                 .row
                 .iter()
                 .rposition(|&first| first <= row)
-                .unwrap_or(0);
+                .expect("a row belongs to a joint");
             return format!("{}[{}]", model.joints[joint].name, row - layout.row[joint]);
         }
         let body = layout
             .velocity
             .iter()
             .rposition(|&first| first <= k)
-            .unwrap_or(0);
+            .expect("a velocity belongs to a body");
         let place = k - layout.velocity[body];
         let letter = if place < 3 { "v'" } else { "w'" };
         format!("{}.{letter}{}", model.bodies[body].name, place % 3 + 1)

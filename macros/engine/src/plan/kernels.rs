@@ -395,7 +395,8 @@ fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotC
             .iter()
             .rev()
             .find(|c| c.row <= row)
-            .map_or(0, |c| c.joint)
+            .map(|c| c.joint)
+            .expect("a row belongs to a constraint")
     };
     let mut pivots = Vec::new();
     let mut checks = Vec::new();

@@ -3,6 +3,9 @@
 //! Equal expressions are one node, so what is computed twice is computed once. Constants fold when a node is made; signs
 //! stand outside the nodes, so that `a - b` and `b - a` are one node and negation costs nothing. Ids are topological
 //! by construction: operands come before the node, and no pass needs recursion.
+//!
+//! Only what has a number folds: `1 / 0`, an overflow or an underflow stay operations, and what is made of them is not simplified, so
+//! that the kernels show what it is (`0 / 0` is not 1, `0 * (1 / 0)` is not 0).
 
 use std::collections::HashMap;
 
@@ -18,6 +21,8 @@ pub struct Mark(usize);
 pub struct Arena {
     nodes: Vec<Node>,
     stages: Vec<Stage>,
+    /// Whether the nodes are made of an operation on numbers that has none.
+    without_number: Vec<bool>,
     index: Table<Node, u32>,
     identities: Table<Node, Expr>,
     labels: HashMap<u32, String>,
@@ -41,6 +46,7 @@ impl Arena {
         let mut arena = Self {
             nodes: Vec::new(),
             stages: Vec::new(),
+            without_number: Vec::new(),
             index: Table::default(),
             identities: Table::default(),
             labels: HashMap::new(),
@@ -112,6 +118,7 @@ impl Arena {
             self.labels.remove(&((mark.0 + place) as u32));
         }
         self.stages.truncate(mark.0);
+        self.without_number.truncate(mark.0);
     }
 
     /// The operations among the nodes made since the mark that are not known before the state is.
@@ -142,22 +149,42 @@ impl Arena {
         let stage = match node {
             Node::Constant(_) => Stage::Literal,
             Node::Input(input) => input.stage(),
-            // An operation on literals that did not fold, such as 1/0, has no number: it is left to the kernels, whose results
-            // show it.
+            // An operation on literals that did not fold is left to the kernels, whose results show it.
             _ => match node.operands().map(|operand| self.stage(operand)).max() {
                 None | Some(Stage::Literal) => Stage::State,
                 Some(stage) => stage,
             },
         };
+        let is_literal = |operand: Expr| self.stage(operand) == Stage::Literal;
+        let without_number = match node {
+            Node::Constant(_) | Node::Input(_) => false,
+            _ => {
+                node.operands().all(is_literal)
+                    || node
+                        .operands()
+                        .any(|operand| self.is_without_number(operand))
+            }
+        };
         self.nodes.push(node);
         self.stages.push(stage);
+        self.without_number.push(without_number);
         self.index.insert(node, place);
         Expr::new(place, false)
     }
 
-    /// A number known at expansion. It must not be NaN.
+    fn is_without_number(&self, expr: Expr) -> bool {
+        self.without_number[expr.node()]
+    }
+
+    /// A number known at expansion.
+    ///
+    /// # Panics
+    /// If it is not finite.
     pub fn constant(&mut self, value: f64) -> Expr {
-        debug_assert!(!value.is_nan(), "constants are numbers");
+        assert!(
+            value.is_finite(),
+            "a constant is a finite number, not {value}"
+        );
         let magnitude = self.intern(Node::Constant(value.abs().to_bits()));
         magnitude.with_sign_of(value < 0.0)
     }
@@ -175,14 +202,16 @@ impl Arena {
         if b == Self::ZERO {
             return a;
         }
-        if a == -b {
+        if a == -b && !self.is_without_number(a) {
             return Self::ZERO;
         }
         if a == b {
             let two = self.constant(2.0);
             return self.mul(two, a);
         }
-        if let (Some(x), Some(y)) = (self.literal(a), self.literal(b)) {
+        if let (Some(x), Some(y)) = (self.literal(a), self.literal(b))
+            && (x + y).is_finite()
+        {
             return self.constant(x + y);
         }
         if let Some(folded) = self
@@ -209,7 +238,11 @@ impl Arena {
             _ => return None,
         };
         let sign = sum.is_negative();
-        let inner = self.constant(outer + if sign { -inner } else { inner });
+        let merged = outer + if sign { -inner } else { inner };
+        if !merged.is_finite() {
+            return None;
+        }
+        let inner = self.constant(merged);
         Some(self.add(inner, rest.with_sign_of(sign)))
     }
 
@@ -222,7 +255,8 @@ impl Arena {
     pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
         let negative = a.is_negative() != b.is_negative();
         let (a, b) = (a.abs(), b.abs());
-        if a == Self::ZERO || b == Self::ZERO {
+        let [has_number_a, has_number_b] = [a, b].map(|x| !self.is_without_number(x));
+        if a == Self::ZERO && has_number_b || b == Self::ZERO && has_number_a {
             return Self::ZERO;
         }
         if a == Self::ONE {
@@ -231,7 +265,9 @@ impl Arena {
         if b == Self::ONE {
             return a.with_sign_of(negative);
         }
-        if let (Some(x), Some(y)) = (self.literal(a), self.literal(b)) {
+        if let (Some(x), Some(y)) = (self.literal(a), self.literal(b))
+            && (x * y).is_normal()
+        {
             return self.constant(x * y).with_sign_of(negative);
         }
         let product = self
@@ -255,6 +291,9 @@ impl Arena {
             (_, Some(inner)) => (inner, x),
             _ => return None,
         };
+        if !(outer * inner).is_normal() {
+            return None;
+        }
         let merged = self.constant(outer * inner);
         Some(self.mul(merged, rest))
     }
@@ -269,10 +308,10 @@ impl Arena {
         let negative = a.is_negative();
         let a = a.abs();
         let result = match self.get(a) {
-            Node::Constant(bits) if f64::from_bits(bits) != 0.0 => {
-                self.constant(1.0 / f64::from_bits(bits))
+            Node::Constant(bits) if f64::from_bits(bits).recip().is_normal() => {
+                self.constant(f64::from_bits(bits).recip())
             }
-            Node::Reciprocal(inner) => inner,
+            Node::Reciprocal(inner) if !self.is_without_number(a) => inner,
             _ => self.intern(Node::Reciprocal(a)),
         };
         result.with_sign_of(negative)
@@ -280,7 +319,7 @@ impl Arena {
 
     /// `a / b`: one reciprocal per divisor, shared by all dividends.
     pub fn div(&mut self, a: Expr, b: Expr) -> Expr {
-        if a == b {
+        if a == b && a != Self::ZERO && !self.is_without_number(a) {
             return Self::ONE;
         }
         let reciprocal = self.reciprocal(b);
@@ -400,6 +439,7 @@ impl Arena {
 #[cfg(test)]
 mod tests {
     use super::{Arena, Input, Node, Stage};
+    use crate::symbolic::evaluate::evaluate;
 
     fn two_inputs(arena: &mut Arena) -> (super::Expr, super::Expr) {
         (
@@ -454,6 +494,54 @@ mod tests {
         let infinite = arena.reciprocal(Arena::ZERO);
         assert_eq!(arena.literal(infinite), None);
         assert_eq!(arena.stage(infinite), Stage::State);
+    }
+
+    #[test]
+    fn what_is_made_of_it_is_not_simplified() {
+        let mut arena = Arena::new();
+        let (x, _) = two_inputs(&mut arena);
+        let infinite = arena.reciprocal(Arena::ZERO);
+        let huge = arena.constant(1e300);
+        let tiny = arena.constant(1e-300);
+        let scaled = arena.mul(infinite, x);
+        let found = [
+            ("0 / 0", arena.div(Arena::ZERO, Arena::ZERO)),
+            ("0 (1 / 0)", arena.mul(Arena::ZERO, infinite)),
+            ("0 (x / 0)", arena.mul(Arena::ZERO, scaled)),
+            ("1 / 0 - 1 / 0", arena.sub(infinite, infinite)),
+            ("(1 / 0) / (1 / 0)", arena.div(infinite, infinite)),
+            ("1e600", arena.square(huge)),
+            ("1e-600", arena.square(tiny)),
+        ];
+        for (what, expr) in found {
+            assert_eq!(arena.literal(expr), None, "{what}");
+        }
+        let outputs = found.map(|(_, expr)| expr);
+        let values = evaluate(&arena, &outputs, |_| Some(2.0));
+        let values: Vec<f64> = values
+            .into_iter()
+            .map(|value| value.expect("known"))
+            .collect();
+        assert!(values[..5].iter().all(|value| value.is_nan()), "{values:?}");
+        assert_eq!(values[5..], [f64::INFINITY, 0.0]);
+    }
+
+    #[test]
+    fn sums_and_merged_constants_overflow_in_the_kernels() {
+        let mut arena = Arena::new();
+        let (x, _) = two_inputs(&mut arena);
+        let huge = arena.constant(1.5e308);
+        let sum = arena.add(huge, huge);
+        assert_eq!(arena.literal(sum), None);
+        let product = arena.mul(huge, x);
+        let again = arena.mul(huge, product);
+        assert_eq!(arena.literal(again), None);
+        let sum = arena.add(huge, x);
+        let again = arena.add(huge, sum);
+        assert_eq!(arena.literal(again), None);
+        let least = arena.constant(1e-310);
+        let reciprocal = arena.reciprocal(least);
+        assert_eq!(arena.literal(reciprocal), None);
     }
 
     #[test]

@@ -215,6 +215,7 @@ impl Binder<'_> {
         AngleExpr {
             sine: dot(1),
             cosine: dot(0),
+            // An angle that stands within `initial` alone has none: it is zero there.
             near: self
                 .counter(turn)
                 .map_or(Arena::ZERO, |place| arena.input(Input::Coordinate(place))),
@@ -222,10 +223,11 @@ impl Binder<'_> {
     }
 
     /// The place of the auxiliary variable of an angle in the state.
-    pub(super) fn counter(&self, turn: Turn) -> Option<u32> {
+    fn counter(&self, turn: Turn) -> Option<u32> {
         let turns = &self.model.definition(self.element).turns;
         let place = turns.iter().position(|known| *known == turn)?;
-        u32::try_from(self.first_counter + place).ok()
+        let place = u32::try_from(self.first_counter + place);
+        Some(place.expect("fewer than 2^32 coordinates"))
     }
 
     pub(super) fn effect(&self, arena: &mut Arena, action: &Action) -> Effect {

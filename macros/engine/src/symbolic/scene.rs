@@ -268,6 +268,7 @@ impl Scene {
                 first_counter: layout.coordinates + counters.len(),
             };
             let arena = &mut space.arena;
+            // Forces, which stand behind the joints, have no rows.
             let mut row = layout.row.get(place).copied().unwrap_or_default();
             let mut place_in_definition = 0;
             for definition in &definition.rows {

@@ -320,7 +320,7 @@ impl ScalarExpr {
                             product_rule(space, motion, a, b)
                         }
                     })
-                    .unwrap_or(Arena::ZERO),
+                    .expect("two ways were tried"),
                 _ => product_rule(space, motion, a, b),
             },
             Self::Sum(terms) => weighted(space, motion, terms, Self::quadratic),

@@ -303,7 +303,7 @@ impl Space {
                 let components = space.components_within(vector, within);
                 space.turn(components, within, frame)
             })
-            .unwrap_or(ZERO);
+            .expect("a vector is defined in some frame");
         self.components.insert((vector, frame), components);
         self.history.push((vector, frame));
         components
@@ -443,7 +443,7 @@ impl Space {
                 dot(&mut space.arena, a, b)
             }
         })
-        .unwrap_or(Arena::ZERO)
+        .expect("vectors are defined in some frame")
     }
 
     /// Another way to a scalar product.

@@ -126,3 +126,17 @@ fn the_second_axis_of_a_gear_does_not_look_at_the_first_wheel() {
     let violation = state.of(&kernels.constraints);
     assert!((violation[0] - 0.4).abs() < 1e-15, "{violation:?}");
 }
+
+#[test]
+fn small_numbers_of_a_small_mechanism_are_not_round_off() {
+    // A link of 1 um whose hinges stand 2e-15 m apart along the axis: 2e-9 of its size.
+    let text = "struct Case {
+        #[body(mass = 1e-12, inertia = [1e-25, 1e-25, 1e-25], position = [0.0, 5e-7, 0.0])] link: Body,
+        #[joint(between = [ground, link], hinge = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0], ball = [2e-15, 1e-6, 0.0])]
+        rod: RevoluteSpherical,
+    }";
+    let model = delivered(&tokens(text), find);
+    let kernels = Kernels::new(&model);
+    let violation = State::described(&model, &kernels).of(&kernels.constraints);
+    assert!(violation[0].abs() < 1e-21, "{violation:?}");
+}
