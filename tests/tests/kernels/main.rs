@@ -47,6 +47,7 @@ mod counting;
 mod derivatives;
 mod drift;
 mod free_bodies;
+mod letters;
 mod mechanisms;
 mod projection;
 mod scalars;

@@ -84,7 +84,7 @@ impl Value {
             }) => scalar.clone(),
             other => {
                 let value = other.tokens();
-                quote!(S::constant(#value))
+                quote!(__S::constant(#value))
             }
         }
     }
@@ -244,7 +244,7 @@ impl<'a> Numbers<'a> {
                     let scalar = (left.is_run_time() || right.is_run_time()).then(|| {
                         let (x, y) = (left.scalar(), right.scalar());
                         match op {
-                            BinOp::Div(_) => quote!((#x * S::reciprocal(#y))),
+                            BinOp::Div(_) => quote!((#x * __S::reciprocal(#y))),
                             _ => quote!((#x #op #y)),
                         }
                     });
@@ -361,12 +361,12 @@ impl<'a> Numbers<'a> {
             }) => {
                 let (facade, function) = (self.facade, quote::format_ident!("{name}"));
                 let scalar = scalar.map(|x| match *name {
-                    "tan" => quote!((S::sin(#x) * S::reciprocal(S::cos(#x)))),
+                    "tan" => quote!((__S::sin(#x) * __S::reciprocal(__S::cos(#x)))),
                     "deg" => {
                         let degree = std::f64::consts::PI / 180.0;
-                        quote!((#x * S::constant(#degree)))
+                        quote!((#x * __S::constant(#degree)))
                     }
-                    _ => quote!(S::#function(#x)),
+                    _ => quote!(__S::#function(#x)),
                 });
                 Value::Later(Later {
                     expression: quote!(#facade::__private::#function(#expression)),

@@ -100,14 +100,14 @@ impl Writer<'_> {
                 #[automatically_derived]
                 #documentation
                 impl #facade::Mechanism for #name {
-                    type State<S: #facade::Scalar> = #facade::State<S, #q, #u>;
-                    type Velocities<S: #facade::Scalar> = [S; #u];
-                    type Multipliers<S: #facade::Scalar> = [S; #m];
-                    type Jacobian<S: #facade::Scalar> = [S; #jacobian_size];
-                    type Parameters<S: #facade::Scalar> = [S; #values];
-                    type Constants<S: #facade::Scalar> = [S; #c];
-                    type Coefficients<S: #facade::Scalar> = [S; #k];
-                    type Factors<S: #facade::Scalar> = [S; #factor_size];
+                    type State<__S: #facade::Scalar> = #facade::State<__S, #q, #u>;
+                    type Velocities<__S: #facade::Scalar> = [__S; #u];
+                    type Multipliers<__S: #facade::Scalar> = [__S; #m];
+                    type Jacobian<__S: #facade::Scalar> = [__S; #jacobian_size];
+                    type Parameters<__S: #facade::Scalar> = [__S; #values];
+                    type Constants<__S: #facade::Scalar> = [__S; #c];
+                    type Coefficients<__S: #facade::Scalar> = [__S; #k];
+                    type Factors<__S: #facade::Scalar> = [__S; #factor_size];
                     type Handles = __Handles;
 
                     const HANDLES: __Handles = #handles;
@@ -115,18 +115,18 @@ impl Writer<'_> {
 
                     #parameters
 
-                    fn prepare<S: #facade::Scalar>(
-                        #given: &Self::Parameters<S>,
-                    ) -> Self::Constants<S> {
+                    fn prepare<__S: #facade::Scalar>(
+                        #given: &Self::Parameters<__S>,
+                    ) -> Self::Constants<__S> {
                         #constant_statements
                         [#(#constant_outputs),*]
                     }
 
                     #[inline]
-                    fn coefficients<S: #facade::Scalar>(
-                        #constants: &Self::Constants<S>,
-                        #stabilisation: &#facade::Stabilisation<S>,
-                    ) -> Self::Coefficients<S> {
+                    fn coefficients<__S: #facade::Scalar>(
+                        #constants: &Self::Constants<__S>,
+                        #stabilisation: &#facade::Stabilisation<__S>,
+                    ) -> Self::Coefficients<__S> {
                         #coefficient_statements
                         [#(#coefficient_outputs),*]
                     }
@@ -176,26 +176,29 @@ impl Writer<'_> {
         let kernels = self.kernels;
         let constants = local("constants");
         let mut tokens = TokenStream::new();
-        let (rows, velocities) = (quote!(Self::Multipliers<S>), quote!(Self::Velocities<S>));
+        let (rows, velocities) = (
+            quote!(Self::Multipliers<__S>),
+            quote!(Self::Velocities<__S>),
+        );
         for (name, kernel, result) in [
             ("constraints", &kernels.constraints, &rows),
             ("constraint_rates", &kernels.constraint_rates, &rows),
-            ("jacobian", &kernels.jacobian, &quote!(Self::Jacobian<S>)),
+            ("jacobian", &kernels.jacobian, &quote!(Self::Jacobian<__S>)),
             ("gamma", &kernels.gamma, &rows),
             ("forces", &kernels.forces, &velocities),
-            ("potential_energy", &kernels.potential_energy, &quote!(S)),
-            ("power", &kernels.power, &quote!(S)),
+            ("potential_energy", &kernels.potential_energy, &quote!(__S)),
+            ("power", &kernels.power, &quote!(__S)),
         ] {
             let time = local("time");
-            tokens.extend(self.function(name, kernel, &quote!(#time: S,), result));
+            tokens.extend(self.function(name, kernel, &quote!(#time: __S,), result));
         }
         let coordinates = self.model.layout().coordinates + self.model.layout().auxiliaries;
         for (name, kernel, result) in [
-            ("kinetic_energy", &kernels.kinetic_energy, quote!(S)),
+            ("kinetic_energy", &kernels.kinetic_energy, quote!(__S)),
             (
                 "coordinate_rates",
                 &kernels.coordinate_rates,
-                quote!([S; #coordinates]),
+                quote!([__S; #coordinates]),
             ),
         ] {
             tokens.extend(self.function(name, kernel, &TokenStream::new(), &result));
@@ -203,7 +206,7 @@ impl Writer<'_> {
         let (statements, value) = self.body(&kernels.mass, &velocities);
         tokens.extend(quote! {
             #[inline]
-            fn mass<S: #facade::Scalar>(#constants: &Self::Constants<S>) -> Self::Velocities<S> {
+            fn mass<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> Self::Velocities<__S> {
                 #statements
                 #value
             }
@@ -217,7 +220,7 @@ impl Writer<'_> {
             statements,
             outputs,
         } = self.line(kernel);
-        let value = if result.to_string() == "S" {
+        let value = if result.to_string() == "__S" {
             quote!(#(#outputs)*)
         } else {
             quote!([#(#outputs),*])
@@ -240,10 +243,10 @@ impl Writer<'_> {
         let name = format_ident!("{name}");
         quote! {
             #[inline]
-            fn #name<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
+            fn #name<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
                 #time
-                #state: &Self::State<S>,
+                #state: &Self::State<__S>,
             ) -> #result {
                 #unpack
                 #statements
@@ -262,7 +265,7 @@ impl Writer<'_> {
         let (coordinates, velocities) = outputs.split_at(layout.coordinates + layout.auxiliaries);
         let constants = local("constants");
         quote! {
-            fn initial_state<S: #facade::Scalar>(#constants: &Self::Constants<S>) -> Self::State<S> {
+            fn initial_state<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> Self::State<__S> {
                 #statements
                 #facade::State::from_parts([#(#coordinates),*], [#(#velocities),*])
             }

@@ -59,13 +59,13 @@ pub fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
     let fields: Vec<_> = model.values.iter().map(|value| &value.name).collect();
     let values: Vec<_> = fields.iter().map(|field| value_name(field)).collect();
     quote! {
-        fn parameters<S: #facade::Scalar>(
+        fn parameters<__S: #facade::Scalar>(
             &self,
-        ) -> ::core::result::Result<Self::Parameters<S>, #facade::ParameterError> {
+        ) -> ::core::result::Result<Self::Parameters<__S>, #facade::ParameterError> {
             #( let _ = &self.#parts; )*
             #( let #values: f64 = self.#fields; )*
             #checks
-            ::core::result::Result::Ok([#(S::constant(#values)),*])
+            ::core::result::Result::Ok([#(__S::constant(#values)),*])
         }
     }
 }

@@ -19,7 +19,7 @@ impl Writer<'_> {
                 outputs,
             } = self.line(kernel);
             let [cosine, sine, rate, counter @ ..] = &outputs[..] else {
-                continue;
+                unreachable!("an angle has a cosine, a sine and a rate");
             };
             let turns = match counter {
                 [counter] => quote!(::core::option::Option::Some(#counter)),
@@ -33,18 +33,18 @@ impl Writer<'_> {
             });
         }
         quote! {
-            fn joint_angle<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
-                #state: &Self::State<S>,
+            fn joint_angle<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #state: &Self::State<__S>,
                 #joint: usize,
-            ) -> #facade::AngleParts<S> {
+            ) -> #facade::AngleParts<__S> {
                 #unpack
                 match #joint {
                     #arms
                     _ => #facade::AngleParts {
-                        cosine: S::one(),
-                        sine: S::zero(),
-                        rate: S::zero(),
+                        cosine: __S::one(),
+                        sine: __S::zero(),
+                        rate: __S::zero(),
                         turns: ::core::option::Option::None,
                     },
                 }
@@ -77,16 +77,16 @@ impl Writer<'_> {
             }
         }
         quote! {
-            fn joint_displacement<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
-                #time: S,
-                #state: &Self::State<S>,
+            fn joint_displacement<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
                 #joint: usize,
-            ) -> #facade::DisplacementParts<S> {
+            ) -> #facade::DisplacementParts<__S> {
                 #unpack
                 match #joint {
                     #arms
-                    _ => #facade::DisplacementParts { value: S::zero(), rate: S::zero() },
+                    _ => #facade::DisplacementParts { value: __S::zero(), rate: __S::zero() },
                 }
             }
         }
@@ -104,14 +104,14 @@ impl Writer<'_> {
             arms.extend(quote!((#at, #body) => { #statements [#(#outputs),*] }));
         }
         quote! {
-            fn joint_point<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
+            fn joint_point<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
                 #joint: usize,
                 #place: usize,
-            ) -> [S; 3] {
+            ) -> [__S; 3] {
                 match (#joint, #place) {
                     #arms
-                    _ => [S::zero(); 3],
+                    _ => [__S::zero(); 3],
                 }
             }
         }
@@ -137,9 +137,9 @@ impl Writer<'_> {
             .map(|place| local(&format!("counted_{place}")))
             .collect();
         quote! {
-            fn recount<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
-                #state: &mut Self::State<S>,
+            fn recount<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #state: &mut Self::State<__S>,
             ) {
                 let #counted = {
                     #unpack
@@ -184,30 +184,30 @@ impl Writer<'_> {
             loads.extend(quote!((#at, #body) => { #statements [#(#outputs),*] }));
         }
         quote! {
-            fn force_parts<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
-                #time: S,
-                #state: &Self::State<S>,
+            fn force_parts<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
                 #force: usize,
-            ) -> #facade::ForceParts<S> {
+            ) -> #facade::ForceParts<__S> {
                 #unpack
                 match #force {
                     #energies
-                    _ => #facade::ForceParts { potential: S::zero(), power: S::zero() },
+                    _ => #facade::ForceParts { potential: __S::zero(), power: __S::zero() },
                 }
             }
 
-            fn force_load<S: #facade::Scalar>(
-                #constants: &Self::Constants<S>,
-                #time: S,
-                #state: &Self::State<S>,
+            fn force_load<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
                 #force: usize,
                 #place: usize,
-            ) -> [S; 6] {
+            ) -> [__S; 6] {
                 #unpack
                 match (#force, #place) {
                     #loads
-                    _ => [S::zero(); 6],
+                    _ => [__S::zero(); 6],
                 }
             }
         }

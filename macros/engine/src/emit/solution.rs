@@ -22,10 +22,10 @@ impl Writer<'_> {
             (local("constants"), local("coefficients"), local("state"));
         let time = local("time");
         quote! {
-            #constants: &<#name as #facade::Mechanism>::Constants<S>,
-            #coefficients: &<#name as #facade::Mechanism>::Coefficients<S>,
-            #time: S,
-            #state: &<#name as #facade::Mechanism>::State<S>,
+            #constants: &<#name as #facade::Mechanism>::Constants<__S>,
+            #coefficients: &<#name as #facade::Mechanism>::Coefficients<__S>,
+            #time: __S,
+            #state: &<#name as #facade::Mechanism>::State<__S>,
         }
     }
 
@@ -34,7 +34,7 @@ impl Writer<'_> {
         let mut pivot = quote!(#facade::Pivot::unchecked());
         for (check, value) in checks.iter().zip(values) {
             pivot = match check {
-                PivotCheck::Relative(joint) => quote!(#pivot.and(S::abs(#value), #joint)),
+                PivotCheck::Relative(joint) => quote!(#pivot.and(__S::abs(#value), #joint)),
                 PivotCheck::Nonzero(joint) => quote!(#pivot.and_nonzero(#value, #joint)),
             };
         }
@@ -58,7 +58,7 @@ impl Writer<'_> {
         let arguments = self.arguments();
         quote! {
             #inline
-            fn #function<S: #facade::Scalar>(#arguments) -> #facade::Evaluation<S, #name> {
+            fn #function<__S: #facade::Scalar>(#arguments) -> #facade::Evaluation<__S, #name> {
                 #unpack
                 #statements
                 #facade::Evaluation {
@@ -88,25 +88,25 @@ impl Writer<'_> {
         });
         quote! {
             #[inline(always)]
-            fn evaluate<S: #facade::Scalar, T: #facade::Terms, P: #facade::Orientation>(
-                #constants: &Self::Constants<S>,
-                #coefficients: &Self::Coefficients<S>,
-                #time: S,
-                #state: &Self::State<S>,
-            ) -> #facade::Evaluation<S, Self> {
-                match (P::NORMALISED, T::STABILISED, T::COMPLIANT) {
+            fn evaluate<__S: #facade::Scalar, __T: #facade::Terms, __P: #facade::Orientation>(
+                #constants: &Self::Constants<__S>,
+                #coefficients: &Self::Coefficients<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
+            ) -> #facade::Evaluation<__S, Self> {
+                match (__P::NORMALISED, __T::STABILISED, __T::COMPLIANT) {
                     #(#arms)*
                 }
             }
 
             #[inline(always)]
-            fn factor<S: #facade::Scalar, T: #facade::Terms>(
-                #constants: &Self::Constants<S>,
-                #coefficients: &Self::Coefficients<S>,
-                #time: S,
-                #state: &Self::State<S>,
-            ) -> (Self::Factors<S>, #facade::Pivot<S>) {
-                if T::COMPLIANT {
+            fn factor<__S: #facade::Scalar, __T: #facade::Terms>(
+                #constants: &Self::Constants<__S>,
+                #coefficients: &Self::Coefficients<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
+            ) -> (Self::Factors<__S>, #facade::Pivot<__S>) {
+                if __T::COMPLIANT {
                     __factor_compliant(#constants, #coefficients, #time, #state)
                 } else {
                     __factor_plain(#constants, #coefficients, #time, #state)
@@ -114,14 +114,14 @@ impl Writer<'_> {
             }
 
             #[inline(always)]
-            fn solve<S: #facade::Scalar, T: #facade::Terms>(
-                #constants: &Self::Constants<S>,
-                #coefficients: &Self::Coefficients<S>,
-                #factors: &Self::Factors<S>,
-                #upper: &Self::Velocities<S>,
-                #lower: &Self::Multipliers<S>,
-            ) -> (Self::Velocities<S>, Self::Multipliers<S>) {
-                if T::COMPLIANT {
+            fn solve<__S: #facade::Scalar, __T: #facade::Terms>(
+                #constants: &Self::Constants<__S>,
+                #coefficients: &Self::Coefficients<__S>,
+                #factors: &Self::Factors<__S>,
+                #upper: &Self::Velocities<__S>,
+                #lower: &Self::Multipliers<__S>,
+            ) -> (Self::Velocities<__S>, Self::Multipliers<__S>) {
+                if __T::COMPLIANT {
                     __solve_compliant(#constants, #coefficients, #factors, #upper, #lower)
                 } else {
                     __solve_plain(#constants, #coefficients, #factors, #upper, #lower)
@@ -172,26 +172,26 @@ impl Writer<'_> {
         let places = 0..factors.len();
         let tokens = quote! {
             #inline_factor
-            fn #factor_name<S: #facade::Scalar>(
+            fn #factor_name<__S: #facade::Scalar>(
                 #arguments
-            ) -> (<#name as #facade::Mechanism>::Factors<S>, #facade::Pivot<S>) {
+            ) -> (<#name as #facade::Mechanism>::Factors<__S>, #facade::Pivot<__S>) {
                 #unpack
                 #factor_statements
-                let mut #factors_name: <#name as #facade::Mechanism>::Factors<S> = #facade::Array::zeros();
+                let mut #factors_name: <#name as #facade::Mechanism>::Factors<__S> = #facade::Array::zeros();
                 #( #factors_name[#places] = #values; )*
                 (#factors_name, #pivot)
             }
 
             #inline_solve
-            fn #solve_name<S: #facade::Scalar>(
-                #constants: &<#name as #facade::Mechanism>::Constants<S>,
-                #coefficients: &<#name as #facade::Mechanism>::Coefficients<S>,
-                #factors_name: &<#name as #facade::Mechanism>::Factors<S>,
-                #upper: &<#name as #facade::Mechanism>::Velocities<S>,
-                #lower: &<#name as #facade::Mechanism>::Multipliers<S>,
+            fn #solve_name<__S: #facade::Scalar>(
+                #constants: &<#name as #facade::Mechanism>::Constants<__S>,
+                #coefficients: &<#name as #facade::Mechanism>::Coefficients<__S>,
+                #factors_name: &<#name as #facade::Mechanism>::Factors<__S>,
+                #upper: &<#name as #facade::Mechanism>::Velocities<__S>,
+                #lower: &<#name as #facade::Mechanism>::Multipliers<__S>,
             ) -> (
-                <#name as #facade::Mechanism>::Velocities<S>,
-                <#name as #facade::Mechanism>::Multipliers<S>,
+                <#name as #facade::Mechanism>::Velocities<__S>,
+                <#name as #facade::Mechanism>::Multipliers<__S>,
             ) {
                 #solve_statements
                 ([#(#accelerations),*], [#(#multipliers),*])

@@ -162,7 +162,7 @@ impl Environment for Preparation<'_> {
                 let expression = &symbol.expression;
                 match &symbol.scalar {
                     Some(scalar) => scalar.clone(),
-                    None => quote!(S::constant(#expression)),
+                    None => quote!(__S::constant(#expression)),
                 }
             }
             other => load_input(other),

@@ -131,16 +131,16 @@ impl<E: Environment> Writer<'_, E> {
             }
             Node::Reciprocal(a) => {
                 let a = self.reference(a);
-                quote!(S::reciprocal(#a))
+                quote!(__S::reciprocal(#a))
             }
             Node::SquareRoot(a) => {
                 let a = self.reference(a);
-                quote!(S::sqrt(#a))
+                quote!(__S::sqrt(#a))
             }
             Node::Clamp(a) => {
                 let a = self.reference(a);
-                let (zero, one) = (quote!(S::constant(0.0)), quote!(S::constant(1.0)));
-                quote!(S::select(#a, #zero, #zero, S::select(#one, #a, #one, #a)))
+                let (zero, one) = (quote!(__S::constant(0.0)), quote!(__S::constant(1.0)));
+                quote!(__S::select(#a, #zero, #zero, __S::select(#one, #a, #one, #a)))
             }
             Node::Round(a) => self.function("round", a),
             Node::Sine(a) => self.function("sin", a),
@@ -148,11 +148,11 @@ impl<E: Environment> Writer<'_, E> {
             Node::Exponential(a) => self.function("exp", a),
             Node::Angle(sine, cosine) => {
                 let (sine, cosine) = (self.reference(sine), self.reference(cosine));
-                quote!(S::atan2(#sine, #cosine))
+                quote!(__S::atan2(#sine, #cosine))
             }
             Node::Sign(a) => {
                 let a = self.reference(a);
-                quote!(S::select(#a, S::constant(0.0), S::constant(-1.0), S::constant(1.0)))
+                quote!(__S::select(#a, __S::constant(0.0), __S::constant(-1.0), __S::constant(1.0)))
             }
         };
         self.bind(place, &value);
@@ -161,7 +161,7 @@ impl<E: Environment> Writer<'_, E> {
     fn function(&mut self, name: &str, argument: Expr) -> TokenStream {
         let name = quote::format_ident!("{name}");
         let argument = self.reference(argument);
-        quote!(S::#name(#argument))
+        quote!(__S::#name(#argument))
     }
 
     fn bind(&mut self, place: usize, value: &TokenStream) {
@@ -224,7 +224,7 @@ impl<E: Environment> Writer<'_, E> {
         {
             let x = if product.is_negative() { -x } else { x };
             let (x, y, other) = (self.reference(x), self.reference(y), self.reference(other));
-            return quote!(S::fused(#x, #y, #other));
+            return quote!(__S::fused(#x, #y, #other));
         }
         let first = self.reference(a);
         let second = self.reference(b.abs());
@@ -237,7 +237,7 @@ impl<E: Environment> Writer<'_, E> {
 
     fn reference(&mut self, expr: Expr) -> TokenStream {
         if let Some(value) = self.arena.literal(expr) {
-            return quote!(S::constant(#value));
+            return quote!(__S::constant(#value));
         }
         let place = expr.node();
         if !self.names.contains_key(&place) {
