@@ -254,8 +254,8 @@ pub(crate) fn number(expr: &Expr, values: &Values) -> f64 {
         }
         Expr::Path(path) => {
             let name = path.path.segments.last().expect("a name").ident.to_string();
-            // The engine speaks of `value_of_p0`.
-            let name = name.strip_prefix("value_of_").unwrap_or(&name);
+            // The engine speaks of `__value_of_p0`.
+            let name = name.strip_prefix("__value_of_").unwrap_or(&name);
             let known = values.iter().find(|(known, _)| known == name);
             match (known, name) {
                 (Some((_, value)), _) => *value,
