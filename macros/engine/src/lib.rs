@@ -153,7 +153,8 @@ pub fn assemble(tokens: TokenStream) -> TokenStream {
         let is_faulty = types
             .iter()
             .any(|(_, definition)| matches!(definition, Definition::Faulty));
-        if model.is_none() && !faults.any() && !is_faulty {
+        let is_ambiguous = check::mechanism::is_ambiguous(&syntax);
+        if model.is_none() && !faults.any() && !is_faulty && !is_ambiguous {
             faults.at(
                 &syntax.name,
                 format!(

@@ -221,6 +221,14 @@ impl JointChecker<'_> {
         bodies.into_iter().collect()
     }
 
+    /// The names that may stand in `between`, each once.
+    fn known(&self) -> Vec<String> {
+        let names = self.names.iter().map(ToString::to_string);
+        let mut names: Vec<String> = names.filter(|name| name != "ground").collect();
+        names.push("ground".into());
+        names
+    }
+
     fn body(&self, expr: &Expr, faults: &mut Faults) -> Option<Option<usize>> {
         if let Expr::Path(path) = ungroup(expr)
             && let Some(found) = path.path.get_ident()
@@ -231,12 +239,7 @@ impl JointChecker<'_> {
             if found == "ground" {
                 return Some(None);
             }
-            let known: Vec<String> = self
-                .names
-                .iter()
-                .map(ToString::to_string)
-                .chain(["ground".into()])
-                .collect();
+            let known = self.known();
             let near = did_you_mean(&found.to_string(), known.iter().map(String::as_str));
             faults.at(
                 found,
@@ -247,12 +250,7 @@ impl JointChecker<'_> {
             );
             return None;
         }
-        let known = list(
-            self.names
-                .iter()
-                .map(ToString::to_string)
-                .chain(["ground".into()]),
-        );
+        let known = list(self.known());
         faults.at(
             expr,
             format!("expected the name of a body; there are {known}"),

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use proc_macro2::Ident;
 use syn::Expr;
+use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 
 use super::bodies;
@@ -171,16 +172,15 @@ pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Defin
         .map(|(_, definition)| definition)
 }
 
-/// Whether joints may name the field, even if something is wrong with its description.
 /// Whether two fields have one name: what speaks of it would speak of the first. The compiler reports it.
-fn is_ambiguous(syntax: &MechanismSyntax) -> bool {
+#[must_use]
+pub fn is_ambiguous(syntax: &MechanismSyntax) -> bool {
     let mut before = HashSet::new();
-    syntax
-        .fields
-        .iter()
-        .any(|field| !before.insert(&field.name))
+    let mut names = syntax.fields.iter().map(|field| field.name.unraw());
+    names.any(|name| !before.insert(name))
 }
 
+/// Whether joints may name the field, even if something is wrong with its description.
 fn may_be_body(field: &Field, types: &Definitions) -> bool {
     match (&field.role, definition(field, types)) {
         (Some((Role::Body, _)), _) | (_, Some(Definition::Body(_))) => true,

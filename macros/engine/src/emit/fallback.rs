@@ -2,6 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
+use syn::ext::IdentExt;
 
 use crate::check::mechanism::{Definition, Definitions, definition};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
@@ -15,7 +16,8 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     // The compiler itself reports fields of one name.
     let is_first = |(place, field): &(usize, &Field)| {
         let before = &syntax.fields[..*place];
-        before.iter().all(|other| other.name != field.name)
+        let name = field.name.unraw();
+        before.iter().all(|other| other.name.unraw() != name)
     };
     let fields = syntax.fields.iter().enumerate().filter(is_first);
     let fields: Vec<&Field> = fields.map(|(_, field)| field).collect();
