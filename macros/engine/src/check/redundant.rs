@@ -3,7 +3,7 @@
 use syn::{Expr, ExprLit, Lit};
 
 use crate::diag::{Faults, did_you_mean, list};
-use crate::model::{Contradiction, Model, Rank, Redundant, RedundantRow};
+use crate::model::{Binding, Contradiction, Model, Rank, Redundant, RedundantRow};
 use crate::rank::judge;
 use crate::syntax::ungroup;
 
@@ -38,6 +38,10 @@ pub(super) fn check(
     faults: &mut Faults,
 ) {
     model.independence = judge(model);
+    stuck(model, faults);
+    if faults.any() {
+        return;
+    }
     // Without the time nothing goes wrong unseen: the start cannot be assembled.
     if model.independence.is_driven || wish == Redundant::Drop {
         contradictions(model, faults);
@@ -57,6 +61,29 @@ pub(super) fn check(
             }
             model.independence.dropped = true;
         }
+    }
+}
+
+/// One fault for each joint with an equation that is violated and cannot be helped. Points and axes that stand in axes of bodies may
+/// be meant for another configuration.
+fn stuck(model: &Model, faults: &mut Faults) {
+    let mut named: Vec<usize> = Vec::new();
+    for &(place, row) in &model.independence.stuck {
+        let joint = &model.joints[place];
+        let is_local = |binding: &Binding| matches!(binding, Binding::Local(_));
+        if joint.bindings.iter().any(is_local) || named.contains(&place) {
+            continue;
+        }
+        named.push(place);
+        let name = &joint.name;
+        faults.at(
+            name,
+            format!(
+                "`{name}[{row}]` does not hold in the described configuration, and no motion that begins there brings it nearer: look for \
+                 axes of `{name}` that are parallel and should be perpendicular, and for points that should be apart; what is meant for \
+                 another configuration is given by `local(..)`"
+            ),
+        );
     }
 }
 
@@ -154,10 +181,8 @@ fn refuse(model: &Model, faults: &mut Faults) {
     let freedom = model
         .independence
         .degrees_of_freedom(layout.velocities, layout.rows);
-    let rest = match freedom {
-        0 => ", and nothing is left that can move (0 degrees of freedom)",
-        _ => "",
-    };
+    // Drivers may leave nothing free on purpose.
+    let is_locked = freedom <= 0 && !model.independence.is_driven;
     for (place, joint) in model.joints.iter().enumerate() {
         let own: Vec<&RedundantRow> = model
             .independence
@@ -196,13 +221,19 @@ fn refuse(model: &Model, faults: &mut Faults) {
             own.iter()
                 .map(|redundant| format!("{name}[{}]", redundant.row)),
         );
+        let cure = if is_locked {
+            ", and nothing is left that can move (0 degrees of freedom): a joint forbids more than was meant; choose one with fewer \
+             equations, or another point or axis (`redundant` is no cure)"
+                .into()
+        } else {
+            format!(
+                "; leave {them} out by `#[mechanism(redundant = \"drop\")]`, or write `redundant = \"keep\"` for formulations with a \
+                 compliance (penalty, augmented Lagrangian)"
+            )
+        };
         faults.at(
             name,
-            format!(
-                "{what} of `{name}` {are} redundant: {rows} {from}, so that multipliers are not unique{rest}; leave {them} out by \
-                 `#[mechanism(redundant = \"drop\")]`, or write `redundant = \"keep\"` for formulations with a compliance (penalty, \
-                 augmented Lagrangian)"
-            ),
+            format!("{what} of `{name}` {are} redundant: {rows} {from}, so that multipliers are not unique{cure}"),
         );
     }
 }

@@ -69,6 +69,9 @@ pub struct Independence {
     pub redundant: Vec<RedundantRow>,
     /// The equations that no motion satisfies together with the others. If there are any, redundant ones are not looked for.
     pub contradictions: Vec<Contradiction>,
+    /// The equations, by joint and place, that are violated in the described configuration where their gradients vanish, if nothing near
+    /// it satisfies all.
+    pub stuck: Vec<(usize, usize)>,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
     /// Whether they are gone.

@@ -24,6 +24,7 @@ mod tour;
 use self::contradiction::Contradicted;
 use self::dense::{Rows, dot, independent, solve_normal};
 use self::motion::{Configuration, Constraints};
+use crate::model::mechanism::Layout;
 use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
 
 /// Relative to the length of a row. Configurations are good to about 1e-12, and lengths and axes given to six digits
@@ -56,7 +57,13 @@ pub fn judge(model: &Model) -> Independence {
             let rows = constraints.directions(&described, TOLERANCE)?;
             Some(contradictions(model, found, &kept, &rows))
         });
+        let layout = model.layout();
+        let stuck = constraints.stuck(&described).into_iter().map(|row| {
+            let joint = joint_of(&layout, row);
+            (joint, row - layout.row[joint])
+        });
         return Independence {
+            stuck: stuck.collect(),
             contradictions: found.unwrap_or_default(),
             is_driven: constraints.is_driven(),
             ..not(Rank::NotAssembled)
@@ -248,10 +255,6 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
     // Shares of a row in another below this are round-off.
     const SHARE: f64 = 1e-6;
     let layout = model.layout();
-    let joint_of = |row: usize| {
-        let joint = layout.row.iter().rposition(|&first| first <= row);
-        joint.unwrap_or(0)
-    };
     let basis: Rows = kept.iter().map(|&row| rows[row].clone()).collect();
     (0..layout.rows)
         .filter(|row| !kept.contains(row))
@@ -262,10 +265,10 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
                 .iter()
                 .zip(shares)
                 .filter(|(_, share)| share.abs() > SHARE)
-                .map(|(&other, _)| joint_of(other))
+                .map(|(&other, _)| joint_of(&layout, other))
                 .collect();
             follows_from.dedup();
-            let joint = joint_of(row);
+            let joint = joint_of(&layout, row);
             RedundantRow {
                 joint,
                 row: row - layout.row[joint],
@@ -273,6 +276,12 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
             }
         })
         .collect()
+}
+
+/// The joint of a row. Joints without rows stand at the place of the next.
+fn joint_of(layout: &Layout, row: usize) -> usize {
+    let joint = layout.row.iter().rposition(|&first| first <= row);
+    joint.unwrap_or(0)
 }
 
 /// Numbers without a pattern, the same at every expansion (Marsaglia's xorshift).

@@ -266,6 +266,23 @@ impl Constraints {
         Some(transposed(&directions, &shares))
     }
 
+    /// The rows that are violated where their gradients vanish, though these do not everywhere.
+    pub(super) fn stuck(&self, at: &Configuration) -> Vec<usize> {
+        // Of the size of a row.
+        const VIOLATED: f64 = 0.01;
+        let (Some(rows), Some(violations)) = (self.directions(at, TOLERANCE), self.violations(at))
+        else {
+            return Vec::new();
+        };
+        (0..rows.len())
+            .filter(|&row| {
+                self.sizes[row].is_some()
+                    && norm(&rows[row]) == 0.0
+                    && violations[row].abs() > VIOLATED
+            })
+            .collect()
+    }
+
     /// The violations, over the sizes of the gradients: about the distances to where the constraints hold.
     pub(super) fn violations(&self, at: &Configuration) -> Option<Vec<f64>> {
         let mut values = self.evaluate(&self.phi, at)?;
