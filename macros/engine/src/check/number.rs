@@ -129,10 +129,17 @@ impl<'a> Numbers<'a> {
                     return Some(Number::Symbol(known));
                 }
                 let place = u32::try_from(self.symbols.len()).ok()?;
+                let name = local(&format!("CONSTANT_{place}"));
+                let is_checked = is_const && must_be_positive(&self.attribute);
+                let (expression, constant) = if is_checked {
+                    (quote!(#name), Some((name, expression)))
+                } else {
+                    (expression, None)
+                };
                 self.symbols.push(Symbol {
                     expression,
                     scalar,
-                    is_const,
+                    constant,
                     span: expr.span(),
                     field: self.field.clone(),
                     attribute: self.attribute.clone(),
@@ -145,14 +152,13 @@ impl<'a> Numbers<'a> {
     /// The symbol of the same expression, so that what is equal in two places cancels. What must be positive keeps a symbol of its
     /// own, whose place a refusal names.
     fn known(&self, expression: &TokenStream) -> Option<u32> {
-        let positive = |attribute: &str| matches!(attribute, "mass" | "inertia");
-        if positive(&self.attribute) {
+        if must_be_positive(&self.attribute) {
             return None;
         }
         let text = expression.to_string();
         self.symbols
             .iter()
-            .position(|s| !positive(&s.attribute) && s.expression.to_string() == text)
+            .position(|s| !must_be_positive(&s.attribute) && s.expression.to_string() == text)
             .and_then(|place| u32::try_from(place).ok())
     }
 
@@ -387,6 +393,11 @@ impl<'a> Numbers<'a> {
         );
         None
     }
+}
+
+/// Whether numbers of an attribute must be positive.
+fn must_be_positive(attribute: &str) -> bool {
+    matches!(attribute, "mass" | "inertia")
 }
 
 /// The local variable that holds a run-time value as `f64`.

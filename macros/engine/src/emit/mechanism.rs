@@ -92,6 +92,7 @@ impl Writer<'_> {
             const _: () = {
                 // Types of the same names may stand beside the struct.
                 use ::core::primitive::{f64, usize};
+                use ::core::assert as __holonom_assert;
                 use #facade::{Array as _, Scalar as _, StateParts as _};
 
                 #handles_type

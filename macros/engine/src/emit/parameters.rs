@@ -1,6 +1,6 @@
 //! The numbers that the macro cannot see: checked by the compiler where it can evaluate them, else in `parameters`.
 
-use proc_macro2::{Literal, Span, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::local;
@@ -10,17 +10,19 @@ use crate::model::{ElementKind, Model, Number, Symbol};
 /// Numbers that the macro could not see are checked by the compiler where it can evaluate them.
 pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
     let mut tokens = TokenStream::new();
-    for symbol in positive_symbols(model).filter(|symbol| symbol.is_const) {
-        let expression = &symbol.expression;
+    for symbol in positive_symbols(model) {
+        let Some((constant, value)) = &symbol.constant else {
+            continue;
+        };
         let message = format!(
             "`{}` of `{}` must be positive",
             symbol.attribute, symbol.field
         );
-        // At the user's place, but with the meaning that words have in the edition of this crate.
-        let at = symbol.span.resolved_at(Span::call_site());
-        tokens.extend(quote::quote_spanned! {at=>
-            const _: () = ::core::assert!((#expression) > 0.0_f64, #message);
+        // At the user's place, where a path would have the meaning of the user's edition.
+        tokens.extend(quote::quote_spanned! {symbol.span=>
+            const _: () = __holonom_assert!(#constant > 0.0_f64, #message);
         });
+        tokens.extend(quote!(const #constant: f64 = #value;));
     }
     for element in model.elements() {
         let path = &element.path;

@@ -1,6 +1,6 @@
 //! Numbers of a description: known at expansion, or named and known when the code runs.
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 
 /// A number as the model knows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,8 +44,9 @@ pub struct Symbol {
     pub expression: TokenStream,
     /// The same over the scalar `S`, where it depends on run-time values: they stand in the array `parameters`.
     pub scalar: Option<TokenStream>,
-    /// Whether the compiler can evaluate the expression in a constant.
-    pub is_const: bool,
+    /// Where it must be positive and the compiler can evaluate it: a constant of the generated code, and its value. The expression is
+    /// its name then, so that one of a wrong type is refused once.
+    pub constant: Option<(Ident, TokenStream)>,
     /// Where it was written.
     pub span: Span,
     /// The field that it describes.
