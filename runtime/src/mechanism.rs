@@ -25,6 +25,11 @@ use crate::scalar::Scalar;
 /// ```
 ///
 /// Kernels neither branch on data nor fail. A singular system shows in the [`Pivot`] that comes with the result.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a mechanism",
+    label = "not derived by `#[derive(Mechanism)]`, or its derive came to no end",
+    note = "if it has `#[derive(Mechanism)]`, see the error at the type of one of its fields: a name that is not found, or an alias, ends the derive"
+)]
 pub trait Mechanism: Sized + 'static {
     /// The state: coordinates and velocities. The rates of a state have the same type.
     type State<S: Scalar>: StateParts<S, Velocities = Self::Velocities<S>>;

@@ -14,6 +14,11 @@ use core::ops::{Add, Mul, Neg, Sub};
 /// Most kernels need no function but the square root. [`Scalar::sin`], [`Scalar::cos`] and [`Scalar::exp`] are called where a definition
 /// or a mechanism writes them: drivers, force laws, functions of time. [`Scalar::atan2`] and [`Scalar::round`] make an angle that counts turns
 /// from the orientations of two bodies and from its auxiliary variable.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no type of numbers that mechanisms compute with",
+    label = "neither `f64` nor `f32`",
+    note = "write times, steps and tolerances with a point: `0.0..=1.0`, not `0..=1`"
+)]
 pub trait Scalar:
     Copy
     + Debug
@@ -72,6 +77,11 @@ pub trait Scalar:
 }
 
 /// A scalar that can be compared and converted: what steppers, projections and reports compute with.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no type of numbers that mechanisms compute with",
+    label = "neither `f64` nor `f32`",
+    note = "write times, steps and tolerances with a point: `0.0..=1.0`, not `0..=1`"
+)]
 pub trait Real: Scalar + PartialOrd {
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
@@ -224,6 +234,7 @@ macro_rules! real {
             }
         }
 
+        #[diagnostic::do_not_recommend]
         impl Real for $float {
             const EPSILON: Self = <$float>::EPSILON;
 

@@ -9,7 +9,7 @@
 //! The word behind `@` names the version of this protocol; it changes with every incompatible change.
 
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 use syn::parse::{ParseStream, Parser};
 
 use crate::model::ElementKind;
@@ -61,7 +61,9 @@ pub fn carrier(
     let message = format!(
         "`{name}` is a {word}: name it as the type of a field in a struct with `#[derive(Mechanism)]`"
     );
-    quote! {
+    // Where the compiler speaks of it, it stands where the definition does.
+    let at = name.span().resolved_at(Span::call_site());
+    quote_spanned! {at=>
         #[doc(hidden)]
         #export
         macro_rules! #carrier {

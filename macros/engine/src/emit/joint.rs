@@ -1,7 +1,7 @@
 //! A joint or a force: its type, its traits, its carrier.
 
-use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use proc_macro2::{Literal, Span, TokenStream};
+use quote::{quote, quote_spanned};
 
 use crate::diag::list;
 use crate::model::{BodyKind, ElementKind, JointDef, Term};
@@ -63,6 +63,9 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
             }
         }
     };
+    // Where the compiler speaks of it, it stands where the definition does.
+    let at = name.span().resolved_at(Span::call_site());
+    let declaration = quote_spanned!(at=> #visibility struct #name;);
     quote! {
         #(#attributes)*
         #documentation
@@ -70,7 +73,7 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default, ::core::cmp::PartialEq,
             ::core::cmp::Eq,
         )]
-        #visibility struct #name;
+        #declaration
 
         #traits
         #[automatically_derived]
