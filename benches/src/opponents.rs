@@ -3,7 +3,7 @@
 //! All of them see a state whose Euler parameters were scaled to length 1 before anything is computed from it, the rates
 //! of the Euler parameters included: that is what gives the published counts of evaluations.
 
-use holonom::{Fault, System};
+use holonom::{Fault, NotFinite, System};
 use holonom_study::chapter15::run::{Kind, Rival};
 use holonom_study::chapter15::{Method, Settings};
 use holonom_study::run::contestant;
@@ -142,7 +142,9 @@ impl System<f64> for StaticSchur {
         let mut rates = [0.0; 13];
         match self.0.rates_schur(time, &unit(state), &mut rates) {
             Some(_) => Ok(rates),
-            None => Err(Fault::RatesNotFinite),
+            None => Err(Fault::RatesNotFinite {
+                origin: NotFinite::Unknown,
+            }),
         }
     }
 }
@@ -155,7 +157,9 @@ impl System<f64> for StaticElimination {
         let mut rates = [0.0; 13];
         match self.0.rates_lu(time, &unit(state), &mut rates) {
             Some(_) => Ok(rates),
-            None => Err(Fault::RatesNotFinite),
+            None => Err(Fault::RatesNotFinite {
+                origin: NotFinite::Unknown,
+            }),
         }
     }
 }
@@ -222,11 +226,14 @@ pub fn rivals(settings: &Settings) -> Vec<Rival<'static>> {
 
 fn fault(error: SolveError, iterations: usize) -> Fault {
     match error {
-        SolveError::Singular => Fault::RatesNotFinite,
+        SolveError::Singular => Fault::RatesNotFinite {
+            origin: NotFinite::Unknown,
+        },
         SolveError::NotConverged => Fault::NotConverged {
             iterations,
             residual: f64::NAN,
             joint: None,
+            alpha: None,
         },
     }
 }

@@ -11,8 +11,9 @@ use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
     Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Stabilisation, Terms,
 };
+use crate::origin::origin;
 use crate::rotation::{
-    bring_to_unit_length, check_state, scale_euler_rates, stretch, with_unit_orientations,
+    bring_to_unit_length, check_state, read, scale_euler_rates, stretch, with_unit_orientations,
 };
 use crate::scalar::Real;
 use crate::view::View;
@@ -154,20 +155,42 @@ where
         }
     }
 
-    /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly vanished at a state.
+    /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly vanished at a state, and with what the number type resolves
+    /// of a position where that is coarser than an absolute tolerance.
     #[cold]
-    pub(crate) fn explained(&self, fault: Fault, time: S, state: &M::State<S>) -> Fault {
+    pub(crate) fn explained(
+        &self,
+        fault: Fault,
+        absolute: Option<S>,
+        (time, state): (S, M::State<S>),
+    ) -> Fault {
         /// A pivot that has lost this part of its size.
         const NEARLY_VANISHED: f64 = 1e-4;
-        let Fault::StepSizeUnderflow { step, .. } = fault else {
+        let Fault::StepSizeUnderflow { step, is_least, .. } = fault else {
             return fault;
         };
-        let joint = self.evaluate(time, state).ok().and_then(|(evaluation, _)| {
-            let Pivot { relative, joint } = evaluation.pivot;
-            let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
-            near.then(|| field::<M>(joint.to_f64() as usize))
+        let joint = self
+            .evaluate(time, &state)
+            .ok()
+            .and_then(|(evaluation, _)| {
+                let Pivot { relative, joint } = evaluation.pivot;
+                let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
+                near.then(|| field::<M>(joint.to_f64() as usize))
+            });
+        let coordinates = state.coordinates().as_slice();
+        let farthest = M::REPORT.bodies.iter().fold(S::zero(), |most, body| {
+            let position: [S; 3] = read(coordinates, body.coordinate);
+            position.iter().fold(most, |most, x| most.max(x.abs()))
         });
-        Fault::StepSizeUnderflow { step, joint }
+        let resolution = farthest.ulp();
+        Fault::StepSizeUnderflow {
+            step,
+            is_least,
+            joint,
+            resolution: absolute
+                .is_some_and(|absolute| resolution > absolute)
+                .then(|| resolution.to_f64()),
+        }
     }
 
     /// The evaluation in one straight line.
@@ -182,7 +205,8 @@ where
         if sound::<S, M, F::Terms>(&evaluation) {
             Ok(evaluation)
         } else {
-            Err(fault::<S, M, F::Terms>(evaluation.pivot, state))
+            let Evaluation { rates, pivot, .. } = evaluation;
+            Err(self.fault(pivot, time, state, None, rates))
         }
     }
 
@@ -224,7 +248,13 @@ where
             lower: &lower,
             terms: PhantomData,
         };
-        let solution = self.formulation.solve(&saddle)?;
+        let solution = self.formulation.solve(&saddle).map_err(|fault| {
+            let Fault::RatesNotFinite { .. } = fault else {
+                return fault;
+            };
+            let rates = M::State::from_parts(Array::zeros(), saddle.solve().accelerations);
+            self.fault(pivot, time, state, Some(&upper), rates)
+        })?;
         let mut coordinate_rates = M::coordinate_rates(constants, read);
         if P::NORMALISED && !P::NORMALISED_RATES {
             scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
@@ -243,7 +273,36 @@ where
                 applied_power,
             })
         } else {
-            Err(fault::<S, M, F::Terms>(pivot, state))
+            Err(self.fault(pivot, time, state, Some(&upper), evaluation.rates))
+        }
+    }
+
+    /// Why an evaluation is not sound. The rates come by value: where they are kept in registers, only this way puts them into memory.
+    #[cold]
+    #[inline(never)]
+    fn fault(
+        &self,
+        pivot: Pivot<S>,
+        time: S,
+        state: &M::State<S>,
+        applied: Option<&M::Velocities<S>>,
+        rates: M::State<S>,
+    ) -> Fault {
+        if let Err(fault) = check_state::<S, M>(state) {
+            return fault;
+        }
+        if vanishes::<S, F::Terms>(&pivot) {
+            return singular::<S, M>(&pivot);
+        }
+        let unit;
+        let read = if P::NORMALISED {
+            unit = with_unit_orientations::<S, M>(state);
+            &unit
+        } else {
+            state
+        };
+        Fault::RatesNotFinite {
+            origin: origin::<S, M>(&self.constants, time, read, applied, &rates),
         }
     }
 
@@ -400,19 +459,6 @@ fn sound<S: Real, M: Mechanism, T: Terms>(evaluation: &Evaluation<S, M>) -> bool
 #[inline(always)]
 fn vanishes<S: Real, T: Terms>(pivot: &Pivot<S>) -> bool {
     !T::COMPLIANT && pivot.relative < S::constant(64.0) * S::EPSILON
-}
-
-/// Why an evaluation is not sound.
-#[cold]
-#[inline(never)]
-fn fault<S: Real, M: Mechanism, T: Terms>(pivot: Pivot<S>, state: &M::State<S>) -> Fault {
-    if let Err(fault) = check_state::<S, M>(state) {
-        fault
-    } else if vanishes::<S, T>(&pivot) {
-        singular::<S, M>(&pivot)
-    } else {
-        Fault::RatesNotFinite
-    }
 }
 
 #[cold]

@@ -1,11 +1,9 @@
-//! What can go wrong at run time. Small enums, no strings; the last good state travels with them.
-
-use core::fmt;
-
-use crate::readable::{Given, Measured};
+//! What can go wrong at run time. Small enums, no strings; the last good state travels with them. What they say is in [`crate::message`].
 
 /// A number of the description that the macro could not see is not acceptable.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
+#[derive(Clone, Copy, PartialEq)]
 pub struct ParameterError {
     /// The field of the mechanism.
     pub field: &'static str,
@@ -28,24 +26,12 @@ pub enum ParameterFault {
     ZeroLength,
 }
 
-impl fmt::Display for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let fault = match self.fault {
-            ParameterFault::NotFinite => "must be finite",
-            ParameterFault::NotPositive => "must be positive",
-            ParameterFault::TriangleInequality => {
-                "must satisfy the triangle inequality: no principal moment exceeds the sum of the others"
-            }
-            ParameterFault::ZeroLength => "must not be the zero vector",
-        };
-        write!(f, "`{}` of `{}` {fault}", self.attribute, self.field)
-    }
-}
-
 impl core::error::Error for ParameterError {}
 
-/// Why an evaluation, a step or a correction could not be done.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Why an evaluation, a step, a correction or a reading could not be done.
+///
+/// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
+#[derive(Clone, Copy, PartialEq)]
 pub enum Fault {
     /// The state holds NaN or infinity.
     StateNotFinite,
@@ -55,7 +41,10 @@ pub enum Fault {
         body: &'static str,
     },
     /// The rates came out as NaN or infinity: forces beyond the range of numbers, or a singular system.
-    RatesNotFinite,
+    RatesNotFinite {
+        /// Where that began.
+        origin: NotFinite,
+    },
     /// The constraints depend on each other here: at this joint the pivot vanishes.
     Singular {
         /// The index of the joint in [`crate::Report::joints`].
@@ -73,13 +62,20 @@ pub enum Fault {
         residual: f64,
         /// The joint whose equations are violated most, by accelerations in the augmented Lagrangian, where it is known.
         joint: Option<&'static str>,
+        /// The penalty factor of the augmented Lagrangian; `None` for a correction.
+        alpha: Option<f64>,
     },
-    /// The step control found no step with an error within the tolerance, down to what the time's own digits resolve.
+    /// The step control found no step with an error within the tolerance, down to what the time's own digits resolve, or to
+    /// [`StepLimits::least`](crate::StepLimits::least).
     StepSizeUnderflow {
         /// The last step that was tried (s).
         step: f64,
+        /// Whether it was the least one that the run may take, and not what the time resolves.
+        is_least: bool,
         /// The joint whose pivot has nearly vanished, where that is the cause, see [`crate::Pivot`].
         joint: Option<&'static str>,
+        /// What the digits of the number type resolve of the largest position (m), where that is coarser than the absolute tolerance.
+        resolution: Option<f64>,
     },
     /// A step that was asked for is below what the time's own digits resolve.
     StepTooShort {
@@ -119,15 +115,38 @@ pub enum Fault {
         /// The share of a trial motion's energy that stays free, from 0 to 1.
         share: f64,
     },
-    /// A tolerance, a step, an interval or a coefficient that is not finite and positive.
+    /// A tolerance, a step or a coefficient that is not finite and positive.
     Setting {
         /// Which one.
         name: &'static str,
         /// Its value.
         value: f64,
     },
+    /// An interval of time whose ends are not finite or not in order.
+    Interval {
+        /// Where it begins (s).
+        start: f64,
+        /// Where it ends (s).
+        end: f64,
+    },
     /// A parameter of the mechanism is not acceptable.
     Parameter(ParameterError),
+}
+
+/// Where rates that are not finite began.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NotFinite {
+    /// The system is no mechanism, or nothing in it is to be blamed.
+    Unknown,
+    /// A force of the description.
+    Force(&'static str),
+    /// The forces that a closure exerts on a body.
+    Closure(&'static str),
+    /// The equations of a joint: its law, or a length in it.
+    Joint(&'static str),
+    /// The acceleration of a body, while forces and equations are finite.
+    Body(&'static str),
 }
 
 /// What a joint's equations are about.
@@ -156,112 +175,6 @@ impl Quantity {
     }
 }
 
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::StateNotFinite => write!(f, "the state holds a number that is not finite"),
-            Self::ZeroOrientation { body } => {
-                write!(f, "the Euler parameters of body `{body}` have no length")
-            }
-            Self::RatesNotFinite => write!(f, "the rates of the state are not finite"),
-            Self::Singular {
-                name,
-                relative_pivot,
-                ..
-            } => write!(
-                f,
-                "the constraints depend on each other at joint `{name}` (relative pivot {relative_pivot:e})"
-            ),
-            Self::NotConverged {
-                iterations,
-                residual,
-                joint,
-            } => {
-                let plural = if iterations == 1 { "" } else { "s" };
-                write!(f, "no convergence after {iterations} iteration{plural}")?;
-                if let Some(joint) = joint {
-                    write!(f, ": joint `{joint}` is violated most")?;
-                }
-                write!(f, " (residual {residual:e})")
-            }
-            Self::StepSizeUnderflow { step, joint } => {
-                write!(
-                    f,
-                    "the step size {step:e} s is below the resolution of the time; "
-                )?;
-                match joint {
-                    Some(joint) => write!(
-                        f,
-                        "the constraints all but depend on each other at joint `{joint}`: a singular configuration, or constraints that cannot be met beyond it"
-                    ),
-                    None => write!(
-                        f,
-                        "constraints that cannot be met, a singular configuration, and forces that jump or grow without bound are the usual causes"
-                    ),
-                }
-            }
-            Self::StepTooLong { step, rate } => write!(
-                f,
-                "the numbers grew without bound: a step of {} s is too long for violations that decay at {} 1/s, explicit steps must stay below \
-                 about {} s",
-                Given(step),
-                Given(rate),
-                Measured(2.0 / rate)
-            ),
-            Self::Budget { evaluations } => write!(
-                f,
-                "{evaluations} evaluations are used up: a singular configuration or a stiff formulation are the usual causes; \
-                 `DormandPrince::budget` allows more"
-            ),
-            Self::InconsistentStart {
-                joint,
-                quantity,
-                violation,
-            } => {
-                let (violation, unit) = (Measured(violation), quantity.unit());
-                match quantity {
-                    Quantity::Length | Quantity::Angle => {
-                        write!(
-                            f,
-                            "joint `{joint}` is open by {violation} {unit} at the start"
-                        )?;
-                    }
-                    Quantity::Speed | Quantity::AngularVelocity => write!(
-                        f,
-                        "the bodies of joint `{joint}` move against it at {violation} {unit} at the start"
-                    )?,
-                }
-                write!(
-                    f,
-                    ": `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
-                )
-            }
-            Self::StepTooShort { step, time } => write!(
-                f,
-                "a step of {step:e} s is below the resolution of the time {time} s"
-            ),
-            Self::NotDriven { degrees_of_freedom } => {
-                let (velocities, each) = match degrees_of_freedom {
-                    1 => ("velocity", "it"),
-                    _ => ("velocities", "each"),
-                };
-                write!(
-                    f,
-                    "the mechanism has {degrees_of_freedom} more {velocities} than equations; a kinematic analysis needs a driver for {each}"
-                )
-            }
-            Self::Undetermined { share } => write!(
-                f,
-                "the equations leave a motion free here ({share:e} of a trial motion): they depend on each other, or a driver is missing"
-            ),
-            Self::Setting { name, value } => {
-                write!(f, "`{name}` must be finite and positive, not {value:e}")
-            }
-            Self::Parameter(error) => error.fmt(f),
-        }
-    }
-}
-
 impl From<ParameterError> for Fault {
     fn from(error: ParameterError) -> Self {
         Self::Parameter(error)
@@ -271,7 +184,9 @@ impl From<ParameterError> for Fault {
 impl core::error::Error for Fault {}
 
 /// A run or a step that could not go on: when, why, and the last good state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// `Debug` prints the sentence of `Display`, for a `main` that returns the error; the state is not part of it.
+#[derive(Clone, Copy, PartialEq)]
 pub struct SimulationError<X> {
     /// The time of the last good state (s).
     pub time: f64,
@@ -281,10 +196,4 @@ pub struct SimulationError<X> {
     pub state: X,
 }
 
-impl<X> fmt::Display for SimulationError<X> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at {} s: {}", self.time, self.fault)
-    }
-}
-
-impl<X: fmt::Debug> core::error::Error for SimulationError<X> {}
+impl<X> core::error::Error for SimulationError<X> {}

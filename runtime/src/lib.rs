@@ -45,6 +45,8 @@ mod integrate;
 mod kinematics;
 mod load;
 mod mechanism;
+mod message;
+mod origin;
 mod project;
 mod reaction;
 mod readable;
@@ -163,12 +165,13 @@ pub use holonom_macros::Mechanism;
 pub use access::{MechanismExt, Pose};
 pub use array::{Array, State, StateParts, Vector};
 pub use dynamics::{Dynamics, Iterations};
-pub use error::{Fault, ParameterError, ParameterFault, Quantity, SimulationError};
+pub use error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
 pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, Penalty, Saddle, Solution, StandardLagrange,
 };
 pub use handle::{
-    BodyHandle, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint, JointHandle,
+    BodyHandle, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,
+    JointHandle,
 };
 pub use integrate::{
     AdaptiveCourse, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages,

@@ -231,6 +231,7 @@ impl<S: Real> Projection<S> {
             iterations: *iterations,
             residual: rest.to_f64(),
             joint: M::REPORT.joint_of(row_of_largest(violation.as_slice())),
+            alpha: None,
         })
     }
 }

@@ -73,7 +73,8 @@ pub struct Recorder<W> {
 }
 
 /// Why a sample was not recorded.
-#[derive(Debug)]
+///
+/// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
 #[non_exhaustive]
 pub enum RecordError {
     /// The file could not be created or written. Nothing can be recorded after it, so that the last line may be torn and no other.
@@ -105,6 +106,12 @@ impl fmt::Display for RecordError {
                 write!(f, "the samples of one record must be of one mechanism")
             }
         }
+    }
+}
+
+impl fmt::Debug for RecordError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

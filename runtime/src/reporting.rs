@@ -142,18 +142,17 @@ fn round_off<S: Real>(time: S) -> S {
 
 /// Refuses an interval whose ends are not finite or not in order.
 pub(crate) fn check_interval<S: Real>(start: S, end: S) -> Result<(), Fault> {
-    if !start.is_finite() {
-        return Err(Fault::Setting {
-            name: "start of the interval",
-            value: start.to_f64(),
-        });
+    if start.is_finite() && end.is_finite() && start <= end {
+        Ok(())
+    } else {
+        Err(interval(start, end))
     }
-    if !end.is_finite() || end < start {
-        let value = (end - start).to_f64();
-        return Err(Fault::Setting {
-            name: "end of the interval less its start",
-            value,
-        });
+}
+
+/// The fault of an interval.
+pub(crate) fn interval<S: Real>(start: S, end: S) -> Fault {
+    Fault::Interval {
+        start: start.to_f64(),
+        end: end.to_f64(),
     }
-    Ok(())
 }

@@ -183,12 +183,12 @@ where
         &self,
         integrator: &I,
         fault: Fault,
-        (time, state): (S, M::State<S>),
+        last_good: (S, M::State<S>),
     ) -> Fault {
         /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5 up to about this over `a`, and grows for some time
         /// from somewhat less on.
         const STABLE: f64 = 2.0;
-        let not_finite = matches!(fault, Fault::RatesNotFinite | Fault::StateNotFinite);
+        let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
         if not_finite
             && let (Some(step), Some(rate)) = (
                 integrator.fixed_step(),
@@ -201,6 +201,7 @@ where
                 rate: rate.to_f64(),
             };
         }
-        self.dynamics.explained(fault, time, &state)
+        let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
+        self.dynamics.explained(fault, absolute, last_good)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Formulation, Saddle, Solution, faster_decay, penalty};
 use crate::array::Array;
-use crate::error::Fault;
+use crate::error::{Fault, NotFinite};
 use crate::integrate::positive;
 use crate::mechanism::{Compliant, Mechanism, Stabilisation};
 use crate::scalar::Real;
@@ -108,7 +108,8 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
                 return Ok(next);
             }
             if !change.is_finite() {
-                return Err(Fault::RatesNotFinite);
+                let origin = NotFinite::Unknown;
+                return Err(Fault::RatesNotFinite { origin });
             }
             if iterations == self.max_iterations {
                 if saddle.self_stressed(&next, &last) {
@@ -122,6 +123,7 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
             iterations: self.max_iterations,
             residual: change.to_f64(),
             joint: M::REPORT.joint_of(worst),
+            alpha: Some(self.alpha.to_f64()),
         })
     }
 }

@@ -156,7 +156,9 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
                     Err(fault) => fault,
                     Ok(_) => Fault::StepSizeUnderflow {
                         step: size.to_f64(),
+                        is_least: self.controller.is_held(self.time),
                         joint: None,
+                        resolution: None,
                     },
                 });
             }

@@ -41,7 +41,7 @@ impl<S: Real> Controller<S> {
         let DormandPrince { tolerance, limits } = method;
         let relative = positive("relative tolerance", tolerance.relative)?;
         let absolute = positive("absolute tolerance", tolerance.absolute)?;
-        let duration = positive("end of the interval less its start", span.end - span.start)?;
+        let duration = span.duration()?;
         positive("time to the first output", span.first_output)?;
         let relative = relative.max(S::constant(100.0) * S::EPSILON);
         let set = |name, step: Option<S>| step.map(|step| positive(name, step)).transpose();
@@ -59,6 +59,11 @@ impl<S: Real> Controller<S> {
     /// The smallest step at a time.
     pub(super) fn smallest(&self, time: S) -> S {
         self.least.max(S::constant(16.0) * time.ulp())
+    }
+
+    /// Whether a limit of the user's is what keeps a step at a time from becoming smaller.
+    pub(super) fn is_held(&self, time: S) -> bool {
+        self.least >= self.smallest(time)
     }
 
     /// The first step; `slope` is `max |f0| / max(|y0|, floor)`.

@@ -26,7 +26,7 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
         state: Y::State,
     ) -> Result<FixedCourse<S, Y::State, K>, Fault> {
         let step = positive("step", self.step)?;
-        positive("end of the interval less its start", span.end - span.start)?;
+        span.duration()?;
         let mut counts = Counts::default();
         let last = Counted {
             system,

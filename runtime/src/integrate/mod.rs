@@ -29,6 +29,7 @@ use core::fmt::Debug;
 
 use crate::array::{Vector, finite};
 use crate::error::Fault;
+use crate::reporting::interval;
 use crate::scalar::Real;
 
 /// A system of ordinary differential equations of first order: `y' = f(t, y)`.
@@ -83,7 +84,7 @@ pub trait Integrator<S: Real>: Copy + Debug {
     /// Begins an integration.
     ///
     /// # Errors
-    /// A setting that is not finite and positive; a fault of the system at the start.
+    /// A setting that is not finite and positive, an interval without a length; a fault of the system at the start.
     fn start<Y: System<S>>(
         &self,
         system: &mut Y,
@@ -228,6 +229,18 @@ pub struct Span<S> {
     pub end: S,
     /// The time from the start to the first output (s); a step control may begin with it, as `ode45` does.
     pub first_output: S,
+}
+
+impl<S: Real> Span<S> {
+    /// Its length (s), finite and positive.
+    fn duration(&self) -> Result<S, Fault> {
+        let duration = self.end - self.start;
+        if duration.is_finite() && duration > S::zero() {
+            Ok(duration)
+        } else {
+            Err(interval(self.start, self.end))
+        }
+    }
 }
 
 /// What an integration has cost.

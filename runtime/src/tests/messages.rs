@@ -2,30 +2,56 @@
 
 extern crate std;
 
+use core::ops::ControlFlow;
+use std::boxed::Box;
+use std::error::Error;
+use std::format;
 use std::string::ToString;
 
+use super::rod::{Rod, rod};
 use crate::*;
 
-fn not_converged(iterations: usize, joint: Option<&'static str>) -> Fault {
+fn not_converged(iterations: usize, joint: Option<&'static str>, alpha: Option<f64>) -> Fault {
     Fault::NotConverged {
         iterations,
         residual: 3.2e-2,
         joint,
+        alpha,
+    }
+}
+
+fn underflow(is_least: bool, joint: Option<&'static str>, resolution: Option<f64>) -> Fault {
+    Fault::StepSizeUnderflow {
+        step: 4e-16,
+        is_least,
+        joint,
+        resolution,
     }
 }
 
 #[test]
 fn a_step_size_that_vanishes_names_a_cause() {
-    let underflow = |joint| Fault::StepSizeUnderflow { step: 4e-16, joint };
-    assert_eq!(
-        underflow(None).to_string(),
+    let says = |fault: Fault, message: &str| assert_eq!(fault.to_string(), message);
+    says(
+        underflow(false, None, None),
         "the step size 4e-16 s is below the resolution of the time; constraints that cannot be met, a singular configuration, \
-         and forces that jump or grow without bound are the usual causes"
+         and forces that jump or grow without bound are the usual causes",
     );
-    assert_eq!(
-        underflow(Some("pull")).to_string(),
+    says(
+        underflow(false, Some("pull"), Some(1e-4)),
         "the step size 4e-16 s is below the resolution of the time; the constraints all but depend on each other at joint `pull`: \
-         a singular configuration, or constraints that cannot be met beyond it"
+         a singular configuration, or constraints that cannot be met beyond it",
+    );
+    says(
+        underflow(false, None, Some(6.103_515_625e-5)),
+        "the step size 4e-16 s is below the resolution of the time; positions of this size are known to 6.1e-5 m, which is coarser than \
+         the absolute tolerance: give a larger one, a number type of more digits, or an origin that is nearer; if that does not help, the \
+         cause is a singular configuration, constraints that cannot be met, or forces that jump",
+    );
+    says(
+        underflow(true, None, None),
+        "the error of a step of 4e-16 s, the least that may be taken, is beyond the tolerance; constraints that cannot be met, a singular \
+         configuration, and forces that jump or grow without bound are the usual causes",
     );
 }
 
@@ -34,16 +60,21 @@ fn one_is_singular_and_more_are_plural() {
     let not_driven = |degrees_of_freedom| Fault::NotDriven { degrees_of_freedom };
     for (fault, message) in [
         (
-            not_converged(1, Some("driver")),
-            "no convergence after 1 iteration: joint `driver` is violated most (residual 3.2e-2)",
+            not_converged(1, Some("driver"), None),
+            "no convergence after 1 iteration: joint `driver` is violated most (residual 0.032)",
         ),
         (
-            not_converged(0, Some("driver")),
-            "no convergence after 0 iterations: joint `driver` is violated most (residual 3.2e-2)",
+            not_converged(0, Some("driver"), None),
+            "no convergence after 0 iterations: joint `driver` is violated most (residual 0.032)",
         ),
         (
-            not_converged(20, None),
-            "no convergence after 20 iterations (residual 3.2e-2)",
+            not_converged(20, None, None),
+            "no convergence after 20 iterations (residual 0.032)",
+        ),
+        (
+            not_converged(20, Some("driver"), Some(1e3)),
+            "no convergence after 20 iterations of the augmented Lagrangian with `alpha = 1000`: joint `driver` is violated most \
+             (residual 0.032); a larger `alpha` for these masses needs fewer iterations",
         ),
         (
             not_driven(1),
@@ -56,4 +87,85 @@ fn one_is_singular_and_more_are_plural() {
     ] {
         assert_eq!(fault.to_string(), message);
     }
+}
+
+#[test]
+fn numbers_are_those_of_a_person() {
+    let setting = |value| Fault::Setting {
+        name: "step",
+        value,
+    };
+    let interval = |start, end| Fault::Interval { start, end };
+    for (fault, message) in [
+        (setting(-1.0), "`step` must be finite and positive, not -1"),
+        (setting(-0.0), "`step` must be finite and positive, not 0"),
+        (
+            Fault::Singular {
+                joint: 0,
+                name: "pivot",
+                relative_pivot: 0.0,
+            },
+            "the constraints depend on each other at joint `pivot` (relative pivot 0)",
+        ),
+        (
+            Fault::StepTooShort {
+                step: 1e-20,
+                time: 0.125,
+            },
+            "a step of 1e-20 s is below the resolution of the time 0.125 s",
+        ),
+        (
+            Fault::Undetermined { share: 0.123_45 },
+            "the equations leave a motion free here (0.123 of a trial motion): they depend on each other, or a driver is missing",
+        ),
+        (
+            interval(-2.0, -3.0),
+            "the interval from -2 s to -3 s must not end before it begins",
+        ),
+        (
+            interval(f64::NEG_INFINITY, 0.0),
+            "the interval from -inf s to 0 s must begin at a finite time",
+        ),
+        (
+            interval(0.0, f64::NAN),
+            "the interval from 0 s to NaN s must end at a finite time",
+        ),
+        (
+            interval(1.0, 1.0),
+            "the interval from 1 s to 1 s must have a length",
+        ),
+    ] {
+        assert_eq!(fault.to_string(), message);
+    }
+}
+
+/// A program that returns its error prints it by `Debug`.
+#[test]
+fn a_main_that_returns_an_error_prints_the_sentence() {
+    let rod = Rod { mass: -1.0 };
+    let run = |rod: &Rod| -> Result<(), Box<dyn Error>> {
+        Simulation::new(rod, StandardLagrange, Rk4::every(0.1)).run(
+            2.0..=1.0,
+            every(0.1),
+            |_| ControlFlow::Continue(()),
+        )?;
+        Ok(())
+    };
+    assert_eq!(
+        format!("{:?}", run(&rod).unwrap_err()),
+        "at 2 s: `mass` of `rod` must be positive"
+    );
+    assert_eq!(
+        format!("{:?}", run(&self::rod()).unwrap_err()),
+        "at 2 s: the interval from 2 s to 1 s must not end before it begins"
+    );
+    let described: Result<State<f64, 7, 6>, _> = rod.described_state();
+    assert_eq!(
+        format!("{:?}", described.unwrap_err()),
+        "`mass` of `rod` must be positive"
+    );
+    assert_eq!(
+        format!("{:?}", Fault::StateNotFinite),
+        "the state holds a number that is not finite"
+    );
 }

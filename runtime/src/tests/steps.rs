@@ -48,7 +48,11 @@ fn a_step_that_fails_leaves_state_and_time() {
         .forces(|_, _, loads| loads.force(ROD, [f64::NAN, 0.0, 0.0]));
     let mut state = rod.described_state().unwrap();
     let before: State<f64, 7, 6> = state;
-    assert_eq!(stepper.step(&mut state, 0.1), Err(Fault::RatesNotFinite));
+    let origin = NotFinite::Closure("rod");
+    assert_eq!(
+        stepper.step(&mut state, 0.1),
+        Err(Fault::RatesNotFinite { origin })
+    );
     for step in [0.0, -0.1, f64::INFINITY] {
         let refused = Fault::Setting {
             name: "step",

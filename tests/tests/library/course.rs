@@ -3,7 +3,8 @@
 use core::ops::ControlFlow;
 
 use holonom::{
-    Course, DormandPrince, Fault, Integrator, Span, State, StateParts, System, Tolerance, Vector,
+    Course, DormandPrince, Fault, Integrator, NotFinite, Span, State, StateParts, System,
+    Tolerance, Vector,
 };
 
 use crate::kernels::Kernels;
@@ -53,7 +54,9 @@ impl System<f64> for Moving<'_> {
         if sound {
             Ok(padded)
         } else {
-            Err(Fault::RatesNotFinite)
+            Err(Fault::RatesNotFinite {
+                origin: NotFinite::Unknown,
+            })
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Dynamics, Fault, StateParts};
+use holonom::{Dynamics, Fault, NotFinite, StateParts};
 use holonom_models::RodPendulum;
 
 use crate::pendulum::flat;
@@ -294,7 +294,7 @@ fn a_step_size_that_vanishes_ends_the_run_with_the_last_good_state() {
         })
         .expect_err("the motion ends at 1 s");
     assert!(
-        matches!(error.fault, Fault::StepSizeUnderflow { step, joint: None } if step < 1e-14),
+        matches!(error.fault, Fault::StepSizeUnderflow { step, joint: None, .. } if step < 1e-14),
         "{error}"
     );
     // The step control of 1e-6 does not know the end better.
@@ -320,9 +320,10 @@ fn rates_that_are_not_finite_end_the_run_with_the_last_good_state() {
             ControlFlow::Continue(())
         })
         .expect_err("not a number");
+    let origin = NotFinite::Closure("stone");
     assert_eq!(
         (error.fault, error.time, last),
-        (Fault::RatesNotFinite, 0.375, 0.375)
+        (Fault::RatesNotFinite { origin }, 0.375, 0.375)
     );
     assert_eq!(error.state.velocities(), &[1.0, 0.0, 0.0]);
     // A step control goes as near as it can.
@@ -330,7 +331,7 @@ fn rates_that_are_not_finite_end_the_run_with_the_last_good_state() {
         .forces(law)
         .run(0.0..=1.0, every_step(), |_| ControlFlow::Continue(()))
         .expect_err("not a number");
-    assert_eq!(error.fault, Fault::RatesNotFinite);
+    assert_eq!(error.fault, Fault::RatesNotFinite { origin });
     assert!((error.time - 0.4).abs() < 1e-13, "{error}");
     assert!((error.state.coordinates()[0] - error.time).abs() < 1e-13);
 }
@@ -349,7 +350,7 @@ fn an_iteration_that_does_not_converge_is_reported() {
         .run(1.0..=2.0, every(0.1), |_| ControlFlow::Continue(()))
         .expect_err("two iterations are not enough");
     assert!(
-        matches!(error.fault, Fault::NotConverged { iterations: 2, residual, joint: Some("pivot") } if residual > 0.0),
+        matches!(error.fault, Fault::NotConverged { iterations: 2, residual, joint: Some("pivot"), alpha: Some(1.0) } if residual > 0.0),
         "{error}"
     );
     assert_eq!(error.time, 1.0);
@@ -406,6 +407,7 @@ fn no_convergence_names_the_joint_that_is_violated_most() {
             iterations: 0,
             residual,
             joint: Some(name),
+            alpha: None,
         }) = fault
         else {
             panic!("{fault:?}");

@@ -118,11 +118,26 @@ fn a_tolerance_and_a_step_must_be_positive() {
 #[test]
 fn an_interval_must_have_a_length() {
     let fault = run(Rk4::every(0.1), 1.0..=0.0, every(0.1));
-    names(&fault, "end of the interval", -1.0);
+    assert_eq!(
+        fault.to_string(),
+        "the interval from 1 s to 0 s must not end before it begins"
+    );
     let fault = run(Rk4::every(0.1), 0.0..=f64::NAN, every(0.1));
-    names(&fault, "end of the interval", f64::NAN);
+    assert_eq!(
+        fault.to_string(),
+        "the interval from 0 s to NaN s must end at a finite time"
+    );
     let fault = run(Rk4::every(0.1), f64::INFINITY..=f64::INFINITY, every(0.1));
-    names(&fault, "start of the interval", f64::INFINITY);
+    assert_eq!(
+        fault.to_string(),
+        "the interval from inf s to inf s must begin at a finite time"
+    );
+    // Where it begins does not matter.
+    let rod = RodPendulum::default();
+    let report = Simulation::new(&rod, StandardLagrange, Rk4::every(0.1))
+        .run(-2.0..=-1.0, every(0.1), |_| ControlFlow::Continue(()))
+        .expect("before zero");
+    assert_eq!(report.time, -1.0);
 }
 
 #[test]

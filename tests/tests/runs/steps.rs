@@ -103,8 +103,8 @@ fn a_step_that_fails_leaves_state_and_time() {
     stepper.step(&mut state, 0.125).expect("solvable");
     let before = state;
     for (dt, number) in [
-        (0.0, "0e0"),
-        (-0.1, "-1e-1"),
+        (0.0, "0"),
+        (-0.1, "-0.1"),
         (f64::NAN, "NaN"),
         (f64::INFINITY, "inf"),
     ] {
@@ -118,7 +118,7 @@ fn a_step_that_fails_leaves_state_and_time() {
     // So long that the numbers overflow.
     let fault = stepper.step(&mut state, 1e200).expect_err("overflow");
     assert!(
-        matches!(fault, Fault::RatesNotFinite | Fault::StateNotFinite),
+        matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite),
         "{fault}"
     );
     assert_eq!((stepper.time(), state), (0.125, before));

@@ -3,8 +3,10 @@
 #![forbid(unsafe_code)]
 
 mod clock;
+mod digits;
 mod limits;
 mod long;
 mod orientation;
+mod origins;
 mod singular;
 mod start;

@@ -1,0 +1,225 @@
+//! What faults say. `Debug` says the same, because that is what a `main` that returns an error prints.
+
+use core::fmt;
+
+use crate::error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
+use crate::readable::{Given, Measured};
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fault = match self.fault {
+            ParameterFault::NotFinite => "must be finite",
+            ParameterFault::NotPositive => "must be positive",
+            ParameterFault::TriangleInequality => {
+                "must satisfy the triangle inequality: no principal moment exceeds the sum of the others"
+            }
+            ParameterFault::ZeroLength => "must not be the zero vector",
+        };
+        write!(f, "`{}` of `{}` {fault}", self.attribute, self.field)
+    }
+}
+
+impl fmt::Debug for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::StateNotFinite => write!(f, "the state holds a number that is not finite"),
+            Self::ZeroOrientation { body } => {
+                write!(f, "the Euler parameters of body `{body}` have no length")
+            }
+            Self::RatesNotFinite { origin } => {
+                write!(f, "the rates of the state are not finite")?;
+                match origin {
+                    NotFinite::Unknown => Ok(()),
+                    NotFinite::Force(name) => write!(
+                        f,
+                        ": force `{name}` is not finite (a length of zero, or numbers beyond all bounds)"
+                    ),
+                    NotFinite::Closure(body) => {
+                        write!(f, ": the closure's forces on body `{body}` are not finite")
+                    }
+                    NotFinite::Joint(name) => write!(
+                        f,
+                        ": the equations of joint `{name}` are not finite (a length of zero, or a law or velocities beyond all bounds)"
+                    ),
+                    NotFinite::Body(name) => {
+                        write!(f, ": the acceleration of body `{name}` is not finite")
+                    }
+                }
+            }
+            Self::Singular {
+                name,
+                relative_pivot,
+                ..
+            } => write!(
+                f,
+                "the constraints depend on each other at joint `{name}` (relative pivot {})",
+                Measured(relative_pivot)
+            ),
+            Self::NotConverged {
+                iterations,
+                residual,
+                joint,
+                alpha,
+            } => {
+                let plural = if iterations == 1 { "" } else { "s" };
+                write!(f, "no convergence after {iterations} iteration{plural}")?;
+                if let Some(alpha) = alpha {
+                    write!(
+                        f,
+                        " of the augmented Lagrangian with `alpha = {}`",
+                        Given(alpha)
+                    )?;
+                }
+                if let Some(joint) = joint {
+                    write!(f, ": joint `{joint}` is violated most")?;
+                }
+                write!(f, " (residual {})", Measured(residual))?;
+                if alpha.is_some() {
+                    write!(
+                        f,
+                        "; a larger `alpha` for these masses needs fewer iterations"
+                    )?;
+                }
+                Ok(())
+            }
+            Self::StepSizeUnderflow {
+                step,
+                is_least,
+                joint,
+                resolution,
+            } => {
+                let step = Measured(step);
+                if is_least {
+                    write!(
+                        f,
+                        "the error of a step of {step} s, the least that may be taken, is beyond the tolerance; "
+                    )?;
+                } else {
+                    write!(
+                        f,
+                        "the step size {step} s is below the resolution of the time; "
+                    )?;
+                }
+                match (joint, resolution) {
+                    (Some(joint), _) => write!(
+                        f,
+                        "the constraints all but depend on each other at joint `{joint}`: a singular configuration, or constraints that cannot be met beyond it"
+                    ),
+                    (None, Some(resolution)) => write!(
+                        f,
+                        "positions of this size are known to {} m, which is coarser than the absolute tolerance: give a larger one, a number type of \
+                         more digits, or an origin that is nearer; if that does not help, the cause is a singular configuration, constraints that cannot be \
+                         met, or forces that jump",
+                        Measured(resolution)
+                    ),
+                    (None, None) => write!(
+                        f,
+                        "constraints that cannot be met, a singular configuration, and forces that jump or grow without bound are the usual causes"
+                    ),
+                }
+            }
+            Self::StepTooLong { step, rate } => write!(
+                f,
+                "the numbers grew without bound: a step of {} s is too long for violations that decay at {} 1/s, explicit steps must stay below \
+                 about {} s",
+                Given(step),
+                Given(rate),
+                Measured(2.0 / rate)
+            ),
+            Self::Budget { evaluations } => write!(
+                f,
+                "{evaluations} evaluations are used up: a singular configuration or a stiff formulation are the usual causes; \
+                 `DormandPrince::budget` allows more"
+            ),
+            Self::InconsistentStart {
+                joint,
+                quantity,
+                violation,
+            } => {
+                let (violation, unit) = (Measured(violation), quantity.unit());
+                match quantity {
+                    Quantity::Length | Quantity::Angle => {
+                        write!(
+                            f,
+                            "joint `{joint}` is open by {violation} {unit} at the start"
+                        )?;
+                    }
+                    Quantity::Speed | Quantity::AngularVelocity => write!(
+                        f,
+                        "the bodies of joint `{joint}` move against it at {violation} {unit} at the start"
+                    )?,
+                }
+                write!(
+                    f,
+                    ": `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
+                )
+            }
+            Self::StepTooShort { step, time } => write!(
+                f,
+                "a step of {} s is below the resolution of the time {} s",
+                Given(step),
+                Given(time)
+            ),
+            Self::NotDriven { degrees_of_freedom } => {
+                let (velocities, each) = match degrees_of_freedom {
+                    1 => ("velocity", "it"),
+                    _ => ("velocities", "each"),
+                };
+                write!(
+                    f,
+                    "the mechanism has {degrees_of_freedom} more {velocities} than equations; a kinematic analysis needs a driver for {each}"
+                )
+            }
+            Self::Undetermined { share } => write!(
+                f,
+                "the equations leave a motion free here ({} of a trial motion): they depend on each other, or a driver is missing",
+                Measured(share)
+            ),
+            Self::Setting { name, value } => {
+                write!(
+                    f,
+                    "`{name}` must be finite and positive, not {}",
+                    Given(value)
+                )
+            }
+            Self::Interval { start, end } => {
+                let (from, to) = (Given(start), Given(end));
+                write!(f, "the interval from {from} s to {to} s ")?;
+                if !start.is_finite() {
+                    write!(f, "must begin at a finite time")
+                } else if !end.is_finite() {
+                    write!(f, "must end at a finite time")
+                } else if end < start {
+                    write!(f, "must not end before it begins")
+                } else {
+                    write!(f, "must have a length")
+                }
+            }
+            Self::Parameter(error) => error.fmt(f),
+        }
+    }
+}
+
+impl fmt::Debug for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl<X> fmt::Display for SimulationError<X> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at {} s: {}", Given(self.time), self.fault)
+    }
+}
+
+impl<X> fmt::Debug for SimulationError<X> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}

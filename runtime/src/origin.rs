@@ -1,0 +1,70 @@
+//! Where rates that are not finite began: a force, a closure, a joint or a body.
+
+use crate::array::{Array, StateParts};
+use crate::error::NotFinite;
+use crate::mechanism::Mechanism;
+use crate::report::{BodyInfo, BodyKind, Report};
+use crate::scalar::Real;
+
+/// Looks for the first thing that is not finite, at a state as the kernels read it: forces of the description, what a closure has made of their sum,
+/// equations, accelerations.
+#[cold]
+#[inline(never)]
+pub(crate) fn origin<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+    applied: Option<&M::Velocities<S>>,
+    rates: &M::State<S>,
+) -> NotFinite {
+    let force = M::REPORT.forces.iter().enumerate().find(|(index, info)| {
+        (0..info.bodies.len()).any(|place| {
+            let load = M::force_load(constants, time, state, *index, place);
+            !all_finite(load.iter())
+        })
+    });
+    if let Some((_, force)) = force {
+        return NotFinite::Force(force.name);
+    }
+    let described = M::forces(constants, time, state);
+    if let Some(body) = body(&M::REPORT, described.as_slice()) {
+        return NotFinite::Body(body);
+    }
+    if let Some(body) = applied.and_then(|applied| body(&M::REPORT, applied.as_slice())) {
+        return NotFinite::Closure(body);
+    }
+    let phi = M::constraints(constants, time, state);
+    let phi_rate = M::constraint_rates(constants, time, state);
+    let gamma = M::gamma(constants, time, state);
+    let jacobian = M::jacobian(constants, time, state);
+    let rows = [&phi, &phi_rate, &gamma];
+    let joint = M::REPORT.joints.iter().enumerate().find(|(index, info)| {
+        let of_rows = |values: &[S]| all_finite(values.iter().skip(info.row).take(info.rows));
+        let mut blocks = M::REPORT.blocks.iter().filter(|b| b.joint == *index);
+        !rows.iter().all(|values| of_rows(values.as_slice()))
+            || !blocks.all(|block| {
+                let values = jacobian.as_slice().iter().skip(block.offset);
+                all_finite(values.take(block.rows * block.columns))
+            })
+    });
+    if let Some((_, joint)) = joint {
+        return NotFinite::Joint(joint.name);
+    }
+    body(&M::REPORT, rates.velocities().as_slice()).map_or(NotFinite::Unknown, NotFinite::Body)
+}
+
+/// The first body with an element that is not finite.
+fn body<S: Real>(report: &Report, elements: &[S]) -> Option<&'static str> {
+    let of = |body: &&BodyInfo| {
+        let count = match body.kind {
+            BodyKind::Rigid => 6,
+            BodyKind::Particle => 3,
+        };
+        !all_finite(elements.iter().skip(body.velocity).take(count))
+    };
+    report.bodies.iter().find(of).map(|body| body.name)
+}
+
+fn all_finite<'a, S: Real>(mut elements: impl Iterator<Item = &'a S>) -> bool {
+    elements.all(|element| element.is_finite())
+}
