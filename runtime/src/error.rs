@@ -129,6 +129,27 @@ pub enum Fault {
         /// Where it ends (s).
         end: f64,
     },
+    /// A reaction or a load was asked for on a body that the joint or force is not about.
+    NotBetween {
+        /// The field of the joint or force.
+        element: &'static str,
+        /// The body's field.
+        body: &'static str,
+    },
+    /// A reaction was asked for at a place that the joint's `between` does not have.
+    NoSuchPlace {
+        /// The joint's field.
+        joint: &'static str,
+        /// The place, from 0.
+        place: usize,
+        /// How many there are.
+        places: usize,
+    },
+    /// The effort of a driver whose equation was left out as redundant: other joints carry it.
+    NoEffort {
+        /// The driver's field.
+        joint: &'static str,
+    },
     /// A parameter of the mechanism is not acceptable.
     Parameter(ParameterError),
 }

@@ -201,6 +201,21 @@ impl fmt::Display for Fault {
                     write!(f, "must have a length")
                 }
             }
+            Self::NotBetween { element, body } => {
+                write!(f, "`{body}` is not among the bodies of `{element}`")
+            }
+            Self::NoSuchPlace {
+                joint,
+                place,
+                places,
+            } => write!(
+                f,
+                "joint `{joint}` has {places} bodies, counted from 0: there is none at {place}"
+            ),
+            Self::NoEffort { joint } => write!(
+                f,
+                "the equation of driver `{joint}` was left out as redundant: other joints carry its effort"
+            ),
             Self::Parameter(error) => error.fmt(f),
         }
     }

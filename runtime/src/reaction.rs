@@ -28,7 +28,7 @@ struct Reduced<S> {
 /// The wrench of a joint on the body at a place of its `between`, reduced to the joint's point on that body.
 ///
 /// On a body it is `-D^T lambda`: the force, and the moment about the centre of mass moved to the point. On the ground
-/// it is the opposite of the sum over the bodies. Zero for a joint or a place that is not there.
+/// it is the opposite of the sum over the bodies. `None` for a joint or a place that is not there.
 pub(crate) fn wrench<S: Scalar, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,
@@ -36,16 +36,13 @@ pub(crate) fn wrench<S: Scalar, M: Mechanism>(
     multipliers: &M::Multipliers<S>,
     joint: usize,
     place: usize,
-) -> Wrench<S> {
+) -> Option<Wrench<S>> {
     let jacobian = M::jacobian(constants, time, state);
     let load = |body| load_on_body::<S, M>(jacobian.as_slice(), state, multipliers, joint, body);
-    let bodies = M::REPORT
-        .joints
-        .get(joint)
-        .map_or(&[][..], |info| info.bodies);
+    let bodies = M::REPORT.joints.get(joint)?.bodies;
     let offset = M::joint_point(constants, joint, place);
-    let (point, reduced) = match bodies.get(place) {
-        Some(&Some(body)) => {
+    let (point, reduced) = match *bodies.get(place)? {
+        Some(body) => {
             let handle = BodyHandle::<M>::new(body);
             let centre = crate::access::position(state, handle);
             let arm = rotate(&orientation::<S, M>(state, handle), &offset);
@@ -58,7 +55,7 @@ pub(crate) fn wrench<S: Scalar, M: Mechanism>(
                 },
             )
         }
-        Some(None) => {
+        None => {
             let zero = [S::zero(); 3];
             let mut sum = Reduced {
                 force: zero,
@@ -73,19 +70,12 @@ pub(crate) fn wrench<S: Scalar, M: Mechanism>(
             }
             (offset, sum)
         }
-        None => (
-            [S::zero(); 3],
-            Reduced {
-                force: [S::zero(); 3],
-                moment: [S::zero(); 3],
-            },
-        ),
     };
-    Wrench {
+    Some(Wrench {
         force: Vector3::from(reduced.force),
         moment: Vector3::from(reduced.moment),
         point: Vector3::from(point),
-    }
+    })
 }
 
 /// `-D^T lambda` of one joint on one body: force (N) and moment about the centre of mass (N m), both global.

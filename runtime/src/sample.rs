@@ -87,39 +87,36 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// What a joint exerts on one of its bodies, see [`View::reaction`].
     ///
     /// # Errors
-    /// The fault of the evaluation.
+    /// The fault of the evaluation; [`Fault::NotBetween`] for a body that is not of the joint.
     pub fn reaction<J>(
         &self,
         joint: JointHandle<M, J>,
         body: BodyHandle<M>,
     ) -> Result<Wrench<S>, Fault> {
-        Ok(self
-            .view
-            .reaction(&self.evaluation()?.multipliers, joint, body))
+        let multipliers = &self.evaluation()?.multipliers;
+        self.view.reaction(multipliers, joint, body)
     }
 
     /// What a joint exerts on the body at a place of its `between`, see [`View::reaction_on_place`].
     ///
     /// # Errors
-    /// The fault of the evaluation.
+    /// The fault of the evaluation; [`Fault::NoSuchPlace`] for a place that `between` does not have.
     pub fn reaction_on_place<J>(
         &self,
         joint: JointHandle<M, J>,
         place: usize,
     ) -> Result<Wrench<S>, Fault> {
-        Ok(self
-            .view
-            .reaction_on_place(&self.evaluation()?.multipliers, joint, place))
+        let multipliers = &self.evaluation()?.multipliers;
+        self.view.reaction_on_place(multipliers, joint, place)
     }
 
     /// The effort of a driver (N for a length, N m for an angle), see [`View::driving_effort`].
     ///
     /// # Errors
-    /// The fault of the evaluation.
+    /// The fault of the evaluation; [`Fault::NoEffort`] where the driver's equation was left out as redundant.
     pub fn driving_effort<J: Driven>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
-        Ok(self
-            .view
-            .driving_effort(&self.evaluation()?.multipliers, joint))
+        let multipliers = &self.evaluation()?.multipliers;
+        self.view.driving_effort(multipliers, joint)
     }
 
     /// Accelerations `u'` (m/s^2 global; rad/s^2 principal body axes), one per velocity.

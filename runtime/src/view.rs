@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::access::{MechanismExt, Pose};
 use crate::array::Array;
+use crate::error::Fault;
 use crate::handle::{BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::{Mechanism, Orientation};
 use crate::reaction::{Wrench, wrench};
@@ -124,49 +125,59 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
 
     /// The effort of a driver: the generalised force with which it acts on the quantity that it drives, from the
     /// multipliers at this state; N for a length, N m for an angle. A positive effort pushes the quantity upwards, so that effort times rate is
-    /// the power that the driver puts in. Zero where the driver's equation was left out as redundant.
-    #[must_use]
+    /// the power that the driver puts in.
+    ///
+    /// # Errors
+    /// [`Fault::NoEffort`] where the driver's equation was left out as redundant: other joints carry what it would.
     pub fn driving_effort<J: Driven>(
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
-    ) -> S {
+    ) -> Result<S, Fault> {
         let row = joint.row(J::ROW);
         let multiplier = row.and_then(|row| multipliers.as_slice().get(row));
-        -multiplier.copied().unwrap_or(S::zero())
+        multiplier
+            .map(|&multiplier| -multiplier)
+            .ok_or(Fault::NoEffort {
+                joint: joint.name(),
+            })
     }
 
     /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the joint's point on
-    /// that body, from the multipliers at this state. Zero on a body that is not of the joint.
-    #[must_use]
+    /// that body, from the multipliers at this state.
+    ///
+    /// # Errors
+    /// [`Fault::NotBetween`] for a body that is not of the joint.
     pub fn reaction<J>(
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
         body: BodyHandle<M>,
-    ) -> Wrench<S> {
+    ) -> Result<Wrench<S>, Fault> {
         let bodies = joint.info().map_or(&[][..], |info| info.bodies);
-        let place = bodies.iter().position(|&b| b == Some(body.index()));
-        self.reaction_on_place(multipliers, joint, place.unwrap_or(usize::MAX))
+        let place = place_of(bodies, joint.name(), body)?;
+        self.reaction_on_place(multipliers, joint, place)
     }
 
     /// The same by the place of the body in `between`: 0 is the first, which may be the ground.
-    #[must_use]
+    ///
+    /// # Errors
+    /// [`Fault::NoSuchPlace`] for a place that `between` does not have.
     pub fn reaction_on_place<J>(
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
         place: usize,
-    ) -> Wrench<S> {
+    ) -> Result<Wrench<S>, Fault> {
         let state = self.state_of_kernels();
-        wrench::<S, M>(
-            self.constants,
-            self.time,
-            &state,
-            multipliers,
-            joint.index(),
-            place,
-        )
+        let (constants, time, index) = (self.constants, self.time, joint.index());
+        wrench::<S, M>(constants, time, &state, multipliers, index, place).ok_or_else(|| {
+            Fault::NoSuchPlace {
+                joint: joint.name(),
+                place,
+                places: joint.info().map_or(0, |info| info.bodies.len()),
+            }
+        })
     }
 
     /// Kinetic energy (J).
@@ -194,22 +205,26 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         M::force_parts(self.constants, self.time, self.state, force.index())
     }
 
-    /// What a force exerts on one of its bodies: force and moment (N, N m, global) about the body's centre of mass. Zero on a body that
-    /// it does not act on.
-    #[must_use]
-    pub fn load<F>(&self, force: ForceHandle<M, F>, body: BodyHandle<M>) -> Wrench<S> {
+    /// What a force exerts on one of its bodies: force and moment (N, N m, global) about the body's centre of mass.
+    ///
+    /// # Errors
+    /// [`Fault::NotBetween`] for a body that is not in the force's `between`.
+    pub fn load<F>(
+        &self,
+        force: ForceHandle<M, F>,
+        body: BodyHandle<M>,
+    ) -> Result<Wrench<S>, Fault> {
         let bodies = force.info().map_or(&[][..], |info| info.bodies);
-        let place = bodies.iter().position(|&b| b == Some(body.index()));
-        let place = place.unwrap_or(usize::MAX);
+        let place = place_of(bodies, force.name(), body)?;
         let [fx, fy, fz, mx, my, mz] =
             M::force_load(self.constants, self.time, self.state, force.index(), place);
         let state = self.state_of_kernels();
         let moment = crate::reaction::in_global_axes::<S, M>(&state, body, [mx, my, mz]);
-        Wrench {
+        Ok(Wrench {
             force: Vector3::new(fx, fy, fz),
             moment: Vector3::from(moment),
             point: self.pose(body).position,
-        }
+        })
     }
 
     /// Kinetic and potential energy together (J).
@@ -275,6 +290,19 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
             *self.state
         }
     }
+}
+
+/// The place of a body among those of a joint or force.
+fn place_of<M: Mechanism>(
+    bodies: &[Option<usize>],
+    element: &'static str,
+    body: BodyHandle<M>,
+) -> Result<usize, Fault> {
+    let place = bodies.iter().position(|&b| b == Some(body.index()));
+    place.ok_or_else(|| Fault::NotBetween {
+        element,
+        body: body.name(),
+    })
 }
 
 /// The sum of squares.

@@ -8,7 +8,7 @@ use std::error::Error;
 use std::format;
 use std::string::ToString;
 
-use super::rod::{Rod, rod};
+use super::rod::{PIVOT, ROD, Rod, rod};
 use crate::*;
 
 fn not_converged(iterations: usize, joint: Option<&'static str>, alpha: Option<f64>) -> Fault {
@@ -167,5 +167,29 @@ fn a_main_that_returns_an_error_prints_the_sentence() {
     assert_eq!(
         format!("{:?}", Fault::StateNotFinite),
         "the state holds a number that is not finite"
+    );
+}
+
+#[test]
+fn what_is_not_there_is_not_read_as_zero() {
+    let rod = rod();
+    let constants = rod.constants().unwrap();
+    let state = rod.described_state().unwrap();
+    let view = View::<f64, Rod>::new(&constants, 0.0, &state);
+    let multipliers = [1.0; 5];
+    assert!(view.reaction(&multipliers, PIVOT, ROD).is_ok());
+    let stranger = BodyHandle::<Rod>::new(7);
+    let fault = view.reaction(&multipliers, PIVOT, stranger).unwrap_err();
+    assert!(matches!(
+        fault,
+        Fault::NotBetween {
+            element: "pivot",
+            ..
+        }
+    ));
+    let fault = view.reaction_on_place(&multipliers, PIVOT, 2).unwrap_err();
+    assert_eq!(
+        fault.to_string(),
+        "joint `pivot` has 2 bodies, counted from 0: there is none at 2"
     );
 }

@@ -170,7 +170,9 @@ fn angle_and_reaction_are_the_same() {
         ($mechanism:ident, $x:expr) => {
             read::<$mechanism>($x, |view, multipliers| {
                 let handles = $mechanism::HANDLES;
-                let wrench = view.reaction(multipliers, handles.hinge, handles.upper);
+                let wrench = view
+                    .reaction(multipliers, handles.hinge, handles.upper)
+                    .expect("of the hinge");
                 let mut read = vec![view.angle(handles.hinge), view.angle_rate(handles.hinge)];
                 read.extend(
                     wrench

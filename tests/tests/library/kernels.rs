@@ -81,6 +81,7 @@ impl<M: Mechanism, J: 'static> Element<M> for JointHandle<M, J> {
         place: usize,
     ) -> Wrench<f64> {
         view.reaction_on_place(lambda, self, place)
+            .expect("a place of the joint")
     }
 
     fn books(self, _: &View<'_, f64, M>) -> [f64; 2] {

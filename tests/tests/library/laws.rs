@@ -244,6 +244,7 @@ fn efforts_are_multipliers_and_put_in_the_power_of_the_motion() {
         ];
         let mut power = 0.0;
         for (effort, multiplier, prescribed, rate) in drives {
+            let effort = effort.expect("nothing is left out");
             assert_eq!(effort, multiplier);
             worst[0] = worst[0].max((rate - prescribed).abs());
             power += effort * prescribed;

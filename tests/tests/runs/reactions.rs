@@ -99,8 +99,12 @@ fn reactions_and_weight_move_the_bodies() {
     *rates.velocities_mut() = *evaluation.rates.velocities();
     let gravity = Vector3::new(0.0, 0.0, -9.81);
     let on = |body| {
-        let hinge = view.reaction(&evaluation.multipliers, handles.hinge, body);
-        let ball = view.reaction(&evaluation.multipliers, handles.ball, body);
+        let hinge = view
+            .reaction(&evaluation.multipliers, handles.hinge, body)
+            .expect("of the hinge");
+        let ball = view
+            .reaction(&evaluation.multipliers, handles.ball, body)
+            .expect("of the ball");
         let centre = view.pose(body).position;
         let moment =
             |wrench: &Wrench<f64>| wrench.moment + (wrench.point - centre).cross(&wrench.force);
@@ -132,7 +136,9 @@ fn a_joint_exerts_nothing_on_a_body_that_is_not_its_own() {
     let dynamics = Dynamics::<f64, Pair, _>::new(&pair, Penalty::default()).expect("acceptable");
     let (evaluation, _) = dynamics.evaluate(0.0, &state).expect("solvable");
     let view = dynamics.view(0.0, &state);
-    let wrench = view.reaction(&evaluation.multipliers, handles.hinge, handles.lower);
+    let wrench = view
+        .reaction(&evaluation.multipliers, handles.hinge, handles.lower)
+        .expect("of the hinge");
     assert_eq!(
         (wrench.force, wrench.moment),
         (Vector3::zeros(), Vector3::zeros())

@@ -8,5 +8,6 @@ mod limits;
 mod long;
 mod orientation;
 mod origins;
+mod readings;
 mod singular;
 mod start;
