@@ -4,7 +4,7 @@ use nalgebra::{Quaternion, Vector3};
 
 use crate::array::{Array, StateParts};
 use crate::error::{Fault, ParameterError};
-use crate::handle::BodyHandle;
+use crate::handle::{BodyHandle, CountsTurns};
 use crate::mechanism::Mechanism;
 use crate::project::{Correction, Projection};
 use crate::rotation::{
@@ -83,9 +83,10 @@ pub trait MechanismExt: Mechanism {
     /// Sets position and orientation of a body; the orientation may have any length but zero, which whatever uses the state
     /// refuses with [`Fault::ZeroOrientation`].
     ///
-    /// Angles that count turns do not follow: their axes are among the constants of the mechanism. A run, [`MechanismExt::assemble`]
-    /// and [`Mechanism::recount`] take the whole turns from the value in the state and the rest from the orientations, so that a pose
-    /// may be set up to half a turn away.
+    /// **A pose does not tell turns.** Angles that count them ([`Report::auxiliaries`](crate::Report::auxiliaries): of screws, gears, racks, drivers of
+    /// angles, torsional springs and actuators) stay as they are in the state. A run, [`MechanismExt::assemble`] and [`Mechanism::recount`]
+    /// take the whole turns from there and the rest from the orientations: right for a pose that is less than half a turn away from the
+    /// one before. For any other say the angles too, with [`MechanismExt::set_counted_angles`].
     fn set_pose<S: Scalar>(state: &mut Self::State<S>, body: BodyHandle<Self>, pose: Pose<S>) {
         let Some(info) = body.info() else { return };
         let coordinates = state.coordinates_mut().as_mut_slice();
@@ -96,6 +97,40 @@ pub trait MechanismExt: Mechanism {
             let p = product(&normalised_or_zero(&[w, x, y, z]), &conjugate(&axes));
             write(coordinates, place, p);
         }
+    }
+
+    /// The angles (rad) that a joint or a force counts turns of, as they stand in the state: in the order of its definition, zero in the described
+    /// configuration, without elements where it counts none.
+    fn counted_angles<S: Scalar, E: CountsTurns<Self>>(state: &Self::State<S>, element: E) -> &[S] {
+        let angles = state.coordinates().as_slice().get(element.counters());
+        angles.unwrap_or(&[])
+    }
+
+    /// Sets the angles (rad) that a joint or a force counts turns of, see [`MechanismExt::counted_angles`]: one for most, two for a `Gear` (of `j`, of `i`).
+    ///
+    /// Only the count of turns is taken from them: whatever uses the state takes the angles that its orientations have and that are
+    /// nearest to these, which may be off by up to half a turn.
+    ///
+    /// # Errors
+    /// [`Fault::CountedAngles`] for another number of angles than the joint or force counts; the state is then as before.
+    fn set_counted_angles<S: Scalar, E: CountsTurns<Self>>(
+        state: &mut Self::State<S>,
+        element: E,
+        angles: &[S],
+    ) -> Result<(), Fault> {
+        let coordinates = state.coordinates_mut().as_mut_slice();
+        let places = coordinates.get_mut(element.counters()).unwrap_or(&mut []);
+        if places.len() != angles.len() {
+            return Err(Fault::CountedAngles {
+                element: element.element(),
+                counted: places.len(),
+                given: angles.len(),
+            });
+        }
+        for (place, &angle) in places.iter_mut().zip(angles) {
+            *place = angle;
+        }
+        Ok(())
     }
 
     /// The velocity of the centre of mass (m/s, global).

@@ -150,6 +150,15 @@ pub enum Fault {
         /// The driver's field.
         joint: &'static str,
     },
+    /// Angles that count turns were set, and their number is not that of the joint or force.
+    CountedAngles {
+        /// The field of the joint or force.
+        element: &'static str,
+        /// How many angles it counts turns of.
+        counted: usize,
+        /// How many were given.
+        given: usize,
+    },
     /// A parameter of the mechanism is not acceptable.
     Parameter(ParameterError),
 }

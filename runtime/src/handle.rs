@@ -2,6 +2,7 @@
 
 use core::fmt;
 use core::marker::PhantomData;
+use core::ops::Range;
 
 use crate::mechanism::Mechanism;
 use crate::report::{BodyInfo, BodyKind, ForceInfo, JointInfo, RedundantRow};
@@ -191,6 +192,45 @@ impl<M: Mechanism, F> ForceHandle<M, F> {
     /// Kind and bodies of the force.
     pub(crate) fn info(self) -> Option<&'static ForceInfo> {
         M::REPORT.forces.get(self.index)
+    }
+}
+
+/// The handle of a joint or a force, which may count turns of angles.
+pub trait CountsTurns<M>: Copy + sealed::Sealed {
+    /// The name of the field.
+    fn element(self) -> &'static str;
+    /// The places of its angles among the coordinates of a state.
+    fn counters(self) -> Range<usize>;
+}
+
+mod sealed {
+    /// Implemented by the handles of this crate.
+    pub trait Sealed {}
+}
+
+impl<M, J> sealed::Sealed for JointHandle<M, J> {}
+
+impl<M, F> sealed::Sealed for ForceHandle<M, F> {}
+
+impl<M: Mechanism, J> CountsTurns<M> for JointHandle<M, J> {
+    fn element(self) -> &'static str {
+        self.name()
+    }
+
+    fn counters(self) -> Range<usize> {
+        let places = |info: &JointInfo| info.auxiliary..info.auxiliary + info.auxiliaries;
+        self.info().map_or(0..0, places)
+    }
+}
+
+impl<M: Mechanism, F> CountsTurns<M> for ForceHandle<M, F> {
+    fn element(self) -> &'static str {
+        self.name()
+    }
+
+    fn counters(self) -> Range<usize> {
+        let places = |info: &ForceInfo| info.auxiliary..info.auxiliary + info.auxiliaries;
+        self.info().map_or(0..0, places)
     }
 }
 

@@ -170,7 +170,7 @@ pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, Penalty, Saddle, Solution, StandardLagrange,
 };
 pub use handle::{
-    BodyHandle, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,
+    BodyHandle, CountsTurns, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,
     JointHandle,
 };
 pub use integrate::{

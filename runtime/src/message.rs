@@ -216,6 +216,18 @@ impl fmt::Display for Fault {
                 f,
                 "the equation of driver `{joint}` was left out as redundant: other joints carry its effort"
             ),
+            Self::CountedAngles {
+                element,
+                counted,
+                given,
+            } => {
+                match counted {
+                    0 => write!(f, "`{element}` counts turns of no angle"),
+                    1 => write!(f, "`{element}` counts turns of one angle"),
+                    _ => write!(f, "`{element}` counts turns of {counted} angles"),
+                }?;
+                write!(f, ", not of {given}")
+            }
             Self::Parameter(error) => error.fmt(f),
         }
     }

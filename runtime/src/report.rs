@@ -163,6 +163,10 @@ pub struct JointInfo {
     pub has_displacement: bool,
     /// Whether the joint's definition has a point, to which reactions are reduced; else they are reduced to the centre of mass.
     pub has_point: bool,
+    /// The place of its first auxiliary variable in the coordinates of a state, where it has any.
+    pub auxiliary: usize,
+    /// How many it has: the angles that its definition counts turns of, in the order in which they stand there.
+    pub auxiliaries: usize,
     /// What the joint costs by itself: `Phi`, `D` (rows along global axes) and `gamma` together, as functions of position, Euler
     /// parameters of length 1, velocity and angular velocity of its bodies, the last in global axes too. In the kernels of a
     /// mechanism joints share operations, with each other and with the solution.
@@ -178,6 +182,10 @@ pub struct ForceInfo {
     pub kind: &'static str,
     /// The bodies in the order of `between`; `None` is the ground.
     pub bodies: &'static [Option<usize>],
+    /// The place of its first auxiliary variable in the coordinates of a state, where it has any.
+    pub auxiliary: usize,
+    /// How many it has: the angles that its definition counts turns of, in the order in which they stand there.
+    pub auxiliaries: usize,
 }
 
 /// A block of the Jacobian `D`: the rows of one joint against the velocities of one body.

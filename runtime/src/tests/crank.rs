@@ -84,6 +84,8 @@ impl Mechanism for Crank {
             has_angle: true,
             has_displacement: true,
             has_point: true,
+            auxiliary: 7,
+            auxiliaries: 1,
             operations: Operations::NONE,
         }],
         blocks: &[Block {

@@ -134,6 +134,14 @@ fn numbers_are_those_of_a_person() {
             interval(1.0, 1.0),
             "the interval from 1 s to 1 s must have a length",
         ),
+        (
+            Fault::CountedAngles {
+                element: "spring",
+                counted: 1,
+                given: 2,
+            },
+            "`spring` counts turns of one angle, not of 2",
+        ),
     ] {
         assert_eq!(fault.to_string(), message);
     }

@@ -82,6 +82,8 @@ impl Mechanism for Rod {
             has_angle: true,
             has_displacement: false,
             has_point: true,
+            auxiliary: 7,
+            auxiliaries: 0,
             operations: Operations::NONE,
         }],
         forces: &[],

@@ -11,3 +11,4 @@ mod origins;
 mod readings;
 mod singular;
 mod start;
+mod turns;

@@ -167,6 +167,13 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (coordinate, velocity) = (layout.coordinate[place], layout.velocity[place]);
         quote!(#facade::BodyInfo { name: #name, kind: #kind, coordinate: #coordinate, velocity: #velocity })
     });
+    let counters = model.counters();
+    // The first auxiliary variable of a joint or force, and how many it has.
+    let auxiliaries = |element: usize| {
+        let before = counters.iter().filter(|c| c.element < element).count();
+        let own = counters.iter().filter(|c| c.element == element).count();
+        (layout.coordinates + before, own)
+    };
     let joints = model.joints.iter().enumerate().map(|(place, joint)| {
         let definition = model.definition(joint);
         let (name, kind) = (joint.name.to_string(), definition.name.to_string());
@@ -175,21 +182,28 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let has_angle = definition.angle.is_some();
         let has_point = definition.reaction_point().is_some();
         let has_displacement = definition.displacement.is_some();
+        let (auxiliary, auxiliaries) = auxiliaries(place);
         let operations = operations(kernels.alone[place], facade);
         quote! {
             #facade::JointInfo {
                 name: #name, kind: #kind, row: #row, rows: #rows, bodies: &[#(#bodies),*], has_angle: #has_angle,
-                has_displacement: #has_displacement, has_point: #has_point, operations: #operations,
+                has_displacement: #has_displacement, has_point: #has_point,
+                auxiliary: #auxiliary, auxiliaries: #auxiliaries, operations: #operations,
             }
         }
     });
-    let forces = model.forces.iter().map(|force| {
+    let forces = model.forces.iter().enumerate().map(|(place, force)| {
         let (name, kind) = (
             force.name.to_string(),
             model.definition(force).name.to_string(),
         );
         let bodies = places(force);
-        quote!(#facade::ForceInfo { name: #name, kind: #kind, bodies: &[#(#bodies),*] })
+        let (auxiliary, auxiliaries) = auxiliaries(model.joints.len() + place);
+        quote! {
+            #facade::ForceInfo {
+                name: #name, kind: #kind, bodies: &[#(#bodies),*], auxiliary: #auxiliary, auxiliaries: #auxiliaries,
+            }
+        }
     });
     let blocks = kernels.blocks.iter().map(|block| {
         let crate::plan::kernels::Block { joint, body, offset } = *block;
