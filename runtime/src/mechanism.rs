@@ -16,12 +16,12 @@ use crate::scalar::Scalar;
 /// are the user's own axes unless a full inertia tensor was given; access by handle
 /// ([`MechanismExt`](crate::MechanismExt)) speaks the user's axes.
 ///
-/// Equations (Nikravesh 1988, chapter 8; Flores 2015, chapter 11), with compliance `e` and `gamma*` from
-/// [`Stabilisation`]:
+/// Equations (Nikravesh 1988, chapter 8; Flores 2015, chapter 11), with `gamma*` from [`Stabilisation`] and a diagonal matrix `E` of
+/// compliances `e`, one for each row:
 ///
 /// ```text
 /// [ M   D^T ] [ u'     ]   [ g                           ]      Phi(q, t) = 0,  Phi' = D u + Phi_t
-/// [ D  -e I ] [ lambda ] = [ gamma* - e lambda_previous  ]      reaction on the bodies = -D^T lambda
+/// [ D   -E  ] [ lambda ] = [ gamma* - E lambda_previous  ]      reaction on the bodies = -D^T lambda
 /// ```
 ///
 /// Kernels neither branch on data nor fail. A singular system shows in the [`Pivot`] that comes with the result.
@@ -55,6 +55,8 @@ pub trait Mechanism: Sized + 'static {
     const HANDLES: Self::Handles;
     /// Sizes, names, operation counts.
     const REPORT: Report;
+    /// The first rows of equations between vectors. Each has three rows, which share one compliance: axes are not told apart.
+    const VECTOR_ROWS: &'static [usize] = &[];
 
     /// The parameters of this value, checked as the `f64` that they are: here are all numbers that the macro could not see.
     ///
@@ -65,10 +67,22 @@ pub trait Mechanism: Sized + 'static {
     /// Computes once what depends on parameters only.
     fn prepare<S: Scalar>(parameters: &Self::Parameters<S>) -> Self::Constants<S>;
 
-    /// Computes once what depends on the coefficients of a formulation.
+    /// Computes once what depends on the coefficients of a formulation, with one compliance for all rows.
     fn coefficients<S: Scalar>(
         constants: &Self::Constants<S>,
         stabilisation: &Stabilisation<S>,
+    ) -> Self::Coefficients<S> {
+        let mut compliances = Self::Multipliers::<S>::zeros();
+        compliances.as_mut_slice().fill(stabilisation.compliance);
+        Self::coefficients_by_row(constants, stabilisation, &compliances)
+    }
+
+    /// Computes once what depends on the coefficients of a formulation, with a compliance for each row in the place of
+    /// [`Stabilisation::compliance`]. Of the three rows of a vector equation the first counts, see [`Mechanism::VECTOR_ROWS`].
+    fn coefficients_by_row<S: Scalar>(
+        constants: &Self::Constants<S>,
+        stabilisation: &Stabilisation<S>,
+        compliances: &Self::Multipliers<S>,
     ) -> Self::Coefficients<S>;
 
     /// The state that the attributes of the bodies describe.
@@ -185,7 +199,7 @@ pub trait Mechanism: Sized + 'static {
         state: &Self::State<S>,
     ) -> (Self::Factors<S>, Pivot<S>);
 
-    /// Solves `[M D^T; D -e I] (a, lambda) = (upper, lower)` with factors of the same `T`.
+    /// Solves `[M D^T; D -E] (a, lambda) = (upper, lower)` with factors of the same `T`.
     fn solve<S: Scalar, T: Terms>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,

@@ -236,7 +236,7 @@ macro_rules! __stub_mechanism {
                 };
                 fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<(), $crate::ParameterError> { loop {} }
                 fn prepare<__S: $crate::Scalar>(_: &()) -> [__S; 0] { [] }
-                fn coefficients<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::Stabilisation<__S>) -> [__S; 0] { [] }
+                fn coefficients_by_row<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
                 fn initial_state<__S: $crate::Scalar>(_: &[__S; 0]) -> Self::State<__S> { loop {} }
                 fn constraints<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> [__S; 0] { [] }
                 fn constraint_rates<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> [__S; 0] { [] }

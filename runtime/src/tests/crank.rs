@@ -68,7 +68,7 @@ impl Mechanism for Crank {
     type Jacobian<S: Scalar> = [S; 36];
     type Parameters<S: Scalar> = [S; 3];
     type Constants<S: Scalar> = Constants<S>;
-    type Coefficients<S: Scalar> = Stabilisation<S>;
+    type Coefficients<S: Scalar> = (Stabilisation<S>, [S; 6]);
     type Factors<S: Scalar> = dense::Factors<S, 36, 6>;
     type Handles = ();
 
@@ -116,8 +116,12 @@ impl Mechanism for Crank {
         Constants { rod, law: *law }
     }
 
-    fn coefficients<S: Scalar>(_: &Constants<S>, terms: &Stabilisation<S>) -> Stabilisation<S> {
-        *terms
+    fn coefficients_by_row<S: Scalar>(
+        _: &Constants<S>,
+        stabilisation: &Stabilisation<S>,
+        compliances: &[S; 6],
+    ) -> Self::Coefficients<S> {
+        (*stabilisation, *compliances)
     }
 
     fn initial_state<S: Scalar>(c: &Constants<S>) -> State<S, 8, 6> {
@@ -179,7 +183,7 @@ impl Mechanism for Crank {
 
     fn evaluate<S: Scalar, T: Terms, P: Orientation>(
         c: &Constants<S>,
-        coefficients: &Stabilisation<S>,
+        coefficients: &Self::Coefficients<S>,
         time: S,
         state: &State<S, 8, 6>,
     ) -> Evaluation<S, Self> {
@@ -190,7 +194,7 @@ impl Mechanism for Crank {
         if T::STABILISED {
             let phi = Self::constraints(c, time, read);
             let phi_rate = Self::constraint_rates(c, time, read);
-            let Stabilisation { rate, position, .. } = *coefficients;
+            let Stabilisation { rate, position, .. } = coefficients.0;
             lower = from_fn(|i| lower[i] - (rate * phi_rate[i] + position * phi[i]));
         }
         let upper = Self::forces(c, time, read);
@@ -206,17 +210,17 @@ impl Mechanism for Crank {
 
     fn factor<S: Scalar, T: Terms>(
         c: &Constants<S>,
-        coefficients: &Stabilisation<S>,
+        coefficients: &Self::Coefficients<S>,
         time: S,
         state: &State<S, 8, 6>,
     ) -> (Self::Factors<S>, Pivot<S>) {
-        let compliance = T::COMPLIANT.then_some(coefficients.compliance);
+        let compliance = T::COMPLIANT.then_some(&coefficients.1);
         dense::factor(Self::jacobian(c, time, state), &c.rod, compliance)
     }
 
     fn solve<S: Scalar, T: Terms>(
         c: &Constants<S>,
-        _: &Stabilisation<S>,
+        _: &Self::Coefficients<S>,
         factors: &Self::Factors<S>,
         upper: &[S; 6],
         lower: &[S; 6],

@@ -15,7 +15,7 @@ pub(super) struct Factors<S, const D: usize, const M: usize> {
 pub(super) fn factor<S: Scalar, const D: usize, const M: usize>(
     d: [S; D],
     mass: &[S; 6],
-    compliance: Option<S>,
+    compliance: Option<&[S; M]>,
 ) -> (Factors<S, D, M>, Pivot<S>) {
     let mut lower = [[S::zero(); M]; M];
     let mut pivot = Pivot::unchecked();
@@ -25,7 +25,7 @@ pub(super) fn factor<S: Scalar, const D: usize, const M: usize>(
                 sum + d[6 * i + k] * d[6 * j + k] * mass[k].reciprocal()
             });
             if let (Some(compliance), true) = (compliance, i == j) {
-                sum = sum + compliance;
+                sum = sum + compliance[i];
             }
             let full = sum;
             sum = (0..j).fold(sum, |sum, k| sum - lower[i][k] * lower[j][k]);

@@ -60,7 +60,7 @@ impl Mechanism for Rod {
     type Jacobian<S: Scalar> = [S; 30];
     type Parameters<S: Scalar> = S;
     type Constants<S: Scalar> = [S; 6];
-    type Coefficients<S: Scalar> = Stabilisation<S>;
+    type Coefficients<S: Scalar> = (Stabilisation<S>, [S; 5]);
     type Factors<S: Scalar> = Factors<S>;
     type Handles = ();
 
@@ -131,8 +131,12 @@ impl Mechanism for Rod {
         [*mass, *mass, *mass, j1, j2, j3]
     }
 
-    fn coefficients<S: Scalar>(_: &[S; 6], stabilisation: &Stabilisation<S>) -> Stabilisation<S> {
-        *stabilisation
+    fn coefficients_by_row<S: Scalar>(
+        _: &[S; 6],
+        stabilisation: &Stabilisation<S>,
+        compliances: &[S; 5],
+    ) -> Self::Coefficients<S> {
+        (*stabilisation, *compliances)
     }
 
     fn initial_state<S: Scalar>(_: &[S; 6]) -> State<S, 7, 6> {
@@ -215,7 +219,7 @@ impl Mechanism for Rod {
 
     fn evaluate<S: Scalar, T: Terms, P: Orientation>(
         c: &[S; 6],
-        coefficients: &Stabilisation<S>,
+        coefficients: &Self::Coefficients<S>,
         time: S,
         state: &State<S, 7, 6>,
     ) -> Evaluation<S, Self> {
@@ -228,7 +232,7 @@ impl Mechanism for Rod {
             let phi_rate = Self::constraint_rates(c, time, read);
             for k in 0..5 {
                 lower[k] =
-                    lower[k] - coefficients.rate * phi_rate[k] - coefficients.position * phi[k];
+                    lower[k] - coefficients.0.rate * phi_rate[k] - coefficients.0.position * phi[k];
             }
         }
         let upper = Self::forces(c, time, read);
@@ -244,17 +248,17 @@ impl Mechanism for Rod {
 
     fn factor<S: Scalar, T: Terms>(
         c: &[S; 6],
-        coefficients: &Stabilisation<S>,
+        coefficients: &Self::Coefficients<S>,
         time: S,
         state: &State<S, 7, 6>,
     ) -> (Factors<S>, Pivot<S>) {
-        let compliance = T::COMPLIANT.then_some(coefficients.compliance);
+        let compliance = T::COMPLIANT.then_some(&coefficients.1);
         dense::factor(Self::jacobian(c, time, state), c, compliance)
     }
 
     fn solve<S: Scalar, T: Terms>(
         c: &[S; 6],
-        _: &Stabilisation<S>,
+        _: &Self::Coefficients<S>,
         factors: &Factors<S>,
         upper: &[S; 6],
         lower: &[S; 5],

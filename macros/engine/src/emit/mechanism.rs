@@ -82,6 +82,8 @@ impl Writer<'_> {
         let assertions = parameters::assertions(model, facade);
         let construction = parameters::construction(model, facade);
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
+        let compliances = local("compliances");
+        let vector_rows = &kernels.vector_rows;
         let given = local("parameters");
         quote! {
             #[allow(
@@ -113,6 +115,7 @@ impl Writer<'_> {
 
                     const HANDLES: __Handles = #handles;
                     const REPORT: #facade::Report = #report;
+                    const VECTOR_ROWS: &'static [usize] = &[#(#vector_rows),*];
 
                     #parameters
 
@@ -124,9 +127,10 @@ impl Writer<'_> {
                     }
 
                     #[inline]
-                    fn coefficients<__S: #facade::Scalar>(
+                    fn coefficients_by_row<__S: #facade::Scalar>(
                         #constants: &Self::Constants<__S>,
                         #stabilisation: &#facade::Stabilisation<__S>,
+                        #compliances: &Self::Multipliers<__S>,
                     ) -> Self::Coefficients<__S> {
                         #coefficient_statements
                         [#(#coefficient_outputs),*]

@@ -137,7 +137,7 @@ fn load_input(input: Input) -> TokenStream {
         }
         Input::RateGain => return field("rate"),
         Input::PositionGain => return field("position"),
-        Input::Compliance => return field("compliance"),
+        Input::Compliance(place) => ("compliances", place),
         Input::Symbol(_) => unreachable!("symbols are constants: only `prepare` reads them"),
     };
     let (array, place) = (local(array), place as usize);

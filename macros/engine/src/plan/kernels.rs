@@ -10,7 +10,7 @@ use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::count::Count;
 use crate::symbolic::fixed::{initial_orientation, triple};
-use crate::symbolic::scene::{Reading, Scene};
+use crate::symbolic::scene::{Constraint, Reading, Scene};
 use crate::symbolic::vector::{Frame, Triple};
 
 /// Outputs over an arena.
@@ -81,6 +81,8 @@ pub struct Kernels {
     pub jacobian: Kernel,
     /// The blocks of `D`.
     pub blocks: Vec<Block>,
+    /// The first rows of equations between vectors, which have three each.
+    pub vector_rows: Vec<usize>,
     /// `gamma`.
     pub gamma: Kernel,
     /// The diagonal of the mass matrix.
@@ -133,6 +135,7 @@ impl Kernels {
             gamma: rows(model, [zero, zero, minus]),
             jacobian,
             blocks,
+            vector_rows: vector_rows(model),
             mass: mass(model),
             forces: with_scene(model, |scene| applied_forces(scene, &kinds(model))),
             kinetic_energy: kinetic_energy(model),
@@ -167,6 +170,14 @@ pub(super) fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<
         arena: scene.space.arena,
         outputs,
     }
+}
+
+/// The first rows of equations between vectors.
+fn vector_rows(model: &Model) -> Vec<usize> {
+    let scene = Scene::new(model);
+    let vectors = scene.constraints.iter();
+    let vectors = vectors.filter(|c| matches!(c.constraint, Constraint::Vector(_)));
+    vectors.map(|constrained| constrained.row).collect()
 }
 
 /// A combination of `Phi`, `Phi'` and the quadratic terms of `Phi''`, row by row.

@@ -94,18 +94,16 @@ impl System {
                 }
             }
         }
-        let (compliance, pivots) = match terms {
-            Terms::Compliant => (
-                scene.space.arena.input(Input::Compliance),
-                &plan.compliant_pivots,
-            ),
-            Terms::Plain | Terms::Stabilised => (Arena::ZERO, &plan.pivots),
+        let pivots = match terms {
+            Terms::Compliant => &plan.compliant_pivots,
+            Terms::Plain | Terms::Stabilised => &plan.pivots,
         };
+        let compliances = compliances(scene, terms);
         for (row, entries) in coupling(scene, kinds, &plan).into_iter().enumerate() {
             for (unknown, value) in entries {
                 matrix.set(velocities + row, unknown, value);
             }
-            matrix.set(velocities + row, velocities + row, -compliance);
+            matrix.set(velocities + row, velocities + row, -compliances[row]);
         }
         let mut factors = factorise(&mut scene.space.arena, matrix, pivots, &plan.determinants);
         if terms == Terms::Compliant {
@@ -229,6 +227,18 @@ impl System {
         }
         forces
     }
+}
+
+/// The compliance of every row. The rows of a vector constraint have one, so that it is the same in any axes.
+fn compliances(scene: &mut Scene, terms: Terms) -> Vec<Expr> {
+    let rows = scene.constraints.iter();
+    let places = rows.flat_map(|constrained| vec![constrained.row; constrained.equations()]);
+    let places: Vec<usize> = places.collect();
+    let compliance = |row: usize| match terms {
+        Terms::Compliant => scene.space.arena.input(Input::Compliance(row as u32)),
+        Terms::Plain | Terms::Stabilised => Arena::ZERO,
+    };
+    places.into_iter().map(compliance).collect()
 }
 
 /// `r'' = (F - D^T lambda) / m`.

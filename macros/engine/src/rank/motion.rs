@@ -195,7 +195,7 @@ impl Constraints {
             // Nothing that is evaluated here depends on the others.
             Input::RateGain
             | Input::PositionGain
-            | Input::Compliance
+            | Input::Compliance(_)
             | Input::Upper(_)
             | Input::Lower(_) => Some(0.0),
         });

@@ -54,8 +54,8 @@ pub enum Input {
     RateGain,
     /// `b^2`, the factor of `Phi` in `gamma*`.
     PositionGain,
-    /// `e`, the compliance.
-    Compliance,
+    /// `e`, the compliance of a constraint by its first row.
+    Compliance(u32),
     /// The time.
     Time,
     /// An element of the coordinates, auxiliary variables behind those of bodies.
@@ -89,7 +89,7 @@ impl Input {
     pub const fn stage(self) -> Stage {
         match self {
             Self::Symbol(_) => Stage::Parameter,
-            Self::RateGain | Self::PositionGain | Self::Compliance => Stage::Coefficient,
+            Self::RateGain | Self::PositionGain | Self::Compliance(_) => Stage::Coefficient,
             Self::Time | Self::Coordinate(_) | Self::Velocity(_) => Stage::State,
             Self::Upper(_) | Self::Lower(_) => Stage::RightHandSide,
         }
