@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::access::MechanismExt;
 use crate::array::{Array, StateParts, finite};
 use crate::error::Fault;
-use crate::formulation::{Formulation, Saddle};
+use crate::formulation::{Formulation, Saddle, inconsistency};
 use crate::integrate::System;
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
@@ -15,6 +15,7 @@ use crate::origin::origin;
 use crate::rotation::{
     bring_to_unit_length, check_state, read, scale_euler_rates, stretch, with_unit_orientations,
 };
+use crate::rows::Rows;
 use crate::scalar::Real;
 use crate::view::View;
 use crate::watch::{Seen, Step, Watch};
@@ -26,6 +27,7 @@ pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A 
     constants: M::Constants<S>,
     coefficients: M::Coefficients<S>,
     stabilisation: Stabilisation<S>,
+    compliances: M::Multipliers<S>,
     formulation: F,
     forces: A,
     iterations: Iterations,
@@ -40,6 +42,8 @@ pub struct Iterations {
     pub total: usize,
     /// In the evaluation that took the most.
     pub largest: usize,
+    /// The evaluations in which the iteration was ended before its tolerance, near a singular configuration.
+    pub excused: usize,
 }
 
 impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
@@ -50,10 +54,12 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
         let stabilisation = formulation.stabilisation()?;
         let constants = mechanism.constants::<S>()?;
+        let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation);
         Ok(Self {
             constants,
-            coefficients: M::coefficients(&constants, &stabilisation),
+            coefficients: M::coefficients_by_row(&constants, &stabilisation, &compliances),
             stabilisation,
+            compliances,
             formulation,
             forces: NoForces,
             iterations: Iterations::default(),
@@ -87,6 +93,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
             constants: self.constants,
             coefficients: self.coefficients,
             stabilisation: self.stabilisation,
+            compliances: self.compliances,
             formulation: self.formulation,
             forces: forces(self.forces),
             iterations: self.iterations,
@@ -101,7 +108,9 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
         self.constants = mechanism.constants()?;
-        self.coefficients = M::coefficients(&self.constants, &self.stabilisation);
+        let (constants, stabilisation) = (&self.constants, &self.stabilisation);
+        self.compliances = compliances::<S, M, F::Terms>(constants, stabilisation);
+        self.coefficients = M::coefficients_by_row(constants, stabilisation, &self.compliances);
         Ok(())
     }
 
@@ -241,7 +250,7 @@ where
             constants,
             coefficients,
             factors: &factors,
-            compliance: self.stabilisation.compliance,
+            compliances: &self.compliances,
             time,
             state: read,
             upper: &upper,
@@ -270,6 +279,7 @@ where
             Ok(Parts {
                 evaluation,
                 iterations: solution.iterations,
+                excused: solution.excused,
                 applied_power,
             })
         } else {
@@ -304,6 +314,41 @@ where
         Fault::RatesNotFinite {
             origin: origin::<S, M>(&self.constants, time, read, applied, &rates),
         }
+    }
+
+    /// How far the accelerations of an evaluation at a state are from what the constraints ask: the largest `|D u' - gamma*|` of a row, relative to
+    /// the sum of the sizes of its terms and of what the applied forces would do without constraints; and the row's joint.
+    ///
+    /// Round-off for rigid constraints; the bias of a [`Penalty`](crate::Penalty), which a motion gathers; for an augmented Lagrangian what its tolerance, or
+    /// an excuse, leaves. It costs about as much as one evaluation. `p` is read as by the formulation.
+    pub fn inconsistency(
+        &self,
+        time: S,
+        state: &M::State<S>,
+        evaluation: &Evaluation<S, M>,
+    ) -> (S, Option<&'static str>) {
+        let unit;
+        let read = if P::NORMALISED {
+            unit = with_unit_orientations::<S, M>(state);
+            &unit
+        } else {
+            state
+        };
+        let mut forces = M::forces(&self.constants, time, read);
+        if A::PRESENT {
+            self.forces
+                .apply(time, read, &mut Loads::new(read, &mut forces));
+        }
+        let gamma = self.stabilised(time, read);
+        let accelerations = evaluation.rates.velocities();
+        let (row, size) = inconsistency::<S, M>(
+            &self.constants,
+            (time, read),
+            accelerations,
+            &forces,
+            &gamma,
+        );
+        (size, M::REPORT.joint_of(row))
     }
 
     /// `gamma* = gamma - 2 a Phi' - b^2 Phi`.
@@ -343,11 +388,14 @@ where
         let Parts {
             evaluation,
             iterations,
+            excused,
             applied_power,
         } = self.evaluate_in_parts(time, state)?;
         self.look(&evaluation);
         self.seen.applied_power = applied_power;
         if F::ITERATED {
+            let excused = usize::from(excused);
+            self.iterations.excused = self.iterations.excused.saturating_add(excused);
             self.iterations.total = self.iterations.total.saturating_add(iterations);
             self.iterations.largest = self.iterations.largest.max(iterations);
         }
@@ -370,6 +418,8 @@ where
 struct Parts<S: Real, M: Mechanism> {
     evaluation: Evaluation<S, M>,
     iterations: usize,
+    /// Whether the iteration was ended before its tolerance.
+    excused: bool,
     /// The power (W) of the forces of a closure.
     applied_power: S,
 }
@@ -408,7 +458,7 @@ where
             state,
             power: self.power(time, state),
             pivot: self.pivot(time, state),
-            compliance: Self::YIELDS.then_some(self.stabilisation.compliance),
+            compliances: Self::YIELDS.then_some(&self.compliances),
         };
         watch.step(step, &self.seen);
     }
@@ -446,6 +496,22 @@ where
             self.seen.last
         })
     }
+}
+
+/// The compliance of every row: that of the formulation, in the unit of the row at the described configuration.
+fn compliances<S: Real, M: Mechanism, T: Terms>(
+    constants: &M::Constants<S>,
+    stabilisation: &Stabilisation<S>,
+) -> M::Multipliers<S> {
+    if !T::COMPLIANT {
+        return M::Multipliers::<S>::zeros();
+    }
+    let described = M::initial_state(constants);
+    let mut compliances = Rows::<S, M>::at(constants, S::zero(), &described).units();
+    for compliance in compliances.as_mut_slice() {
+        *compliance = *compliance * stabilisation.compliance;
+    }
+    compliances
 }
 
 /// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of the multiplier is left.

@@ -9,7 +9,8 @@ use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Evaluation, Mechanism};
-use crate::project::{Projection, free_share};
+use crate::newton::{FREE, free_share};
+use crate::project::Projection;
 use crate::reporting::{Reporting, Schedule, check_interval};
 use crate::rotation::check_state;
 use crate::sample::Sample;
@@ -238,7 +239,7 @@ where
         let mut state = near;
         let correction = self.projection.correct::<M>(constants, time, &mut state)?;
         let share = free_share::<S, M>(constants, time, &state);
-        let determined = share < S::constant(1e-6);
+        let determined = share < S::constant(FREE);
         if !determined {
             let share = share.to_f64();
             return Err(Fault::Undetermined { share });

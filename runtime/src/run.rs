@@ -128,6 +128,8 @@ where
             *last_good = (time, *course.state());
             if let Some(watch) = &mut self.watch {
                 self.dynamics.watch(watch, time, course.state());
+                let excused = self.dynamics.iterations().excused;
+                watch.excuse_evaluations(excused, time);
             }
             self.log.unseen += 1;
             if self.schedule.at(time, self.log.unseen) {
@@ -149,7 +151,13 @@ where
     /// Brings a state onto the constraints, if that is wanted.
     fn correct(&mut self, time: S, state: &mut M::State<S>) -> Result<(), Fault> {
         if let Some(projection) = self.projection {
-            projection.correct_in_motion::<M>(self.dynamics.constants(), time, state)?;
+            let constants = self.dynamics.constants();
+            let correction = projection.correct_in_motion::<M>(constants, time, state)?;
+            if let Some(watch) = &mut self.watch
+                && correction.excused > S::zero()
+            {
+                watch.excuse_correction(time);
+            }
         }
         Ok(())
     }

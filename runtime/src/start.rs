@@ -4,7 +4,7 @@ use crate::array::{Array, StateParts};
 use crate::error::{Fault, Quantity};
 use crate::mechanism::Mechanism;
 use crate::scalar::Real;
-use crate::watch::{Rows, extent};
+use crate::watch::{Meanings, extent};
 
 /// A violation at the start that counts as an inexact number of a description, over the length of the mechanism, over a radian, and over the velocities of
 /// the mechanism: four digits.
@@ -16,7 +16,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
     (time, duration): (S, S),
     state: &M::State<S>,
 ) -> Result<(), Fault> {
-    let rows = Rows::<S, M>::at(constants, time, state);
+    let rows = Meanings::<S, M>::at(constants, time, state);
     let length = extent::<S, M>(constants, state);
     let inexact = S::constant(INEXACT);
     let size = |is_length: bool| if is_length { length } else { S::one() };

@@ -1,11 +1,15 @@
 //! The four formulations, as small policies over one saddle system.
 //!
-//! With `gamma* = gamma - 2 a Phi' - b^2 Phi` and a compliance `e`,
+//! With `gamma* = gamma - 2 a Phi' - b^2 Phi` and a diagonal matrix `E` of compliances,
 //!
 //! ```text
 //! [ M   D^T ] [ u'     ]   [ g                           ]
-//! [ D  -e I ] [ lambda ] = [ gamma* - e lambda_previous  ]
+//! [ D   -E  ] [ lambda ] = [ gamma* - E lambda_previous  ]
 //! ```
+//!
+//! A row in metres, or in radians, has the compliance `e`. A row in another unit has `e` times the square of what a metre is in it at the described
+//! configuration, so that `e` means the same for all: `(2 l)^2 e` for a [`Distance`](crate::joints::Distance) of the length `l`, which is the
+//! difference of squares.
 //!
 //! | formulation | a, b | e | lambda_previous |
 //! |---|---|---|---|
@@ -20,8 +24,11 @@
 
 mod augmented_lagrangian;
 mod baumgarte;
+mod consistency;
 mod penalty;
 mod standard;
+
+pub(crate) use consistency::inconsistency;
 
 pub use augmented_lagrangian::AugmentedLagrangian;
 pub use baumgarte::Baumgarte;
@@ -34,9 +41,8 @@ use core::marker::PhantomData;
 use crate::array::Array;
 use crate::error::Fault;
 use crate::mechanism::{Mechanism, Stabilisation, Terms};
-use crate::project::row_of_largest;
 use crate::scalar::{Real, Scalar};
-use crate::self_stress::self_stressed;
+use crate::self_stress::{passing, self_stressed};
 
 /// The faster rate of decay of `x'' + 2 a x' + b^2 x = 0`, or the size of both where it oscillates.
 fn faster_decay<S: Real>(a: S, b: S) -> S {
@@ -80,7 +86,7 @@ pub struct Saddle<'a, S: Scalar, M: Mechanism, T: Terms> {
     pub(crate) constants: &'a M::Constants<S>,
     pub(crate) coefficients: &'a M::Coefficients<S>,
     pub(crate) factors: &'a M::Factors<S>,
-    pub(crate) compliance: S,
+    pub(crate) compliances: &'a M::Multipliers<S>,
     pub(crate) time: S,
     pub(crate) state: &'a M::State<S>,
     pub(crate) upper: &'a M::Velocities<S>,
@@ -99,28 +105,41 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
     #[must_use]
     pub fn solve_after(&self, previous: &M::Multipliers<S>) -> Solution<S, M> {
         let mut lower = *self.lower;
-        for (element, lambda) in lower.as_mut_slice().iter_mut().zip(previous.as_slice()) {
-            *element = *element - self.compliance * *lambda;
+        let rows = lower.as_mut_slice().iter_mut().zip(previous.as_slice());
+        for ((element, &lambda), &compliance) in rows.zip(self.compliances.as_slice()) {
+            *element = *element - compliance * lambda;
         }
         self.solve_for(&lower)
     }
 
-    /// Whether the multipliers of two solutions differ by what is nearly a state of self-stress.
-    pub(crate) fn self_stressed(&self, next: &Solution<S, M>, last: &Solution<S, M>) -> bool
+    /// The row whose accelerations are farthest from `D u' = gamma*`, and how far, relative to its terms: what a compliance does to the
+    /// motion, from 0 to about 1.
+    #[must_use]
+    pub fn inconsistency(&self, solution: &Solution<S, M>) -> (usize, S)
     where
         S: Real,
     {
-        let difference = difference::<S, M>(next, last);
-        self_stressed::<S, M>(self.constants, self.time, self.state, &difference)
+        let at = (self.time, self.state);
+        let accelerations = &solution.accelerations;
+        inconsistency::<S, M>(self.constants, at, accelerations, self.upper, self.lower)
     }
 
-    /// The row that the accelerations of `next`, the solution after `last`, violate most: `D u' - gamma* = e (lambda - lambda_last)`.
-    #[cold]
-    pub(crate) fn least_satisfied(&self, next: &Solution<S, M>, last: &Solution<S, M>) -> usize
+    /// Whether the state is on its way through a singular configuration, in which the multipliers of two solutions differ.
+    pub(crate) fn passing(&self, next: &Solution<S, M>, last: &M::Multipliers<S>) -> bool
     where
         S: Real,
     {
-        row_of_largest(difference::<S, M>(next, last).as_slice())
+        let difference = difference::<S, M>(&next.multipliers, last);
+        passing::<S, M>(self.constants, self.time, self.state, &difference)
+    }
+
+    /// Whether the multipliers of two solutions differ by what is nearly a state of self-stress.
+    pub(crate) fn self_stressed(&self, next: &Solution<S, M>, last: &M::Multipliers<S>) -> bool
+    where
+        S: Real,
+    {
+        let difference = difference::<S, M>(&next.multipliers, last);
+        self_stressed::<S, M>(self.constants, self.time, self.state, &difference)
     }
 
     fn solve_for(&self, lower: &M::Multipliers<S>) -> Solution<S, M> {
@@ -135,18 +154,19 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
             accelerations,
             multipliers,
             iterations: 1,
+            excused: false,
         }
     }
 }
 
-/// The difference of the multipliers of two solutions.
+/// The difference of two sets of multipliers.
 fn difference<S: Scalar, M: Mechanism>(
-    next: &Solution<S, M>,
-    last: &Solution<S, M>,
+    next: &M::Multipliers<S>,
+    last: &M::Multipliers<S>,
 ) -> M::Multipliers<S> {
-    let mut difference = next.multipliers;
+    let mut difference = *next;
     let pairs = difference.as_mut_slice().iter_mut();
-    for (new, &old) in pairs.zip(last.multipliers.as_slice()) {
+    for (new, &old) in pairs.zip(last.as_slice()) {
         *new = *new - old;
     }
     difference
@@ -160,4 +180,14 @@ pub struct Solution<S: Scalar, M: Mechanism> {
     pub multipliers: M::Multipliers<S>,
     /// How often the system was solved.
     pub iterations: usize,
+    /// Whether an iteration was ended before its tolerance, because what still changed was nearly a state of self-stress.
+    pub excused: bool,
 }
+
+impl<S: Scalar, M: Mechanism> Clone for Solution<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Solution<S, M> {}

@@ -14,7 +14,8 @@ use crate::scalar::Real;
 /// Eng. 71 (1988), 183-195; Flores 2015, chapter 13.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty<S> {
-    /// `alpha`, positive: kg for a constraint in metres.
+    /// `alpha`, positive: kg for a constraint in metres, kg m^2 for one in radians. A row in another unit is taken in metres: for a
+    /// [`Distance`](crate::joints::Distance) of the length `l`, which is the difference of squares, `alpha / (2 l)^2`.
     pub alpha: S,
     /// `omega` (rad/s), positive: the frequency of the violation.
     pub omega: S,

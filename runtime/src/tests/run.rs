@@ -112,7 +112,7 @@ fn the_augmented_lagrangian_takes_about_two_iterations() {
     let report = Simulation::new(&rod, AugmentedLagrangian::default(), ODE45)
         .run(0.0..=1.0, every(0.1), proceed)
         .unwrap();
-    let Iterations { total, largest } = report.iterations;
+    let Iterations { total, largest, .. } = report.iterations;
     assert!(
         total >= 2 * report.evaluations && total <= 3 * report.evaluations,
         "{total}"

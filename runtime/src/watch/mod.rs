@@ -13,7 +13,7 @@ mod singular;
 mod verdict;
 
 pub use doubt::{Doubt, Doubts};
-pub(crate) use rows::{Rows, extent};
+pub(crate) use rows::{Meanings, extent};
 pub(crate) use seen::Seen;
 
 use self::energy::Balance;
@@ -28,7 +28,7 @@ use crate::view::square;
 
 /// What the watch over a run saw: violations by joint, pivots, energy.
 pub struct Watch<S: Scalar, M: Mechanism> {
-    rows: Rows<S, M>,
+    rows: Meanings<S, M>,
     /// The length of the mechanism (m) at the start.
     length: S,
     start: S,
@@ -123,7 +123,7 @@ impl<S: Real, M: Mechanism> Worst<S, M> {
         }
     }
 
-    fn of(&self, rows: &Rows<S, M>, joint: &JointInfo) -> Violation<S> {
+    fn of(&self, rows: &Meanings<S, M>, joint: &JointInfo) -> Violation<S> {
         let mut violation = Violation {
             length: S::zero(),
             angle: S::zero(),
@@ -162,15 +162,15 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     pub(crate) power: Option<S>,
     /// The relative pivot at this state, of formulations that have one.
     pub(crate) pivot: Option<crate::mechanism::Pivot<S>>,
-    /// That of a formulation that yields to it.
-    pub(crate) compliance: Option<S>,
+    /// Those of a formulation that yields to them, row by row.
+    pub(crate) compliances: Option<&'a M::Multipliers<S>>,
 }
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
     pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
         let has_balance = !M::REPORT.time.potential;
         Self {
-            rows: Rows::at(constants, time, state),
+            rows: Meanings::at(constants, time, state),
             length: extent::<S, M>(constants, state),
             start: time,
             position: Worst::none(time),
@@ -211,7 +211,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             state,
             power,
             pivot,
-            compliance,
+            compliances,
         } = step;
         let factors = self.rows.factors();
         let phi = M::constraints(constants, time, state);
@@ -229,8 +229,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
         self.motion(time, state);
         self.stretch = self.stretch.max(seen.stretch);
-        if let Some(compliance) = compliance {
-            self.yielded(compliance, &seen.multipliers, &seen.accelerations);
+        if let Some(compliances) = compliances {
+            self.yielded(compliances, &seen.multipliers, &seen.accelerations);
         }
         self.steps = self.steps.saturating_add(1);
     }
@@ -255,12 +255,13 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// With a compliance `e` accelerations satisfy `D u' - gamma* = e lambda`.
     fn yielded(
         &mut self,
-        compliance: S,
+        compliances: &M::Multipliers<S>,
         multipliers: &M::Multipliers<S>,
         accelerations: &M::Velocities<S>,
     ) {
-        let rows = multipliers.as_slice().iter().zip(self.rows.factors());
-        for (row, (&multiplier, &factor)) in rows.enumerate() {
+        let rows = multipliers.as_slice().iter().zip(compliances.as_slice());
+        let rows = rows.zip(self.rows.factors()).enumerate();
+        for (row, ((&multiplier, &compliance), &factor)) in rows {
             let left = (compliance * multiplier * factor).abs();
             let length = if self.rows.is_length(row) {
                 S::one()
@@ -296,15 +297,18 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// Counts what was accepted without convergence.
-    pub(crate) fn excuse(&mut self, corrections: usize, evaluations: usize, time: S) {
-        if corrections + evaluations > 0 {
-            let Excused { since, .. } = self.excused;
-            self.excused = Excused {
-                corrections: self.excused.corrections.saturating_add(corrections),
-                evaluations: self.excused.evaluations.saturating_add(evaluations),
-                since: since.or(Some(time)),
-            };
+    /// Counts a correction that was accepted without convergence.
+    pub(crate) fn excuse_correction(&mut self, time: S) {
+        self.excused.corrections = self.excused.corrections.saturating_add(1);
+        self.excused.since.get_or_insert(time);
+    }
+
+    /// Takes how many evaluations of the run were accepted without convergence up to a time.
+    #[inline]
+    pub(crate) fn excuse_evaluations(&mut self, evaluations: usize, time: S) {
+        if evaluations > self.excused.evaluations {
+            self.excused.evaluations = evaluations;
+            self.excused.since.get_or_insert(time);
         }
     }
 

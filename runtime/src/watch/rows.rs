@@ -1,64 +1,41 @@
-//! What the rows of `Phi` mean: lengths or angles, and how large the mechanism is.
+//! The rows of `Phi` as lengths and angles, and how large the mechanism is.
 
-use crate::access;
-use crate::array::{Array, StateParts};
-use crate::handle::BodyHandle;
+use crate::array::Array;
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
-use crate::rotation::{minus, read, rotate};
+use crate::rotation::read;
+use crate::rows::{self, Rows};
 use crate::scalar::{Real, Scalar};
-use crate::view::square;
 
-/// The factors by which rows of `Phi` become lengths (m) or angles (rad): one over the size of their gradients.
-pub(crate) struct Rows<S: Scalar, M: Mechanism> {
+/// The factors by which rows of `Phi` become lengths (m) or angles (rad), at a state.
+pub(crate) struct Meanings<S: Scalar, M: Mechanism> {
     factors: M::Multipliers<S>,
     /// One where a row speaks of a length, zero where of an angle.
     lengths: M::Multipliers<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Rows<S, M> {
+impl<S: Scalar, M: Mechanism> Clone for Meanings<S, M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Scalar, M: Mechanism> Copy for Rows<S, M> {}
+impl<S: Scalar, M: Mechanism> Copy for Meanings<S, M> {}
 
-impl<S: Real, M: Mechanism> Rows<S, M> {
-    /// By the Jacobian at a state: a row whose gradient knows translations is a length, others are angles.
+impl<S: Real, M: Mechanism> Meanings<S, M> {
     pub(crate) fn at(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
-        let jacobian = M::jacobian(constants, time, state);
-        let mut translation = M::Multipliers::<S>::zeros();
-        let mut rotation = M::Multipliers::<S>::zeros();
-        for block in M::REPORT.blocks {
-            let values = jacobian.as_slice().get(block.offset..).unwrap_or(&[]);
-            let rows = values.chunks(block.columns.max(1)).take(block.rows);
-            let sums = translation.as_mut_slice().iter_mut();
-            let sums = sums.zip(rotation.as_mut_slice()).skip(block.row);
-            for (row, (along, about)) in rows.zip(sums) {
-                let (linear, angular) = row.split_at_checked(3).unwrap_or((row, &[]));
-                *along = along.max(square(linear).sqrt());
-                *about = about.max(square(angular).sqrt());
-            }
-        }
-        let mut rows = Self {
-            factors: translation,
+        let mut meanings = Self {
+            factors: M::Multipliers::<S>::zeros(),
             lengths: M::Multipliers::<S>::zeros(),
         };
-        let factors = rows.factors.as_mut_slice().iter_mut();
-        let places = factors.zip(rows.lengths.as_mut_slice());
-        for ((factor, length), &about) in places.zip(rotation.as_slice()) {
-            // What is left of a gradient of one kind where it is of the other is round-off.
-            let is_length = *factor > S::constant(8.0) * S::EPSILON * about;
+        let factors = meanings.factors.as_mut_slice().iter_mut();
+        let places = factors.zip(meanings.lengths.as_mut_slice());
+        let rows = Rows::<S, M>::at(constants, time, state);
+        for ((factor, length), (size, is_length)) in places.zip(rows.meanings()) {
+            *factor = size.reciprocal();
             *length = if is_length { S::one() } else { S::zero() };
-            let size = if is_length { *factor } else { about };
-            *factor = if size > S::zero() {
-                size.reciprocal()
-            } else {
-                S::one()
-            };
         }
-        rows
+        meanings
     }
 
     pub(crate) fn factors(&self) -> &[S] {
@@ -71,42 +48,10 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     }
 }
 
-/// The length of a mechanism (m): of the box around its centres of mass and the points of its joints, or its largest radius of gyration; 1 where
-/// there is neither.
+/// The length of a mechanism (m): how far its centres of mass and the points of its joints reach, or its largest radius of gyration; 1 where there is
+/// neither.
 pub(crate) fn extent<S: Real, M: Mechanism>(constants: &M::Constants<S>, state: &M::State<S>) -> S {
-    let mut corners: Option<[[S; 3]; 2]> = None;
-    let mut add = |point: [S; 3]| {
-        let [low, high] = corners.unwrap_or([point; 2]);
-        let bound = |pick: fn(S, S) -> S, old: [S; 3]| {
-            let [a, b, c] = old;
-            let [x, y, z] = point;
-            [pick(a, x), pick(b, y), pick(c, z)]
-        };
-        corners = Some([bound(S::min, low), bound(S::max, high)]);
-    };
-    let place = |body: usize, arm: [S; 3]| {
-        let handle = BodyHandle::<M>::new(body);
-        let centre: [S; 3] = access::position(state, handle);
-        let arm = match handle.orientation() {
-            Some((_, place)) => rotate(&read(state.coordinates().as_slice(), place), &arm),
-            None => arm,
-        };
-        minus(&centre, &arm.map(|x| -x))
-    };
-    for body in 0..M::REPORT.bodies.len() {
-        add(place(body, [S::zero(); 3]));
-    }
-    let joints = M::REPORT.joints.iter().enumerate();
-    for (joint, info) in joints.filter(|(_, info)| info.has_point) {
-        for (at, body) in info.bodies.iter().enumerate() {
-            let point = M::joint_point(constants, joint, at);
-            match body {
-                Some(body) => add(place(*body, point)),
-                None => add(point),
-            }
-        }
-    }
-    let mut length = corners.map_or(S::zero(), |[low, high]| square(&minus(&high, &low)).sqrt());
+    let mut length = rows::extent::<S, M>(constants, state);
     let mass = M::mass(constants);
     for body in M::REPORT.bodies {
         if body.kind == BodyKind::Rigid {

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod chapter15;
+mod dependent;
 mod faults;
 mod forces;
 mod kinematics;
@@ -13,6 +14,7 @@ mod reactions;
 mod redundant;
 mod references;
 mod refusals;
+mod scales;
 mod single_precision;
 mod singular;
 mod steps;
