@@ -37,7 +37,13 @@ struct Everything {
         middle = [0.5, 0.5, 0.25]
     )]
     middle: Midpoint,
-    #[joint(between = [ground, crank, rocker], first = [1.0, 0.0, 0.0], second = [0.0, 0.0, 1.0], third = [0.0, 3.0, 0.0])]
+    // Not as described: all three are perpendicular there.
+    #[joint(
+        between = [ground, crank, rocker],
+        first = [1.0, 0.0, 0.0],
+        second = [0.0, 0.0, 1.0],
+        third = local([0.0, 3.0, 0.0], [0.0, 3.0, 0.0], [3.0, 0.0, 0.0])
+    )]
     plane: Coplanar,
 }
 
