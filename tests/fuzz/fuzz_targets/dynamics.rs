@@ -23,6 +23,8 @@ mod language;
 mod library;
 #[path = "../../../macros/engine/tests/common/reading.rs"]
 mod reading;
+#[path = "../../../macros/engine/tests/mechanisms/redundancy.rs"]
+mod redundancy;
 #[path = "../../../macros/engine/tests/mechanisms/reference.rs"]
 mod reference;
 #[path = "../../../macros/engine/tests/mechanisms/shrink.rs"]

@@ -10,7 +10,7 @@ use crate::reading::{Described, Numbers, number};
 use crate::reference::State;
 
 /// What is multiplied with `Phi'` and `Phi`, and the compliance.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Coefficients {
     pub(crate) rate_gain: f64,
     pub(crate) position_gain: f64,
@@ -21,8 +21,8 @@ pub(crate) struct Coefficients {
 pub(crate) struct Inputs {
     symbols: Vec<f64>,
     time: f64,
-    coordinates: Vec<f64>,
-    velocities: Vec<f64>,
+    pub(crate) coordinates: Vec<f64>,
+    pub(crate) velocities: Vec<f64>,
     pub(crate) coefficients: Coefficients,
     pub(crate) upper: Vec<f64>,
     pub(crate) lower: Vec<f64>,

@@ -21,6 +21,7 @@ mod language;
 mod library;
 #[path = "../common/reading.rs"]
 mod reading;
+mod redundancy;
 mod reference;
 mod shrink;
 mod solutions;
@@ -59,6 +60,9 @@ fn random_mechanisms_against_a_dense_solution() {
         match outcome {
             Outcome::Compared(found) => {
                 statistics.add(&found);
+                if statistics.mechanisms.is_multiple_of(10_000) {
+                    println!("up to seed {seed}: {statistics}");
+                }
                 let types = used.iter_mut();
                 let occurring = types.filter(|(name, _)| text.contains(&format!(": {name},")));
                 occurring.for_each(|(_, count)| *count += 1);

@@ -42,6 +42,10 @@ impl System {
         })
     }
 
+    pub(crate) fn condition(&self) -> f64 {
+        self.inverse * self.norm
+    }
+
     /// The solution, and what its round-off is compared with.
     pub(crate) fn solve(&self, right: &[f64]) -> (Vec<f64>, f64) {
         let solution = self.factors.solve(right);
@@ -57,7 +61,11 @@ impl System {
 pub(crate) fn smallest(pivots: &[f64], checks: &[PivotCheck]) -> f64 {
     let relative = pivots.iter().zip(checks);
     let relative = relative.filter(|(_, check)| matches!(check, PivotCheck::Relative(_)));
-    relative.fold(1.0, |least: f64, (pivot, _)| least.min(pivot.abs()))
+    relative.fold(1.0, |least: f64, (pivot, _)| match pivot.abs() {
+        // Nothing over nothing.
+        pivot if pivot.is_nan() => 0.0,
+        pivot => least.min(pivot),
+    })
 }
 
 impl Comparison<'_> {
@@ -169,7 +177,7 @@ impl Comparison<'_> {
             if let Some((wanted, round_off)) = wanted(terms) {
                 let sound = rigid
                     .as_ref()
-                    .is_some_and(|system| system.inverse * system.norm < SOUND);
+                    .is_some_and(|system| system.condition() < SOUND);
                 if sound && pivot < SMALL {
                     return Err(format!(
                         "{what}: a pivot of {pivot:e} in a system that is not singular"

@@ -50,9 +50,3 @@ impl State {
         state
     }
 }
-
-/// A state some way from the described one.
-pub(crate) fn random_state(described: &Described, dice: &mut Dice) -> State {
-    let angles = described.elements.iter().map(|element| element.turns.len());
-    State::random(described, angles.sum(), dice)
-}

@@ -45,6 +45,8 @@ pub(crate) struct Statistics {
     pub(crate) equations: usize,
     pub(crate) loops: usize,
     pub(crate) dropped: usize,
+    /// States with what is known to be wrong.
+    pub(crate) known: usize,
     /// States near a point where something has no derivative, and systems that are nearly singular.
     pub(crate) singular: usize,
     pub(crate) worst: f64,
@@ -59,6 +61,7 @@ impl Statistics {
         self.equations += other.equations;
         self.loops += other.loops;
         self.dropped += other.dropped;
+        self.known += other.known;
         self.singular += other.singular;
         self.worst = self.worst.max(other.worst);
         self.worst_direct = self.worst_direct.max(other.worst_direct);
@@ -74,6 +77,7 @@ impl Display for Statistics {
             equations,
             loops,
             dropped,
+            known,
             singular,
             worst,
             worst_direct,
@@ -81,7 +85,7 @@ impl Display for Statistics {
         write!(
             f,
             "{mechanisms} mechanisms, {states} states, {solutions} solutions, {equations} equations, {loops} with loops, {dropped} equations \
-             left out, {singular} singular; largest deviation {worst:.1e} of the condition, {worst_direct:.1e} without a solution"
+             left out, {singular} singular, {known} known to be wrong; largest deviation {worst:.1e} of the condition, {worst_direct:.1e} without a solution"
         )
     }
 }
@@ -131,7 +135,7 @@ impl Text {
             Ok(read) => read,
             Err(faults) => return Ok(Outcome::Refused(faults)),
         };
-        if let Some(defect) = known::defect(&model, &described, seed) {
+        if let Some(defect) = known::defect(&model) {
             return Ok(Outcome::Known(defect));
         }
         let statistics = Comparison::new(&model, &described, seed, extent).run(seed)?;
@@ -163,6 +167,9 @@ impl Text {
 fn by_name(model: &Model, described: &Described) -> Option<(BTreeMap<String, Vec<f64>>, f64)> {
     let state = State::start(described, model.counters().len());
     let equations = Equations::new(described, &state)?;
+    if known::defect_at(described, &equations) {
+        return None;
+    }
     let mut right = equations.forces.clone();
     right.extend(&equations.gamma);
     let (_, round_off) = System::new(&equations, 0.0)?.solve(&right);
