@@ -9,6 +9,7 @@ mod long;
 mod orientation;
 mod origins;
 mod readings;
+mod scales;
 mod singular;
 mod start;
 mod turns;

@@ -109,7 +109,11 @@ struct Scale {
     offset: f64,
 }
 
-const UNIT: Scale = Scale { size: 1.0, mass: 1.0, offset: 0.0 };
+const UNIT: Scale = Scale {
+    size: 1.0,
+    mass: 1.0,
+    offset: 0.0,
+};
 
 /// The displacement of the body over three times the square root of the size in metres, in sizes, and whether it is doubted; `None` where it is refused.
 fn displacement<M: Scaled, F: Formulation<f64>>(
@@ -120,7 +124,8 @@ fn displacement<M: Scaled, F: Formulation<f64>>(
 ) -> Option<(Vector3<f64>, holonom::Doubts)> {
     let mechanism = M::scaled(scale);
     let duration = 3.0 * scale.size.sqrt();
-    let mut simulation = Simulation::new(&mechanism, method, DormandPrince::new(tolerance)).assembled();
+    let mut simulation =
+        Simulation::new(&mechanism, method, DormandPrince::new(tolerance)).assembled();
     if projected {
         simulation = simulation.projection(Projection::default());
     }
@@ -153,7 +158,9 @@ fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
                 for projected in [false, true] {
                     let scale = Scale { size, mass, offset };
                     let tolerance = Tolerance::default();
-                    let Some((found, doubts)) = displacement::<M, F>(scale, method, tolerance, projected) else {
+                    let Some((found, doubts)) =
+                        displacement::<M, F>(scale, method, tolerance, projected)
+                    else {
                         refused += 1;
                         continue;
                     };
@@ -169,7 +176,9 @@ fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
                         "{scale:?} {method:?}, projected: {projected}: off by {error:e} of the size without a word"
                     );
                     // Where everything suits, nothing is to be doubted.
-                    let ordinary = (1e-3..=1e3).contains(&size) && (1e-3..=1.0).contains(&mass) && offset == 0.0;
+                    let ordinary = (1e-3..=1e3).contains(&size)
+                        && (1e-3..=1.0).contains(&mass)
+                        && offset == 0.0;
                     assert!(
                         !ordinary || error <= RIGHT,
                         "{scale:?} {method:?}, projected: {projected}: off by {error:e}: {doubts}"
@@ -182,7 +191,10 @@ fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
 }
 
 fn all<M: Scaled>() {
-    let tight = Tolerance { relative: 1e-12, absolute: 1e-14 };
+    let tight = Tolerance {
+        relative: 1e-12,
+        absolute: 1e-14,
+    };
     let (judge, _) = displacement::<M, _>(UNIT, StandardLagrange, tight, true).expect("regular");
     println!("{}: {judge:?}", M::REPORT.name);
     sweep::<M, _>(StandardLagrange, judge);
