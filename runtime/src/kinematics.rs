@@ -125,8 +125,11 @@ impl<S: Real, M: Mechanism> Clone for Found<S, M> {
 
 impl<S: Real, M: Mechanism> Copy for Found<S, M> {}
 
-/// How often the way to a reporting time is halved.
+/// How often the way to a reporting time is halved: to a thousandth. A pose that is not found from there is beyond a limit of the motion.
 const HALVINGS: i32 = 10;
+
+/// A rest of the way of up to this many strides is gone in one, so that round-off leaves no sliver of it; halfway between one and two.
+const LAST_STRIDE: f64 = 1.5;
 
 impl<S, M, F, A> KinematicAnalysis<'_, S, M, F, A>
 where
@@ -266,8 +269,7 @@ where
         let shortest = stride * S::constant(2.0).powf(-f64::from(HALVINGS));
         loop {
             let rest = to - found.time;
-            // Towards the end of the way, so that no sliver of it is left.
-            let time = if rest <= stride * S::constant(1.5) {
+            let time = if rest <= stride * S::constant(LAST_STRIDE) {
                 to
             } else {
                 found.time + stride

@@ -294,8 +294,11 @@ impl<S: Scalar> Pivot<S> {
     #[inline(always)]
     #[must_use]
     pub fn and_nonzero(self, pivot: S, joint: usize) -> Self {
-        let tiny = S::constant(1e-30);
-        self.and(pivot.abs().select(tiny, S::zero(), S::one()), joint)
+        /// The least normal number of single precision: the reciprocal of a smaller one is out of its range. No unit leads there,
+        /// as a bound between large and small would have to know.
+        const LEAST: f64 = f32::MIN_POSITIVE as f64;
+        let least = S::constant(LEAST);
+        self.and(pivot.abs().select(least, S::zero(), S::one()), joint)
     }
 
     /// Takes another relative pivot into account.
