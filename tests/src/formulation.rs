@@ -9,6 +9,7 @@ use nalgebra::linalg::Cholesky;
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use crate::assembler::Assembler;
+use crate::bodies::Kind;
 use crate::kinematics::Kinematics;
 use crate::lu::solve_in_place;
 use crate::rows::{Saddle, Transposed};
@@ -27,6 +28,7 @@ pub enum Formulation {
         beta: f64,
     },
     /// `(M + alpha D^T D) u' = g + alpha D^T gamma*`, `lambda = alpha (D u' - gamma*)`, `a = mu omega`, `b = omega`.
+    /// Rows in metres or radians: others are brought to these units first.
     Penalty {
         /// `alpha` (kg).
         alpha: f64,
@@ -109,7 +111,30 @@ pub struct Evaluator {
     /// `Phi` or `Phi'`, or `alpha (D u' - gamma*)`.
     scratch: DVector<f64>,
     multipliers: DVector<f64>,
+    /// What the rows are multiplied by, so that `alpha` acts in metres, or in radians.
+    units: DVector<f64>,
     iterations: usize,
+}
+
+/// One over the largest gradient of each row in the described configuration: with respect to the position of a body, or to the
+/// rotation of one where it does not depend on positions.
+fn units(assembler: &Assembler) -> DVector<f64> {
+    let jacobian = assembler.jacobian(assembler.initial_state().as_slice());
+    let gradient = |row: usize, first: usize| jacobian.fixed_view::<1, 3>(row, first).norm();
+    DVector::from_fn(assembler.equations(), |row, _| {
+        let (mut translation, mut rotation) = (0.0_f64, 0.0_f64);
+        for (body, _, velocity) in assembler.bodies() {
+            translation = translation.max(gradient(row, velocity));
+            if body.kind == Kind::Rigid {
+                rotation = rotation.max(gradient(row, velocity + 3));
+            }
+        }
+        1.0 / if translation > 1e-9 {
+            translation
+        } else {
+            rotation
+        }
+    })
 }
 
 impl Evaluator {
@@ -134,6 +159,11 @@ impl Evaluator {
             pull: DVector::zeros(velocities),
             scratch: DVector::zeros(equations),
             multipliers: DVector::zeros(equations),
+            units: if rows > 0 {
+                units(&assembler)
+            } else {
+                DVector::zeros(0)
+            },
             iterations: 0,
             assembler,
             formulation,
@@ -229,6 +259,10 @@ impl Evaluator {
     ) -> Result<(), SolveError> {
         self.assembler
             .write_jacobian(&self.at, &mut Transposed(&mut self.transposed));
+        for (mut column, unit) in self.transposed.column_iter_mut().zip(self.units.iter()) {
+            column *= *unit;
+        }
+        self.target.component_mul_assign(&self.units);
         let factors = self.factor_penalty(alpha)?;
         self.pull.gemv(alpha, &self.transposed, &self.target, 0.0);
         // M u'_0 = g: the first right-hand side is g + alpha D^T gamma*.
@@ -262,6 +296,7 @@ impl Evaluator {
                 self.solution.component_mul_assign(&self.mass);
             }
         }
+        self.multipliers.component_mul_assign(&self.units);
         self.matrix = factors.unpack_dirty();
         if converged {
             Ok(())
