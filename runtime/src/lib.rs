@@ -9,6 +9,7 @@
 //! | bodies, joints and drivers, forces | [`Body`], [`Particle`], [`joints`], [`forces`] |
 //! | joints and forces of one's own | [`joint!`], [`force!`] |
 //! | a run over an interval of time, with reports | [`Simulation`], [`every`], [`Sample`], [`RunReport`] |
+//! | whether its result can be trusted | [`RunReport::doubts`], [`Watch`], [`guide::trust`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |

@@ -9,7 +9,7 @@ use crate::scalar::Real;
 /// Baumgarte's stabilisation: `Phi'' + 2 alpha Phi' + beta^2 Phi = 0`.
 ///
 /// A violation decays with `alpha = beta` as a critically damped oscillator of the time constant `1 / alpha`; explicit steps must
-/// be shorter than about `2.8 / alpha`. Baumgarte, *Stabilization of constraints and integrals of motion in
+/// be shorter than about `2 / alpha`; beyond that violations grow, at once or after some time. Baumgarte, *Stabilization of constraints and integrals of motion in
 /// dynamical systems*, Comput. Methods Appl. Mech. Eng. 1 (1972), 1-16; Flores 2015, chapter 12.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Baumgarte<S> {

@@ -8,6 +8,7 @@
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics and inverse dynamics; power and energy |
 //! | [`parameters`] | numbers that are known at run time only, and inputs that change at every step |
 //! | [`results`] | what can be read, in which units, frames and signs; state and restart |
+//! | [`trust`] | whether a result can be trusted: the doubts of a run, starts, steps and budgets |
 //! | [`reactions`] | what a joint exerts on which body, reduced to which point; body axes and principal axes |
 //! | [`redundant`] | equations that follow from others, singular configurations, and joints that avoid both |
 //! | [`embedded`] | fixed steps without a heap and without the standard library, single precision |
@@ -82,6 +83,9 @@ pub mod parameters {}
 
 #[doc = include_str!("results.md")]
 pub mod results {}
+
+#[doc = include_str!("trust.md")]
+pub mod trust {}
 
 #[doc = include_str!("reactions.md")]
 pub mod reactions {}
