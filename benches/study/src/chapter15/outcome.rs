@@ -224,6 +224,7 @@ pub(crate) mod tests {
                 Method::AugmentedLagrangian => Iterations {
                     total: 3530,
                     largest: 3,
+                    excused: 0,
                 },
                 _ => Iterations::default(),
             },

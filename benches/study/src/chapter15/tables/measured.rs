@@ -107,7 +107,7 @@ pub fn steps(outcomes: &[Outcome]) -> Table {
         ],
         outcomes,
         |outcome| {
-            let Iterations { total, largest } = outcome.iterations;
+            let Iterations { total, largest, .. } = outcome.iterations;
             let or_dash = |text: String| if total == 0 { "–".into() } else { text };
             vec![
                 outcome.accepted.to_string(),
