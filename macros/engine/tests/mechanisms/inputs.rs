@@ -102,7 +102,7 @@ impl Inputs {
             Input::Symbol(place) => at(&self.symbols, place),
             Input::RateGain => Some(self.coefficients.rate_gain),
             Input::PositionGain => Some(self.coefficients.position_gain),
-            Input::Compliance => Some(self.coefficients.compliance),
+            Input::Compliance(_) => Some(self.coefficients.compliance),
             Input::Time => Some(self.time),
             Input::Coordinate(place) => at(&self.coordinates, place),
             Input::Velocity(place) => at(&self.velocities, place),

@@ -83,7 +83,7 @@ impl State {
             Input::Coordinate(place) => self.coordinates.get(place as usize).copied(),
             Input::Velocity(place) => self.velocities.get(place as usize).copied(),
             Input::Time => Some(0.3),
-            Input::Compliance => Some(COMPLIANCE),
+            Input::Compliance(_) => Some(COMPLIANCE),
             _ => None,
         });
         values
