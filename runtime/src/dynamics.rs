@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use crate::access::MechanismExt;
 use crate::array::{Array, StateParts, finite};
+use crate::compliance::compliances;
 use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle, inconsistency};
 use crate::integrate::System;
@@ -15,7 +16,6 @@ use crate::origin::origin;
 use crate::rotation::{
     bring_to_unit_length, check_state, read, scale_euler_rates, stretch, with_unit_orientations,
 };
-use crate::rows::Rows;
 use crate::scalar::Real;
 use crate::view::View;
 use crate::watch::{Seen, Step, Watch};
@@ -54,7 +54,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
         let stabilisation = formulation.stabilisation()?;
         let constants = mechanism.constants::<S>()?;
-        let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation);
+        let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation)?;
         Ok(Self {
             constants,
             coefficients: M::coefficients_by_row(&constants, &stabilisation, &compliances),
@@ -107,10 +107,11 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        self.constants = mechanism.constants()?;
-        let (constants, stabilisation) = (&self.constants, &self.stabilisation);
-        self.compliances = compliances::<S, M, F::Terms>(constants, stabilisation);
-        self.coefficients = M::coefficients_by_row(constants, stabilisation, &self.compliances);
+        let constants = mechanism.constants()?;
+        self.compliances = compliances::<S, M, F::Terms>(&constants, &self.stabilisation)?;
+        self.coefficients =
+            M::coefficients_by_row(&constants, &self.stabilisation, &self.compliances);
+        self.constants = constants;
         Ok(())
     }
 
@@ -496,22 +497,6 @@ where
             self.seen.last
         })
     }
-}
-
-/// The compliance of every row: that of the formulation, in the unit of the row at the described configuration.
-fn compliances<S: Real, M: Mechanism, T: Terms>(
-    constants: &M::Constants<S>,
-    stabilisation: &Stabilisation<S>,
-) -> M::Multipliers<S> {
-    if !T::COMPLIANT {
-        return M::Multipliers::<S>::zeros();
-    }
-    let described = M::initial_state(constants);
-    let mut compliances = Rows::<S, M>::at(constants, S::zero(), &described).units();
-    for compliance in compliances.as_mut_slice() {
-        *compliance = *compliance * stabilisation.compliance;
-    }
-    compliances
 }
 
 /// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of the multiplier is left.

@@ -91,6 +91,14 @@ pub enum Fault {
         /// The rate (1/s).
         rate: f64,
     },
+    /// The factor of a penalty is so large that its compliance is lost in round-off, while equations are kept that depend on others and have nothing
+    /// else to go by.
+    PenaltyFactor {
+        /// The factor `alpha`.
+        alpha: f64,
+        /// The largest that the masses of the mechanism and the digits of the numbers allow.
+        largest: f64,
+    },
     /// A run has taken as many evaluations as it may, see [`StepLimits::evaluations`](crate::StepLimits::evaluations).
     Budget {
         /// How many it has taken.

@@ -37,6 +37,7 @@ compile_error!(
 mod access;
 mod array;
 mod clock;
+mod compliance;
 mod displace;
 mod dynamics;
 mod error;

@@ -132,6 +132,13 @@ impl fmt::Display for Fault {
                 Given(rate),
                 Measured(2.0 / rate)
             ),
+            Self::PenaltyFactor { alpha, largest } => write!(
+                f,
+                "`alpha = {}` is lost in round-off for these masses, and equations that depend on others have nothing else to go by: give \
+                 {} at most",
+                Given(alpha),
+                Measured(largest)
+            ),
             Self::Budget { evaluations } => write!(
                 f,
                 "{evaluations} evaluations are used up: a singular configuration or a stiff formulation are the usual causes; \

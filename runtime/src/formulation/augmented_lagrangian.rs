@@ -15,6 +15,8 @@ use crate::view::square;
 /// norms over all velocities; the multipliers themselves have no limit where equations are redundant. Bayo, Garcia de Jalon and
 /// Serna 1988 (see [`Penalty`](super::Penalty)); Flores 2015, chapter 14.
 ///
+/// Up to which `alpha` it holds: see [`Penalty`](super::Penalty).
+///
 /// **Near singular configurations.** With `e = 1 / alpha`, a plain iteration leaves `e / (e + s)` of the bias, `s` the eigenvalues of
 /// `D M^-1 D^T`: it is fast for independent equations, unnecessary for exactly dependent ones (`s = 0`, no bias), and slow
 /// between, where equations are nearly dependent: where the change of the multipliers is nearly a state of self-stress, multipliers whose loads on every body

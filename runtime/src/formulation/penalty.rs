@@ -8,6 +8,10 @@ use crate::scalar::Real;
 
 /// The penalty formulation: `lambda = alpha (Phi'' + 2 mu omega Phi' + omega^2 Phi)`.
 ///
+/// `alpha` holds up to `1 / (64 EPSILON s)`, with `s` the largest of what a row yields to a unit load, about one over the least mass: beyond it the compliance is
+/// lost in round-off. Where equations are kept that depend on others, a larger one is refused with [`Fault::PenaltyFactor`]; elsewhere the constraints are then
+/// rigid.
+///
 /// Every constraint is a spring, a damper and a mass on the violation. Solvable where constraints are redundant or
 /// the configuration is singular; the motion has a bias of the order `1 / alpha`. Bayo, Garcia de Jalon and Serna, *A modified
 /// Lagrangian formulation for the dynamic analysis of constrained mechanical systems*, Comput. Methods Appl. Mech.

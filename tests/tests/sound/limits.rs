@@ -154,6 +154,48 @@ fn reports_closer_than_the_time_can_tell_are_refused() {
     assert!(matches!(error.fault, Fault::StepTooShort { .. }), "{error}");
 }
 
+/// A door on two hinges, of which five equations follow from others.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "keep")]
+struct Door {
+    #[body(mass = 20.0, inertia = [3.0, 1.0, 4.0], position = [0.4, 0.0, 1.0], angular_velocity = [0.0, 0.0, 1.0], velocity = [0.0, 0.4, 0.0])]
+    leaf: Body,
+    #[joint(between = [ground, leaf], point = [0.0, 0.0, 0.2], axis = [0.0, 0.0, 1.0])]
+    lower: Revolute,
+    #[joint(between = [ground, leaf], point = [0.0, 0.0, 1.8], axis = [0.0, 0.0, 1.0])]
+    upper: Revolute,
+}
+
+#[test]
+fn a_penalty_factor_that_is_lost_in_round_off_is_refused() {
+    let door = Door::default();
+    let run = |alpha| {
+        let mut angle = f64::NAN;
+        Simulation::new(
+            &door,
+            AugmentedLagrangian::new(alpha, 10.0, 1.0),
+            Rk4::every(1e-3),
+        )
+        .run(0.0..=1.0, every(1.0), |sample| {
+            angle = sample.angle(Door::HANDLES.lower);
+            ControlFlow::Continue(())
+        })
+        .map(|_| angle)
+    };
+    for alpha in [1e7, 1e10, 1e13] {
+        let angle = run(alpha).expect("it holds");
+        assert!((angle - 1.0).abs() < 1e-9, "{alpha:e}: {angle}");
+    }
+    for alpha in [1e17, 1e30] {
+        let error = run(alpha).expect_err("lost in round-off");
+        println!("{error}");
+        assert!(
+            matches!(error.fault, Fault::PenaltyFactor { .. }),
+            "{error}"
+        );
+    }
+}
+
 #[test]
 fn a_step_beyond_the_limit_of_stability_is_named() {
     let rod = Rod::default();

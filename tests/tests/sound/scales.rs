@@ -115,7 +115,7 @@ const UNIT: Scale = Scale {
     offset: 0.0,
 };
 
-/// The displacement of the body over three times the square root of the size in metres, in sizes, and whether it is doubted; `None` where it is refused.
+/// The displacement of the body over 2.2 times the square root of the size in metres, in sizes, and whether it is doubted; `None` where it is refused.
 fn displacement<M: Scaled, F: Formulation<f64>>(
     scale: Scale,
     method: F,
@@ -123,7 +123,7 @@ fn displacement<M: Scaled, F: Formulation<f64>>(
     projected: bool,
 ) -> Option<(Vector3<f64>, holonom::Doubts)> {
     let mechanism = M::scaled(scale);
-    let duration = 3.0 * scale.size.sqrt();
+    let duration = 2.2 * scale.size.sqrt();
     let mut simulation =
         Simulation::new(&mechanism, method, DormandPrince::new(tolerance)).assembled();
     if projected {

@@ -179,3 +179,27 @@ sweeps! {
     penalty: Penalty::default();
     augmented_lagrangian: AugmentedLagrangian::default();
 }
+
+/// A factor that leaves next to no compliance in a singular configuration.
+#[test]
+fn an_extreme_penalty_factor_is_doubted() {
+    let mut method = AugmentedLagrangian::new(1e11, 10.0, 1.0);
+    for tolerance in [1e-10, 1e-11] {
+        method.tolerance = tolerance;
+        for exponent in [6, 9, 11] {
+            let relative = 10.0_f64.powi(-exponent);
+            let absolute = 1e-2 * relative;
+            let integrator = DormandPrince::new(Tolerance { relative, absolute });
+            run(
+                &FourBar::default(),
+                &four_bar(),
+                (method, integrator, false),
+            );
+            run(
+                &EqualLinks::default(),
+                &equal_links(),
+                (method, integrator, false),
+            );
+        }
+    }
+}
