@@ -215,8 +215,7 @@ where
         if sound::<S, M, F::Terms>(&evaluation) {
             Ok(evaluation)
         } else {
-            let Evaluation { rates, pivot, .. } = evaluation;
-            Err(self.fault(pivot, time, state, None, rates))
+            Err(self.fault(evaluation.pivot, time, state, None))
         }
     }
 
@@ -258,13 +257,13 @@ where
             lower: &lower,
             terms: PhantomData,
         };
-        let solution = self.formulation.solve(&saddle).map_err(|fault| {
-            let Fault::RatesNotFinite { .. } = fault else {
-                return fault;
-            };
-            let rates = M::State::from_parts(Array::zeros(), saddle.solve().accelerations);
-            self.fault(pivot, time, state, Some(&upper), rates)
-        })?;
+        let solution = self
+            .formulation
+            .solve(&saddle)
+            .map_err(|fault| match fault {
+                Fault::RatesNotFinite { .. } => self.fault(pivot, time, state, Some(&upper)),
+                other => other,
+            })?;
         let mut coordinate_rates = M::coordinate_rates(constants, read);
         if P::NORMALISED && !P::NORMALISED_RATES {
             scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
@@ -284,11 +283,11 @@ where
                 applied_power,
             })
         } else {
-            Err(self.fault(pivot, time, state, Some(&upper), evaluation.rates))
+            Err(self.fault(pivot, time, state, Some(&upper)))
         }
     }
 
-    /// Why an evaluation is not sound. The rates come by value: where they are kept in registers, only this way puts them into memory.
+    /// Why an evaluation is not sound: solved again, in parts, so that the rates of one that is sound need not be kept.
     #[cold]
     #[inline(never)]
     fn fault(
@@ -297,7 +296,6 @@ where
         time: S,
         state: &M::State<S>,
         applied: Option<&M::Velocities<S>>,
-        rates: M::State<S>,
     ) -> Fault {
         if let Err(fault) = check_state::<S, M>(state) {
             return fault;
@@ -312,8 +310,14 @@ where
         } else {
             state
         };
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        let (factors, _) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
+        let upper = applied.map_or_else(|| M::forces(constants, time, read), |&forces| forces);
+        let lower = self.stabilised(time, read);
+        let (accelerations, _) =
+            M::solve::<S, F::Terms>(constants, coefficients, &factors, &upper, &lower);
         Fault::RatesNotFinite {
-            origin: origin::<S, M>(&self.constants, time, read, applied, &rates),
+            origin: origin::<S, M>(constants, time, read, applied, &accelerations),
         }
     }
 
@@ -425,6 +429,11 @@ struct Parts<S: Real, M: Mechanism> {
     applied_power: S,
 }
 
+/// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as the forces do.
+const BIAS_EVERY: usize = 16;
+/// Of how many steps one is factorised without its compliance: what is passed between two of them is found all the same.
+const PIVOT_EVERY: usize = 2;
+
 /// What the watch wants to know.
 impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
 where
@@ -440,13 +449,10 @@ where
     #[inline(always)]
     fn look(&mut self, evaluation: &Evaluation<S, M>) {
         if !F::Terms::COMPLIANT {
-            self.seen.last = evaluation.pivot;
+            self.seen.last.relative = evaluation.pivot.relative;
         }
-        if Self::YIELDS || M::REPORT.time.constraints {
+        if M::REPORT.time.constraints {
             self.seen.multipliers = evaluation.multipliers;
-        }
-        if Self::YIELDS {
-            self.seen.accelerations = *evaluation.rates.velocities();
         }
     }
 
@@ -458,10 +464,24 @@ where
             time,
             state,
             power: self.power(time, state),
-            pivot: self.pivot(time, state),
-            compliances: Self::YIELDS.then_some(&self.compliances),
+            pivot: self.pivot(watch.steps(), time, state),
+            stretch: self.seen.stretch,
         };
-        watch.step(step, &self.seen);
+        if Self::YIELDS && watch.steps().is_multiple_of(BIAS_EVERY) {
+            self.show_bias(watch, time, state);
+        }
+        watch.step(step);
+    }
+
+    #[inline(never)]
+    fn show_bias(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
+        if let Ok((evaluation, _)) = self.evaluate(time, state) {
+            watch.yielded(
+                &self.compliances,
+                &evaluation.multipliers,
+                evaluation.rates.velocities(),
+            );
+        }
     }
 
     /// The power (W) of all forces without a potential, and of drivers, whose multipliers work against `Phi_t`.
@@ -487,15 +507,18 @@ where
 
     /// The relative pivot at the end of a step; with a compliance, by a factorisation without it. `None` where equations that depend on others are
     /// kept: their pivots tell nothing.
-    fn pivot(&self, time: S, state: &M::State<S>) -> Option<Pivot<S>> {
+    #[inline]
+    fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<Pivot<S>> {
         if M::REPORT.equations == 0 || M::REPORT.redundant.iter().any(|row| !row.dropped) {
             return None;
         }
-        Some(if F::Terms::COMPLIANT {
-            M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1
+        if F::Terms::COMPLIANT {
+            let pivot =
+                || M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1;
+            step.is_multiple_of(PIVOT_EVERY).then(pivot)
         } else {
-            self.seen.last
-        })
+            Some(self.seen.last)
+        }
     }
 }
 

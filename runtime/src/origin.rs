@@ -1,6 +1,6 @@
 //! Where rates that are not finite began: a force, a closure, a joint or a body.
 
-use crate::array::{Array, StateParts};
+use crate::array::Array;
 use crate::error::NotFinite;
 use crate::mechanism::Mechanism;
 use crate::report::{BodyInfo, BodyKind, Report};
@@ -15,7 +15,7 @@ pub(crate) fn origin<S: Real, M: Mechanism>(
     time: S,
     state: &M::State<S>,
     applied: Option<&M::Velocities<S>>,
-    rates: &M::State<S>,
+    accelerations: &M::Velocities<S>,
 ) -> NotFinite {
     let force = M::REPORT.forces.iter().enumerate().find(|(index, info)| {
         (0..info.bodies.len()).any(|place| {
@@ -50,7 +50,7 @@ pub(crate) fn origin<S: Real, M: Mechanism>(
     if let Some((_, joint)) = joint {
         return NotFinite::Joint(joint.name);
     }
-    body(&M::REPORT, rates.velocities().as_slice()).map_or(NotFinite::Unknown, NotFinite::Body)
+    body(&M::REPORT, accelerations.as_slice()).map_or(NotFinite::Unknown, NotFinite::Body)
 }
 
 /// The first body with an element that is not finite.

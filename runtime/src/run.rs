@@ -111,7 +111,9 @@ where
             course.advance(&mut self.dynamics)?;
             while let Some(time) = self.schedule.within(course.time()) {
                 let mut state = course.at(&mut self.dynamics, time)?;
-                self.correct(time, &mut state)?;
+                if let Some(projection) = self.projection {
+                    state = self.corrected(projection, time, state)?;
+                }
                 *last_good = (time, state);
                 self.show(time, &last_good.1);
                 if self.log.flow.is_break() {
@@ -120,9 +122,8 @@ where
                 }
             }
             let time = course.time();
-            if self.projection.is_some() {
-                let mut state = *course.state();
-                self.correct(time, &mut state)?;
+            if let Some(projection) = self.projection {
+                let state = self.corrected(projection, time, *course.state())?;
                 course.replace(state);
             }
             *last_good = (time, *course.state());
@@ -148,18 +149,22 @@ where
         Ok(())
     }
 
-    /// Brings a state onto the constraints, if that is wanted.
-    fn correct(&mut self, time: S, state: &mut M::State<S>) -> Result<(), Fault> {
-        if let Some(projection) = self.projection {
-            let constants = self.dynamics.constants();
-            let correction = projection.correct_in_motion::<M>(constants, time, state)?;
-            if let Some(watch) = &mut self.watch
-                && correction.excused > S::zero()
-            {
-                watch.excuse_correction(time);
-            }
+    /// A state brought onto the constraints.
+    #[inline(never)]
+    fn corrected(
+        &mut self,
+        projection: Projection<S>,
+        time: S,
+        mut state: M::State<S>,
+    ) -> Result<M::State<S>, Fault> {
+        let constants = self.dynamics.constants();
+        let correction = projection.correct_in_motion::<M>(constants, time, &mut state)?;
+        if let Some(watch) = &mut self.watch
+            && correction.excused > S::zero()
+        {
+            watch.excuse_correction(time);
         }
-        Ok(())
+        Ok(state)
     }
 
     fn show(&mut self, time: S, state: &M::State<S>) {

@@ -162,8 +162,8 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     pub(crate) power: Option<S>,
     /// The relative pivot at this state, of formulations that have one.
     pub(crate) pivot: Option<crate::mechanism::Pivot<S>>,
-    /// Those of a formulation that yields to them, row by row.
-    pub(crate) compliances: Option<&'a M::Multipliers<S>>,
+    /// The largest `| |p| - 1 |` at the end of a step so far.
+    pub(crate) stretch: S,
 }
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
@@ -204,14 +204,14 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Takes the end of a step, or the start of a run.
     #[inline]
-    pub(crate) fn step(&mut self, step: Step<'_, S, M>, seen: &Seen<S, M>) {
+    pub(crate) fn step(&mut self, step: Step<'_, S, M>) {
         let Step {
             constants,
             time,
             state,
             power,
             pivot,
-            compliances,
+            stretch,
         } = step;
         let factors = self.rows.factors();
         let phi = M::constraints(constants, time, state);
@@ -228,10 +228,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             balance.step(time, kinetic, potential, power);
         }
         self.motion(time, state);
-        self.stretch = self.stretch.max(seen.stretch);
-        if let Some(compliances) = compliances {
-            self.yielded(compliances, &seen.multipliers, &seen.accelerations);
-        }
+        self.stretch = self.stretch.max(stretch);
         self.steps = self.steps.saturating_add(1);
     }
 
@@ -253,7 +250,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     /// With a compliance `e` accelerations satisfy `D u' - gamma* = e lambda`.
-    fn yielded(
+    pub(crate) fn yielded(
         &mut self,
         compliances: &M::Multipliers<S>,
         multipliers: &M::Multipliers<S>,
@@ -288,6 +285,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         } else {
             S::zero()
         }
+    }
+
+    /// Steps that were looked at.
+    #[inline]
+    pub(crate) fn steps(&self) -> usize {
+        self.steps
     }
 
     /// Forces may jump here.

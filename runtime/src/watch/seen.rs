@@ -8,10 +8,8 @@ use crate::scalar::{Real, Scalar};
 pub(crate) struct Seen<S: Scalar, M: Mechanism> {
     /// The smallest relative pivot of the last evaluation.
     pub(crate) last: Pivot<S>,
-    /// The multipliers of the last evaluation, of a mechanism with drivers or a formulation that yields.
+    /// The multipliers of the last evaluation, of a mechanism with drivers.
     pub(crate) multipliers: M::Multipliers<S>,
-    /// The accelerations of the last evaluation, of a formulation that yields.
-    pub(crate) accelerations: M::Velocities<S>,
     /// The power (W) of forces from a closure in the last evaluation.
     pub(crate) applied_power: S,
     /// The largest `| |p| - 1 |` at the end of a step, before it was mended.
@@ -23,7 +21,6 @@ impl<S: Real, M: Mechanism> Seen<S, M> {
         Self {
             last: Pivot::unchecked(),
             multipliers: M::Multipliers::<S>::zeros(),
-            accelerations: M::Velocities::<S>::zeros(),
             applied_power: S::zero(),
             stretch: S::zero(),
         }
