@@ -219,15 +219,19 @@ where
         }
     }
 
+    /// The state as the kernels read it.
+    #[inline]
+    fn read(state: &M::State<S>) -> M::State<S> {
+        if P::NORMALISED {
+            with_unit_orientations::<S, M>(state)
+        } else {
+            *state
+        }
+    }
+
     /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
     fn evaluate_in_parts(&self, time: S, state: &M::State<S>) -> Result<Parts<S, M>, Fault> {
-        let unit;
-        let read = if P::NORMALISED {
-            unit = with_unit_orientations::<S, M>(state);
-            &unit
-        } else {
-            state
-        };
+        let read = &Self::read(state);
         let (constants, coefficients) = (&self.constants, &self.coefficients);
         let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
         if vanishes::<S, F::Terms>(&pivot) {
@@ -303,13 +307,7 @@ where
         if vanishes::<S, F::Terms>(&pivot) {
             return singular::<S, M>(&pivot);
         }
-        let unit;
-        let read = if P::NORMALISED {
-            unit = with_unit_orientations::<S, M>(state);
-            &unit
-        } else {
-            state
-        };
+        let read = &Self::read(state);
         let (constants, coefficients) = (&self.constants, &self.coefficients);
         let (factors, _) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
         let upper = applied.map_or_else(|| M::forces(constants, time, read), |&forces| forces);
@@ -332,13 +330,7 @@ where
         state: &M::State<S>,
         evaluation: &Evaluation<S, M>,
     ) -> (S, Option<&'static str>) {
-        let unit;
-        let read = if P::NORMALISED {
-            unit = with_unit_orientations::<S, M>(state);
-            &unit
-        } else {
-            state
-        };
+        let read = &Self::read(state);
         let mut forces = M::forces(&self.constants, time, read);
         if A::PRESENT {
             self.forces
