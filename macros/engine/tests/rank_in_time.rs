@@ -8,8 +8,9 @@ use common::{delivered, delivery_of, tokens};
 use holonom_engine::model::{ElementKind, Model, Rank};
 use proc_macro2::TokenStream;
 
-/// As in the library, but for `Turning`: a plane that turns away from the first.
-const JOINTS: [(&str, &str); 9] = [
+/// As in the library, but for `Turning`, a plane that turns away from the first, and `Alined`, which asks both normals of an axis to have one
+/// direction as soon as the time begins.
+const JOINTS: [(&str, &str); 10] = [
     (
         "Revolute",
         "Revolute(i, j; point: Point, axis: Axis) { j.point - i.point; dot(i.axis.normals(), j.axis); angle about axis; }",
@@ -49,6 +50,10 @@ const JOINTS: [(&str, &str); 9] = [
     (
         "Turning",
         "Turning(i, j; point: Point, motion: Law) { dot([1.0, motion(), 0.0], j.point - i.point); }",
+    ),
+    (
+        "Alined",
+        "Alined(i, j; axis: Axis, direction: Vector) { cross(j.axis.normals(), i.direction) * time; }",
     ),
 ];
 
@@ -212,6 +217,20 @@ fn a_row_that_depends_on_others_at_the_start_only_stays() {
             assert_eq!(model.independence.rank, rank, "{motion}");
             assert_eq!(dropped(&model), [], "{motion}");
         }
+    }
+}
+
+#[test]
+fn rows_that_vanish_at_the_start_and_contradict_each_other_from_then_on_are_refused() {
+    for wish in WISHES {
+        let text = format!(
+            "#[mechanism({wish})] struct Torn {{
+                #[body(mass = 1.0, inertia = [0.1, 0.2, 0.15])] body: Body,
+                #[joint(between = [ground, body], axis = [-0.13, 0.54, 0.83], direction = [0.83, -1.23, 0.86])] torn: Alined,
+            }}"
+        );
+        let text = refusal(&text);
+        assert!(text.contains("contradicts equations of `torn`"), "{wish}: {text}");
     }
 }
 

@@ -65,56 +65,107 @@ pub(super) fn agreeing(
 }
 
 /// The rows that do not hold where the kept ones do, near a configuration, although they depend on them: none where the kept ones do
-/// not hold either, or where rows become independent on the way.
-pub(super) fn by_place(
+/// not hold either; `None` where rows become independent on the way.
+fn by_place(
     constraints: &Constraints,
     start: &Configuration,
     kept: &[usize],
     near: &Configuration,
     random: &mut Random,
-) -> Vec<Contradicted> {
-    let mut find = || {
-        let here = constraints.assembled_of(near, Some(kept))?;
-        let violated = violated(constraints, start, &here)?;
-        let time = here.time;
-        for at in walk(constraints, here, Some(kept), random) {
-            let rows = constraints.directions(&at, TOLERANCE)?;
-            if independent(&[rows], TOLERANCE).len() > kept.len() {
-                return None;
-            }
-        }
-        Some((violated, time))
+) -> Option<Vec<Contradicted>> {
+    let Some(here) = constraints.assembled_of(near, Some(kept)) else {
+        return Some(Vec::new());
     };
-    let (rows, time) = find().unwrap_or_default();
-    let rows = rows.into_iter().filter(|row| !kept.contains(row));
-    rows.map(|row| Contradicted {
+    let violated = violated(constraints, start, &here)?;
+    let time = here.time;
+    for at in walk(constraints, here, Some(kept), random) {
+        let rows = constraints.directions(&at, TOLERANCE)?;
+        if independent(&[rows], TOLERANCE).len() > kept.len() {
+            return None;
+        }
+    }
+    let rows = violated.into_iter().filter(|row| !kept.contains(row));
+    let rows = rows.map(|row| Contradicted {
         row,
         time,
         by_speed: false,
-    })
-    .collect()
+    });
+    Some(rows.collect())
 }
 
-/// What contradicts at the start, where no configuration satisfies all equations: the rows, and the kept ones.
-pub(super) fn at_start(
+/// What contradicts near a configuration, where none satisfies all equations: the rows, and those that they depend on. These are the kept
+/// ones, or others where more rows are independent than anywhere before, as those of a law that only begins.
+pub(super) fn where_missed(
     constraints: &Constraints,
-    described: &Configuration,
+    start: &Configuration,
+    kept: &[usize],
+    near: &Configuration,
     random: &mut Random,
 ) -> Option<(Vec<Contradicted>, Vec<usize>)> {
-    let mut rows = constraints.directions(described, TOLERANCE)?;
-    let mut here = described.clone();
+    if let Some(found) = by_place(constraints, start, kept, near, random) {
+        return Some((found, kept.to_vec()));
+    }
+    nowhere(constraints, start, near, random)
+}
+
+/// What contradicts near a configuration, where none satisfies all equations and nothing is known of the rows: those that do, and those
+/// that they depend on. Which rows are kept is a choice, and one that cannot be satisfied says nothing: so they are taken from the first
+/// on and from the last on. What cannot change is a contradiction by itself.
+pub(super) fn nowhere(
+    constraints: &Constraints,
+    start: &Configuration,
+    near: &Configuration,
+    random: &mut Random,
+) -> Option<(Vec<Contradicted>, Vec<usize>)> {
+    let choices = [false, true].map(|backwards| {
+        let kept = satisfied(constraints, near, backwards, random)?;
+        let found = by_place(constraints, start, &kept.0, &kept.1, random)?;
+        Some((found, kept.0))
+    });
+    let mut said = choices.into_iter().flatten();
+    said.find(|(found, _)| !found.is_empty()).or_else(|| {
+        let rows = violated(constraints, start, near)?.into_iter();
+        let fixed = rows.filter(|&row| constraints.sizes[row].is_none());
+        let found = fixed.map(|row| Contradicted {
+            row,
+            time: near.time,
+            by_speed: false,
+        });
+        Some((found.collect(), Vec::new()))
+    })
+}
+
+/// As many independent rows as can be found near a configuration, and where they hold; `None` where they do not.
+fn satisfied(
+    constraints: &Constraints,
+    near: &Configuration,
+    backwards: bool,
+    random: &mut Random,
+) -> Option<(Vec<usize>, Configuration)> {
+    let independent_rows = |mut rows: Rows| {
+        if !backwards {
+            return independent(&[rows], TOLERANCE);
+        }
+        let last = rows.len().saturating_sub(1);
+        rows.reverse();
+        let mut found = independent(&[rows], TOLERANCE);
+        found.iter_mut().for_each(|row| *row = last - *row);
+        found.sort_unstable();
+        found
+    };
+    let mut rows = constraints.directions(near, TOLERANCE)?;
+    let mut here = near.clone();
     let mut kept: Vec<usize> = Vec::new();
     loop {
-        let more = independent(&[rows], TOLERANCE);
+        let more = independent_rows(rows);
         if more.len() <= kept.len() {
-            break;
+            return Some((kept, here));
         }
         // Rows may be independent at a configuration that satisfies those found so far.
         kept = more;
         here = constraints.assembled_of(&here, Some(&kept))?;
-        let mut found = walk(constraints, here.clone(), Some(&kept), random).into_iter();
         let mut best = (0, Rows::new());
-        for at in found.by_ref() {
+        for at in walk(constraints, here.clone(), Some(&kept), random) {
             let rows = constraints.directions(&at, TOLERANCE)?;
             let rank = independent(std::slice::from_ref(&rows), TOLERANCE).len();
             if rank > best.0 {
@@ -123,8 +174,6 @@ pub(super) fn at_start(
         }
         rows = best.1;
     }
-    let found = by_place(constraints, described, &kept, &here, random);
-    Some((found, kept))
 }
 
 /// The rows that ask for other speeds than the kept ones do, at the first of some configurations where one does.

@@ -52,7 +52,7 @@ pub fn judge(model: &Model) -> Independence {
         return not(Rank::NotDecided);
     };
     let Some(start) = constraints.assembled(&described) else {
-        let found = contradiction::at_start(&constraints, &described, &mut random);
+        let found = contradiction::nowhere(&constraints, &described, &described, &mut random);
         let found = found.and_then(|(found, kept)| {
             let rows = constraints.directions(&described, TOLERANCE)?;
             Some(contradictions(model, found, &kept, &rows))
@@ -111,10 +111,18 @@ pub fn judge(model: &Model) -> Independence {
         if constraints.is_driven() {
             against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
         }
+        let mut rows = directions.get(first_regular).cloned();
+        let mut kept_there = kept.clone();
         if against.is_empty() {
-            against = parted(&constraints, &start, &kept, &missed, &mut random);
+            (against, kept_there) = parted(&constraints, &start, &kept, &missed, &mut random);
+            if kept_there != kept {
+                // Those that stand out there need not anywhere before.
+                let last = missed.last();
+                rows = last.and_then(|at| constraints.directions(at, TOLERANCE));
+            }
         }
-        let contradictions = contradictions(model, against, &kept, &directions[first_regular]);
+        let rows = rows.unwrap_or_default();
+        let contradictions = contradictions(model, against, &kept_there, &rows);
         if !contradictions.is_empty() {
             return Independence {
                 contradictions,
@@ -205,27 +213,30 @@ fn walk(
     configurations
 }
 
-/// The rows that part from the kept ones where a mechanism could not be followed in time: those that are violated at
-/// all configurations that were aimed at in vain.
+/// The rows that part from those that they depend on where a mechanism could not be followed in time, which are violated at all configurations that
+/// were aimed at in vain; and the kept rows there.
 fn parted(
     constraints: &Constraints,
     start: &Configuration,
     kept: &[usize],
     missed: &[Configuration],
     random: &mut Random,
-) -> Vec<Contradicted> {
+) -> (Vec<Contradicted>, Vec<usize>) {
     let mut found: Option<Vec<Contradicted>> = None;
+    let mut kept_there = kept.to_vec();
     // The last one is the first in time.
     for near in missed {
-        let here = contradiction::by_place(constraints, start, kept, near, random);
+        let here = contradiction::where_missed(constraints, start, kept, near, random);
+        let (here, kept_here) = here.unwrap_or_default();
         let before = found.take();
         let is_common = |row: usize| {
             let before = before.as_ref();
             before.is_none_or(|before| before.iter().any(|known| known.row == row))
         };
         found = Some(here.into_iter().filter(|new| is_common(new.row)).collect());
+        kept_there = kept_here;
     }
-    found.unwrap_or_default()
+    (found.unwrap_or_default(), kept_there)
 }
 
 /// Contradictions as the model has them.
@@ -235,6 +246,9 @@ fn contradictions(
     kept: &[usize],
     rows: &Rows,
 ) -> Vec<Contradiction> {
+    if found.is_empty() {
+        return Vec::new();
+    }
     let follow = redundant(model, kept, rows);
     let layout = model.layout();
     let found = found.into_iter().filter_map(|contradicted| {

@@ -13,6 +13,9 @@ use crate::symbolic::evaluate::evaluate;
 
 /// A row of which no more than this is left anywhere is round-off, over the size that it should have at least.
 const VANISHING: f64 = 1e-13;
+/// How often, and how much farther than near the start, a row that vanishes there is looked for.
+const FAR_PLACES: usize = 8;
+const FAR: f64 = 8.0;
 /// A time of no particular meaning (s).
 const LATER: f64 = 0.6180;
 
@@ -106,12 +109,24 @@ impl Constraints {
             places.push(constraints.moved(&start, &motion(constraints.layout.velocities)));
         }
         let mut sizes = constraints.largest_gradients(&places)?;
-        if is_driven {
-            // So that one that vanishes at the start only has a size, too.
-            let later = places.iter().map(|at| at.at(LATER)).collect::<Vec<_>>();
-            let later = constraints.largest_gradients(&later);
-            for (size, later) in sizes.iter_mut().zip(later.into_iter().flatten()) {
-                *size = size.or(later);
+        // So that a row that vanishes near the start only has a size, too: far away, at a later time, and while smooth steps are under way.
+        if sizes.contains(&None) {
+            for _ in 0..FAR_PLACES {
+                let far = motion(constraints.layout.velocities);
+                let far: Vec<f64> = far.iter().map(|x| FAR * x).collect();
+                places.push(constraints.moved(&start, &far));
+            }
+            let mut times = vec![0.0];
+            if is_driven {
+                times.push(LATER);
+                times.extend(constraints.breaks());
+            }
+            for time in times {
+                let later = places.iter().map(|at| at.at(time)).collect::<Vec<_>>();
+                let later = constraints.largest_gradients(&later);
+                for (size, later) in sizes.iter_mut().zip(later.into_iter().flatten()) {
+                    *size = size.or(later);
+                }
             }
         }
         constraints.sizes = sizes;
