@@ -9,8 +9,8 @@ use holonom_engine::model::{ElementKind, Model, Rank};
 use proc_macro2::TokenStream;
 
 /// As in the library, but for `Turning`, a plane that turns away from the first, and `Alined`, which asks both normals of an axis to have one
-/// direction as soon as the time begins.
-const JOINTS: [(&str, &str); 10] = [
+/// direction as soon as the time begins, and `Far`, which nothing satisfies from then on.
+const JOINTS: [(&str, &str); 11] = [
     (
         "Revolute",
         "Revolute(i, j; point: Point, axis: Axis) { j.point - i.point; dot(i.axis.normals(), j.axis); angle about axis; }",
@@ -50,6 +50,10 @@ const JOINTS: [(&str, &str); 10] = [
     (
         "Turning",
         "Turning(i, j; point: Point, motion: Law) { dot([1.0, motion(), 0.0], j.point - i.point); }",
+    ),
+    (
+        "Far",
+        "Far(i, j; point: Point) { (2.0 + squared(j.origin - i.point)) * time; }",
     ),
     (
         "Alined",
@@ -230,8 +234,29 @@ fn rows_that_vanish_at_the_start_and_contradict_each_other_from_then_on_are_refu
             }}"
         );
         let text = refusal(&text);
-        assert!(text.contains("contradicts equations of `torn`"), "{wish}: {text}");
+        assert!(
+            text.contains("contradicts equations of `torn`"),
+            "{wish}: {text}"
+        );
     }
+}
+
+#[test]
+fn rows_that_begin_where_nothing_satisfies_them_are_not_left_out() {
+    let text = |wish: &str| {
+        format!(
+            "#[mechanism({wish})] struct Far {{
+                #[body(mass = 1.0, position = [0.1, 0.0, 0.0])] bead: Particle,
+                #[joint(between = [ground, bead], point = [0.3, 0.2, 0.0])] far: Far,
+            }}"
+        )
+    };
+    let refused = refusal(&text("redundant = \"drop\""));
+    assert!(
+        refused.contains("no equations can be left out"),
+        "{refused:.300}"
+    );
+    assert_eq!(model(&text("")).independence.rank, Rank::NotAssembled);
 }
 
 /// A crank of 1 and a rod of 2 (or less) in the plane z = 0 from the origin along x, and a slider; `more` joints.

@@ -12,6 +12,8 @@ use super::{Random, TOLERANCE, walk};
 const AGREEMENT: f64 = 10.0 * TOLERANCE;
 /// Speeds below this fraction of the largest are what configurations leave of none: they are good to [`super::assemble::ASSEMBLED`].
 const STILL: f64 = super::assemble::ASSEMBLED;
+/// A short time (s): mechanisms are about where they were.
+const SOON: f64 = 0.01;
 /// By how much of their length kept rows stand out from each other where speeds can be compared.
 const SOUND: f64 = 1e-3;
 
@@ -105,7 +107,12 @@ pub(super) fn where_missed(
     if let Some(found) = by_place(constraints, start, kept, near, random) {
         return Some((found, kept.to_vec()));
     }
-    nowhere(constraints, start, near, random)
+    // What only begins has short gradients, and says more soon.
+    let places = [near.clone(), near.at(near.time + SOON)];
+    let mut said = places
+        .iter()
+        .filter_map(|near| nowhere(constraints, start, near, random));
+    said.find(|(found, _)| !found.is_empty())
 }
 
 /// What contradicts near a configuration, where none satisfies all equations and nothing is known of the rows: those that do, and those

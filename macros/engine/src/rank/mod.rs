@@ -22,7 +22,7 @@ mod motion;
 mod tour;
 
 use self::contradiction::Contradicted;
-use self::dense::{Rows, dot, independent, solve_normal};
+use self::dense::{Rows, dot, independent, norm, solve_normal};
 use self::motion::{Configuration, Constraints};
 use crate::model::mechanism::Layout;
 use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
@@ -130,6 +130,13 @@ pub fn judge(model: &Model) -> Independence {
                 ..not(Rank::Decided { rank, at_start })
             };
         }
+        if begins(&constraints, &directions, &missed) {
+            // What it says from then on is not known.
+            return Independence {
+                is_driven: true,
+                ..not(Rank::NotAssembled)
+            };
+        }
         let heading = random.motion(model.layout().velocities);
         let mut tour = tour::tour(&constraints, &start, heading);
         // One way through the start.
@@ -211,6 +218,21 @@ fn walk(
         }
     }
     configurations
+}
+
+/// Whether a row that vanishes wherever the mechanism got to does not where it could not be followed.
+fn begins(constraints: &Constraints, directions: &[Rows], missed: &[Configuration]) -> bool {
+    let Some(later) = missed
+        .last()
+        .and_then(|at| constraints.directions(at, TOLERANCE))
+    else {
+        return false;
+    };
+    let vanishes = |row: usize| directions.iter().all(|rows| norm(&rows[row]) == 0.0);
+    later
+        .iter()
+        .enumerate()
+        .any(|(row, direction)| norm(direction) > 0.0 && vanishes(row))
 }
 
 /// The rows that part from those that they depend on where a mechanism could not be followed in time, which are violated at all configurations that
