@@ -94,6 +94,9 @@ fn normalise(arena: &mut Arena, v: Triple) -> Triple {
     clean(arena, unit, 1.0)
 }
 
+/// Components of a unit axis that differ by less are equal: round-off must not decide which of them is the smallest.
+const EQUAL: f64 = 1e-12;
+
 /// The first of two unit vectors perpendicular to a unit axis `a`: `e_k x a`, normalised, where component `k` of `a` is the
 /// smallest in absolute value, the first of equals. For an axis that the macro cannot see, a formula without
 /// cases (Duff et al. 2017, J. Comput. Graph. Tech. 6).
@@ -101,7 +104,7 @@ fn normal(arena: &mut Arena, a: Triple) -> Triple {
     if let [Some(x), Some(y), Some(z)] = a.map(|component| arena.literal(component)) {
         let mut k = 0;
         for (l, component) in [x, y, z].iter().enumerate() {
-            if component.abs() < [x, y, z][k].abs() {
+            if component.abs() < [x, y, z][k].abs() - EQUAL {
                 k = l;
             }
         }
@@ -209,7 +212,6 @@ pub fn copies(arena: &mut Arena, model: &Model, joint: &JointUse, parameter: usi
         }
         _ => {
             let axis = of_body(arena, definition.first_body_of(parameter));
-            // Round-off must not decide which of equal components is the smallest.
             (clean(arena, axis, 1.0), false)
         }
     };
@@ -274,6 +276,11 @@ fn copy(
 /// opposite, so that both are right-handed with the other axis.
 fn taken_along(arena: &mut Arena, normals: [Triple; 2], a: Triple, axis: Triple) -> [Triple; 2] {
     let cosine = dot(arena, a, axis);
+    // Round-off must not decide what is nearer of a direction and its opposite where the axes are perpendicular.
+    let cosine = match arena.literal(cosine) {
+        Some(value) if value.abs() <= 8.0 * f64::EPSILON => Arena::ZERO,
+        _ => cosine,
+    };
     let sign = arena.sign(cosine);
     let b = axis.map(|component| arena.mul(sign, component));
     let difference = [0, 1, 2].map(|k| arena.sub(b[k], a[k]));
