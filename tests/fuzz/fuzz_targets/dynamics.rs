@@ -15,8 +15,6 @@ mod elements;
 mod generator;
 #[path = "../../../macros/engine/tests/mechanisms/inputs.rs"]
 mod inputs;
-#[path = "../../../macros/engine/tests/mechanisms/known.rs"]
-mod known;
 #[path = "../../../macros/engine/tests/common/language.rs"]
 mod language;
 #[path = "../../../macros/engine/tests/mechanisms/library.rs"]

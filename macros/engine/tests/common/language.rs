@@ -88,8 +88,8 @@ impl Pose {
 /// `k` of `a` is the smallest; axis, first and second are right-handed.
 pub(crate) fn normals(axis: Numbers) -> [Numbers; 2] {
     // Round-off must not decide between equals.
-    let size = axis.map(|c| (c.abs() * 1e9).round());
-    let smallest = (0..3).fold(0, |k, l| if size[l] < size[k] { l } else { k });
+    let size = axis.map(f64::abs);
+    let smallest = (0..3).fold(0, |k, l| if size[l] < size[k] - 1e-12 { l } else { k });
     let [x, y, z] = axis;
     let first = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]][smallest];
     let length = first.iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -47,6 +47,49 @@ pub(crate) struct Carried {
     pub(crate) copies: Vec<Numbers>,
     /// For an axis: its two normals.
     pub(crate) normals: Vec<[Numbers; 2]>,
+    /// For an axis: where it points in the described configuration, in global axes.
+    global: Vec<Numbers>,
+    /// For an axis: whether that depends on run-time values.
+    is_symbolic: Vec<bool>,
+}
+
+impl Carried {
+    /// Lets the normals be those of the axis on one of the bodies, and those that they become on the others by the least rotation that makes the
+    /// axes parallel: no rotation where they are, so that angles start at zero.
+    ///
+    /// Which body that is, is nobody's business but the engine's, as are the directions: only that they belong together can be judged.
+    pub(crate) fn take_normals_from(&mut self, first: usize, poses: &[Pose]) {
+        let Some(&from) = self.global.get(first) else {
+            return;
+        };
+        let pair = if self.is_symbolic[first] {
+            normals_without_cases(from)
+        } else {
+            normals(from)
+        };
+        let on_bodies = self.global.iter().zip(poses).map(|(&axis, pose)| {
+            let sign = if dot(from, axis) < -1e-9 { -1.0 } else { 1.0 };
+            let onto = axis.map(|component| sign * component);
+            // Rodrigues' formula: the sine's part, and the part along the axis of rotation.
+            let (about, cosine) = (cross(from, onto), dot(from, onto));
+            let [first, second] = pair.map(|normal| {
+                let turned = cross(about, normal);
+                let along = dot(about, normal) / (1.0 + cosine);
+                [0, 1, 2].map(|k| cosine * normal[k] + turned[k] + along * about[k])
+            });
+            let second = second.map(|component| sign * component);
+            [first, second].map(|normal| pose.local_of(normal))
+        });
+        self.normals = on_bodies.collect();
+    }
+}
+
+fn dot(a: Numbers, b: Numbers) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn cross(a: Numbers, b: Numbers) -> Numbers {
+    [(1, 2), (2, 0), (0, 1)].map(|(k, l)| a[k] * b[l] - a[l] * b[k])
 }
 
 /// A number of a joint.
@@ -517,36 +560,30 @@ impl Described {
             if is_axis { unit(copy) } else { copy }
         };
         let copies: Vec<Numbers> = (0..poses.len()).map(copy).collect();
-        let mut normals_on_bodies = Vec::new();
-        if is_axis {
-            // Found in global axes in the described configuration, and the same for axes that are parallel there, so that angles start at zero.
-            let mut known: Vec<(Numbers, [Numbers; 2])> = Vec::new();
-            for (place, pose) in poses.iter().enumerate() {
-                let (global, is_turned) = match &local {
-                    Some(_) => (
-                        pose.global_of(copies[place]),
-                        between[place].is_some_and(|body| self.bodies[body].is_symbolic),
-                    ),
-                    None => (unit(vector(expr, values)), false),
-                };
-                let parallel = |(other, _): &&(Numbers, [Numbers; 2])| {
-                    (0..3).all(|k| (other[k] - global[k]).abs() < 1e-9)
-                };
-                let pair = match known.iter().find(parallel) {
-                    Some((_, pair)) => *pair,
-                    None if is_turned || is_symbolic(expr, values) => normals_without_cases(global),
-                    None => normals(global),
-                };
-                known.push((global, pair));
-                normals_on_bodies.push(pair.map(|normal| pose.local_of(normal)));
-            }
-        }
-        Carried {
+        let mut carried = Carried {
             name,
             is_point,
             copies,
-            normals: normals_on_bodies,
+            normals: Vec::new(),
+            global: Vec::new(),
+            is_symbolic: Vec::new(),
+        };
+        if is_axis {
+            for (place, pose) in poses.iter().enumerate() {
+                let (global, is_symbolic) = match &local {
+                    Some(copies) => (
+                        pose.global_of(carried.copies[place]),
+                        is_symbolic(copies[place], values)
+                            || between[place].is_some_and(|body| self.bodies[body].is_symbolic),
+                    ),
+                    None => (unit(vector(expr, values)), is_symbolic(expr, values)),
+                };
+                carried.global.push(global);
+                carried.is_symbolic.push(is_symbolic);
+            }
+            carried.take_normals_from(0, &poses);
         }
+        carried
     }
 
     /// Where a body stands in the described configuration; `None` is the ground.

@@ -3,7 +3,6 @@
 use holonom_engine::model::ElementKind;
 
 use crate::elements::Wanted;
-use crate::known::{LOCAL_AXES_NOT_PARALLEL, TWO_ROWS_OF_THREE_BODIES};
 use crate::language::Pose;
 use crate::text::Text;
 use crate::writing::{Dice, Statement, Written, definition};
@@ -378,7 +377,7 @@ impl Generator {
         if self.dice.below(4) > 0 || is_picked {
             return self.vector(vector);
         }
-        let other = (LOCAL_AXES_NOT_PARALLEL && self.dice.below(2) == 0).then(|| self.dice.unit());
+        let other = (self.dice.below(2) == 0).then(|| self.dice.unit());
         let copies = bodies.iter().enumerate().map(|(place, &body)| {
             let vector = if place == 0 {
                 vector
@@ -504,7 +503,7 @@ impl Generator {
         let name = format!("Own{}", self.definitions.len());
         let fixed = |text: &str| vec![Statement::Row(text.to_string())];
         let statements = match (kind, bodies.len(), self.dice.below(4)) {
-            (ElementKind::Joint, 3, 0) if TWO_ROWS_OF_THREE_BODIES => {
+            (ElementKind::Joint, 3, 0) => {
                 let mut rows = fixed("j.p - i.p");
                 rows.extend(fixed("dot(k.a.normals(), j.a)"));
                 rows

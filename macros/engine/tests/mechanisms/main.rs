@@ -15,7 +15,6 @@ mod elements;
 mod found;
 mod generator;
 mod inputs;
-mod known;
 #[path = "../common/language.rs"]
 mod language;
 mod library;
@@ -46,9 +45,8 @@ fn random_mechanisms_against_a_dense_solution() {
     let wanted = setting("HOLONOM_MECHANISMS", 300);
     let first = setting("HOLONOM_SEED", 0);
     let mut statistics = Statistics::default();
-    let mut known: BTreeMap<&str, usize> = BTreeMap::new();
     let mut used: BTreeMap<&str, usize> = library::names().map(|name| (name, 0)).collect();
-    let mut refused = 0;
+    let (mut refused, mut refused_otherwise) = (0, 0);
     for seed in first.. {
         // In a long run, most of them quickly.
         let extent = if wanted > 10_000 && seed % 32 != 0 {
@@ -67,7 +65,10 @@ fn random_mechanisms_against_a_dense_solution() {
                 let occurring = types.filter(|(name, _)| text.contains(&format!(": {name},")));
                 occurring.for_each(|(_, count)| *count += 1);
             }
-            Outcome::Known(defect) => *known.entry(defect).or_default() += 1,
+            Outcome::RefusedOtherwise(why) => {
+                println!("seed {seed} is refused in another order: {why}");
+                refused_otherwise += 1;
+            }
             Outcome::Refused(why) => {
                 // What is wrong with these is said in sentences that other tests hold.
                 println!("seed {seed} is refused: {why}");
@@ -78,10 +79,14 @@ fn random_mechanisms_against_a_dense_solution() {
             break;
         }
     }
-    println!("{statistics}; refused: {refused}; with known defects: {known:?}");
+    println!("{statistics}; refused: {refused}, in another order only: {refused_otherwise}");
     assert!(
-        refused * 20 < wanted,
-        "most mechanisms are sound: {refused} refused"
+        refused * 10 < wanted && refused_otherwise * 100 <= wanted,
+        "most mechanisms are sound: {refused} refused, {refused_otherwise} in another order only"
+    );
+    assert!(
+        statistics.told * 50 < statistics.states && statistics.satisfied * 3 > statistics.states,
+        "most states are sound: {statistics}"
     );
     assert!(
         statistics.singular * 2 < statistics.states,

@@ -1,7 +1,6 @@
 //! What is left out of redundant equations follows from the rest: in position, in velocity, in acceleration.
 
 use crate::comparison::Comparison;
-use crate::known;
 use crate::reference::{Equations, State};
 use crate::solutions::System;
 
@@ -20,13 +19,7 @@ impl Comparison<'_> {
     /// Where the described configuration satisfies the equations: with velocities that satisfy the rest of them, those that are left out are
     /// satisfied by velocities and accelerations too.
     pub(crate) fn left_out(&self, state: &State) -> Result<(), String> {
-        let mut joints = self
-            .described
-            .elements
-            .iter()
-            .filter(|element| !element.is_force);
-        let is_driven = joints.any(|joint| joint.depends_on_time());
-        if !self.dropped.contains(&true) || (is_driven && !known::CONTRADICTIONS_IN_TIME) {
+        if !self.dropped.contains(&true) {
             return Ok(());
         }
         let Some((satisfied, condition)) = self.satisfying(state) else {

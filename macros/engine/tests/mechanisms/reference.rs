@@ -68,6 +68,9 @@ fn curve(at: &(Numbers, [f64; 4]), rate: Numbers, turn: Numbers) -> Pose {
     }
 }
 
+/// Equations that are violated by less than this, over the largest number on the way, hold.
+const HOLDS: f64 = 1e-11;
+
 const STILL: Numbers = [0.0; 3];
 
 /// The poses of all bodies, standing and moving.
@@ -283,6 +286,11 @@ impl Equations {
             self.angles.push((angle, rate));
         }
         Some(())
+    }
+
+    /// Whether the state is on the constraints.
+    pub(crate) fn hold(&self) -> bool {
+        self.phi.iter().all(|phi| phi.abs() <= HOLDS * self.scale)
     }
 
     /// The equations without some of the rows.

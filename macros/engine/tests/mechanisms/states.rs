@@ -1,7 +1,7 @@
 //! States of a mechanism: as it is described, and some way from there.
 
 use crate::reading::Described;
-use crate::reference::State;
+use crate::reference::{State, euler_rates};
 use crate::writing::Dice;
 
 impl State {
@@ -38,6 +38,28 @@ impl State {
             .iter_mut()
             .for_each(|turns| *turns = dice.below(7) as f64 - 3.0);
         state
+    }
+
+    /// After a small motion of all bodies; `None` for one that is not small.
+    pub(crate) fn moved(&self, described: &Described, motion: &[f64]) -> Option<Self> {
+        let mut state = self.clone();
+        let mut motion = motion.iter().copied();
+        let mut next = || {
+            let parts = [(); 3].map(|()| motion.next().unwrap_or(f64::NAN));
+            // Not a number is not small.
+            parts.iter().all(|x| x.abs() < 3.0).then_some(parts)
+        };
+        for ((r, p), body) in state.poses.iter_mut().zip(&described.bodies) {
+            let way = next()?;
+            *r = [0, 1, 2].map(|k| r[k] + way[k]);
+            if body.inertia.is_some() {
+                let rates = euler_rates(*p, next()?);
+                let turned = [0, 1, 2, 3].map(|k| p[k] + rates[k]);
+                let length = turned.iter().map(|e| e * e).sum::<f64>().sqrt();
+                *p = turned.map(|e| e / length);
+            }
+        }
+        Some(state)
     }
 
     /// With Euler parameters some percent too long or too short.

@@ -12,11 +12,11 @@ use holonom_engine::symbolic::scene::Reading;
 use crate::common::{checked, tokens};
 use crate::comparison::{Comparison, Extent, difference};
 use crate::inputs::{Coefficients, Inputs};
-use crate::known;
+use crate::language::Pose;
 use crate::library;
 use crate::reading::Described;
 use crate::reference::{Equations, State};
-use crate::solutions::{System, TOLERANCE, smallest};
+use crate::solutions::{SMALL, System, TOLERANCE, smallest};
 
 /// Texts of a mechanism.
 #[derive(Clone)]
@@ -31,8 +31,8 @@ pub(crate) struct Text {
 pub(crate) enum Outcome {
     /// The engine refuses it.
     Refused(String),
-    /// It holds what is known to be wrong.
-    Known(&'static str),
+    /// The engine refuses it as contradictory if its fields stand in another order.
+    RefusedOtherwise(String),
     Compared(Statistics),
 }
 
@@ -45,8 +45,10 @@ pub(crate) struct Statistics {
     pub(crate) equations: usize,
     pub(crate) loops: usize,
     pub(crate) dropped: usize,
-    /// States with what is known to be wrong.
-    pub(crate) known: usize,
+    /// States on the constraints.
+    pub(crate) satisfied: usize,
+    /// States off the constraints where a pivot vanishes, and the kernel says so, although the system is regular.
+    pub(crate) told: usize,
     /// States near a point where something has no derivative, and systems that are nearly singular.
     pub(crate) singular: usize,
     pub(crate) worst: f64,
@@ -61,7 +63,8 @@ impl Statistics {
         self.equations += other.equations;
         self.loops += other.loops;
         self.dropped += other.dropped;
-        self.known += other.known;
+        self.satisfied += other.satisfied;
+        self.told += other.told;
         self.singular += other.singular;
         self.worst = self.worst.max(other.worst);
         self.worst_direct = self.worst_direct.max(other.worst_direct);
@@ -77,15 +80,16 @@ impl Display for Statistics {
             equations,
             loops,
             dropped,
-            known,
+            satisfied,
+            told,
             singular,
             worst,
             worst_direct,
         } = self;
         write!(
             f,
-            "{mechanisms} mechanisms, {states} states, {solutions} solutions, {equations} equations, {loops} with loops, {dropped} equations \
-             left out, {singular} singular, {known} known to be wrong; largest deviation {worst:.1e} of the condition, {worst_direct:.1e} without a solution"
+            "{mechanisms} mechanisms, {states} states, {satisfied} on the constraints, {solutions} solutions, {equations} equations, {loops} with loops, {dropped} equations \
+             left out, {singular} singular, {told} with a small pivot off the constraints; largest deviation {worst:.1e} of the condition, {worst_direct:.1e} without a solution"
         )
     }
 }
@@ -113,6 +117,10 @@ impl Text {
             self.find(name).map(|(kind, text)| (kind, tokens(&text)))
         })?;
         let mut described = Described::read(&item, |name| Some(self.find(name)?.1));
+        let poses: Vec<Pose> = (0..described.bodies.len())
+            .map(|body| described.start(Some(body)))
+            .collect();
+        let start = |body: Option<usize>| body.map_or_else(Pose::ground, |body| poses[body]);
         for (element, used) in described.elements.iter_mut().zip(model.elements()) {
             let definition = model.definition(used);
             let turns = definition.turns.iter().map(|turn| {
@@ -120,6 +128,13 @@ impl Text {
                 (turn.from, turn.to, axis)
             });
             element.turns = turns.collect();
+            let poses: Vec<Pose> = element.between.iter().map(|&body| start(body)).collect();
+            for carried in &mut element.vectors {
+                let mut parameters = definition.parameters.iter();
+                let parameter = parameters.position(|p| p.name == carried.name);
+                let parameter = parameter.expect("a parameter");
+                carried.take_normals_from(definition.first_body_of(parameter), &poses);
+            }
         }
         Ok((model, described))
     }
@@ -135,17 +150,24 @@ impl Text {
             Ok(read) => read,
             Err(faults) => return Ok(Outcome::Refused(faults)),
         };
-        if let Some(defect) = known::defect(&model) {
-            return Ok(Outcome::Known(defect));
-        }
         let statistics = Comparison::new(&model, &described, seed, extent).run(seed)?;
         if extent == Extent::Quick || model.independence.dropped {
             // What is left out may be another choice.
             return Ok(Outcome::Compared(statistics));
         }
-        let (other_model, other) = shuffled
-            .read()
-            .map_err(|faults| format!("refused in another order: {faults}\n{}", shuffled.item))?;
+        let (other_model, other) = match shuffled.read() {
+            Ok(read) => read,
+            // Whether equations that nothing satisfies are seen to contradict each other depends on where a search for such a configuration ends.
+            Err(faults) if faults.contains("contradicts") => {
+                return Ok(Outcome::RefusedOtherwise(faults));
+            }
+            Err(faults) => {
+                return Err(format!(
+                    "refused in another order: {faults}\n{}",
+                    shuffled.item
+                ));
+            }
+        };
         let one = by_name(&model, &described);
         let two = by_name(&other_model, &other);
         if let (Some((one, round_off)), Some((two, _))) = (one, two)
@@ -167,9 +189,6 @@ impl Text {
 fn by_name(model: &Model, described: &Described) -> Option<(BTreeMap<String, Vec<f64>>, f64)> {
     let state = State::start(described, model.counters().len());
     let equations = Equations::new(described, &state)?;
-    if known::defect_at(described, &equations) {
-        return None;
-    }
     let mut right = equations.forces.clone();
     right.extend(&equations.gamma);
     let (_, round_off) = System::new(&equations, 0.0)?.solve(&right);
@@ -199,5 +218,6 @@ fn by_name(model: &Model, described: &Described) -> Option<(BTreeMap<String, Vec
             solution[first..first + model.equations(joint)].to_vec(),
         );
     }
-    Some((named, round_off / smallest(pivots, &evaluation.checks)))
+    let pivot = smallest(pivots, &evaluation.checks);
+    (pivot >= SMALL).then_some((named, round_off / pivot))
 }
