@@ -406,7 +406,7 @@ where
         } else {
             stretch::<S, M>(state)
         };
-        self.seen.stretch = self.seen.stretch.max(stretch);
+        self.seen.stretch = stretch;
         M::recount(&self.constants, state);
     }
 }
@@ -458,6 +458,7 @@ where
             power: self.power(time, state),
             pivot: self.pivot(watch.steps(), time, state),
             stretch: self.seen.stretch,
+            is_mended: P::NORMALISED && !P::NORMALISED_RATES,
         };
         if Self::YIELDS && watch.steps().is_multiple_of(BIAS_EVERY) {
             self.show_bias(watch, time, state);

@@ -43,6 +43,9 @@ pub(crate) struct Sizes<S: Scalar, M: Mechanism> {
     resolution: M::Multipliers<S>,
     /// What that is compared with: where it is no small part, nothing is resolved.
     whole: M::Multipliers<S>,
+    /// What counts as zero in any row: of velocities, those whose squares have lost digits to the end of the range of numbers. A mechanism that a law
+    /// brings to rest gets there.
+    vanishing: S,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Sizes<S, M> {
@@ -214,7 +217,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             all.rotation.max(before.rotation),
         );
         let mut own = own.as_slice().iter();
-        self.sizes(|row| {
+        let sizes = self.sizes(|row| {
             let own = own.next().copied().unwrap_or(S::zero());
             // The digits of places that an entry of `D` lacks.
             let lost = if row.length > S::zero() {
@@ -228,7 +231,11 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
                 terms: terms * lost + row.drift,
                 whole: terms + row.drift,
             }
-        })
+        });
+        Sizes {
+            vanishing: S::smallest().sqrt().quotient(S::EPSILON),
+            ..sizes
+        }
     }
 
     fn sizes(&self, mut size: impl FnMut(Row<S>) -> Size<S>) -> Sizes<S, M> {
@@ -236,6 +243,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             natural: M::Multipliers::<S>::zeros(),
             resolution: M::Multipliers::<S>::zeros(),
             whole: M::Multipliers::<S>::zeros(),
+            vanishing: S::zero(),
         };
         let rows = sizes.natural.as_mut_slice().iter_mut();
         let rows = rows.zip(sizes.resolution.as_mut_slice());
@@ -343,7 +351,9 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             .zip(self.rotation.as_slice())
             .zip(self.length.as_slice());
         parts.map(|((&translation, &rotation), &length)| {
-            let is_length = translation * length > S::EPSILON.sqrt() * rotation;
+            // A row of translations alone may have no length to go by.
+            let is_length = translation * length > S::EPSILON.sqrt() * rotation
+                || (translation > S::zero() && rotation == S::zero());
             let part = if is_length { translation } else { rotation };
             let size = if part > S::zero() { part } else { S::one() };
             (size, is_length)
@@ -417,8 +427,9 @@ impl<S: Real, M: Mechanism> Sizes<S, M> {
 
     /// Whether no row is violated by more than its terms resolve, so that no iteration can help.
     pub(crate) fn reached(&self, violation: &M::Multipliers<S>) -> bool {
-        self.rows(violation)
-            .all(|(violation, _, resolution, _)| violation <= S::constant(REACHED) * resolution)
+        self.rows(violation).all(|(violation, _, resolution, _)| {
+            violation <= (S::constant(REACHED) * resolution).max(self.vanishing)
+        })
     }
 
     /// Whether every row is violated by no more than a part of its size, or than what its terms resolve.
@@ -427,7 +438,7 @@ impl<S: Real, M: Mechanism> Sizes<S, M> {
             .all(|(violation, natural, resolution, whole)| {
                 let resolved = S::constant(RESOLVED) * resolution;
                 let resolved = resolved.min(S::constant(COARSEST) * whole);
-                violation <= (part * natural).max(resolved)
+                violation <= (part * natural).max(resolved).max(self.vanishing)
             })
     }
 

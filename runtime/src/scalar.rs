@@ -95,6 +95,11 @@ pub trait Real: Scalar + PartialOrd {
     /// `self` raised to a real power.
     fn powf(self, exponent: f64) -> Self;
 
+    /// The smallest positive number of all digits.
+    fn smallest() -> Self {
+        Self::constant(f64::MIN_POSITIVE)
+    }
+
     /// The distance from `|self|` to the next larger number of its type.
     fn ulp(self) -> Self {
         self.abs() * Self::EPSILON
@@ -237,6 +242,10 @@ macro_rules! real {
         #[diagnostic::do_not_recommend]
         impl Real for $float {
             const EPSILON: Self = <$float>::EPSILON;
+
+            fn smallest() -> Self {
+                <$float>::MIN_POSITIVE
+            }
 
             fn to_f64(self) -> f64 {
                 self.into()

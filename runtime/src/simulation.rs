@@ -212,9 +212,9 @@ where
         if !self.accepts_any_start {
             check_start::<S, M>(&constants, (start, end - start), &state)?;
         }
-        let watch = self.is_watched.then(|| {
-            Watch::new(&constants, start, &state).with_tolerance(self.integrator.tolerance())
-        });
+        let watch = self
+            .is_watched
+            .then(|| Watch::new(&constants, start, &state).over(&self.integrator));
         let run = Run {
             dynamics,
             projection: self.projection,

@@ -3,6 +3,7 @@
 use crate::array::{Array, StateParts};
 use crate::error::{Fault, Quantity};
 use crate::mechanism::Mechanism;
+use crate::rotation::read;
 use crate::scalar::Real;
 use crate::watch::{Meanings, extent};
 
@@ -21,7 +22,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
     let inexact = S::constant(INEXACT);
     let size = |is_length: bool| if is_length { length } else { S::one() };
     let phi = M::constraints(constants, time, state);
-    let resolution = S::constant(64.0) * S::EPSILON * largest(state.coordinates().as_slice());
+    let resolution = S::constant(8.0) * resolution::<S, M>(state);
     for (row, (&phi, &factor)) in phi.as_slice().iter().zip(rows.factors()).enumerate() {
         let is_length = rows.is_length(row);
         let violation = phi.abs() * factor;
@@ -63,4 +64,12 @@ fn fault<S: Real, M: Mechanism>(row: usize, quantity: Quantity, violation: S) ->
         quantity,
         violation: violation.to_f64(),
     }
+}
+
+/// What the digits of positions resolve (m): `EPSILON` of the largest.
+pub(crate) fn resolution<S: Real, M: Mechanism>(state: &M::State<S>) -> S {
+    let coordinates = state.coordinates().as_slice();
+    let positions = M::REPORT.bodies.iter();
+    let positions = positions.map(|body| largest(&read::<S, 3>(coordinates, body.coordinate)));
+    S::EPSILON * positions.fold(S::zero(), S::max)
 }

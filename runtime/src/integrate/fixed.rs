@@ -54,6 +54,10 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
     fn fixed_step(&self) -> Option<S> {
         Some(self.step)
     }
+
+    fn turning_error(&self) -> f64 {
+        self.scheme.turning_error()
+    }
 }
 
 /// An integration with a [`FixedStep`] under way.

@@ -102,6 +102,12 @@ pub trait Integrator<S: Real>: Copy + Debug {
         None
     }
 
+    /// By how much an angle (rad) is off, at most, where Euler parameters left length 1 by so much in a step of this method: their length and
+    /// their phase are wrong together.
+    fn turning_error(&self) -> f64 {
+        TURNING_ERROR
+    }
+
     /// The error to be allowed in a step, for a method that controls it.
     fn tolerance(&self) -> Option<Tolerance<S>> {
         None
@@ -135,6 +141,10 @@ pub trait Course<S: Real, X: Vector<S>> {
     fn counts(&self) -> Counts;
 }
 
+/// With `z` half the angle of a step, the classical Runge-Kutta method leaves `|p|` by `z^6 / 144` and an angle by `z^5 / 60`: this is their ratio for
+/// steps of half a radian.
+const TURNING_ERROR: f64 = 10.0;
+
 /// A one-step method of fixed coefficients.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not take single steps",
@@ -159,6 +169,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
         step: S,
         stages: &mut Self::Stages<Y::State>,
     ) -> Result<Y::State, Fault>;
+
+    /// See [`Integrator::turning_error`].
+    fn turning_error(&self) -> f64 {
+        TURNING_ERROR
+    }
 
     /// The state at the fraction `theta` (from 0 to 1) of a step.
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X;

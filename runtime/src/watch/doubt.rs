@@ -77,6 +77,15 @@ pub enum Doubt {
     Orientation {
         /// The largest `| |p| - 1 |` at the end of a step.
         drift: f64,
+        /// What angles may be off by at the end (rad): of all steps, estimated.
+        shift: f64,
+    },
+    /// The mechanism is so small, or so far from the origin, that the digits of its positions are few.
+    CoarseNumbers {
+        /// What they resolve (m).
+        resolution: f64,
+        /// The size of the mechanism (m).
+        size: f64,
     },
     /// A penalty yields so much that the motion is another.
     Compliance {
@@ -166,11 +175,18 @@ impl fmt::Display for Doubt {
                 Measured(absolute),
                 Measured(size)
             ),
-            Self::Orientation { drift } => write!(
+            Self::Orientation { drift, shift } => write!(
                 f,
-                "Euler parameters left length 1 by {} within a step: steps are too long for the angular velocities, or `Raw` reads too much \
-                 drift",
-                Measured(drift)
+                "Euler parameters left length 1 by up to {} in a step, and angles may be off by about {} rad: steps are too long for the angular \
+                 velocities, or `Raw` reads too much drift",
+                Measured(drift),
+                Measured(shift)
+            ),
+            Self::CoarseNumbers { resolution, size } => write!(
+                f,
+                "positions are known to {} m here, which is coarse for a mechanism of {} m: put the origin near to it, or compute in `f64`",
+                Measured(resolution),
+                Measured(size)
             ),
             Self::Compliance { bias, travel } => write!(
                 f,
@@ -213,7 +229,7 @@ fn amount(
 }
 
 /// The kinds of doubt that one run may raise.
-const KINDS: usize = 10;
+const KINDS: usize = 11;
 
 /// What is to be doubted of a run, the gravest first; empty where nothing is.
 ///

@@ -15,6 +15,8 @@ pub(super) struct Balance<S> {
     kinetic: S,
     exchanged: S,
     height: S,
+    /// By how much the integral of the power may be off (J): what the parabola changes of the trapezoid, step by step.
+    unsure: S,
     /// The last power (W) and the time of it, and the divided difference before.
     before: Option<(S, S)>,
     slope: Option<(S, S)>,
@@ -33,6 +35,7 @@ impl<S: Real> Balance<S> {
             kinetic,
             exchanged: zero,
             height: potential.abs(),
+            unsure: zero,
             before: None,
             slope: None,
             worst: (zero, zero),
@@ -69,7 +72,11 @@ impl<S: Real> Balance<S> {
             let mut work = S::constant(0.5) * step * (power + last);
             if let Some((former, former_step)) = self.slope {
                 let curvature = (slope - former).quotient(step + former_step);
-                work = work - curvature * step * step * step * S::constant(1.0 / 6.0);
+                let bend = curvature * step * step * step * S::constant(1.0 / 6.0);
+                work = work - bend;
+                self.unsure = self.unsure + bend.abs();
+            } else {
+                self.unsure = self.unsure + (power - last).abs() * step;
             }
             self.work = self.work + work;
             self.exchanged = self.exchanged.max(self.work.abs());
@@ -93,13 +100,21 @@ impl<S: Real> Balance<S> {
         (self.relative(self.worst.0), self.worst.1)
     }
 
+    /// Whether the work is known well enough for the balance to say anything.
+    pub(super) fn tells(&self, limit: f64) -> bool {
+        self.unsure <= S::constant(limit) * self.size()
+    }
+
     fn relative(&self, energy: S) -> S {
-        // Round-off of the energies themselves, as in a mechanism far from the origin.
+        // Round-off of the energies themselves, as in a mechanism far from the origin, and what is not known of the work.
         let digits = S::constant(64.0) * S::EPSILON * (self.height + self.kinetic);
-        if energy.abs() <= digits {
+        let sure = energy.abs() - digits - self.unsure;
+        if sure > S::zero() {
+            (if energy < S::zero() { -sure } else { sure }).quotient(self.size())
+        } else if sure <= S::zero() {
             S::zero()
         } else {
-            energy.quotient(self.size())
+            sure
         }
     }
 }

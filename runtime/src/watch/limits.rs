@@ -26,7 +26,7 @@ pub(super) const PHASE: f64 = 1e-2;
 /// Errors of single steps, as the step control estimates them, added up over a run of which no balance of energy tells more.
 pub(super) const ADDED_UP: f64 = 3e-2;
 
-/// The absolute tolerance over the length of the mechanism: below it elements of the state are right to that tolerance only.
+/// The absolute tolerance, or what the digits of positions resolve, over the length of the mechanism: below it elements of the state are right to that tolerance only.
 pub(super) const COARSE: f64 = 1e-4;
 
 /// `| |p| - 1 |` in a step: twice that is what a rotation matrix is off by where `p` is read as it is, and about what an angle is off by in one step

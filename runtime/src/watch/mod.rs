@@ -20,10 +20,12 @@ use self::energy::Balance;
 use self::singular::Approach;
 use crate::array::{Array, StateParts};
 use crate::handle::JointHandle;
+use crate::integrate::Integrator;
 use crate::mechanism::Mechanism;
 use crate::report::{BodyKind, JointInfo};
 use crate::rotation::read;
 use crate::scalar::{Real, Scalar};
+use crate::start::resolution;
 use crate::view::square;
 
 /// What the watch over a run saw: violations by joint, pivots, energy.
@@ -43,7 +45,13 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     travel: S,
     /// The time of the last step.
     time: S,
+    /// The largest `| |p| - 1 |` of a step, and the sum of all.
     stretch: S,
+    stretched: S,
+    /// What an angle is off by for each of it.
+    turning_error: S,
+    /// What the digits of the positions resolve at the start (m).
+    resolution: S,
     /// Steps, and what was excused in them.
     excused: Excused<S>,
     /// The tolerance of a method that controls its steps: relative, absolute.
@@ -162,8 +170,10 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     pub(crate) power: Option<S>,
     /// The relative pivot at this state, of formulations that have one.
     pub(crate) pivot: Option<crate::mechanism::Pivot<S>>,
-    /// The largest `| |p| - 1 |` at the end of a step so far.
+    /// The largest `| |p| - 1 |` of a body at the end of the step.
     pub(crate) stretch: S,
+    /// Whether it was mended, so that every step adds another.
+    pub(crate) is_mended: bool,
 }
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
@@ -185,6 +195,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             travel: S::zero(),
             time,
             stretch: S::zero(),
+            stretched: S::zero(),
+            turning_error: S::one(),
+            resolution: resolution::<S, M>(state),
             excused: Excused {
                 corrections: 0,
                 evaluations: 0,
@@ -197,8 +210,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    pub(crate) fn with_tolerance(mut self, tolerance: Option<crate::Tolerance<S>>) -> Self {
+    /// The watch over a run with this method.
+    pub(crate) fn over<I: Integrator<S>>(mut self, integrator: &I) -> Self {
+        let tolerance = integrator.tolerance();
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
+        self.turning_error = S::constant(integrator.turning_error());
         self
     }
 
@@ -212,6 +228,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             power,
             pivot,
             stretch,
+            is_mended,
         } = step;
         let factors = self.rows.factors();
         let phi = M::constraints(constants, time, state);
@@ -229,6 +246,10 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
         self.motion(time, state);
         self.stretch = self.stretch.max(stretch);
+        if is_mended {
+            let round_off = S::constant(4.0) * S::EPSILON;
+            self.stretched = self.stretched + (stretch - round_off).max(S::zero());
+        }
         self.steps = self.steps.saturating_add(1);
     }
 

@@ -12,7 +12,7 @@ pub(crate) struct Seen<S: Scalar, M: Mechanism> {
     pub(crate) multipliers: M::Multipliers<S>,
     /// The power (W) of forces from a closure in the last evaluation.
     pub(crate) applied_power: S,
-    /// The largest `| |p| - 1 |` at the end of a step, before it was mended.
+    /// The largest `| |p| - 1 |` of a body at the end of the last step, before it was mended.
     pub(crate) stretch: S,
 }
 

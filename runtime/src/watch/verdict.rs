@@ -22,6 +22,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.many_steps(),
             self.coarse(),
             self.orientation(),
+            self.resolution(),
         ])
     }
 
@@ -145,9 +146,13 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// Only where there is no balance of energy.
+    /// Only where there is no balance of energy that tells more.
     fn many_steps(&self) -> Option<Doubt> {
-        let (relative, _) = self.tolerance.filter(|_| self.balance.is_none())?;
+        let balance = self.balance.as_ref();
+        if balance.is_some_and(|balance| balance.tells(limits::ENERGY)) {
+            return None;
+        }
+        let (relative, _) = self.tolerance?;
         let sum = S::constant(self.steps as f64) * relative;
         above(sum, limits::ADDED_UP).then(|| Doubt::ManySteps {
             steps: self.steps,
@@ -165,9 +170,20 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
+    fn resolution(&self) -> Option<Doubt> {
+        let coarse = self.resolution > S::constant(limits::COARSE) * self.length;
+        coarse.then(|| Doubt::CoarseNumbers {
+            resolution: self.resolution.to_f64(),
+            size: self.length.to_f64(),
+        })
+    }
+
     fn orientation(&self) -> Option<Doubt> {
-        above(self.stretch, limits::LENGTH).then(|| Doubt::Orientation {
+        let shift = self.stretched * self.turning_error;
+        let doubted = above(self.stretch, limits::LENGTH) || above(shift, limits::PHASE);
+        doubted.then(|| Doubt::Orientation {
             drift: self.stretch.to_f64(),
+            shift: shift.to_f64(),
         })
     }
 
