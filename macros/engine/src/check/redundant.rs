@@ -49,6 +49,12 @@ pub(super) fn check(
             return;
         }
     }
+    if wish != Redundant::Keep {
+        dormant(model, faults);
+        if faults.any() {
+            return;
+        }
+    }
     match wish {
         Redundant::Drop if !matches!(model.independence.rank, Rank::Decided { .. }) => {
             faults.at(expr, undecided(model));
@@ -82,6 +88,26 @@ fn stuck(model: &Model, faults: &mut Faults) {
                 "`{name}[{row}]` does not hold in the described configuration, and no motion that begins there brings it nearer: look for \
                  axes of `{name}` that are parallel and should be perpendicular, and for points that should be apart; what is meant for \
                  another configuration is given by `local(..)`"
+            ),
+        );
+    }
+}
+
+/// One fault for each joint with an equation that says nothing where it was looked at, but not everywhere.
+fn dormant(model: &Model, faults: &mut Faults) {
+    let mut named: Vec<usize> = Vec::new();
+    for &(place, row) in &model.independence.dormant {
+        if named.contains(&place) {
+            continue;
+        }
+        named.push(place);
+        let name = &model.joints[place].name;
+        faults.at(
+            name,
+            format!(
+                "the gradient of `{name}[{row}]` vanishes wherever the equations hold, as far as they were followed, though not everywhere: the \
+                 equation follows from no others and cannot be left out, and its multiplier is not unique; write one whose gradient \
+                 does not vanish, or `redundant = \"keep\"` for formulations with a compliance (penalty, augmented Lagrangian)"
             ),
         );
     }

@@ -72,6 +72,9 @@ pub struct Independence {
     /// The equations, by joint and place, that are violated in the described configuration where their gradients vanish, if nothing near
     /// it satisfies all.
     pub stuck: Vec<(usize, usize)>,
+    /// The equations among the redundant ones, by joint and place, whose gradients vanish wherever the mechanism got to, but not everywhere:
+    /// they follow from nothing, and may say something yet.
+    pub dormant: Vec<(usize, usize)>,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
     /// Whether they are gone.

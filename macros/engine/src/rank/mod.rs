@@ -58,10 +58,8 @@ pub fn judge(model: &Model) -> Independence {
             Some(contradictions(model, found, &kept, &rows))
         });
         let layout = model.layout();
-        let stuck = constraints.stuck(&described).into_iter().map(|row| {
-            let joint = joint_of(&layout, row);
-            (joint, row - layout.row[joint])
-        });
+        let stuck = constraints.stuck(&described).into_iter();
+        let stuck = stuck.map(|row| place_of(&layout, row));
         return Independence {
             stuck: stuck.collect(),
             contradictions: found.unwrap_or_default(),
@@ -130,13 +128,6 @@ pub fn judge(model: &Model) -> Independence {
                 ..not(Rank::Decided { rank, at_start })
             };
         }
-        if begins(&constraints, &directions, &missed) {
-            // What it says from then on is not known.
-            return Independence {
-                is_driven: true,
-                ..not(Rank::NotAssembled)
-            };
-        }
         let heading = random.motion(model.layout().velocities);
         let mut tour = tour::tour(&constraints, &start, heading);
         // One way through the start.
@@ -144,8 +135,11 @@ pub fn judge(model: &Model) -> Independence {
         tour.extend(way);
         kept = choice::steady(kept, &tour, TOLERANCE);
     }
+    let layout = model.layout();
+    let dormant = dormant(&constraints, &directions).into_iter();
     Independence {
         redundant: redundant(model, &kept, &directions[first_regular]),
+        dormant: dormant.map(|row| place_of(&layout, row)).collect(),
         is_driven: constraints.is_driven(),
         ..not(Rank::Decided { rank, at_start })
     }
@@ -220,19 +214,12 @@ fn walk(
     configurations
 }
 
-/// Whether a row that vanishes wherever the mechanism got to does not where it could not be followed.
-fn begins(constraints: &Constraints, directions: &[Rows], missed: &[Configuration]) -> bool {
-    let Some(later) = missed
-        .last()
-        .and_then(|at| constraints.directions(at, TOLERANCE))
-    else {
-        return false;
-    };
+/// The rows that vanish at all configurations, though not everywhere.
+fn dormant(constraints: &Constraints, directions: &[Rows]) -> Vec<usize> {
     let vanishes = |row: usize| directions.iter().all(|rows| norm(&rows[row]) == 0.0);
-    later
-        .iter()
-        .enumerate()
-        .any(|(row, direction)| norm(direction) > 0.0 && vanishes(row))
+    (0..constraints.sizes.len())
+        .filter(|&row| constraints.sizes[row].is_some() && vanishes(row))
+        .collect()
 }
 
 /// The rows that part from those that they depend on where a mechanism could not be followed in time, which are violated at all configurations that
@@ -304,10 +291,10 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
                 .map(|(&other, _)| joint_of(&layout, other))
                 .collect();
             follows_from.dedup();
-            let joint = joint_of(&layout, row);
+            let (joint, row) = place_of(&layout, row);
             RedundantRow {
                 joint,
-                row: row - layout.row[joint],
+                row,
                 follows_from,
             }
         })
@@ -318,6 +305,12 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
 fn joint_of(layout: &Layout, row: usize) -> usize {
     let joint = layout.row.iter().rposition(|&first| first <= row);
     joint.unwrap_or(0)
+}
+
+/// The joint of a row, and its place among those of the joint.
+fn place_of(layout: &Layout, row: usize) -> (usize, usize) {
+    let joint = joint_of(layout, row);
+    (joint, row - layout.row[joint])
 }
 
 /// Numbers without a pattern, the same at every expansion (Marsaglia's xorshift).

@@ -1,5 +1,7 @@
 //! What is left out of redundant equations follows from the rest: in position, in velocity, in acceleration.
 
+use holonom_engine::rank::TOLERANCE as RESOLVED;
+
 use crate::comparison::Comparison;
 use crate::reference::{Equations, State};
 use crate::solutions::System;
@@ -39,7 +41,9 @@ impl Comparison<'_> {
         right.extend(&kept.gamma);
         let (solution, _) = system.solve(&right);
         let accelerations = &solution[..kept.forces.len()];
-        let bound = TOLERANCE * condition * (all.scale + largest(accelerations));
+        // The engine takes rows for dependent that stand out from each other by less than it resolves, so that numbers of six digits may be given.
+        let tolerance = (TOLERANCE * condition).max(10.0 * RESOLVED);
+        let bound = tolerance * (all.scale + largest(accelerations));
         for (row, gradient) in all.gradients.iter().enumerate() {
             let found: f64 = gradient.iter().zip(accelerations).map(|(d, a)| d * a).sum();
             let rest = found - all.gamma[row];
