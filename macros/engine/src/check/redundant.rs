@@ -59,6 +59,13 @@ pub(super) fn check(
         Redundant::Drop if !matches!(model.independence.rank, Rank::Decided { .. }) => {
             faults.at(expr, undecided(model));
         }
+        Redundant::Drop if model.independence.is_alone => {
+            faults.at(
+                expr,
+                "no equations can be left out: no other configuration that satisfies all of them was found near the described one, and there they \
+                 may depend on each other by chance; look for constraints that only touch each other, and for a singular start",
+            );
+        }
         Redundant::Refuse => refuse(model, faults),
         Redundant::Keep => {}
         Redundant::Drop => {

@@ -75,6 +75,9 @@ pub struct Independence {
     /// The equations among the redundant ones, by joint and place, whose gradients vanish wherever the mechanism got to, but not everywhere:
     /// they follow from nothing, and may say something yet.
     pub dormant: Vec<(usize, usize)>,
+    /// Whether no other configuration was found near the described one, although the rank leaves motion free: there rows may depend on each
+    /// other by chance.
+    pub is_alone: bool,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
     /// Whether they are gone.

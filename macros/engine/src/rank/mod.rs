@@ -136,10 +136,12 @@ pub fn judge(model: &Model) -> Independence {
         kept = choice::steady(kept, &tour, TOLERANCE);
     }
     let layout = model.layout();
+    let is_alone = configurations.len() == 1 && rank < layout.rows.min(layout.velocities);
     let dormant = dormant(&constraints, &directions).into_iter();
     Independence {
         redundant: redundant(model, &kept, &directions[first_regular]),
         dormant: dormant.map(|row| place_of(&layout, row)).collect(),
+        is_alone,
         is_driven: constraints.is_driven(),
         ..not(Rank::Decided { rank, at_start })
     }

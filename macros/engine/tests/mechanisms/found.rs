@@ -90,3 +90,33 @@ fn mechanisms_that_failed_once() {
         }
     }
 }
+
+/// A bar along the axis of a link, as long as the link's offset: it touches, and there its equation follows from those of the link.
+const TOUCHING: &str = "
+    #[mechanism(redundant = \"drop\")]
+    pub struct Random {
+        #[body(mass = 1.7, inertia = [1.3, 1.2, 1.7], position = [1.0, 1.0, 0.5])]
+        a: Body,
+        #[body(mass = 0.9, inertia = [
+            [1.1, -0.2, -0.08],
+            [-0.2, 1.0, 0.07],
+            [-0.08, 0.07, 0.8],
+        ], position = [1.0, 0.5, 0.5])]
+        b: Body,
+        #[joint(between = [a, b], head = [0.0, 0.0, 0.25], tail = [0.0, 0.0, 0.0], length = 0.25)]
+        bar: Distance,
+        #[joint(between = [a, b], first = [-0.5, -0.5, 0.0], second = [0.5, 0.25, 1.0], axis = [0.0, 0.0, -2.0])]
+        link: RevoluteRevolute,
+    }";
+
+#[test]
+fn a_singular_start_without_neighbours_leaves_nothing_out() {
+    let text = Text {
+        item: TOUCHING.into(),
+        definitions: Vec::new(),
+    };
+    let Ok(Outcome::Refused(why)) = text.check(&text, 0, Extent::Quick) else {
+        panic!("not refused");
+    };
+    assert!(why.contains("may depend on each other by chance"), "{why}");
+}

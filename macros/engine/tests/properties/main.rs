@@ -20,7 +20,7 @@ mod reading;
 #[path = "../common/writing.rs"]
 mod writing;
 
-use common::{delivered, tokens};
+use common::{checked, tokens};
 use holonom_engine::model::{ElementKind, Model};
 use holonom_engine::symbolic::arena::{Arena, Expr, Input};
 use holonom_engine::symbolic::evaluate::evaluate;
@@ -221,18 +221,32 @@ fn deviation(derived: &[f64], judged: &[f64], scale: f64) -> f64 {
 }
 
 fn model(joint: &Joint) -> Model {
+    sound_model(joint).unwrap_or_else(|faults| panic!("faults: {faults}\n{joint}"))
+}
+
+/// The model, or why the engine refuses it.
+fn sound_model(joint: &Joint) -> Result<Model, String> {
     let text = joint.definition();
     let find = |name: &str| (name == "Any").then(|| (joint.kind, tokens(&text)));
-    delivered(&tokens(&joint.mechanism()), find)
+    checked(&tokens(&joint.mechanism()), find)
 }
 
 #[test]
 fn random_joints_against_dual_numbers() {
     let mut dice = Dice::new(1);
     let (mut compared, mut equations, mut worst) = (0, 0, 0.0_f64);
+    let mut refused = 0;
     for _ in 0..JOINTS {
         let joint = Joint::random(ElementKind::Joint, &mut dice);
-        let model = model(&joint);
+        let model = match sound_model(&joint) {
+            Ok(model) => model,
+            // As `cross(axis.normals(), v)`, which asks both normals to have one direction.
+            Err(faults) if faults.contains("contradicts") => {
+                refused += 1;
+                continue;
+            }
+            Err(faults) => panic!("faults: {faults}\n{joint}"),
+        };
         let angles = joint.turns(&model);
         let bodies = model.bodies.len();
         let scenes = [
@@ -294,7 +308,7 @@ fn random_joints_against_dual_numbers() {
     }
     println!("{compared} states, {equations} equations: largest deviation {worst:.1e}");
     assert!(
-        compared > JOINTS * STATES / 2,
-        "most states are sound: {compared}"
+        compared > JOINTS * STATES / 2 && refused * 10 < JOINTS,
+        "most states are sound: {compared}, {refused} joints refused"
     );
 }
