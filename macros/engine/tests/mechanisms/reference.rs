@@ -145,7 +145,7 @@ impl<'a> Motion<'a> {
 }
 
 impl Equations {
-    /// `None` near a point where something has no derivative.
+    /// `None` near a point where something has no derivative, or is beyond all numbers.
     pub(crate) fn new(described: &Described, state: &State) -> Option<Self> {
         let mut motion = Motion::new(described, state);
         let velocities = motion.first[described.bodies.len()];
@@ -177,7 +177,11 @@ impl Equations {
             equations.counters(&mut motion, element)?;
         }
         equations.scale = motion.scale;
-        Some(equations)
+        // Exponentials of exponentials are soon beyond all numbers.
+        let numbers = equations.phi.iter().chain(&equations.rate);
+        let numbers = numbers.chain(&equations.gamma).chain(&equations.forces);
+        let mut numbers = numbers.chain(equations.gradients.iter().flatten());
+        numbers.all(|x| x.is_finite()).then_some(equations)
     }
 
     fn bodies(&mut self, motion: &Motion<'_>) {
