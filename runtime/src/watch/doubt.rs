@@ -66,6 +66,11 @@ pub enum Doubt {
         /// The relative tolerance of each.
         tolerance: f64,
     },
+    /// Forces, drivers or potentials change faster than fixed steps follow.
+    CoarseSteps {
+        /// How much of their work is not known.
+        share: f64,
+    },
     /// The absolute tolerance is coarse for a mechanism of this size.
     CoarseTolerance {
         /// The absolute tolerance.
@@ -169,6 +174,11 @@ impl fmt::Display for Doubt {
                  smaller tolerance",
                 Measured(tolerance)
             ),
+            Self::CoarseSteps { share } => write!(
+                f,
+                "forces change faster than the steps follow: {} of their work is not known; use a smaller step, or a method that controls its steps",
+                Measured(share)
+            ),
             Self::CoarseTolerance { absolute, size } => write!(
                 f,
                 "the absolute tolerance {} is coarse for a mechanism of {} m: give one in proportion to its size",
@@ -229,7 +239,7 @@ fn amount(
 }
 
 /// The kinds of doubt that one run may raise.
-const KINDS: usize = 11;
+const KINDS: usize = 12;
 
 /// What is to be doubted of a run, the gravest first; empty where nothing is.
 ///

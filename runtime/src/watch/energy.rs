@@ -17,6 +17,8 @@ pub(super) struct Balance<S> {
     height: S,
     /// By how much the integral of the power may be off (J): what the parabola changes of the trapezoid, step by step.
     unsure: S,
+    /// The work whatever its sign (J).
+    turnover: S,
     /// The last power (W) and the time of it, and the divided difference before.
     before: Option<(S, S)>,
     slope: Option<(S, S)>,
@@ -36,6 +38,7 @@ impl<S: Real> Balance<S> {
             exchanged: zero,
             height: potential.abs(),
             unsure: zero,
+            turnover: zero,
             before: None,
             slope: None,
             worst: (zero, zero),
@@ -64,12 +67,24 @@ impl<S: Real> Balance<S> {
         }
     }
 
+    /// Takes the work (J) of a step that was estimated twice.
+    pub(super) fn add(&mut self, work: [S; 2]) {
+        let [a, b] = work;
+        let half = S::constant(0.5);
+        self.work = self.work + half * (a + b);
+        self.unsure = self.unsure + half * (a - b).abs();
+        self.turnover = self.turnover + half * (a.abs() + b.abs());
+        self.exchanged = self.exchanged.max(self.work.abs());
+    }
+
     /// The integral of the power over a step, by the parabola through this step's ends and the end before.
     fn add_work(&mut self, time: S, power: S) {
         if let Some((then, last)) = self.before {
             let step = time - then;
             let slope = (power - last).quotient(step);
             let mut work = S::constant(0.5) * step * (power + last);
+            let turnover = S::constant(0.5) * step * (power.abs() + last.abs());
+            self.turnover = self.turnover + turnover;
             if let Some((former, former_step)) = self.slope {
                 let curvature = (slope - former).quotient(step + former_step);
                 let bend = curvature * step * step * step * S::constant(1.0 / 6.0);
@@ -103,6 +118,15 @@ impl<S: Real> Balance<S> {
     /// Whether the work is known well enough for the balance to say anything.
     pub(super) fn tells(&self, limit: f64) -> bool {
         self.unsure <= S::constant(limit) * self.size()
+    }
+
+    /// How much of the work is not known, whatever its sign: large where forces change faster than steps follow.
+    pub(super) fn doubt_of_work(&self) -> S {
+        if self.unsure > S::zero() {
+            self.unsure.quotient(self.turnover)
+        } else {
+            S::zero()
+        }
     }
 
     fn relative(&self, energy: S) -> S {

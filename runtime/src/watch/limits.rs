@@ -26,6 +26,10 @@ pub(super) const PHASE: f64 = 1e-2;
 /// Errors of single steps, as the step control estimates them, added up over a run of which no balance of energy tells more.
 pub(super) const ADDED_UP: f64 = 3e-2;
 
+/// How much of the work of forces over a step may be unknown, where two rules for it disagree, with steps that nothing controls: at about two radians of an
+/// oscillation a step.
+pub(super) const FOLLOWED: f64 = 0.3;
+
 /// The absolute tolerance, or what the digits of positions resolve, over the length of the mechanism: below it elements of the state are right to that tolerance only.
 pub(super) const COARSE: f64 = 1e-4;
 

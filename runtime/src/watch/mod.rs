@@ -37,7 +37,9 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     position: Worst<S, M>,
     velocity: Worst<S, M>,
     approach: Option<Approach<S>>,
-    balance: Option<Balance<S>>,
+    balance: Balance<S>,
+    /// The end of the last step, where potentials change with time by themselves.
+    before: Option<(S, M::State<S>)>,
     /// The largest speed (m/s) and angular velocity (rad/s).
     speed: S,
     spin: S,
@@ -178,7 +180,7 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
     pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
-        let has_balance = !M::REPORT.time.potential;
+        let kinetic = M::kinetic_energy(constants, state);
         Self {
             rows: Meanings::at(constants, time, state),
             length: extent::<S, M>(constants, state),
@@ -186,10 +188,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             position: Worst::none(time),
             velocity: Worst::none(time),
             approach: None,
-            balance: has_balance.then(|| {
-                let kinetic = M::kinetic_energy(constants, state);
-                Balance::new(kinetic, M::potential_energy(constants, time, state))
-            }),
+            balance: Balance::new(kinetic, M::potential_energy(constants, time, state)),
+            before: None,
             speed: S::zero(),
             spin: S::zero(),
             travel: S::zero(),
@@ -239,11 +239,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             let approach = self.approach.get_or_insert_with(Approach::new);
             approach.step(time, pivot);
         }
-        if let Some(balance) = &mut self.balance {
-            let kinetic = M::kinetic_energy(constants, state);
-            let potential = M::potential_energy(constants, time, state);
-            balance.step(time, kinetic, potential, power);
+        let kinetic = M::kinetic_energy(constants, state);
+        let potential = M::potential_energy(constants, time, state);
+        if M::REPORT.time.potential {
+            self.work_by_time(constants, time, state, potential);
         }
+        self.balance.step(time, kinetic, potential, power);
         self.motion(time, state);
         self.stretch = self.stretch.max(stretch);
         if is_mended {
@@ -251,6 +252,22 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.stretched = self.stretched + (stretch - round_off).max(S::zero());
         }
         self.steps = self.steps.saturating_add(1);
+    }
+
+    /// What a potential gains by the time alone, at either end of a step.
+    fn work_by_time(
+        &mut self,
+        constants: &M::Constants<S>,
+        time: S,
+        state: &M::State<S>,
+        potential: S,
+    ) {
+        if let Some((then, before)) = self.before.replace((time, *state)) {
+            let energy = |time, state| M::potential_energy(constants, time, state);
+            let at_start = energy(time, &before) - energy(then, &before);
+            self.balance
+                .add([at_start, potential - energy(then, state)]);
+        }
     }
 
     fn motion(&mut self, time: S, state: &M::State<S>) {
@@ -316,9 +333,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Forces may jump here.
     pub(crate) fn restart(&mut self) {
-        if let Some(balance) = &mut self.balance {
-            balance.restart();
-        }
+        self.balance.restart();
     }
 
     /// Counts a correction that was accepted without convergence.
@@ -372,11 +387,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// The change of energy that no force and no driver accounts for, over the energy that the mechanism exchanges; `None` for potentials that change with time
-    /// by themselves. The work of forces is summed from step to step, good to some thousandths.
+    /// The change of energy that no force and no driver accounts for, over the energy that the mechanism exchanges; `None` where the work of forces, summed
+    /// from step to step, is not known to a hundredth of that. What is not known of it is not counted.
     #[must_use]
     pub fn energy_drift(&self) -> Option<S> {
-        self.balance.as_ref().map(Balance::drift)
+        let tells = self.balance.tells(limits::ENERGY);
+        tells.then(|| self.balance.drift())
     }
 
     /// The largest `| |p| - 1 |` of Euler parameters at the end of a step, before they were brought to length 1.

@@ -23,11 +23,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.coarse(),
             self.orientation(),
             self.resolution(),
+            self.coarse_steps(),
         ])
     }
 
     fn energy(&self) -> Option<Doubt> {
-        let (change, time) = self.balance.as_ref()?.worst();
+        let (change, time) = self.balance.worst();
         above(change.abs(), limits::ENERGY).then(|| Doubt::Energy {
             change: change.to_f64(),
             time: time.to_f64(),
@@ -35,8 +36,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn phase(&self) -> Option<Doubt> {
-        let balance = self.balance.as_ref()?;
-        let change = balance.drift();
+        let change = self.balance.drift();
         let shift = S::constant(0.5) * change.abs() * self.travel;
         (above(shift, limits::PHASE) && self.energy().is_none()).then(|| Doubt::Phase {
             change: change.to_f64(),
@@ -148,8 +148,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Only where there is no balance of energy that tells more.
     fn many_steps(&self) -> Option<Doubt> {
-        let balance = self.balance.as_ref();
-        if balance.is_some_and(|balance| balance.tells(limits::ENERGY)) {
+        if self.balance.tells(limits::ENERGY) {
             return None;
         }
         let (relative, _) = self.tolerance?;
@@ -157,6 +156,17 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         above(sum, limits::ADDED_UP).then(|| Doubt::ManySteps {
             steps: self.steps,
             tolerance: relative.to_f64(),
+        })
+    }
+
+    /// Only where nothing controls the steps.
+    fn coarse_steps(&self) -> Option<Doubt> {
+        let share = self.balance.doubt_of_work();
+        // The work of a first step is not known, that of the next ones depends on it.
+        let begun = self.steps > 8;
+        let doubted = begun && self.tolerance.is_none() && above(share, limits::FOLLOWED);
+        doubted.then(|| Doubt::CoarseSteps {
+            share: share.to_f64(),
         })
     }
 

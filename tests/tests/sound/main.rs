@@ -8,6 +8,7 @@ mod limits;
 mod long;
 mod orientation;
 mod origins;
+mod outside;
 mod readings;
 mod scales;
 mod singular;

@@ -1,0 +1,162 @@
+//! What somebody found who had the documents alone.
+
+use holonom::forces::Actuator;
+use holonom::joints::{AngleDriver, PointOnLine, Revolute};
+use holonom::prelude::*;
+use holonom::{Doubt, Integrator, Real};
+
+holonom::force! {
+    /// A spring whose other end is shaken.
+    force Shaken(i, j; head: Point, tail: Point, axis: Axis, stiffness: Number, frequency: Number) {
+        let off = dot(i.axis, j.tail - i.head) - 0.5 * sin(frequency * time);
+        potential 0.5 * stiffness * off * off;
+    }
+}
+
+/// An arm that a motor turns by a quarter and holds there.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81])]
+struct Arm {
+    #[body(mass = 1.0, inertia = [0.1, 0.01, 0.1], position = [0.0, 0.5, 0.0])]
+    arm: Body,
+    #[joint(between = [ground, arm], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    hinge: Revolute,
+    #[joint(between = [ground, arm], axis = [1.0, 0.0, 0.0], motion = 0.25 * TAU * smooth_step(time / 2.0))]
+    motor: AngleDriver,
+}
+
+/// A cart under a force that changes faster than the steps of a default run are meant for.
+#[derive(Mechanism)]
+struct Cart {
+    #[body(mass = 1.0, position = [1.0, 0.0, 0.0])]
+    cart: Particle,
+    #[joint(between = [ground, cart], point = [1.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    track: PointOnLine,
+    #[force(between = [ground, cart], head = [-10.0, 0.0, 0.0], tail = [1.0, 0.0, 0.0], force = 5.0 * sin(frequency * time))]
+    push: Actuator,
+    #[param]
+    frequency: f64,
+}
+
+/// A cart on a spring that is shaken at 30 rad/s, at fixed steps.
+#[derive(Mechanism)]
+struct Shaker {
+    #[body(mass = 1.0)]
+    cart: Particle,
+    #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    track: PointOnLine,
+    #[force(
+        between = [ground, cart],
+        head = [0.0, 0.0, 0.0],
+        tail = [0.0, 0.0, 0.0],
+        axis = [1.0, 0.0, 0.0],
+        stiffness = 4.0,
+        frequency = 30.0
+    )]
+    spring: Shaken,
+}
+
+#[derive(Mechanism)]
+struct Wheel {
+    #[body(mass = 1.0, inertia = [0.2, 0.2, 0.3], angular_velocity = [0.0, 0.0, 10.0])]
+    wheel: Body,
+    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+}
+
+/// A rod of a millimetre a thousand kilometres away.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81])]
+struct Far {
+    #[body(mass = 1.0, inertia = [1e-7, 1e-9, 1e-7], position = [0.0, 1000000.0005, 0.0])]
+    rod: Body,
+    #[joint(between = [ground, rod], point = [0.0, 1e6, 0.0], axis = [1.0, 0.0, 0.0])]
+    hinge: Revolute,
+}
+
+fn doubts<S: Real, M: Mechanism, I: Integrator<S>>(
+    mechanism: &M,
+    integrator: I,
+    duration: S,
+) -> Vec<Doubt> {
+    let report = Simulation::new(mechanism, StandardLagrange, integrator)
+        .run(S::zero()..=duration, every(duration), |_| {
+            ControlFlow::Continue(())
+        })
+        .expect("nothing stops it");
+    let doubts: Vec<Doubt> = report.doubts().into_iter().collect();
+    doubts.iter().for_each(|doubt| println!("{doubt}"));
+    doubts
+}
+
+/// Its velocities fall below the range of numbers, step by step.
+#[test]
+fn a_motor_that_comes_to_rest_is_corrected_for_ever() {
+    for projected in [
+        DormandPrince::default(),
+        DormandPrince::default().largest_step(0.01),
+    ] {
+        let arm = Arm::default();
+        let report = Simulation::new(&arm, StandardLagrange, projected)
+            .projection(Projection::default())
+            .run(0.0..=60.0, every(1.0), |_| ControlFlow::Continue(()))
+            .expect("it rests");
+        assert!(report.doubts().is_empty(), "{}", report.doubts());
+    }
+}
+
+/// `x'' = 5 sin(w t)`: right to 1e-4 at the defaults, which is no reason to doubt.
+#[test]
+fn a_fast_force_is_no_reason_to_doubt() {
+    for frequency in [1.0, 2.0, 20.0, 63.0] {
+        let cart = Cart::new(frequency).expect("acceptable");
+        let found = doubts(&cart, DormandPrince::default(), 20.0);
+        assert!(found.is_empty(), "{frequency} rad/s: {found:?}");
+    }
+}
+
+#[test]
+fn steps_that_do_not_follow_a_force_are_doubted() {
+    let found = doubts(&Shaker::default(), Rk4::every(0.2), 20.0);
+    assert!(
+        found
+            .iter()
+            .any(|doubt| matches!(doubt, Doubt::Energy { .. }))
+    );
+    let cart = Cart::new(30.0).expect("acceptable");
+    let found = doubts(&cart, Rk4::every(0.1), 20.0);
+    assert!(
+        found
+            .iter()
+            .any(|doubt| matches!(doubt, Doubt::CoarseSteps { .. }))
+    );
+    assert!(doubts(&Shaker::default(), Rk4::every(0.005), 20.0).is_empty());
+    assert!(doubts(&Shaker::default(), DormandPrince::default(), 20.0).is_empty());
+}
+
+/// The energy of a wheel says nothing of its phase.
+#[test]
+fn phases_of_a_wheel_are_doubted_at_long_steps() {
+    for step in [0.05, 0.08] {
+        let found = doubts(&Wheel::default(), Rk4::every(step), 100.0);
+        assert!(
+            found
+                .iter()
+                .any(|doubt| matches!(doubt, Doubt::Orientation { .. })),
+            "{step}"
+        );
+    }
+    assert!(doubts(&Wheel::default(), Rk4::every(0.01), 100.0).is_empty());
+    assert!(doubts(&Wheel::default(), DormandPrince::default(), 100.0).is_empty());
+    assert!(doubts(&Wheel::default(), Rk4::every(0.01_f32), 100.0).is_empty());
+}
+
+#[test]
+fn a_mechanism_below_the_digits_of_its_place_is_doubted() {
+    let found = doubts(&Far::default(), Rk4::every(1e-4_f32), 0.01);
+    assert!(
+        found
+            .iter()
+            .any(|doubt| matches!(doubt, Doubt::CoarseNumbers { .. }))
+    );
+}
