@@ -441,7 +441,7 @@ where
     #[inline(always)]
     fn look(&mut self, evaluation: &Evaluation<S, M>) {
         if !F::Terms::COMPLIANT {
-            self.seen.last.relative = evaluation.pivot.relative;
+            self.seen.last = evaluation.pivot;
         }
         if M::REPORT.time.constraints {
             self.seen.multipliers = evaluation.multipliers;

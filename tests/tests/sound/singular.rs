@@ -47,6 +47,8 @@ struct Mark<M> {
     point: Vector3<f64>,
     place: Vector3<f64>,
     duration: f64,
+    /// The joint whose equations come to depend on the others.
+    joint: &'static str,
 }
 
 /// The top left pin after five turns and ten times on a line: closed form, see the references.
@@ -56,6 +58,7 @@ fn four_bar() -> Mark<FourBar> {
         point: FourBar::TOP.into(),
         place: Vector3::new(0.478_385_057_760_970_56, 0.878_150_178_791_209_3, 0.0),
         duration: 10.0,
+        joint: "right_pin",
     }
 }
 
@@ -86,6 +89,7 @@ fn equal_links() -> Mark<EqualLinks> {
             Vector3::new(cosine, sine, 0.0)
         },
         duration,
+        joint: "slider_pin",
     }
 }
 
@@ -127,6 +131,11 @@ fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
                 is_right || !doubts.is_empty(),
                 "{what}: wrong without a word"
             );
+            for doubt in doubts {
+                if let Doubt::NearlySingular { joint, .. } = doubt {
+                    assert_eq!(joint, mark.joint, "{what}");
+                }
+            }
             // Right or wrong, it was a matter of luck.
             let told = |doubt: &Doubt| !matches!(doubt, Doubt::CoarseTolerance { .. });
             assert!(
