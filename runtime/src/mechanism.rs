@@ -387,7 +387,7 @@ pub struct Normalised;
 /// `p / |p|` in the place of `p`, in `A(p)` and in `p' = 1/2 L(p)^T w`, and `p` left at the length that it has: the reading behind the published
 /// counts of chapter 15 (Flores 2015), here to reproduce them.
 ///
-/// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the default tolerance it is off by 2 rad after
+/// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the default tolerance nothing of it is right after
 /// 1000 s. [`Normalised`] is right at the same cost.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Chapter15;

@@ -195,25 +195,6 @@ impl<S: Real> Projection<S> {
     }
 }
 
-/// What follows every step of a run: the correction if there is one, else the counters alone. Counters and orientations carry errors of
-/// their own, which must not grow apart over any number of turns.
-pub(crate) fn settle<S: Real, M: Mechanism>(
-    projection: Option<Projection<S>>,
-    constants: &M::Constants<S>,
-    time: S,
-    state: &mut M::State<S>,
-) -> Result<Option<Correction<S>>, Fault> {
-    match projection {
-        Some(projection) => projection
-            .correct_in_motion::<M>(constants, time, state)
-            .map(Some),
-        None => {
-            M::recount(constants, state);
-            Ok(None)
-        }
-    }
-}
-
 /// Which violation counts.
 #[derive(Clone, Copy)]
 enum Measure {

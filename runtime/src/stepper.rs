@@ -7,7 +7,7 @@ use crate::formulation::Formulation;
 use crate::integrate::{Scheme, positive};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
-use crate::project::{Projection, settle};
+use crate::project::Projection;
 use crate::rotation::check_state;
 use crate::scalar::Real;
 use crate::view::View;
@@ -160,7 +160,9 @@ where
         let mut next = *state;
         self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
         let end = clock.time();
-        settle::<S, M>(self.projection, self.dynamics.constants(), end, &mut next)?;
+        if let Some(projection) = self.projection {
+            projection.correct_in_motion::<M>(self.dynamics.constants(), end, &mut next)?;
+        }
         *state = next;
         self.clock = clock;
         Ok(())

@@ -54,8 +54,7 @@ pub struct StepLimits<S> {
 }
 
 impl<S> StepLimits<S> {
-    /// Ten million evaluations, some seconds for a mechanism of ten bodies: ten thousand seconds of a pendulum take a tenth of it. What takes more is
-    /// most often caught at a singular configuration, or stiff.
+    /// Ten million evaluations. What takes more is most often caught at a singular configuration, or stiff.
     pub const EVALUATIONS: usize = 10_000_000;
 
     /// No limits but the budget of evaluations.

@@ -170,7 +170,7 @@ impl fmt::Display for Doubt {
             ),
             Self::ManySteps { steps, tolerance } => write!(
                 f,
-                "the errors of {steps} steps, {} of the state each, may add up, and there is no balance of energy to tell: compare with a \
+                "the errors of {steps} steps, {} of the state each, may add up, and the balance of energy does not tell: compare with a \
                  smaller tolerance",
                 Measured(tolerance)
             ),
