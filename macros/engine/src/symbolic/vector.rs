@@ -7,6 +7,8 @@
 //! That is true where `A` is a rotation. A space that has to be exact for `A` of any scale ([`Space::exact`]) computes every
 //! vector in its home, the frame in which it is defined, and turns it from there.
 
+use std::collections::VecDeque;
+
 use super::arena::{Arena, Expr, Mark};
 use super::table::Table;
 
@@ -78,6 +80,10 @@ pub struct Space {
     identities: bool,
     /// Trials within trials that are going on.
     trials: usize,
+    /// The choices made in the trial that is going on, in the order in which they were needed.
+    choices: Vec<usize>,
+    /// Those that are known, from the trial of what is being done.
+    known_choices: VecDeque<usize>,
 }
 
 /// Trials within trials; deeper down, the first candidate is taken. Without a bound, their number is exponential in the
@@ -159,25 +165,43 @@ impl Space {
         candidates: &[C],
         mut attempt: impl FnMut(&mut Self, C) -> T,
     ) -> Option<T> {
-        let best = match candidates {
+        let place = match candidates {
             [] => return None,
-            [only] => *only,
-            [first, ..] if self.trials >= MOST_TRIALS => *first,
+            [_] => 0,
+            _ if !self.known_choices.is_empty() => {
+                let known = self.known_choices.pop_front().expect("not empty");
+                self.choices.push(known);
+                known
+            }
+            _ if self.trials >= MOST_TRIALS => {
+                self.choices.push(0);
+                0
+            }
             _ => {
-                let mut best: Option<(usize, C)> = None;
-                for &candidate in candidates {
+                let before = self.choices.len();
+                let mut best: Option<(usize, usize, Vec<usize>)> = None;
+                for (place, &candidate) in candidates.iter().enumerate() {
                     let cost = self.cost(|space| attempt(space, candidate));
-                    if best.is_none_or(|(least, _)| cost < least) {
-                        best = Some((cost, candidate));
+                    let choices = self.choices.drain(before..);
+                    if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                        best = Some((cost, place, choices.collect()));
                     }
                     if cost == 0 {
                         break;
                     }
                 }
-                best?.1
+                let (_, place, choices) = best?;
+                // What is done now was just tried: with the same choices all the way down.
+                self.known_choices = choices.into();
+                self.choices.push(place);
+                place
             }
         };
-        Some(attempt(self, best))
+        let done = attempt(self, candidates[place]);
+        if self.trials == 0 && self.known_choices.is_empty() {
+            self.choices.clear();
+        }
+        Some(done)
     }
 
     fn intern(&mut self, vector: Vector) -> VectorId {
