@@ -10,6 +10,7 @@ use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{Block, Kernel, counter_rates, counters, initial_state, jacobian, rows};
 use crate::symbolic::arena::{Arena, Input, Node, Stage};
 use crate::symbolic::evaluate::evaluate;
+use crate::symbolic::tape::Tape;
 
 /// A row of which no more than this is left anywhere is round-off, over the size that it should have at least.
 const VANISHING: f64 = 1e-13;
@@ -44,13 +45,16 @@ pub(super) struct Constraints {
     layout: Layout,
     /// The rows of each joint.
     counts: Vec<usize>,
-    phi: Kernel,
-    jacobian: Kernel,
+    phi: Tape,
+    jacobian: Tape,
     blocks: Vec<Block>,
     /// `Phi'` without motion, which is how the equations change with time; `None` where they do not.
-    driven: Option<Kernel>,
+    driven: Option<Tape>,
     /// The rates of the auxiliary variables, and what they count; `None` where no equation asks for an angle over turns.
-    counted: Option<[Kernel; 2]>,
+    counted: Option<[Tape; 2]>,
+    /// The times after the start at which a smooth step begins, is half done or ends, in order. Those of which the argument is no
+    /// linear function of time are not known.
+    pub(super) breaks: Vec<f64>,
     /// The size of the mechanism (m).
     length: f64,
     /// The size of each row's gradient near the start; `None` for a row that vanishes everywhere.
@@ -76,9 +80,10 @@ impl Constraints {
         let (jacobian, blocks) = jacobian(model);
         let length = length(model);
         let phi = rows(model, [Arena::ONE, Arena::ZERO, Arena::ZERO]);
-        let is_driven = reads(&phi, |input| input == Input::Time);
-        let counts = reads(
-            &phi,
+        let breaks = breaks(&phi);
+        let phi = tape(&phi);
+        let is_driven = phi.reads(|input| input == Input::Time);
+        let counts = phi.reads(
             |input| matches!(input, Input::Coordinate(place) if place as usize >= layout.coordinates),
         );
         let start = Configuration {
@@ -93,9 +98,11 @@ impl Constraints {
                 .map(|joint| model.equations(joint))
                 .collect(),
             phi,
-            driven: is_driven.then(|| rows(model, [Arena::ZERO, Arena::ONE, Arena::ZERO])),
-            counted: counts.then(|| [counter_rates(model), counters(model)]),
-            jacobian,
+            driven: is_driven.then(|| tape(&rows(model, [Arena::ZERO, Arena::ONE, Arena::ZERO]))),
+            counted: counts
+                .then(|| [counter_rates(model), counters(model)].map(|kernel| tape(&kernel))),
+            jacobian: tape(&jacobian),
+            breaks,
             blocks,
             length,
             sizes: Vec::new(),
@@ -119,7 +126,7 @@ impl Constraints {
             let mut times = vec![0.0];
             if is_driven {
                 times.push(LATER);
-                times.extend(constraints.breaks());
+                times.extend(&constraints.breaks);
             }
             for time in times {
                 let later = places.iter().map(|at| at.at(time)).collect::<Vec<_>>();
@@ -156,51 +163,19 @@ impl Constraints {
         self.driven.is_some()
     }
 
-    /// The times after the start at which a smooth step begins, is half done or ends, in order. Those of which the argument is no
-    /// linear function of time are not known.
-    pub(super) fn breaks(&self) -> Vec<f64> {
-        let arena = &self.phi.arena;
-        let mut breaks = Vec::new();
-        for place in arena.live(&self.phi.outputs, Stage::Literal) {
-            let Node::Clamp(argument) = arena.node(place) else {
-                continue;
-            };
-            let at = |time: f64| {
-                let known = |input| (input == Input::Time).then_some(time);
-                evaluate(arena, &[argument], known)
-                    .first()
-                    .copied()
-                    .flatten()
-            };
-            let (Some(a), Some(b), Some(c)) = (at(0.0), at(1.0), at(2.0)) else {
-                continue;
-            };
-            let is_linear = (a - 2.0 * b + c).abs() <= 1e-9 * (a.abs() + b.abs() + c.abs());
-            let times = [0.0, 0.5, 1.0].map(|value| (value - a) / (b - a));
-            breaks.extend(
-                times
-                    .into_iter()
-                    .filter(|time| is_linear && *time > 0.0 && time.is_finite()),
-            );
-        }
-        breaks.sort_unstable_by(f64::total_cmp);
-        breaks.dedup();
-        breaks
-    }
-
     /// The outputs of a kernel; `None` where one is not known, or beyond all numbers.
-    fn evaluate(&self, kernel: &Kernel, at: &Configuration) -> Option<Vec<f64>> {
-        self.evaluate_moving(kernel, at, &[])
+    fn evaluate(&self, tape: &Tape, at: &Configuration) -> Option<Vec<f64>> {
+        self.evaluate_moving(tape, at, &[])
     }
 
     /// The same with velocities; those that are not given are zero.
     fn evaluate_moving(
         &self,
-        kernel: &Kernel,
+        tape: &Tape,
         at: &Configuration,
         velocities: &[f64],
     ) -> Option<Vec<f64>> {
-        let values = evaluate(&kernel.arena, &kernel.outputs, |input| match input {
+        let values = tape.evaluate(|input| match input {
             Input::Coordinate(place) => at.coordinates.get(place as usize).copied(),
             Input::Time => Some(at.time),
             Input::Velocity(place) => {
@@ -214,10 +189,7 @@ impl Constraints {
             | Input::Upper(_)
             | Input::Lower(_) => Some(0.0),
         });
-        values
-            .into_iter()
-            .map(|value| value.filter(|value| value.is_finite()))
-            .collect()
+        values.filter(|values| values.iter().all(|value| value.is_finite()))
     }
 
     /// `D` over motions without dimension.
@@ -364,11 +336,36 @@ impl Constraints {
     }
 }
 
-/// Whether a kernel reads an input.
-fn reads(kernel: &Kernel, wanted: impl Fn(Input) -> bool) -> bool {
-    let arena = &kernel.arena;
-    arena
-        .live(&kernel.outputs, Stage::Literal)
-        .into_iter()
-        .any(|place| matches!(arena.node(place), Node::Input(input) if wanted(input)))
+fn tape(kernel: &Kernel) -> Tape {
+    Tape::new(&kernel.arena, &kernel.outputs)
+}
+
+/// See [`Constraints::breaks`].
+fn breaks(Kernel { arena, outputs }: &Kernel) -> Vec<f64> {
+    let mut breaks = Vec::new();
+    for place in arena.live(outputs, Stage::Literal) {
+        let Node::Clamp(argument) = arena.node(place) else {
+            continue;
+        };
+        let at = |time: f64| {
+            let known = |input| (input == Input::Time).then_some(time);
+            evaluate(arena, &[argument], known)
+                .first()
+                .copied()
+                .flatten()
+        };
+        let (Some(a), Some(b), Some(c)) = (at(0.0), at(1.0), at(2.0)) else {
+            continue;
+        };
+        let is_linear = (a - 2.0 * b + c).abs() <= 1e-9 * (a.abs() + b.abs() + c.abs());
+        let times = [0.0, 0.5, 1.0].map(|value| (value - a) / (b - a));
+        breaks.extend(
+            times
+                .into_iter()
+                .filter(|time| is_linear && *time > 0.0 && time.is_finite()),
+        );
+    }
+    breaks.sort_unstable_by(f64::total_cmp);
+    breaks.dedup();
+    breaks
 }

@@ -70,7 +70,7 @@ pub(super) fn course(
     start: &Configuration,
     agrees: impl Fn(&Configuration) -> Option<Configuration>,
 ) -> Course {
-    let breaks = constraints.breaks();
+    let breaks = &constraints.breaks;
     let mut course = Course {
         reached: Vec::new(),
         followed: 0,

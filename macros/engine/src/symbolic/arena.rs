@@ -7,7 +7,7 @@
 //! Only what has a number folds: `1 / 0`, an overflow or an underflow stay operations, and what is made of them is not simplified, so
 //! that the kernels show what it is (`0 / 0` is not 1, `0 * (1 / 0)` is not 0).
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 pub use super::node::{Expr, Input, Node, Stage};
 use super::table::Table;
@@ -25,7 +25,7 @@ pub struct Arena {
     without_number: Vec<bool>,
     index: Table<Node, u32>,
     identities: Table<Node, Expr>,
-    labels: HashMap<u32, String>,
+    labels: BTreeMap<u32, String>,
 }
 
 impl Default for Arena {
@@ -49,7 +49,7 @@ impl Arena {
             without_number: Vec::new(),
             index: Table::default(),
             identities: Table::default(),
-            labels: HashMap::new(),
+            labels: BTreeMap::new(),
         };
         arena.intern(Node::Constant(0.0_f64.to_bits()));
         arena.intern(Node::Constant(1.0_f64.to_bits()));
@@ -113,10 +113,10 @@ impl Arena {
 
     /// Forgets every node made since the mark.
     pub fn rollback(&mut self, mark: Mark) {
-        for (place, node) in self.nodes.drain(mark.0..).enumerate() {
+        for node in self.nodes.drain(mark.0..) {
             self.index.remove(&node);
-            self.labels.remove(&((mark.0 + place) as u32));
         }
+        self.labels.split_off(&(mark.0 as u32));
         self.stages.truncate(mark.0);
         self.without_number.truncate(mark.0);
     }
@@ -139,7 +139,9 @@ impl Arena {
     }
 
     fn intern(&mut self, node: Node) -> Expr {
-        if let Some(&known) = self.identities.get(&node) {
+        if !self.identities.is_empty()
+            && let Some(&known) = self.identities.get(&node)
+        {
             return known;
         }
         if let Some(&place) = self.index.get(&node) {

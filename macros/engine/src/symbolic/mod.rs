@@ -13,5 +13,6 @@ mod node;
 pub mod scene;
 mod start;
 mod table;
+pub mod tape;
 pub mod twist;
 pub mod vector;

@@ -145,6 +145,52 @@ impl Node {
         first.into_iter().chain(second)
     }
 
+    /// The same operation on other operands.
+    pub(super) fn with_operands(self, other: impl Fn(Expr) -> Expr) -> Self {
+        match self {
+            Self::Constant(_) | Self::Input(_) => self,
+            Self::Add(a, b) => Self::Add(other(a), other(b)),
+            Self::Multiply(a, b) => Self::Multiply(other(a), other(b)),
+            Self::Angle(a, b) => Self::Angle(other(a), other(b)),
+            Self::Reciprocal(a) => Self::Reciprocal(other(a)),
+            Self::SquareRoot(a) => Self::SquareRoot(other(a)),
+            Self::Sign(a) => Self::Sign(other(a)),
+            Self::Clamp(a) => Self::Clamp(other(a)),
+            Self::Round(a) => Self::Round(other(a)),
+            Self::Sine(a) => Self::Sine(other(a)),
+            Self::Cosine(a) => Self::Cosine(other(a)),
+            Self::Exponential(a) => Self::Exponential(other(a)),
+        }
+    }
+
+    /// The value, by the values of the operands.
+    ///
+    /// # Panics
+    /// If it is an input, which has none by itself.
+    pub(super) fn value(self, of: impl Fn(Expr) -> f64) -> f64 {
+        match self {
+            Self::Constant(bits) => f64::from_bits(bits),
+            Self::Input(input) => panic!("{input:?} is no operation"),
+            Self::Add(a, b) => of(a) + of(b),
+            Self::Multiply(a, b) => of(a) * of(b),
+            Self::Reciprocal(a) => of(a).recip(),
+            Self::SquareRoot(a) => of(a).sqrt(),
+            Self::Sign(a) => {
+                if of(a) < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                }
+            }
+            Self::Clamp(a) => of(a).clamp(0.0, 1.0),
+            Self::Round(a) => of(a).round(),
+            Self::Sine(a) => of(a).sin(),
+            Self::Cosine(a) => of(a).cos(),
+            Self::Exponential(a) => of(a).exp(),
+            Self::Angle(sine, cosine) => of(sine).atan2(of(cosine)),
+        }
+    }
+
     /// Whether the node costs an operation.
     #[must_use]
     pub const fn is_operation(self) -> bool {

@@ -49,7 +49,7 @@ fn random_mechanisms_against_a_dense_solution() {
     let (mut refused, mut refused_otherwise) = (0, 0);
     for seed in first.. {
         // In a long run, most of them quickly.
-        let extent = if wanted > 10_000 && seed % 32 != 0 {
+        let extent = if wanted > 10_000 && seed % 128 != 0 {
             Extent::Quick
         } else {
             Extent::Full
