@@ -66,6 +66,7 @@ pub(super) fn check(
                  may depend on each other by chance; look for constraints that only touch each other, and for a singular start",
             );
         }
+        Redundant::Drop if !model.independence.by_chance.is_empty() => by_chance(model, faults),
         Redundant::Refuse => refuse(model, faults),
         Redundant::Keep => {}
         Redundant::Drop => {
@@ -115,6 +116,25 @@ fn dormant(model: &Model, faults: &mut Faults) {
                 "the gradient of `{name}[{row}]` vanishes wherever the equations hold, as far as they were followed, though not everywhere: the \
                  equation follows from no others and cannot be left out, and its multiplier is not unique; write one whose gradient \
                  does not vanish, or `redundant = \"keep\"` for formulations with a compliance (penalty, augmented Lagrangian)"
+            ),
+        );
+    }
+}
+
+/// One fault for each joint with an equation that follows from others where it was looked at, and not elsewhere.
+fn by_chance(model: &Model, faults: &mut Faults) {
+    let mut named: Vec<usize> = Vec::new();
+    for &(place, row) in &model.independence.by_chance {
+        if named.contains(&place) {
+            continue;
+        }
+        named.push(place);
+        let name = &model.joints[place].name;
+        faults.at(
+            name,
+            format!(
+                "`{name}[{row}]` cannot be left out: it follows from the other equations near the described configuration by chance, and does not \
+                 hold where these lead to; look for constraints that only touch each other, and for a singular start"
             ),
         );
     }
@@ -254,7 +274,12 @@ fn refuse(model: &Model, faults: &mut Faults) {
             own.iter()
                 .map(|redundant| format!("{name}[{}]", redundant.row)),
         );
-        let cure = if is_locked {
+        let is_chance = model.independence.is_alone || !model.independence.by_chance.is_empty();
+        let cure = if is_chance {
+            " in the described configuration, and perhaps only there: look for constraints that only touch each other, and for a singular start, \
+             or write `redundant = \"keep\"` for formulations with a compliance (penalty, augmented Lagrangian)"
+                .into()
+        } else if is_locked {
             ", and nothing is left that can move (0 degrees of freedom): a joint forbids more than was meant; choose one with fewer \
              equations, or another point or axis (`redundant` is no cure)"
                 .into()

@@ -75,6 +75,9 @@ pub struct Independence {
     /// The equations among the redundant ones, by joint and place, whose gradients vanish wherever the mechanism got to, but not everywhere:
     /// they follow from nothing, and may say something yet.
     pub dormant: Vec<(usize, usize)>,
+    /// The equations among the redundant ones, by joint and place, that do not hold where the others lead to: where the mechanism was looked at, they
+    /// follow from these by chance.
+    pub by_chance: Vec<(usize, usize)>,
     /// Whether no other configuration was found near the described one, although the rank leaves motion free: there rows may depend on each
     /// other by chance.
     pub is_alone: bool,

@@ -66,6 +66,28 @@ pub(super) fn agreeing(
         .then_some(here)
 }
 
+/// The rows that do not hold where motions lead to that the kept ones leave free, from a configuration where all hold: they depend on the kept ones
+/// there by chance, as constraints do that touch each other.
+pub(super) fn by_chance(
+    constraints: &Constraints,
+    start: &Configuration,
+    kept: &[usize],
+    from: &Configuration,
+    random: &mut Random,
+) -> Vec<usize> {
+    let reached = walk(constraints, from.clone(), Some(kept), random);
+    let violated = reached
+        .iter()
+        .filter_map(|at| violated(constraints, start, at));
+    let mut rows: Vec<usize> = violated
+        .flatten()
+        .filter(|row| !kept.contains(row))
+        .collect();
+    rows.sort_unstable();
+    rows.dedup();
+    rows
+}
+
 /// The rows that do not hold where the kept ones do, near a configuration, although they depend on them: none where the kept ones do
 /// not hold either; `None` where rows become independent on the way.
 fn by_place(

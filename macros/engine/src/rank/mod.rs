@@ -105,6 +105,7 @@ pub fn judge(model: &Model) -> Independence {
         mut kept,
     } = found;
     let mut against = Vec::new();
+    let mut by_chance = Vec::new();
     if rank < model.layout().rows {
         if constraints.is_driven() {
             against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
@@ -134,6 +135,13 @@ pub fn judge(model: &Model) -> Independence {
         tour.reverse();
         tour.extend(way);
         kept = choice::steady(kept, &tour, TOLERANCE);
+        by_chance = contradiction::by_chance(
+            &constraints,
+            &start,
+            &kept,
+            &configurations[first_regular],
+            &mut random,
+        );
     }
     let layout = model.layout();
     let is_alone = configurations.len() == 1 && rank < layout.rows.min(layout.velocities);
@@ -141,6 +149,10 @@ pub fn judge(model: &Model) -> Independence {
     Independence {
         redundant: redundant(model, &kept, &directions[first_regular]),
         dormant: dormant.map(|row| place_of(&layout, row)).collect(),
+        by_chance: by_chance
+            .into_iter()
+            .map(|row| place_of(&layout, row))
+            .collect(),
         is_alone,
         is_driven: constraints.is_driven(),
         ..not(Rank::Decided { rank, at_start })

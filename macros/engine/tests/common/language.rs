@@ -480,13 +480,24 @@ impl<'a> Interpreter<'a> {
         let turns = turns
             .find(|(turn, _)| known(turn))
             .map_or(0.0, |(_, turns)| *turns);
-        sine.atan2(cosine) + TAU * turns
+        arc(sine, cosine) + TAU * turns
     }
 
     fn root(&self, square: Dual2_64) -> Dual2_64 {
         self.avoid(square);
         square.sqrt()
     }
+}
+
+/// The angle of a point. The quotient is at most 1: that of the library has no derivatives where the cosine vanishes.
+fn arc(sine: Dual2_64, cosine: Dual2_64) -> Dual2_64 {
+    let mut angle = if sine.re.abs() > cosine.re.abs() {
+        -(cosine / sine).atan()
+    } else {
+        (sine / cosine).atan()
+    };
+    angle.re = sine.re.atan2(cosine.re);
+    angle
 }
 
 fn name_of(expr: &Expr) -> String {
