@@ -13,6 +13,8 @@
 //! | [`Bricard`] | a ring of six hinges that moves | dependent equations | IFToMM A04 |
 //! | [`FlyballGovernor`] | balls, arms and a slider on stiff springs | stiffness | IFToMM A05 |
 //! | [`Door`] | a leaf on two hinges | redundant equations | own data |
+//! | [`CartPole`] | a pole on a cart | control, a closed form | Barto, Sutton and Anderson 1983 |
+//! | [`Ur5`], [`Panda`] | arms of six and seven hinges | robots, forward dynamics against Pinocchio | `example-robot-data` |
 //! | [`HeavyChain`] | 1000 kg on a chain of grams | a ratio of masses of 1e6 | own data |
 //!
 //! IFToMM: the library of benchmark problems of its Technical Committee for Multibody Dynamics. Models that move in a
@@ -22,25 +24,31 @@
 #![forbid(unsafe_code)]
 
 mod bricard;
+mod cart_pole;
 mod door;
 mod flyball_governor;
 mod four_bar;
 mod heavy_chain;
 mod heavy_top;
+mod panda;
 mod rod_pendulum;
 mod simple_pendulum;
 mod slider_crank;
 mod squeezing_mechanism;
+mod ur5;
 mod variable_length_pendulum;
 
 pub use bricard::Bricard;
+pub use cart_pole::CartPole;
 pub use door::Door;
 pub use flyball_governor::FlyballGovernor;
 pub use four_bar::{DoubleFourBar, FourBar};
 pub use heavy_chain::HeavyChain;
 pub use heavy_top::HeavyTop;
+pub use panda::Panda;
 pub use rod_pendulum::RodPendulum;
 pub use simple_pendulum::SimplePendulum;
 pub use slider_crank::{DrivenSliderCrank, SliderCrank};
 pub use squeezing_mechanism::SqueezingMechanism;
+pub use ur5::Ur5;
 pub use variable_length_pendulum::VariableLengthPendulum;

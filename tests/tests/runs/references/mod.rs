@@ -1,7 +1,9 @@
 //! Motion and reactions against closed forms and published references, problem by problem; what a model gains and loses
 //! in energy.
 
+mod arms;
 mod bricard;
+mod cart_pole;
 mod door;
 mod driven_slider_crank;
 mod flyball_governor;
