@@ -1,7 +1,8 @@
 //! The way back onto the constraints.
 
-use super::dense::{norm, solve_normal, transposed};
+use super::dense::{norm, transposed};
 use super::motion::{Configuration, Constraints};
+use super::normal::solve_normal;
 
 /// Violations up to this, over the size of the row's gradient, are round-off.
 pub(super) const ASSEMBLED: f64 = 1e-9;

@@ -3,7 +3,7 @@
 //! With a basis `Y` of the combinations of rows that vanish, `Y^T D = 0`, the rows outside a set `S` are independent where the determinant of
 //! the rows `S` of `Y` is not zero. Its sign counts too: where it changes between two stops of a tour, it is zero between them.
 
-use super::dense::{Rows, determinant, dot, norm, orthonormal, remove, remove_all, transpose};
+use super::dense::{Direction, Rows, determinant, dot, norm, orthonormal, remove_all, transpose};
 
 /// A choice whose determinant falls to this fraction of its largest is looked at again.
 const STEADY: f64 = 0.1;
@@ -100,7 +100,7 @@ fn combinations(tour: &[Rows], rank: usize, tolerance: f64) -> Vec<Rows> {
 }
 
 /// What is at right angles to all of some unit vectors at right angles to each other.
-fn complement(vectors: &Rows, length: usize) -> Rows {
+fn complement(vectors: &[Direction], length: usize) -> Rows {
     let mut rest: Rows = (0..length)
         .map(|place| {
             let mut unit = vec![0.0; length];
@@ -109,19 +109,26 @@ fn complement(vectors: &Rows, length: usize) -> Rows {
             unit
         })
         .collect();
-    let mut basis = Rows::new();
+    let mut basis: Vec<Direction> = Vec::new();
+    let mut sizes: Vec<f64> = rest.iter().map(|vector| norm(vector)).collect();
     for _ in vectors.len()..length {
-        let longest = rest.iter().max_by(|a, b| norm(a).total_cmp(&norm(b)));
+        let longest = (0..length).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b]));
         let Some(longest) = longest else { break };
-        let size = norm(longest);
-        let mut direction: Vec<f64> = longest.iter().map(|x| x / size).collect();
+        let size = sizes[longest];
+        let mut direction: Vec<f64> = rest[longest].iter().map(|x| x / size).collect();
         remove_all(&mut direction, &basis);
-        for vector in &mut rest {
-            remove(vector, &direction);
+        let direction = Direction::unit(direction);
+        for (vector, size) in rest.iter_mut().zip(&mut sizes) {
+            if direction.remove_from(vector) {
+                *size = norm(vector);
+            }
         }
         basis.push(direction);
     }
     basis
+        .into_iter()
+        .map(|direction| direction.values)
+        .collect()
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@
 //! everywhere, or nowhere. With a time in the equations it must hold at all times, so that the speeds that it asks for must be those
 //! that the kept ones ask for: `Y^T Phi_t = 0` where `Y^T D = 0`.
 
-use super::dense::{Rows, dot, independent, norm, solve_normal};
+use super::dense::{Rows, dot, independent, norm};
 use super::motion::{Configuration, Constraints};
+use super::normal::Normal;
 use super::{Random, TOLERANCE, walk};
 
 /// To what fraction of themselves laws agree that are given to seven digits, as [`TOLERANCE`] has it for lengths.
@@ -227,11 +228,12 @@ pub(super) fn by_speed(
         {
             continue;
         }
+        let Some(normal) = Normal::new(&basis, 0.0) else {
+            continue;
+        };
         let disagrees = |&row: &usize| {
             let products: Vec<f64> = basis.iter().map(|other| dot(other, &rows[row])).collect();
-            let Some(shares) = solve_normal(&basis, &products, 0.0) else {
-                return false;
-            };
+            let shares = normal.solve(&products);
             let parts = shares
                 .iter()
                 .zip(kept)

@@ -1,10 +1,75 @@
-//! Dense linear algebra on a few rows: which of them are independent, and a damped step of least length.
+//! Linear algebra on rows: which of them are independent, and what spans them.
+//!
+//! Rows are stored in full, though those of a mechanism are zero almost everywhere; what is subtracted from them knows where it is not.
+//! Macros run unoptimised in the crates of users, also in those that are built with optimisation, and an iterator then costs many times what
+//! an index does: hence the plain loops.
 
 /// The rows of a matrix.
 pub(super) type Rows = Vec<Vec<f64>>;
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    let length = a.len().min(b.len());
+    let (mut sum, mut k) = (0.0, 0);
+    while k < length {
+        sum += a[k] * b[k];
+        k += 1;
+    }
+    sum
+}
+
+/// The places where a vector is not zero.
+pub(super) fn support(vector: &[f64]) -> Vec<usize> {
+    let (mut places, mut k) = (Vec::new(), 0);
+    let length = vector.len();
+    while k < length {
+        if vector[k] != 0.0 {
+            places.push(k);
+        }
+        k += 1;
+    }
+    places
+}
+
+/// A unit vector, and where it is not zero.
+pub(super) struct Direction {
+    pub(super) values: Vec<f64>,
+    support: Vec<usize>,
+}
+
+impl Direction {
+    /// That of a vector of the given length.
+    pub(super) fn of(vector: &[f64], length: f64) -> Self {
+        let values: Vec<f64> = vector.iter().map(|x| x / length).collect();
+        Self::unit(values)
+    }
+
+    /// A vector that is of unit length.
+    pub(super) fn unit(values: Vec<f64>) -> Self {
+        let support = support(&values);
+        Self { values, support }
+    }
+
+    /// Takes the part along the direction away, if there is one; whether there was.
+    pub(super) fn remove_from(&self, vector: &mut [f64]) -> bool {
+        let (values, support) = (self.values.as_slice(), self.support.as_slice());
+        let count = support.len();
+        let (mut along, mut place) = (0.0, 0);
+        while place < count {
+            let k = support[place];
+            along += vector[k] * values[k];
+            place += 1;
+        }
+        if along == 0.0 {
+            return false;
+        }
+        place = 0;
+        while place < count {
+            let k = support[place];
+            vector[k] -= along * values[k];
+            place += 1;
+        }
+        true
+    }
 }
 
 pub(super) fn norm(a: &[f64]) -> f64 {
@@ -22,8 +87,9 @@ const PASSES: [f64; 6] = [0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6];
 pub(super) fn independent(matrices: &[Rows], tolerance: f64) -> Vec<usize> {
     let count = matrices.first().map_or(0, Vec::len);
     let mut rest: Vec<Rows> = matrices.to_vec();
-    let mut bases: Vec<Rows> = vec![Rows::new(); matrices.len()];
+    let mut bases: Vec<Vec<Direction>> = matrices.iter().map(|_| Vec::new()).collect();
     let mut taken = Vec::new();
+    let mut is_taken = vec![false; count];
     let passes = PASSES.into_iter().filter(|&pass| pass > tolerance);
     for threshold in passes.chain([tolerance]) {
         for row in 0..count {
@@ -33,24 +99,24 @@ pub(super) fn independent(matrices: &[Rows], tolerance: f64) -> Vec<usize> {
                     .fold(f64::INFINITY, f64::min)
                     > threshold
             };
-            if taken.contains(&row) || !stands_out(&rest) {
+            if is_taken[row] || !stands_out(&rest) {
                 continue;
             }
             for (rows, basis) in rest.iter_mut().zip(&bases) {
                 for direction in basis {
-                    remove(&mut rows[row], direction);
+                    direction.remove_from(&mut rows[row]);
                 }
             }
             if !stands_out(&rest) {
                 continue;
             }
             taken.push(row);
+            is_taken[row] = true;
             for (rows, basis) in rest.iter_mut().zip(&mut bases) {
-                let length = norm(&rows[row]);
-                let direction: Vec<f64> = rows[row].iter().map(|x| x / length).collect();
+                let direction = Direction::of(&rows[row], norm(&rows[row]));
                 for (other, vector) in rows.iter_mut().enumerate() {
-                    if !taken.contains(&other) {
-                        remove(vector, &direction);
+                    if !is_taken[other] {
+                        direction.remove_from(vector);
                     }
                 }
                 basis.push(direction);
@@ -62,14 +128,14 @@ pub(super) fn independent(matrices: &[Rows], tolerance: f64) -> Vec<usize> {
 }
 
 /// Unit vectors at right angles to each other that span the rows, which are of unit length or zero.
-pub(super) fn orthonormal(rows: &Rows, tolerance: f64) -> Rows {
-    let mut basis = Rows::new();
+pub(super) fn orthonormal(rows: &Rows, tolerance: f64) -> Vec<Direction> {
+    let mut basis = Vec::new();
     for row in rows {
         let mut rest = row.clone();
         remove_all(&mut rest, &basis);
         let length = norm(&rest);
         if length > tolerance {
-            basis.push(rest.iter().map(|x| x / length).collect());
+            basis.push(Direction::of(&rest, length));
         }
     }
     basis
@@ -111,72 +177,24 @@ pub(super) fn determinant(mut rows: Rows) -> f64 {
 }
 
 /// Takes the parts along unit vectors away, twice because the first time leaves round-off.
-pub(super) fn remove_all(vector: &mut [f64], basis: &Rows) {
+pub(super) fn remove_all(vector: &mut [f64], basis: &[Direction]) {
     for direction in basis.iter().chain(basis) {
-        remove(vector, direction);
+        direction.remove_from(vector);
     }
-}
-
-/// Takes the part along a unit vector away.
-pub(super) fn remove(vector: &mut [f64], direction: &[f64]) {
-    let along = dot(vector, direction);
-    if along != 0.0 {
-        for (x, d) in vector.iter_mut().zip(direction) {
-            *x -= along * d;
-        }
-    }
-}
-
-/// `y` with `(A A^T + damping I) y = b`, by Cholesky's method within the envelope; `None` where the matrix is not positive
-/// definite.
-pub(super) fn solve_normal(a: &[Vec<f64>], b: &[f64], damping: f64) -> Option<Vec<f64>> {
-    let supports: Vec<Vec<usize>> = a
-        .iter()
-        .map(|row| (0..row.len()).filter(|&k| row[k] != 0.0).collect())
-        .collect();
-    let product = |i: usize, j: usize| supports[i].iter().map(|&k| a[i][k] * a[j][k]).sum::<f64>();
-    // Row by row from the first entry that is not zero to the diagonal.
-    let mut lower: Vec<(usize, Vec<f64>)> = Vec::new();
-    for i in 0..a.len() {
-        let mut row: Vec<f64> = (0..=i).map(|j| product(i, j)).collect();
-        row[i] += damping;
-        let first = row.iter().position(|&x| x != 0.0)?;
-        row.drain(..first);
-        for j in first..i {
-            let (start, other) = &lower[j];
-            let from = first.max(*start);
-            let known = dot(&row[from - first..j - first], &other[from - start..]);
-            row[j - first] = (row[j - first] - known) / other[j - start];
-        }
-        let before = &row[..i - first];
-        let pivot = row[i - first] - dot(before, before);
-        if pivot.is_nan() || pivot <= 0.0 {
-            return None;
-        }
-        row[i - first] = pivot.sqrt();
-        lower.push((first, row));
-    }
-    let mut y = b.to_vec();
-    for (i, (first, row)) in lower.iter().enumerate() {
-        let known = dot(&row[..i - first], &y[*first..i]);
-        y[i] = (y[i] - known) / row[i - first];
-    }
-    for (i, (first, row)) in lower.iter().enumerate().rev() {
-        y[i] /= row[i - first];
-        let value = y[i];
-        for (k, entry) in (*first..i).zip(row) {
-            y[k] -= entry * value;
-        }
-    }
-    Some(y)
 }
 
 /// `A^T y`.
 pub(super) fn transposed(a: &[Vec<f64>], y: &[f64]) -> Vec<f64> {
     let mut x = vec![0.0; a.first().map_or(0, Vec::len)];
+    let length = x.len();
     for (row, factor) in a.iter().zip(y) {
-        for (sum, entry) in x.iter_mut().zip(row) {
-            *sum += factor * entry;
+        let row = row.as_slice();
+        let mut k = 0;
+        while k < length {
+            if row[k] != 0.0 {
+                x[k] += factor * row[k];
+            }
+            k += 1;
         }
     }
     x
@@ -238,23 +256,6 @@ mod tests {
     }
 
     #[test]
-    fn a_step_solves_and_is_of_least_length() {
-        let a = vec![
-            vec![1.0, 0.0, 2.0, 0.0],
-            vec![0.0, 3.0, 0.0, 0.0],
-            vec![0.5, -1.0, 0.0, 4.0],
-        ];
-        let b = [1.0, -2.0, 0.3];
-        let x = transposed(&a, &solve_normal(&a, &b, 0.0).expect("independent"));
-        for (row, wanted) in a.iter().zip(b) {
-            assert!((dot(row, &x) - wanted).abs() < 1e-14);
-        }
-        // Perpendicular to what the rows leave free.
-        let free = [-2.0, 0.0, 1.0, 0.25];
-        assert!(dot(&free, &x).abs() < 1e-14);
-    }
-
-    #[test]
     fn determinants_have_the_sign_of_the_order() {
         let rows = vec![
             vec![0.0, 2.0, 1.0],
@@ -265,14 +266,5 @@ mod tests {
         assert!((determinant(transpose(&rows)) - 11.0).abs() < 1e-14);
         assert_eq!(determinant(vec![vec![1.0, 2.0], vec![2.0, 4.0]]), 0.0);
         assert_eq!(determinant(Rows::new()), 1.0);
-    }
-
-    #[test]
-    fn damping_makes_dependent_rows_solvable() {
-        let a = vec![vec![1.0, 0.0], vec![1.0, 0.0], vec![0.0, 0.0]];
-        assert_eq!(solve_normal(&a, &[1.0, 1.0, 0.0], 0.0), None);
-        let y = solve_normal(&a, &[1.0, 1.0, 0.0], 1e-10).expect("damped");
-        assert!((transposed(&a, &y)[0] - 1.0).abs() < 1e-6);
-        assert_eq!(solve_normal(&[], &[], 0.0), Some(Vec::new()));
     }
 }

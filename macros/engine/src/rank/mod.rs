@@ -19,11 +19,13 @@ mod contradiction;
 mod dense;
 mod geometry;
 mod motion;
+mod normal;
 mod tour;
 
 use self::contradiction::Contradicted;
-use self::dense::{Rows, dot, independent, norm, solve_normal};
+use self::dense::{Rows, dot, independent, norm};
 use self::motion::{Configuration, Constraints};
+use self::normal::Normal;
 use crate::model::mechanism::Layout;
 use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
 
@@ -293,11 +295,13 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
     const SHARE: f64 = 1e-6;
     let layout = model.layout();
     let basis: Rows = kept.iter().map(|&row| rows[row].clone()).collect();
+    let normal = Normal::new(&basis, 0.0);
     (0..layout.rows)
         .filter(|row| !kept.contains(row))
         .map(|row| {
             let products: Vec<f64> = basis.iter().map(|other| dot(other, &rows[row])).collect();
-            let shares = solve_normal(&basis, &products, 0.0).unwrap_or_default();
+            let shares = normal.as_ref().map(|normal| normal.solve(&products));
+            let shares = shares.unwrap_or_default();
             let mut follows_from: Vec<usize> = kept
                 .iter()
                 .zip(shares)

@@ -3,8 +3,9 @@
 //! Motions are measured without dimension: translations by the size of the mechanism, rotations in radians.
 
 use super::TOLERANCE;
-use super::dense::{Rows, norm, solve_normal, transposed};
+use super::dense::{Rows, norm, transposed};
 use super::geometry::{along_screw, length, turned};
+use super::normal::solve_normal;
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{Block, Kernel, counter_rates, counters, initial_state, jacobian, rows};
