@@ -241,7 +241,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         quote!(#facade::RedundantRow { joint: #joint, row: #row, dropped: #dropped })
     });
     let time = explicit_time(&ExplicitTime::of(kernels), facade);
-    let plan = describe(model, &kernels.plan, &layout);
+    let plan = describe(model, &kernels.plans.rigid, &layout);
     quote! {
         #facade::Report {
             name: #name,

@@ -4,11 +4,12 @@
 //! closing joints last: work grows linearly along a chain. Candidates differ in the axes of point rows and of
 //! accelerations, and in whether point rows are paired with accelerations or left to the Schur complement.
 
-use super::Plan;
-use super::order::{Kinds, Order, StartValues};
+use super::eliminate::Check;
+use super::order::{Course, Order, Rows, StartValues};
 use super::reach::Reach;
 use super::system::{System, Terms, coupling};
 use super::tree::{Tree, tree};
+use super::{Plan, Plans};
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Expr, Stage};
 use crate::symbolic::count::count;
@@ -22,71 +23,78 @@ struct Strategy {
     body_accelerations: bool,
     /// Rows in the axes of the body that is carried.
     body_rows: bool,
-    kinds: Kinds,
+    course: Course,
 }
 
 impl Strategy {
-    const fn new(body_accelerations: bool, body_rows: bool, kinds: Kinds) -> Self {
+    const fn new(body_accelerations: bool, body_rows: bool, course: Course) -> Self {
         Self {
             body_accelerations,
             body_rows,
-            kinds,
+            course,
         }
     }
 }
 
-const STRATEGIES: [Strategy; 7] = {
-    const ALONE: Kinds = Kinds {
-        saddles: false,
-        forbidden: false,
-    };
-    const SADDLES: Kinds = Kinds {
-        saddles: true,
-        ..ALONE
-    };
-    const PAIRS: Kinds = Kinds {
-        forbidden: true,
-        ..SADDLES
-    };
+const fn leaves(saddles: bool, forbidden: bool, late: Option<Rows>) -> Course {
+    Course::Leaves {
+        saddles,
+        forbidden,
+        late,
+    }
+}
+
+const LATE: Option<Rows> = Some(Rows::BothEnds);
+const GROUND: Course = Course::BodiesFirst(Rows::Ground);
+const ENDS: Course = Course::BodiesFirst(Rows::BothEnds);
+
+/// Without a compliance: what forbids a motion is eliminated with it.
+const RIGID: [Strategy; 7] = {
+    const PAIRS: Course = leaves(true, true, None);
+    const LATE_PAIRS: Course = leaves(true, true, LATE);
     [
         Strategy::new(true, true, PAIRS),
-        Strategy::new(true, true, SADDLES),
         Strategy::new(false, false, PAIRS),
+        Strategy::new(true, true, LATE_PAIRS),
+        Strategy::new(false, false, LATE_PAIRS),
+        Strategy::new(true, true, GROUND),
+        Strategy::new(false, false, GROUND),
+        Strategy::new(false, false, ENDS),
+    ]
+};
+
+/// With a compliance: no motion is forbidden.
+const COMPLIANT: [Strategy; 8] = {
+    const SADDLES: Course = leaves(true, false, None);
+    const LATE_SADDLES: Course = leaves(true, false, LATE);
+    const ALONE: Course = leaves(false, false, None);
+    [
+        Strategy::new(true, true, SADDLES),
         Strategy::new(false, false, SADDLES),
+        Strategy::new(true, true, LATE_SADDLES),
+        Strategy::new(false, false, LATE_SADDLES),
+        Strategy::new(true, true, GROUND),
+        Strategy::new(false, false, GROUND),
         Strategy::new(true, true, ALONE),
-        Strategy::new(false, true, ALONE),
         Strategy::new(false, false, ALONE),
     ]
 };
 
-/// The number of candidates, of which some may be the same plan.
-pub const CANDIDATES: usize = STRATEGIES.len();
-
-/// One of the plans worth counting.
-///
-/// # Panics
-/// From [`CANDIDATES`] on.
-#[must_use]
-pub fn candidate(model: &Model, place: usize) -> Plan {
-    let reach = Reach::new(model);
-    let tree = tree(model, &reach);
-    plan(
-        model,
-        &tree,
-        &reach,
-        &StartValues::new(model),
-        STRATEGIES[place],
-    )
+const fn strategies(terms: Terms) -> &'static [Strategy] {
+    match terms {
+        Terms::Plain | Terms::Stabilised => &RIGID,
+        Terms::Compliant => &COMPLIANT,
+    }
 }
 
 /// The plans worth counting, each once.
 #[must_use]
-pub fn all(model: &Model) -> Vec<Plan> {
+pub fn all(model: &Model, terms: Terms) -> Vec<Plan> {
     let reach = Reach::new(model);
     let tree = tree(model, &reach);
     let start = StartValues::new(model);
     let mut plans: Vec<Plan> = Vec::new();
-    for strategy in STRATEGIES {
+    for &strategy in strategies(terms) {
         let plan = plan(model, &tree, &reach, &start, strategy);
         if !plans.contains(&plan) {
             plans.push(plan);
@@ -95,25 +103,33 @@ pub fn all(model: &Model) -> Vec<Plan> {
     plans
 }
 
-/// The cheapest plan for a model, by the operations of its standard evaluation.
+/// The cheapest plans for a model, by the operations of the standard evaluation and of that with a compliance, each together with the
+/// back-substitution for a given right-hand side; of two that are equal, the one with the shorter path.
 #[must_use]
-pub fn choose(model: &Model) -> Plan {
-    let plans = all(model).into_iter();
-    let cheapest = plans.min_by_key(|plan| cost(model, plan));
-    cheapest.expect("there are strategies")
+pub fn choose(model: &Model) -> Plans {
+    let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| {
+        let plans = all(model, terms).into_iter();
+        plans
+            .min_by_key(|plan| cost(model, plan, terms))
+            .expect("there are strategies")
+    });
+    Plans { rigid, compliant }
 }
 
-/// The operations of the standard evaluation with a plan.
-#[must_use]
-pub fn cost(model: &Model, plan: &Plan) -> usize {
+/// What a plan costs: the operations of an evaluation (accelerations, multipliers and relative pivots) and of a back-substitution
+/// together, then the path of the evaluation.
+fn cost(model: &Model, plan: &Plan, terms: Terms) -> (usize, usize) {
     let mut scene = Scene::for_solution(model, Reading::Raw);
-    let solution = equations_of_motion(&mut scene, model, plan.clone(), Terms::Plain).0;
-    let outputs: Vec<Expr> = solution
-        .accelerations
-        .into_iter()
-        .chain(solution.multipliers)
-        .collect();
-    count(&scene.space.arena, &outputs, Stage::State).total()
+    let (solution, system) = equations_of_motion(&mut scene, model, plan.clone(), terms);
+    let checks = system.checks(&scene);
+    let ratio = |check: &Check| scene.space.arena.div(check.pivot, check.before);
+    let pivots = checks.iter().map(ratio).collect();
+    let outputs: Vec<Expr> = [solution.accelerations, solution.multipliers, pivots].concat();
+    let evaluation = count(&scene.space.arena, &outputs, Stage::State);
+    let solution = system.solve_given(&mut scene);
+    let outputs = [solution.accelerations, solution.multipliers].concat();
+    let back = count(&scene.space.arena, &outputs, Stage::RightHandSide);
+    (evaluation.total() + back.total(), evaluation.depth)
 }
 
 /// The solved equations of motion.
@@ -127,7 +143,7 @@ pub fn equations_of_motion(
     let system = System::new(scene, &kinds, plan, terms);
     let right = system.equations_of_motion(scene, terms);
     let upper = crate::plan::system::applied_forces(scene, &kinds);
-    let solution = system.solve(scene, &right, &upper);
+    let solution = system.solve(scene, &right, &upper, Stage::State);
     (solution, system)
 }
 
@@ -167,17 +183,11 @@ fn plan(
         translation,
         rows,
         pivots: Vec::new(),
-        compliant_pivots: Vec::new(),
         determinants: Vec::new(),
     };
     let kinds: Vec<BodyKind> = model.bodies.iter().map(|body| body.kind).collect();
     let coupling = coupling(&mut scene, &kinds, &plan);
     let mut order = Order::new(&scene, &coupling, &kinds, start, reach);
-    (plan.pivots, plan.determinants) = order.pivots(tree, strategy.kinds);
-    let compliant = Kinds {
-        forbidden: false,
-        ..strategy.kinds
-    };
-    (plan.compliant_pivots, _) = order.pivots(tree, compliant);
+    (plan.pivots, plan.determinants) = order.pivots(tree, strategy.course);
     plan
 }

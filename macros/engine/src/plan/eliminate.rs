@@ -46,14 +46,14 @@ impl Symmetric {
     /// `-sum_l a_kl^2 / a_ll` over some unknowns: in the system as assembled, what the diagonal element of a multiplier becomes
     /// by accelerations that do not know of each other.
     fn schur_diagonal(&self, arena: &mut Arena, k: usize, over: &[usize]) -> Expr {
-        let mut sum = Arena::ZERO;
-        for (&l, &entry) in self.rows[k]
-            .iter()
-            .filter(|(l, _)| **l != k && over.contains(l))
-        {
-            let scaled = arena.div(entry, self.get(l, l));
-            let term = arena.mul(entry, scaled);
-            sum = arena.sub(sum, term);
+        let mut sum = self.get(k, k);
+        for &l in over.iter().filter(|l| **l != k) {
+            let entry = self.get(k, l);
+            if entry != Arena::ZERO {
+                let scaled = arena.div(entry, self.get(l, l));
+                let term = arena.mul(entry, scaled);
+                sum = arena.sub(sum, term);
+            }
         }
         sum
     }
@@ -163,7 +163,12 @@ pub fn factorise(
     determinants: &[f64],
 ) -> Factors {
     let size = matrix.rows.len();
+    let mut turn = vec![usize::MAX; size];
+    for (place, unknown) in pivots.iter().flat_map(|p| p.unknowns()).enumerate() {
+        turn[unknown] = place;
+    }
     let mut elimination = Elimination {
+        turn,
         original: matrix.clone(),
         matrix,
         eliminated: Vec::new(),
@@ -203,6 +208,9 @@ struct Elimination {
     original: Symmetric,
     /// What is left.
     matrix: Symmetric,
+    /// When the plan eliminates each unknown: sums are taken in this order, so that the numbers of the unknowns, and with them the order of the fields,
+    /// have no say.
+    turn: Vec<usize>,
     /// In order.
     eliminated: Vec<usize>,
     /// Rows whose pivot is zero so far.
@@ -260,7 +268,7 @@ impl Elimination {
         /// A number below this, relative to what it was made of, is taken for round-off: left to the kernels to report.
         const ROUND_OFF: f64 = 1e-9;
         let pivot = self.matrix.get(row, row);
-        let before = self.original.schur_diagonal(arena, row, &self.eliminated);
+        let before = self.uncoupled(arena, row);
         let is_safe = match (arena.literal(pivot), arena.literal(before)) {
             (Some(pivot), Some(before)) => pivot.abs() > ROUND_OFF * before.abs(),
             _ => false,
@@ -270,6 +278,26 @@ impl Elimination {
             pivot,
             before,
         })
+    }
+
+    /// The pivot of a multiplier if there were no other rows. The terms are summed in the order of elimination, where the elimination may have
+    /// formed the same sum, or in the order of the unknowns, whatever takes fewer operations.
+    fn uncoupled(&self, arena: &mut Arena, row: usize) -> Expr {
+        let mut sorted = self.eliminated.clone();
+        sorted.sort_unstable();
+        let [as_eliminated, as_numbered] = [&self.eliminated, &sorted].map(|over| {
+            let mark = arena.mark();
+            self.original.schur_diagonal(arena, row, over);
+            let operations = arena.operations_since(mark);
+            arena.rollback(mark);
+            operations
+        });
+        let over = if as_eliminated < as_numbered {
+            &self.eliminated
+        } else {
+            &sorted
+        };
+        self.original.schur_diagonal(arena, row, over)
     }
 
     fn step(&mut self, arena: &mut Arena, pivot: Pivot, determinant: f64) {
@@ -300,7 +328,7 @@ impl Elimination {
                 .iter()
                 .flat_map(|&k| matrix.neighbours(k))
                 .collect();
-            coupled.sort_unstable();
+            coupled.sort_unstable_by_key(|&k| self.turn[k]);
             coupled.dedup();
             coupled.retain(|k| !unknowns.contains(k));
             coupled
@@ -386,7 +414,8 @@ impl Factors {
             let right: Vec<Expr> = step.unknowns.iter().map(|&k| right[k]).collect();
             let values = step.inverse.apply(arena, &right);
             for (p, (&unknown, mut value)) in step.unknowns.iter().zip(values).enumerate() {
-                for (i, row) in &step.lower {
+                // What is known first comes first, so that the path is short.
+                for (i, row) in step.lower.iter().rev() {
                     let product = arena.mul(row[p], solution[*i]);
                     value = arena.sub(value, product);
                 }

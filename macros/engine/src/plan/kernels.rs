@@ -1,11 +1,11 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
-use super::Plan;
 use super::alone::alone;
 use super::candidates::{choose, equations_of_motion};
 use super::eliminate::Check;
 use super::readings::Readings;
 use super::system::{System, Terms, applied_forces};
+use super::{Plan, Plans};
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::count::Count;
@@ -109,22 +109,22 @@ pub struct Kernels {
     pub evaluations: Vec<Evaluation>,
     /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
-    /// The plan of the solutions.
-    pub plan: Plan,
+    /// The plans of the solutions.
+    pub plans: Plans,
 }
 
 impl Kernels {
     /// Builds all kernels of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        let plan = choose(model);
+        let plans = choose(model);
         let evaluations = [Reading::Raw, Reading::Normalised]
             .into_iter()
             .flat_map(|reading| Terms::ALL.map(|terms| (reading, terms)))
-            .map(|(reading, terms)| evaluation(model, &plan, reading, terms))
+            .map(|(reading, terms)| evaluation(model, plans.of(terms), reading, terms))
             .collect();
         let solvers = [Terms::Plain, Terms::Compliant]
-            .map(|terms| solver(model, &plan, terms))
+            .map(|terms| solver(model, plans.of(terms), terms))
             .into();
         let (jacobian, blocks) = jacobian(model);
         let minus = -Arena::ONE;
@@ -154,7 +154,7 @@ impl Kernels {
             readings: Readings::new(model),
             evaluations,
             solvers,
-            plan,
+            plans,
         }
     }
 }
@@ -457,16 +457,7 @@ pub fn solver(model: &Model, plan: &Plan, terms: Terms) -> Solver {
     let kinds = kinds(model);
     let system = System::new(&mut scene, &kinds, plan.clone(), terms);
     let (pivots, checks) = relative_pivots(&mut scene, &system);
-    let right = system.given(&mut scene);
-    let upper: Vec<Expr> = (0..scene.layout.velocities)
-        .map(|k| {
-            scene
-                .space
-                .arena
-                .input(crate::symbolic::arena::Input::Upper(k as u32))
-        })
-        .collect();
-    let solution = system.solve(&mut scene, &right, &upper);
+    let solution = system.solve_given(&mut scene);
     let solution = solution
         .accelerations
         .into_iter()

@@ -15,6 +15,7 @@ pub mod time;
 mod tree;
 
 use crate::symbolic::vector::Frame;
+use system::Terms;
 
 /// A pivot: one unknown, or a body's acceleration together with the multiplier that carries it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,8 +54,26 @@ pub struct Plan {
     pub rows: Vec<Frame>,
     /// Pivots, first to last. Unknowns are numbered like velocities, then rows.
     pub pivots: Vec<Pivot>,
-    /// The same for a system with compliance, where the rows have a diagonal of their own.
-    pub compliant_pivots: Vec<Pivot>,
     /// The determinant of `C` of each [`Pivot::Forbidden`] at the start, in order.
     pub determinants: Vec<f64>,
+}
+
+/// The plans of a mechanism: what is cheapest without a compliance need not be so with one, where the rows have a diagonal of their own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plans {
+    /// For rigid constraints, with or without stabilisation.
+    pub rigid: Plan,
+    /// For constraints with a compliance, where every order is safe.
+    pub compliant: Plan,
+}
+
+impl Plans {
+    /// The plan for some terms.
+    #[must_use]
+    pub fn of(&self, terms: Terms) -> &Plan {
+        match terms {
+            Terms::Plain | Terms::Stabilised => &self.rigid,
+            Terms::Compliant => &self.compliant,
+        }
+    }
 }

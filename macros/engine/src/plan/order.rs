@@ -55,13 +55,32 @@ struct Part {
     outside: BTreeSet<Option<usize>>,
 }
 
-/// The kinds of pivots to look for.
+/// The order of elimination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Kinds {
-    /// Point rows paired with accelerations.
-    pub(super) saddles: bool,
-    /// Two single rows paired with two components of the angular acceleration.
-    pub(super) forbidden: bool,
+pub(super) enum Course {
+    /// Bodies from the leaves, rows behind them as soon as they are safe.
+    Leaves {
+        /// Point rows paired with accelerations.
+        saddles: bool,
+        /// Two single rows paired with two components of the angular acceleration.
+        forbidden: bool,
+        /// Point rows between moving bodies wait until all bodies are eliminated, and begin there then.
+        late: Option<Rows>,
+    },
+    /// All bodies, then all rows: the diagonal of the bodies does not fill in, and what is left, `-D M^-1 D^T`, couples rows
+    /// of neighbours only.
+    BodiesFirst(Rows),
+}
+
+/// Where rows begin once all bodies are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rows {
+    /// At the leaves.
+    Leaves,
+    /// At the ground.
+    Ground,
+    /// At the ground and at the leaves: half the way, and as many operations along a chain.
+    BothEnds,
 }
 
 /// Picks pivots.
@@ -95,22 +114,77 @@ impl<'a> Order<'a> {
     }
 
     /// Pivots from first to last, and the determinants of the forbidden motions at the start.
-    pub(super) fn pivots(&mut self, tree: &Tree, kinds: Kinds) -> (Vec<Pivot>, Vec<f64>) {
+    pub(super) fn pivots(&mut self, tree: &Tree, course: Course) -> (Vec<Pivot>, Vec<f64>) {
+        self.done = vec![false; self.scene.layout.velocities + self.scene.layout.rows];
+        self.parts = Vec::new();
+        match course {
+            Course::Leaves {
+                saddles,
+                forbidden,
+                late,
+            } => self.from_leaves(tree, saddles, forbidden, late),
+            Course::BodiesFirst(rows) => (self.bodies_first(tree, rows), Vec::new()),
+        }
+    }
+
+    /// Rows are independent, so that `D M^-1 D^T` is positive definite, and so is what is left of it: any order of the rows is safe.
+    fn bodies_first(&mut self, tree: &Tree, rows: Rows) -> Vec<Pivot> {
+        let mut pivots = Vec::new();
+        for &(body, _) in &tree.bodies {
+            self.take_body(&mut pivots, body);
+        }
+        for row in self.rows_in_order(tree, rows) {
+            let row = self.scene.layout.velocities + row;
+            self.take(&mut pivots, Pivot::Multiplier(row));
+        }
+        pivots
+    }
+
+    /// All rows, those of closing joints last.
+    fn rows_in_order(&self, tree: &Tree, rows: Rows) -> Vec<usize> {
+        let mut joints: Vec<usize> = tree.bodies.iter().filter_map(|(_, joint)| *joint).collect();
+        match rows {
+            Rows::Leaves => {}
+            Rows::Ground => joints.reverse(),
+            Rows::BothEnds => {
+                let from_end = |joint: &usize| tree.heights[*joint].min(tree.depths[*joint]);
+                joints.sort_by_key(from_end);
+            }
+        }
+        let joints = joints.iter().chain(&tree.closing);
+        joints
+            .flat_map(|&joint| rows_of(self.scene, joint))
+            .collect()
+    }
+
+    fn take_body(&mut self, pivots: &mut Vec<Pivot>, body: usize) {
+        let first = self.scene.layout.velocity[body];
+        for k in 0..self.kinds[body].velocities() {
+            self.take(pivots, Pivot::Acceleration(first + k));
+        }
+    }
+
+    fn from_leaves(
+        &mut self,
+        tree: &Tree,
+        saddles: bool,
+        forbidden: bool,
+        late: Option<Rows>,
+    ) -> (Vec<Pivot>, Vec<f64>) {
         let scene = self.scene;
         let velocities = scene.layout.velocities;
-        self.done = vec![false; velocities + scene.layout.rows];
-        self.parts = Vec::new();
         let mut pivots = Vec::new();
         let mut determinants = Vec::new();
         let mut waiting: Vec<usize> = Vec::new();
         for &(body, joint) in &tree.bodies {
             let first = scene.layout.velocity[body];
             self.enter(body);
-            if let Some(joint) = joint.filter(|_| kinds.saddles) {
+            if let Some(joint) = joint.filter(|_| saddles) {
                 for row in self.carried_rows(joint, first) {
                     let rows = [row, row + 1, row + 2];
                     let is_free = |row: &usize| self.is_first_on(*row, body);
-                    if !rows.iter().all(is_free) || !self.hold(&rows) {
+                    let waits = late.is_some() && self.is_between_bodies(row);
+                    if waits || !rows.iter().all(is_free) || !self.hold(&rows) {
                         continue;
                     }
                     for k in 0..3 {
@@ -118,7 +192,7 @@ impl<'a> Order<'a> {
                     }
                 }
             }
-            if let Some(joint) = joint.filter(|_| kinds.forbidden)
+            if let Some(joint) = joint.filter(|_| forbidden)
                 && let Some((accelerations, rows, determinant)) = self.forbidden_motion(joint, body)
                 && rows.iter().all(|&row| self.is_first_on(row, body))
                 && self.hold(&rows)
@@ -127,10 +201,12 @@ impl<'a> Order<'a> {
                 self.take(&mut pivots, Pivot::Forbidden(accelerations, rows));
                 determinants.push(determinant);
             }
-            for k in 0..self.kinds[body].velocities() {
-                self.take(&mut pivots, Pivot::Acceleration(first + k));
-            }
-            waiting.extend(joint.map_or_else(Vec::new, |joint| rows_of(scene, joint)));
+            self.take_body(&mut pivots, body);
+            let behind = joint.map_or_else(Vec::new, |joint| rows_of(scene, joint));
+            let waits = |row: &usize| {
+                late.is_some() && self.is_of_vector(*row) && self.is_between_bodies(*row)
+            };
+            waiting.extend(behind.into_iter().filter(|row| !waits(row)));
             waiting.retain(|&row| {
                 let ready = self.done[velocities + row] || self.hold(&[row]);
                 if ready {
@@ -139,11 +215,22 @@ impl<'a> Order<'a> {
                 !ready
             });
         }
-        let closing = tree.closing.iter().flat_map(|&joint| rows_of(scene, joint));
-        for row in waiting.into_iter().chain(closing) {
+        let rest = self.rows_in_order(tree, late.unwrap_or(Rows::Leaves));
+        for row in waiting.into_iter().chain(rest) {
             self.take(&mut pivots, Pivot::Multiplier(velocities + row));
         }
         (pivots, determinants)
+    }
+
+    /// Whether a row acts on more than one body.
+    fn is_between_bodies(&self, row: usize) -> bool {
+        self.reach.rows[row].iter().flatten().count() > 1
+    }
+
+    fn is_of_vector(&self, row: usize) -> bool {
+        self.scene.constraints.iter().any(|c| {
+            (c.row..c.row + 3).contains(&row) && matches!(c.constraint, Constraint::Vector(_))
+        })
     }
 
     /// The accelerations of a body are eliminated from here on.

@@ -3,7 +3,8 @@
 use super::Plan;
 use super::eliminate::{Check, Factors, Symmetric, factorise};
 use crate::model::BodyKind;
-use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::arena::{Arena, Expr, Input, Stage};
+use crate::symbolic::count::count;
 use crate::symbolic::scene::{Constraint, Scene};
 use crate::symbolic::vector::{Frame, Triple};
 
@@ -42,6 +43,14 @@ pub struct Solution {
     pub accelerations: Vec<Expr>,
     /// `lambda`, rows in the axes of their definition.
     pub multipliers: Vec<Expr>,
+}
+
+impl Solution {
+    /// The operations that it takes, of a stage or later.
+    fn operations(&self, arena: &Arena, stage: Stage) -> usize {
+        let outputs = [&self.accelerations[..], &self.multipliers].concat();
+        count(arena, &outputs, stage).total()
+    }
 }
 
 /// The right-hand side, in the axes of the plan.
@@ -94,10 +103,6 @@ impl System {
                 }
             }
         }
-        let pivots = match terms {
-            Terms::Compliant => &plan.compliant_pivots,
-            Terms::Plain | Terms::Stabilised => &plan.pivots,
-        };
         let compliances = compliances(scene, terms);
         for (row, entries) in coupling(scene, kinds, &plan).into_iter().enumerate() {
             for (unknown, value) in entries {
@@ -105,7 +110,8 @@ impl System {
             }
             matrix.set(velocities + row, velocities + row, -compliances[row]);
         }
-        let mut factors = factorise(&mut scene.space.arena, matrix, pivots, &plan.determinants);
+        let arena = &mut scene.space.arena;
+        let mut factors = factorise(arena, matrix, &plan.pivots, &plan.determinants);
         if terms == Terms::Compliant {
             // Quasi-definite: every pivot is safe.
             factors.checks.clear();
@@ -141,8 +147,17 @@ impl System {
         RightHandSide(right)
     }
 
-    /// A given right-hand side, in the axes of the state and of the definitions.
-    pub fn given(&self, scene: &mut Scene) -> RightHandSide {
+    /// Solves for a given right-hand side, in the axes of the state and of the definitions.
+    pub fn solve_given(&self, scene: &mut Scene) -> Solution {
+        let right = self.given(scene);
+        let arena = &mut scene.space.arena;
+        let upper: Vec<Expr> = (0..scene.layout.velocities)
+            .map(|k| arena.input(Input::Upper(k as u32)))
+            .collect();
+        self.solve(scene, &right, &upper, Stage::RightHandSide)
+    }
+
+    fn given(&self, scene: &mut Scene) -> RightHandSide {
         let arena = &mut scene.space.arena;
         let mut right: Vec<Expr> = (0..scene.layout.velocities)
             .map(|k| arena.input(Input::Upper(k as u32)))
@@ -176,37 +191,47 @@ impl System {
         }
     }
 
-    /// Solves for a right-hand side.
-    pub fn solve(&self, scene: &mut Scene, right: &RightHandSide, upper: &[Expr]) -> Solution {
-        let mut solution = self.factors.solve(&mut scene.space.arena, right.0.clone());
-        self.turn_rows(scene, &mut solution, false);
-        let multipliers = solution.split_off(scene.layout.velocities);
-        let mut accelerations = solution;
+    /// Solves for a right-hand side, with as few operations of a stage or later as possible.
+    pub fn solve(
+        &self,
+        scene: &mut Scene,
+        right: &RightHandSide,
+        upper: &[Expr],
+        stage: Stage,
+    ) -> Solution {
+        let mut values = self.factors.solve(&mut scene.space.arena, right.0.clone());
+        self.turn_rows(scene, &mut values, false);
+        let multipliers = values.split_off(scene.layout.velocities);
+        let mut solution = Solution {
+            accelerations: values,
+            multipliers,
+        };
+        let mut by_newton = Vec::new();
         for (body, &frame) in self.plan.translation.iter().enumerate() {
             if frame == Frame::Global {
                 continue;
             }
             let first = scene.layout.velocity[body];
-            let known: Triple = [0, 1, 2].map(|k| accelerations[first + k]);
             let force: Triple = [0, 1, 2].map(|k| upper[first + k]);
             let mass = scene.mass[body];
             let gradients = self.forces_on(scene, body);
-            let direct = scene
-                .space
-                .cost(|space| space.turn(known, frame, Frame::Global));
-            let newton = |arena: &mut Arena| newton(arena, mass, force, &gradients, &multipliers);
-            let by_newton = scene.space.cost(|space| newton(&mut space.arena));
-            let global = if by_newton < direct {
-                newton(&mut scene.space.arena)
-            } else {
-                scene.space.turn(known, frame, Frame::Global)
-            };
-            accelerations[first..first + 3].copy_from_slice(&global);
+            let arena = &mut scene.space.arena;
+            let global = newton(arena, mass, force, &gradients, &solution.multipliers);
+            by_newton.push((first, global));
+            let accelerations = &mut solution.accelerations;
+            turn(scene, accelerations, first, frame, Frame::Global);
         }
-        Solution {
-            accelerations,
-            multipliers,
+        // Whether the accelerations along the axes of the plan are needed at all shows in the whole only.
+        let mut least = solution.operations(&scene.space.arena, stage);
+        for (first, global) in by_newton {
+            let mut other = solution.clone();
+            other.accelerations[first..first + 3].copy_from_slice(&global);
+            let operations = other.operations(&scene.space.arena, stage);
+            if operations < least {
+                (solution, least) = (other, operations);
+            }
         }
+        solution
     }
 
     /// The rows of `D` for the translation of a body, global axes.
@@ -225,6 +250,13 @@ impl System {
                 }
             }
         }
+        // Not in the order of the fields, but in that in which multipliers become known.
+        let velocities = scene.layout.velocities;
+        let eliminated: Vec<usize> = self.plan.pivots.iter().flat_map(|p| p.unknowns()).collect();
+        forces.sort_by_key(|(row, _)| {
+            let place = eliminated.iter().position(|k| *k == velocities + row);
+            std::cmp::Reverse(place)
+        });
         forces
     }
 }

@@ -11,6 +11,10 @@ pub(super) struct Tree {
     pub(super) closing: Vec<usize>,
     /// The body that each joint carries, `None` for a closing joint.
     pub(super) child: Vec<Option<usize>>,
+    /// How many joints are between each joint that carries a body and the ground.
+    pub(super) depths: Vec<usize>,
+    /// How many joints are between each joint that carries a body and the leaf that is farthest.
+    pub(super) heights: Vec<usize>,
 }
 
 /// What speaks for a joint to carry a body, most important first.
@@ -81,9 +85,26 @@ pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
         .filter(|&joint| child[joint].is_none())
         .collect();
     closing.sort_by_key(|&joint| model.joints[joint].name.to_string());
+    let mut depths = vec![0; model.joints.len()];
+    let mut heights = vec![0; model.joints.len()];
+    for &body in &order {
+        let Some(joint) = parent[body] else { continue };
+        depths[joint] = depth[body].map_or(0, |depth| depth.saturating_sub(1));
+        // Leaves come first, so that the heights of all children are known.
+        let children = model.joints[joint].bodies.iter().flatten();
+        let below = children
+            .filter(|&&other| other != body && depth[other] < depth[body])
+            .filter_map(|&other| parent[other]);
+        let height = heights[joint] + 1;
+        for joint in below {
+            heights[joint] = heights[joint].max(height);
+        }
+    }
     Tree {
         bodies: order.into_iter().map(|body| (body, parent[body])).collect(),
         closing,
         child,
+        depths,
+        heights,
     }
 }

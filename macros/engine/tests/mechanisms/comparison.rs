@@ -1,8 +1,8 @@
 //! A mechanism through the engine's passes, evaluated by numbers, against a dense solution of the same equations.
 
 use holonom_engine::model::Model;
-use holonom_engine::plan::Plan;
-use holonom_engine::plan::candidates::{CANDIDATES, all, candidate};
+use holonom_engine::plan::Plans;
+use holonom_engine::plan::candidates::all;
 use holonom_engine::plan::kernels::{Evaluation, Kernels, evaluation};
 use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::scene::Reading;
@@ -57,27 +57,31 @@ pub(crate) fn difference(found: &[f64], wanted: &[f64]) -> f64 {
     })
 }
 
-/// Evaluations by other plans than the chosen one.
-fn others(model: &Model, chosen: &Plan, seed: usize) -> Vec<Evaluation> {
-    let mut plans = all(model);
-    plans.retain(|plan| plan != chosen);
-    if model.layout().velocities + model.layout().rows > LARGE {
+/// Evaluations by other plans than the chosen ones.
+fn others(model: &Model, chosen: &Plans, seed: usize) -> Vec<Evaluation> {
+    let both = [Terms::Plain, Terms::Compliant];
+    let plans = both.map(|terms| {
+        let mut plans = all(model, terms);
+        plans.retain(|plan| plan != chosen.of(terms));
+        plans.into_iter().map(move |plan| (terms, plan))
+    });
+    let mut plans: Vec<_> = plans.into_iter().flatten().collect();
+    if model.layout().velocities + model.layout().rows > LARGE && !plans.is_empty() {
         // One of them: they cost most of the time.
-        plans = plans.into_iter().skip(seed % 3).take(1).collect();
+        plans = vec![plans.swap_remove(seed % plans.len())];
     }
-    let terms = [Terms::Plain, Terms::Compliant];
-    let plans = plans.iter().enumerate();
+    let plans = plans.iter();
     plans
-        .map(|(place, plan)| evaluation(model, plan, Reading::Raw, terms[(place + seed) % 2]))
+        .map(|(terms, plan)| evaluation(model, plan, Reading::Raw, *terms))
         .collect()
 }
 
 /// One of all evaluations.
 fn any(model: &Model, seed: usize) -> Evaluation {
-    let plan = candidate(model, seed % CANDIDATES);
-    let seed = seed / CANDIDATES;
-    let reading = [Reading::Raw, Reading::Normalised][seed % 2];
-    evaluation(model, &plan, reading, Terms::ALL[(seed / 2) % 3])
+    let terms = Terms::ALL[seed % 3];
+    let reading = [Reading::Raw, Reading::Normalised][(seed / 3) % 2];
+    let plans = all(model, terms);
+    evaluation(model, &plans[(seed / 6) % plans.len()], reading, terms)
 }
 
 impl<'a> Comparison<'a> {
@@ -90,7 +94,7 @@ impl<'a> Comparison<'a> {
         let (kernels, others) = match extent {
             Extent::Full => {
                 let kernels = Kernels::new(model);
-                let others = others(model, &kernels.plan, seed as usize);
+                let others = others(model, &kernels.plans, seed as usize);
                 (Some(kernels), others)
             }
             Extent::Quick => (None, vec![any(model, seed as usize)]),

@@ -199,7 +199,12 @@ fn by_name(model: &Model, described: &Described) -> Option<(BTreeMap<String, Vec
     };
     let inputs = Inputs::new(model, described, &state, &equations.angles, coefficients);
     let layout = model.layout();
-    let evaluation = evaluation(model, &choose(model), Reading::Normalised, Terms::Plain);
+    let evaluation = evaluation(
+        model,
+        &choose(model).rigid,
+        Reading::Normalised,
+        Terms::Plain,
+    );
     let values = inputs.of(&evaluation.kernel);
     let (solution, pivots) =
         values[layout.coordinates + layout.auxiliaries..].split_at(layout.velocities + layout.rows);

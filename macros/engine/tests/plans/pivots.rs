@@ -1,6 +1,7 @@
 //! Whatever a plan says is correct to round-off.
 
 use holonom_engine::model::ElementKind;
+use holonom_engine::plan::candidates::all;
 use holonom_engine::plan::kernels::Kernels;
 use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::scene::Reading;
@@ -102,11 +103,13 @@ fn plans_in_any_order() {
     let mut dice = Dice::new(3);
     let model = delivered(&tokens(LINKS), find);
     let kernels = Kernels::new(&model);
+    // The one with the fewest pivots: of single multipliers few orders are possible.
+    let plans = all(&model, Terms::Plain);
     let described = State::described(&model, &kernels);
     let mut right = 0;
     for round in 0..60 {
         let state = described.near(&model, 0.2, &mut dice);
-        let mut plan = kernels.plan.clone();
+        let mut plan = plans[0].clone();
         for k in (1..plan.pivots.len()).rev() {
             plan.pivots.swap(k, dice.below(k + 1));
         }
@@ -131,7 +134,7 @@ fn plans_in_any_order() {
 fn a_plan_that_forgets_an_unknown() {
     let model = delivered(&tokens(LINKS), find);
     let kernels = Kernels::new(&model);
-    let mut plan = kernels.plan.clone();
+    let mut plan = kernels.plans.rigid.clone();
     plan.pivots.pop();
     State::described(&model, &kernels).by_plan(&model, &plan);
 }
