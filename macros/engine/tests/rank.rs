@@ -204,13 +204,30 @@ fn a_loop_that_moves_against_the_count() {
 }
 
 #[test]
-fn a_long_kernel_is_written_in_blocks() {
+fn a_long_kernel_is_written_in_parts_and_blocks() {
     let model = bricard("redundant = \"drop\"");
     let code = holonom_engine::emit::mechanism::emit(&model, &quote::quote!(::holonom));
     let file: syn::File = syn::parse2(code).expect("items");
-    let text = quote::quote!(#file).to_string();
-    let blocks = text.matches(") = { let ").count();
-    assert!(blocks > 100, "{blocks}");
+    let [syn::Item::Const(item)] = &file.items[..1] else {
+        panic!("everything stands in a constant")
+    };
+    let syn::Expr::Block(block) = &*item.expr else {
+        panic!("a block")
+    };
+    let mut lengths = Vec::new();
+    for statement in &block.block.stmts {
+        if let syn::Stmt::Item(syn::Item::Fn(function)) = statement {
+            let is_part = function.sig.ident.to_string().contains("_part_");
+            lengths.push((is_part, function.block.stmts.len()));
+        }
+    }
+    let parts = lengths.iter().filter(|(is_part, _)| *is_part).count();
+    assert!(parts > 20, "{lengths:?}");
+    // Scopes within each other: the compiler walks them by recursion.
+    assert!(
+        lengths.iter().all(|(_, length)| *length < 2000),
+        "{lengths:?}"
+    );
 }
 
 #[test]

@@ -6,9 +6,10 @@ use quote::{format_ident, quote};
 use super::documentation::documentation;
 use super::local;
 use super::parameters;
+use super::parts::{Frame, write_in_parts};
 use super::report::report;
 use super::store::{Kernel as Arguments, Store};
-use super::straight_line::{StraightLine, write};
+use super::straight_line::{Given, StraightLine, write};
 use crate::model::Model;
 use crate::plan::kernels::{Kernel, Kernels};
 use crate::symbolic::arena::Stage;
@@ -22,6 +23,7 @@ pub fn emit(model: &Model, facade: &TokenStream) -> TokenStream {
         kernels: &kernels,
         facade,
         store: Store::default(),
+        parts: TokenStream::new(),
     };
     writer.write()
 }
@@ -32,6 +34,8 @@ pub(super) struct Writer<'a> {
     pub(super) kernels: &'a Kernels,
     pub(super) facade: &'a TokenStream,
     pub(super) store: Store,
+    /// The functions that long kernels are written in.
+    pub(super) parts: TokenStream,
 }
 
 impl Writer<'_> {
@@ -50,11 +54,7 @@ impl Writer<'_> {
         let documentation = documentation(model, kernels);
         let (handles_type, handles) = self.handles();
         let state_kernels = self.state_kernels();
-        let evaluations: TokenStream = kernels
-            .evaluations
-            .iter()
-            .map(|evaluation| self.evaluation(evaluation))
-            .collect();
+        let evaluations = self.evaluations();
         let dispatch = self.dispatch();
         let mut sizes = [0, 0];
         let mut solvers = TokenStream::new();
@@ -84,6 +84,7 @@ impl Writer<'_> {
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
         let compliances = local("compliances");
         let vector_rows = &kernels.vector_rows;
+        let parts = &self.parts;
         let given = local("parameters");
         quote! {
             #[allow(
@@ -149,6 +150,7 @@ impl Writer<'_> {
 
                 #evaluations
                 #solvers
+                #parts
 
                 #construction
             };
@@ -164,6 +166,26 @@ impl Writer<'_> {
                 store: &mut self.store,
             },
         )
+    }
+
+    /// A kernel that may be long.
+    pub(super) fn line_of(
+        &mut self,
+        kernel: &Kernel,
+        given: &Given,
+        frame: &Frame,
+    ) -> StraightLine {
+        let (line, parts) = write_in_parts(
+            (&kernel.arena, &kernel.outputs),
+            Stage::State,
+            given,
+            &mut Arguments {
+                store: &mut self.store,
+            },
+            frame,
+        );
+        self.parts.extend(parts);
+        line
     }
 
     /// Statements that give a kernel its arrays.
@@ -221,10 +243,15 @@ impl Writer<'_> {
 
     /// Statements and value of a kernel: one number where the result is `S`, else an array.
     fn body(&mut self, kernel: &Kernel, result: &TokenStream) -> (TokenStream, TokenStream) {
+        let line = self.line(kernel);
+        Self::value(line, result)
+    }
+
+    fn value(line: StraightLine, result: &TokenStream) -> (TokenStream, TokenStream) {
         let StraightLine {
             statements,
             outputs,
-        } = self.line(kernel);
+        } = line;
         let value = if result.to_string() == "__S" {
             quote!(#(#outputs)*)
         } else {
@@ -244,7 +271,21 @@ impl Writer<'_> {
         let facade = self.facade;
         let (constants, state) = (local("constants"), local("state"));
         let unpack = Self::unpack();
-        let (statements, value) = self.body(kernel, result);
+        let mechanism = &self.model.name;
+        let passed_time = (!time.is_empty()).then(|| local("time")).into_iter();
+        let frame = Frame {
+            name: format!("__{name}"),
+            facade: facade.clone(),
+            declared: quote! {
+                #constants: &<#mechanism as #facade::Mechanism>::Constants<__S>,
+                #time
+                #state: &<#mechanism as #facade::Mechanism>::State<__S>,
+            },
+            passed: quote!(#constants, #(#passed_time,)* #state,),
+            unpack: unpack.clone(),
+        };
+        let line = self.line_of(kernel, &Given::default(), &frame);
+        let (statements, value) = Self::value(line, result);
         let name = format_ident!("{name}");
         quote! {
             #[inline]

@@ -5,6 +5,7 @@ pub mod fallback;
 pub mod joint;
 pub mod mechanism;
 pub mod parameters;
+mod parts;
 mod readings;
 pub mod report;
 pub mod solution;

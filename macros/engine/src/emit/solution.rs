@@ -1,15 +1,17 @@
 //! The kernels that solve: the fused evaluations, factorisation and back-substitution.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::local;
 use super::mechanism::Writer;
+use super::parts::{Frame, MANY, write_in_parts};
 use super::store::BackSubstitution;
-use super::straight_line::{StraightLine, write};
+use super::straight_line::{Given, StraightLine};
 use crate::plan::kernels::{Evaluation, Kernel, PivotCheck, Solver};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Stage};
+use crate::symbolic::same::Above;
 use crate::symbolic::scene::Reading;
 
 /// Operations up to which a kernel becomes part of its caller, which saves moving the results twice.
@@ -41,21 +43,133 @@ impl Writer<'_> {
         pivot
     }
 
-    pub(super) fn evaluation(&mut self, evaluation: &Evaluation) -> TokenStream {
-        let (name, facade) = (&self.model.name, self.facade);
-        let layout = self.model.layout();
+    /// The names of the arguments.
+    fn passed() -> TokenStream {
+        let names = ["constants", "coefficients", "time", "state"].map(local);
+        quote!(#(#names,)*)
+    }
+
+    /// The fused evaluations. Where they are long, both readings of Euler parameters are one function of the rotation matrices, if
+    /// they are the same function.
+    pub(super) fn evaluations(&mut self) -> TokenStream {
+        let kernels = self.kernels;
+        let mut tokens = TokenStream::new();
+        let mut shared: Option<&Evaluation> = None;
+        for evaluation in &kernels.evaluations {
+            let others = kernels.evaluations.iter();
+            let mut others = others.filter(|other| {
+                other.terms == evaluation.terms && other.reading != evaluation.reading
+            });
+            let other = others.next().filter(|other| {
+                let operations = |evaluation: &Evaluation| {
+                    let Kernel { arena, outputs } = &evaluation.kernel;
+                    arena.live(outputs, Stage::State).len()
+                };
+                operations(evaluation) > MANY && above(evaluation).is_same(above(other))
+            });
+            if other.is_none() {
+                tokens.extend(self.evaluation(evaluation, None));
+                continue;
+            };
+            tokens.extend(self.by_rotations(evaluation));
+            if evaluation.reading == Reading::Raw {
+                tokens.extend(self.evaluation(evaluation, Some(&evaluation.rotations)));
+                shared.get_or_insert(evaluation);
+            }
+        }
+        if let Some(shared) = shared {
+            let both = kernels
+                .evaluations
+                .iter()
+                .filter(|evaluation| evaluation.terms == shared.terms);
+            for evaluation in both {
+                tokens.extend(self.rotations(evaluation));
+            }
+        }
+        tokens
+    }
+
+    /// The rotation matrices as one reading has them.
+    fn rotations(&mut self, evaluation: &Evaluation) -> TokenStream {
+        let facade = self.facade;
+        let function = rotations_function(evaluation.reading);
+        let size = evaluation.rotations.len();
+        let frame = Frame {
+            name: function.to_string(),
+            facade: facade.clone(),
+            declared: self.arguments(),
+            passed: Self::passed(),
+            unpack: Self::unpack(),
+        };
+        let kernel = Kernel {
+            arena: evaluation.kernel.arena.clone(),
+            outputs: evaluation
+                .rotations
+                .iter()
+                .map(|entry| entry.abs())
+                .collect(),
+        };
         let StraightLine {
             statements,
             outputs,
-        } = self.line(&evaluation.kernel);
+        } = self.line_of(&kernel, &Given::default(), &frame);
+        let (arguments, unpack) = (self.arguments(), Self::unpack());
+        quote! {
+            #[inline(never)]
+            fn #function<__S: #facade::Scalar>(#arguments) -> [__S; #size] {
+                #unpack
+                #statements
+                [#(#outputs),*]
+            }
+        }
+    }
+
+    /// An evaluation that is a function of the rotation matrices.
+    fn by_rotations(&self, evaluation: &Evaluation) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let function = evaluation_function(evaluation.terms, evaluation.reading);
+        let of_rotations = of_rotations(evaluation.terms);
+        let rotations = rotations_function(evaluation.reading);
+        let (arguments, passed) = (self.arguments(), Self::passed());
+        quote! {
+            #[inline]
+            fn #function<__S: #facade::Scalar>(#arguments) -> #facade::Evaluation<__S, #name> {
+                #of_rotations(#passed &#rotations(#passed))
+            }
+        }
+    }
+
+    /// An evaluation; as a function of rotation matrices, if these are given.
+    fn evaluation(&mut self, evaluation: &Evaluation, given: Option<&[Expr]>) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let layout = self.model.layout();
+        let mut function = evaluation_function(evaluation.terms, evaluation.reading);
+        let (mut arguments, mut passed) = (self.arguments(), Self::passed());
+        let mut elements = Given::default();
+        if let Some(rotations) = given {
+            let (array, size) = (local("rotations"), rotations.len());
+            function = of_rotations(evaluation.terms);
+            arguments.extend(quote!(#array: &[__S; #size],));
+            passed.extend(quote!(#array,));
+            elements = Given::elements(rotations, &array);
+        }
+        let frame = Frame {
+            name: function.to_string(),
+            facade: facade.clone(),
+            declared: arguments.clone(),
+            passed,
+            unpack: Self::unpack(),
+        };
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line_of(&evaluation.kernel, &elements, &frame);
         let (coordinates, rest) = outputs.split_at(layout.coordinates + layout.auxiliaries);
         let (velocities, rest) = rest.split_at(layout.velocities);
         let (multipliers, pivots) = rest.split_at(layout.rows);
         let pivot = self.pivots(&evaluation.checks, pivots);
-        let function = evaluation_function(evaluation.terms, evaluation.reading);
         let unpack = Self::unpack();
         let inline = inline(&evaluation.kernel.arena, &evaluation.kernel.outputs);
-        let arguments = self.arguments();
         quote! {
             #inline
             fn #function<__S: #facade::Scalar>(#arguments) -> #facade::Evaluation<__S, #name> {
@@ -133,26 +247,6 @@ impl Writer<'_> {
     /// Factorisation and back-substitution, and the number of values that pass between them.
     pub(super) fn solver(&mut self, solver: &Solver) -> (TokenStream, usize) {
         let (name, facade) = (&self.model.name, self.facade);
-        let mut back = BackSubstitution {
-            store: &mut self.store,
-            factors: Vec::new(),
-        };
-        let solve = write(
-            &solver.arena,
-            &solver.solution,
-            Stage::RightHandSide,
-            &mut back,
-        );
-        let factors = back.factors;
-        let mut outputs = factors.clone();
-        outputs.extend(&solver.pivots);
-        let factor = self.line(&Kernel {
-            arena: solver.arena.clone(),
-            outputs: outputs.clone(),
-        });
-        let (values, pivots) = factor.outputs.split_at(factors.len());
-        let pivot = self.pivots(&solver.checks, pivots);
-        let (accelerations, multipliers) = solve.outputs.split_at(self.model.layout().velocities);
         let suffix = if solver.terms == Terms::Compliant {
             "compliant"
         } else {
@@ -166,6 +260,46 @@ impl Writer<'_> {
         let arguments = self.arguments();
         let (constants, coefficients) = (local("constants"), local("coefficients"));
         let (factors_name, upper, lower) = (local("factors"), local("upper"), local("lower"));
+        let given_to_solve = quote! {
+            #constants: &<#name as #facade::Mechanism>::Constants<__S>,
+            #coefficients: &<#name as #facade::Mechanism>::Coefficients<__S>,
+            #factors_name: &<#name as #facade::Mechanism>::Factors<__S>,
+            #upper: &<#name as #facade::Mechanism>::Velocities<__S>,
+            #lower: &<#name as #facade::Mechanism>::Multipliers<__S>,
+        };
+        let mut back = BackSubstitution::new(&mut self.store);
+        let (solve, parts) = write_in_parts(
+            (&solver.arena, &solver.solution),
+            Stage::RightHandSide,
+            &Given::default(),
+            &mut back,
+            &Frame {
+                name: solve_name.to_string(),
+                facade: facade.clone(),
+                declared: given_to_solve.clone(),
+                passed: quote!(#constants, #coefficients, #factors_name, #upper, #lower,),
+                unpack: TokenStream::new(),
+            },
+        );
+        let factors = back.factors;
+        self.parts.extend(parts);
+        let mut outputs = factors.clone();
+        outputs.extend(&solver.pivots);
+        let frame = Frame {
+            name: factor_name.to_string(),
+            facade: facade.clone(),
+            declared: arguments.clone(),
+            passed: Self::passed(),
+            unpack: unpack.clone(),
+        };
+        let kernel = Kernel {
+            arena: solver.arena.clone(),
+            outputs: outputs.clone(),
+        };
+        let factor = self.line_of(&kernel, &Given::default(), &frame);
+        let (values, pivots) = factor.outputs.split_at(factors.len());
+        let pivot = self.pivots(&solver.checks, pivots);
+        let (accelerations, multipliers) = solve.outputs.split_at(self.model.layout().velocities);
         let (factor_statements, solve_statements) = (factor.statements, solve.statements);
         let inline_factor = inline(&solver.arena, &outputs);
         let inline_solve = inline(&solver.arena, &solver.solution);
@@ -184,11 +318,7 @@ impl Writer<'_> {
 
             #inline_solve
             fn #solve_name<__S: #facade::Scalar>(
-                #constants: &<#name as #facade::Mechanism>::Constants<__S>,
-                #coefficients: &<#name as #facade::Mechanism>::Coefficients<__S>,
-                #factors_name: &<#name as #facade::Mechanism>::Factors<__S>,
-                #upper: &<#name as #facade::Mechanism>::Velocities<__S>,
-                #lower: &<#name as #facade::Mechanism>::Multipliers<__S>,
+                #given_to_solve
             ) -> (
                 <#name as #facade::Mechanism>::Velocities<__S>,
                 <#name as #facade::Mechanism>::Multipliers<__S>,
@@ -201,12 +331,36 @@ impl Writer<'_> {
     }
 }
 
-fn evaluation_function(terms: Terms, reading: Reading) -> proc_macro2::Ident {
-    let terms = match terms {
+/// An evaluation as a function of the rotation matrices.
+fn above(evaluation: &Evaluation) -> Above<'_> {
+    Above {
+        arena: &evaluation.kernel.arena,
+        outputs: &evaluation.kernel.outputs,
+        given: &evaluation.rotations,
+    }
+}
+
+fn rotations_function(reading: Reading) -> Ident {
+    match reading {
+        Reading::Raw => format_ident!("__rotations"),
+        Reading::Normalised => format_ident!("__rotations_normalised"),
+    }
+}
+
+fn of_rotations(terms: Terms) -> Ident {
+    format_ident!("__evaluate_{}_of_rotations", name(terms))
+}
+
+fn name(terms: Terms) -> &'static str {
+    match terms {
         Terms::Plain => "plain",
         Terms::Stabilised => "stabilised",
         Terms::Compliant => "compliant",
-    };
+    }
+}
+
+fn evaluation_function(terms: Terms, reading: Reading) -> Ident {
+    let terms = name(terms);
     match reading {
         Reading::Raw => format_ident!("__evaluate_{terms}"),
         Reading::Normalised => format_ident!("__evaluate_{terms}_normalised"),

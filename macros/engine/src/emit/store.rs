@@ -1,6 +1,6 @@
 //! Values that are known before the state is: computed once, kept in arrays.
 
-use std::collections::HashMap;
+use std::collections::BTreeSet;
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -9,6 +9,7 @@ use super::local;
 use super::straight_line::{Environment, StraightLine, write};
 use crate::model::Symbol;
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+use crate::symbolic::table::Table;
 
 /// The values that kernels take from `prepare` and from `coefficients`, gathered from all kernels.
 #[derive(Debug, Default)]
@@ -18,6 +19,8 @@ pub struct Store {
     constants: Vec<Expr>,
     /// What `coefficients` computes.
     coefficients: Vec<Expr>,
+    /// The places of either, behind whether it is a coefficient.
+    places: Table<(bool, Expr), usize>,
 }
 
 impl Store {
@@ -25,14 +28,16 @@ impl Store {
     pub fn load(&mut self, arena: &Arena, value: Expr) -> TokenStream {
         let stage = arena.stage(value);
         let value = self.import(arena, value);
-        let (slots, array) = match stage {
-            Stage::Literal | Stage::Parameter => (&mut self.constants, local("constants")),
-            _ => (&mut self.coefficients, local("coefficients")),
+        let is_coefficient = stage > Stage::Parameter;
+        let (slots, array) = if is_coefficient {
+            (&mut self.coefficients, local("coefficients"))
+        } else {
+            (&mut self.constants, local("constants"))
         };
-        let place = slots
-            .iter()
-            .position(|&known| known == value.abs())
-            .unwrap_or_else(|| {
+        let place = *self
+            .places
+            .entry((is_coefficient, value.abs()))
+            .or_insert_with(|| {
                 slots.push(value.abs());
                 slots.len() - 1
             });
@@ -45,12 +50,12 @@ impl Store {
 
     /// Copies a value into the arena of the store.
     fn import(&mut self, arena: &Arena, value: Expr) -> Expr {
-        let mut copies: HashMap<usize, Expr> = HashMap::new();
-        let copy = |copies: &HashMap<usize, Expr>, expr: Expr| {
+        let mut copies: Table<usize, Expr> = Table::default();
+        let copy = |copies: &Table<usize, Expr>, expr: Expr| {
             let copy = copies[&expr.node()];
             if expr.is_negative() { -copy } else { copy }
         };
-        for place in arena.live(&[value], Stage::Literal) {
+        for place in needed(arena, value) {
             let own = &mut self.arena;
             let made = match arena.node(place) {
                 Node::Constant(bits) => own.constant(f64::from_bits(bits)),
@@ -105,6 +110,18 @@ impl Store {
             &mut Preparation { symbols },
         )
     }
+}
+
+/// The nodes that a value needs, in order: few of those of an arena.
+fn needed(arena: &Arena, value: Expr) -> BTreeSet<usize> {
+    let mut needed = BTreeSet::new();
+    let mut next = vec![value.node()];
+    while let Some(place) = next.pop() {
+        if needed.insert(place) {
+            next.extend(arena.node(place).operands().map(Expr::node));
+        }
+    }
+    needed
 }
 
 /// The environment of a kernel: inputs from its arguments, earlier values from the store.
@@ -181,6 +198,19 @@ pub struct BackSubstitution<'a> {
     pub store: &'a mut Store,
     /// What the factorisation hands over.
     pub factors: Vec<Expr>,
+    /// Their places.
+    places: Table<Expr, usize>,
+}
+
+impl<'a> BackSubstitution<'a> {
+    /// Nothing is handed over yet.
+    pub fn new(store: &'a mut Store) -> Self {
+        Self {
+            store,
+            factors: Vec::new(),
+            places: Table::default(),
+        }
+    }
 }
 
 impl Environment for BackSubstitution<'_> {
@@ -192,14 +222,10 @@ impl Environment for BackSubstitution<'_> {
         if arena.stage(value) < Stage::State {
             return self.store.load(arena, value);
         }
-        let place = self
-            .factors
-            .iter()
-            .position(|&known| known == value)
-            .unwrap_or_else(|| {
-                self.factors.push(value);
-                self.factors.len() - 1
-            });
+        let place = *self.places.entry(value).or_insert_with(|| {
+            self.factors.push(value);
+            self.factors.len() - 1
+        });
         let factors = local("factors");
         quote!(#factors[#place])
     }

@@ -33,6 +33,8 @@ pub struct Evaluation {
     pub kernel: Kernel,
     /// The pivots to check.
     pub checks: Vec<PivotCheck>,
+    /// The entries of the rotation matrices, body by body, row by row.
+    pub rotations: Vec<Expr>,
 }
 
 /// A pivot that is checked at run time.
@@ -439,9 +441,12 @@ pub fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) ->
     outputs.extend(solution.multipliers);
     let (pivots, checks) = relative_pivots(&mut scene, &system);
     outputs.extend(pivots);
+    let bodies = 0..model.bodies.len();
+    let rotations = bodies.filter_map(|body| scene.space.rotation(body).copied());
     Evaluation {
         terms,
         reading,
+        rotations: rotations.flatten().flatten().collect(),
         kernel: Kernel {
             arena: scene.space.arena,
             outputs,

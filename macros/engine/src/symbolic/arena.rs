@@ -408,13 +408,30 @@ impl Arena {
     /// The nodes that the outputs need and that are known no earlier than `from`, in order of computation.
     #[must_use]
     pub fn live(&self, outputs: &[Expr], from: Stage) -> Vec<usize> {
-        let mut needed = vec![false; self.nodes.len()];
+        self.live_above(outputs, from, [])
+    }
+
+    /// The same without the given nodes, and what only these need.
+    pub(crate) fn live_above(
+        &self,
+        outputs: &[Expr],
+        from: Stage,
+        given: impl IntoIterator<Item = usize>,
+    ) -> Vec<usize> {
+        let last = outputs.iter().map(|output| output.node()).max();
+        let mut needed = vec![false; last.map_or(0, |last| last + 1)];
+        let mut is_given = vec![false; needed.len()];
+        for node in given {
+            if let Some(is_given) = is_given.get_mut(node) {
+                *is_given = true;
+            }
+        }
         for output in outputs {
             needed[output.node()] = true;
         }
         let mut live = Vec::new();
-        for node in (0..self.nodes.len()).rev() {
-            if needed[node] && self.stages[node] >= from {
+        for node in (0..needed.len()).rev() {
+            if needed[node] && self.stages[node] >= from && !is_given[node] {
                 live.push(node);
                 for operand in self.nodes[node].operands() {
                     needed[operand.node()] = true;

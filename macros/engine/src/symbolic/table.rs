@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 /// A hash table whose keys nobody chooses to collide. Its order must not matter to anyone, as for any hash table.
-pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Multiplier>>;
+pub(crate) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Multiplier>>;
 
 /// Hashes word by word: by a sum and a multiplication with an odd number without a pattern.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Multiplier(u64);
+pub(crate) struct Multiplier(u64);
 
 impl Multiplier {
     const fn add(&mut self, word: u64) {
