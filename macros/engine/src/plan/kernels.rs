@@ -128,32 +128,33 @@ impl Kernels {
         let solvers = [Terms::Plain, Terms::Compliant]
             .map(|terms| solver(model, plans.of(terms), terms))
             .into();
-        let (jacobian, blocks) = jacobian(model);
+        let scene = &Scene::new(model);
+        let (jacobian, blocks) = jacobian(scene, model);
         let minus = -Arena::ONE;
         let (one, zero) = (Arena::ONE, Arena::ZERO);
         Self {
-            constraints: rows(model, [one, zero, zero]),
-            constraint_rates: rows(model, [zero, one, zero]),
-            gamma: rows(model, [zero, zero, minus]),
+            constraints: rows(scene, [one, zero, zero]),
+            constraint_rates: rows(scene, [zero, one, zero]),
+            gamma: rows(scene, [zero, zero, minus]),
             jacobian,
             blocks,
-            vector_rows: vector_rows(model),
-            mass: mass(model),
-            forces: with_scene(model, |scene| applied_forces(scene, &kinds(model))),
-            kinetic_energy: kinetic_energy(model),
-            potential_energy: potential_energy(model),
-            coordinate_rates: with_scene(model, |scene| coordinate_rates(scene, model)),
+            vector_rows: vector_rows(scene),
+            mass: mass(scene, model),
+            forces: with_scene(scene, |scene| applied_forces(scene, &kinds(model))),
+            kinetic_energy: kinetic_energy(scene),
+            potential_energy: potential_energy(scene),
+            coordinate_rates: with_scene(scene, |scene| coordinate_rates(scene, model)),
             alone: (0..model.joints.len())
                 .map(|joint| alone(model, joint).count())
                 .collect(),
             initial_state: initial_state(model),
-            counters: counters(model),
-            power: with_scene(model, |scene| {
+            counters: counters(scene),
+            power: with_scene(scene, |scene| {
                 let powers = (0..model.forces.len()).map(|k| scene.energy_and_power(k)[1]);
                 let powers: Vec<Expr> = powers.collect();
                 vec![scene.space.arena.sum(powers)]
             }),
-            readings: Readings::new(model),
+            readings: Readings::new(scene, model),
             evaluations,
             solvers,
             plans,
@@ -165,8 +166,9 @@ fn kinds(model: &Model) -> Vec<BodyKind> {
     model.bodies.iter().map(|body| body.kind).collect()
 }
 
-pub(super) fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<Expr>) -> Kernel {
-    let mut scene = Scene::new(model);
+/// A kernel over a scene of its own, so that no other has a say in what is at hand and in the order of operands.
+pub(super) fn with_scene(scene: &Scene, outputs: impl FnOnce(&mut Scene) -> Vec<Expr>) -> Kernel {
+    let mut scene = scene.clone();
     let outputs = outputs(&mut scene);
     Kernel {
         arena: scene.space.arena,
@@ -175,16 +177,15 @@ pub(super) fn with_scene(model: &Model, outputs: impl FnOnce(&mut Scene) -> Vec<
 }
 
 /// The first rows of equations between vectors.
-fn vector_rows(model: &Model) -> Vec<usize> {
-    let scene = Scene::new(model);
+fn vector_rows(scene: &Scene) -> Vec<usize> {
     let vectors = scene.constraints.iter();
     let vectors = vectors.filter(|c| matches!(c.constraint, Constraint::Vector(_)));
     vectors.map(|constrained| constrained.row).collect()
 }
 
 /// A combination of `Phi`, `Phi'` and the quadratic terms of `Phi''`, row by row.
-pub(crate) fn rows(model: &Model, factors: [Expr; 3]) -> Kernel {
-    with_scene(model, |scene| {
+pub(crate) fn rows(scene: &Scene, factors: [Expr; 3]) -> Kernel {
+    with_scene(scene, |scene| {
         (0..scene.constraints.len())
             .flat_map(|place| scene.combination(place, Frame::Global, factors))
             .collect()
@@ -192,8 +193,8 @@ pub(crate) fn rows(model: &Model, factors: [Expr; 3]) -> Kernel {
 }
 
 /// `D`, block by block.
-pub(crate) fn jacobian(model: &Model) -> (Kernel, Vec<Block>) {
-    let mut scene = Scene::new(model);
+pub(crate) fn jacobian(scene: &Scene, model: &Model) -> (Kernel, Vec<Block>) {
+    let mut scene = scene.clone();
     let mut outputs = Vec::new();
     let mut blocks = Vec::new();
     for (joint, described) in model.joints.iter().enumerate() {
@@ -230,8 +231,8 @@ pub(crate) fn jacobian(model: &Model) -> (Kernel, Vec<Block>) {
     )
 }
 
-fn mass(model: &Model) -> Kernel {
-    with_scene(model, |scene| {
+fn mass(scene: &Scene, model: &Model) -> Kernel {
+    with_scene(scene, |scene| {
         let mut diagonal = Vec::new();
         for (body, kind) in kinds(model).into_iter().enumerate() {
             diagonal.extend([scene.mass[body]; 3]);
@@ -243,10 +244,10 @@ fn mass(model: &Model) -> Kernel {
     })
 }
 
-fn kinetic_energy(model: &Model) -> Kernel {
-    with_scene(model, |scene| {
+fn kinetic_energy(scene: &Scene) -> Kernel {
+    with_scene(scene, |scene| {
         let mut sum = Arena::ZERO;
-        for body in 0..model.bodies.len() {
+        for body in 0..scene.mass.len() {
             let v = scene
                 .space
                 .components(scene.motion.velocity[body], Frame::Global);
@@ -272,16 +273,16 @@ fn kinetic_energy(model: &Model) -> Kernel {
     })
 }
 
-fn potential_energy(model: &Model) -> Kernel {
-    with_scene(model, |scene| {
+fn potential_energy(scene: &Scene) -> Kernel {
+    with_scene(scene, |scene| {
         let mut sum = Arena::ZERO;
         let gravity = scene.space.native(Frame::Global, scene.gravity);
-        for body in 0..model.bodies.len() {
+        for body in 0..scene.mass.len() {
             let height = scene.space.dot(gravity, scene.motion.position[body]);
             let energy = scene.space.arena.mul(scene.mass[body], height);
             sum = scene.space.arena.sub(sum, energy);
         }
-        for force in 0..model.forces.len() {
+        for force in 0..scene.effects.len() {
             let [energy, _] = scene.energy_and_power(force);
             sum = scene.space.arena.add(sum, energy);
         }
@@ -350,8 +351,8 @@ fn turning(scene: &mut Scene, counter: usize) -> Expr {
 }
 
 /// The rates of the auxiliary variables.
-pub(crate) fn counter_rates(model: &Model) -> Kernel {
-    with_scene(model, |scene| {
+pub(crate) fn counter_rates(scene: &Scene) -> Kernel {
+    with_scene(scene, |scene| {
         (0..scene.counters.len())
             .map(|place| turning(scene, place))
             .collect()
@@ -359,8 +360,8 @@ pub(crate) fn counter_rates(model: &Model) -> Kernel {
 }
 
 /// The auxiliary variables, as the angles that they count.
-pub(crate) fn counters(model: &Model) -> Kernel {
-    with_scene(model, counted_angles)
+pub(crate) fn counters(scene: &Scene) -> Kernel {
+    with_scene(scene, counted_angles)
 }
 
 fn counted_angles(scene: &mut Scene) -> Vec<Expr> {

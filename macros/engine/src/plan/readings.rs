@@ -4,6 +4,7 @@ use super::kernels::{Kernel, with_scene};
 use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Input};
+use crate::symbolic::scene::Scene;
 use crate::symbolic::twist::Gradient;
 use crate::symbolic::vector::{Frame, VectorId};
 
@@ -25,28 +26,28 @@ pub struct Readings {
 impl Readings {
     /// All kernels of a model.
     #[must_use]
-    pub fn new(model: &Model) -> Self {
+    pub fn new(scene: &Scene, model: &Model) -> Self {
         Self {
-            angles: angles(model),
-            displacements: displacements(model),
-            points: points(model),
+            angles: angles(scene, model),
+            displacements: displacements(scene, model),
+            points: points(scene, model),
             energies: (0..model.forces.len())
-                .map(|force| with_scene(model, |scene| scene.energy_and_power(force).into()))
+                .map(|force| with_scene(scene, |scene| scene.energy_and_power(force).into()))
                 .collect(),
-            loads: loads(model),
+            loads: loads(scene, model),
         }
     }
 }
 
 /// The angle of the second body against the first: with axis `a` and normals `n1`, `n2` on either body,
 /// `cosine = n1(i) . n1(j)`, `sine = n2(i) . n1(j)`, rate `a(i) . (w(j) - w(i))`.
-fn angles(model: &Model) -> Vec<(usize, Kernel)> {
+fn angles(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
     let mut angles = Vec::new();
     for (place, joint) in model.joints.iter().enumerate() {
         let Some(angle) = model.definition(joint).angle else {
             continue;
         };
-        let kernel = with_scene(model, |scene| {
+        let kernel = with_scene(scene, |scene| {
             let copies = scene.copies[place][angle.axis].clone();
             let copies = copies.expect("the axis of an angle has copies");
             let (i, j) = (joint.bodies[angle.from], joint.bodies[angle.to]);
@@ -84,14 +85,14 @@ fn angles(model: &Model) -> Vec<(usize, Kernel)> {
     angles
 }
 
-fn points(model: &Model) -> Vec<(usize, usize, Kernel)> {
+fn points(scene: &Scene, model: &Model) -> Vec<(usize, usize, Kernel)> {
     let mut points = Vec::new();
     for (place, joint) in model.joints.iter().enumerate() {
         let Some(parameter) = model.definition(joint).reaction_point() else {
             continue;
         };
         for body in 0..joint.bodies.len() {
-            let kernel = with_scene(model, |scene| {
+            let kernel = with_scene(scene, |scene| {
                 let copies = scene.copies[place][parameter].as_ref();
                 copies.expect("a point has copies").vector[body].into()
             });
@@ -101,7 +102,7 @@ fn points(model: &Model) -> Vec<(usize, usize, Kernel)> {
     points
 }
 
-fn displacements(model: &Model) -> Vec<(usize, Kernel)> {
+fn displacements(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
     let with = (0..model.joints.len()).filter(|&joint| {
         model
             .definition(&model.joints[joint])
@@ -109,7 +110,7 @@ fn displacements(model: &Model) -> Vec<(usize, Kernel)> {
             .is_some()
     });
     with.map(|joint| {
-        let kernel = with_scene(model, |scene| {
+        let kernel = with_scene(scene, |scene| {
             let displacement = scene.displacements[joint].clone();
             let displacement = displacement.expect("its definition has a displacement");
             let (space, motion) = (&mut scene.space, &scene.motion);
@@ -123,12 +124,12 @@ fn displacements(model: &Model) -> Vec<(usize, Kernel)> {
     .collect()
 }
 
-fn loads(model: &Model) -> Vec<(usize, usize, Kernel)> {
+fn loads(scene: &Scene, model: &Model) -> Vec<(usize, usize, Kernel)> {
     let mut loads = Vec::new();
     for (place, force) in model.forces.iter().enumerate() {
         for (at, body) in force.bodies.iter().enumerate() {
             let Some(body) = *body else { continue };
-            let kernel = with_scene(model, |scene| {
+            let kernel = with_scene(scene, |scene| {
                 let mut gradient = Gradient::default();
                 scene.add_effects(place, &mut gradient);
                 let space = &mut scene.space;

@@ -11,6 +11,7 @@ use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{Block, Kernel, counter_rates, counters, initial_state, jacobian, rows};
 use crate::symbolic::arena::{Arena, Input, Node, Stage};
 use crate::symbolic::evaluate::evaluate;
+use crate::symbolic::scene::Scene;
 use crate::symbolic::tape::Tape;
 
 /// A row of which no more than this is left anywhere is round-off, over the size that it should have at least.
@@ -78,9 +79,10 @@ impl Constraints {
             .take(layout.coordinates + layout.auxiliaries)
             .collect();
         let start = start?;
-        let (jacobian, blocks) = jacobian(model);
+        let scene = Scene::new(model);
+        let (jacobian, blocks) = jacobian(&scene, model);
         let length = length(model);
-        let phi = rows(model, [Arena::ONE, Arena::ZERO, Arena::ZERO]);
+        let phi = rows(&scene, [Arena::ONE, Arena::ZERO, Arena::ZERO]);
         let breaks = breaks(&phi);
         let phi = tape(&phi);
         let is_driven = phi.reads(|input| input == Input::Time);
@@ -99,9 +101,9 @@ impl Constraints {
                 .map(|joint| model.equations(joint))
                 .collect(),
             phi,
-            driven: is_driven.then(|| tape(&rows(model, [Arena::ZERO, Arena::ONE, Arena::ZERO]))),
+            driven: is_driven.then(|| tape(&rows(&scene, [Arena::ZERO, Arena::ONE, Arena::ZERO]))),
             counted: counts
-                .then(|| [counter_rates(model), counters(model)].map(|kernel| tape(&kernel))),
+                .then(|| [counter_rates(&scene), counters(&scene)].map(|kernel| tape(&kernel))),
             jacobian: tape(&jacobian),
             breaks,
             blocks,
