@@ -67,6 +67,17 @@ pub trait Vector<S: Scalar>: Clone {
         ratio.for_each(|ratio| norm = norm.max(ratio));
         norm
     }
+
+    /// Whether every element is finite.
+    #[must_use]
+    fn is_finite(&self) -> bool
+    where
+        S: Real,
+    {
+        let mut finite = true;
+        self.for_each(|element| finite &= element.is_finite());
+        finite
+    }
 }
 
 impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
@@ -107,6 +118,14 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
         }
         greatest(&ratio)
     }
+
+    #[inline(always)]
+    fn is_finite(&self) -> bool
+    where
+        S: Real,
+    {
+        all_finite(self)
+    }
 }
 
 /// The greater of two numbers; the first if either is NaN.
@@ -136,12 +155,19 @@ fn greatest<S: Real>(elements: &[S]) -> S {
     }
 }
 
-/// Whether every element is finite.
+/// Whether every element is finite: zero times any other number is NaN, and so is every sum with NaN.
+///
+/// Without a comparison for each, and four places at once, as in [`greatest`].
 #[inline(always)]
-pub(crate) fn finite<S: Real, X: Vector<S>>(vector: &X) -> bool {
-    let mut finite = true;
-    vector.for_each(|element| finite &= element.is_finite());
-    finite
+fn all_finite<S: Real>(elements: &[S]) -> bool {
+    let mut lanes = [S::zero(); 4];
+    for chunk in elements.chunks(4) {
+        for (lane, &element) in lanes.iter_mut().zip(chunk) {
+            *lane = element.fused(S::zero(), *lane);
+        }
+    }
+    let [a, b, c, d] = lanes;
+    (a + b) + (c + d) == S::zero()
 }
 
 /// The state of a mechanism: coordinates and velocities of its bodies, and auxiliary variables, in an order that the mechanism knows.
@@ -197,6 +223,15 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
                     .relative_norm(&other.velocities, floor, velocities),
             )
     }
+
+    #[inline(always)]
+    fn is_finite(&self) -> bool
+    where
+        S: Real,
+    {
+        // Not `&&`, which would branch once more.
+        Vector::is_finite(&self.coordinates) & Vector::is_finite(&self.velocities)
+    }
 }
 
 /// Access to the two parts of a state, for code that is generic over the mechanism.
@@ -226,6 +261,7 @@ impl<S: Scalar, const Q: usize, const U: usize> StateParts<S> for State<S, Q, U>
     type Coordinates = [S; Q];
     type Velocities = [S; U];
 
+    #[inline(always)]
     fn from_parts(coordinates: [S; Q], velocities: [S; U]) -> Self {
         Self {
             coordinates,
@@ -233,19 +269,55 @@ impl<S: Scalar, const Q: usize, const U: usize> StateParts<S> for State<S, Q, U>
         }
     }
 
+    #[inline(always)]
     fn coordinates(&self) -> &[S; Q] {
         &self.coordinates
     }
 
+    #[inline(always)]
     fn velocities(&self) -> &[S; U] {
         &self.velocities
     }
 
+    #[inline(always)]
     fn coordinates_mut(&mut self) -> &mut [S; Q] {
         &mut self.coordinates
     }
 
+    #[inline(always)]
     fn velocities_mut(&mut self) -> &mut [S; U] {
         &mut self.velocities
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{State, StateParts, Vector};
+    use crate::scalar::Real;
+
+    fn all_places<S: Real, const N: usize>(largest: S) {
+        let sound = [largest, -largest, S::zero(), S::smallest(), S::one()];
+        let elements = core::array::from_fn(|place| sound[place % sound.len()]);
+        assert!(Vector::is_finite(&elements));
+        for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY].map(S::constant) {
+            for place in 0..N {
+                let mut elements: [S; N] = elements;
+                elements[place] = bad;
+                assert!(!Vector::is_finite(&elements));
+                let (sound, all) = ([S::one(); 6], [bad; N]);
+                assert!(!State::from_parts(elements, sound).is_finite());
+                assert!(!State::from_parts(sound, elements).is_finite());
+                assert!(!State::from_parts(sound, all).is_finite());
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_is_found_in_every_place() {
+        all_places::<f64, 1>(f64::MAX);
+        all_places::<f64, 7>(f64::MAX);
+        all_places::<f64, 21>(f64::MAX);
+        all_places::<f32, 13>(f32::MAX);
+        assert!(Vector::is_finite(&[0.0_f64; 0]));
     }
 }

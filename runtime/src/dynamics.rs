@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::access::MechanismExt;
-use crate::array::{Array, StateParts, finite};
+use crate::array::{Array, StateParts, Vector};
 use crate::compliance::compliances;
 use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle, inconsistency};
@@ -520,7 +520,7 @@ where
 /// With a compliance the system is solvable whatever the constraints are. A pivot of NaN shows in the rates.
 #[inline(always)]
 fn sound<S: Real, M: Mechanism, T: Terms>(evaluation: &Evaluation<S, M>) -> bool {
-    finite(&evaluation.rates) && !vanishes::<S, T>(&evaluation.pivot)
+    evaluation.rates.is_finite() && !vanishes::<S, T>(&evaluation.pivot)
 }
 
 #[inline(always)]

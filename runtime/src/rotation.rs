@@ -3,7 +3,7 @@
 //! Euler parameters are `(e0, e1, e2, e3)`, scalar first; `A(p)` takes components along body axes to components along global
 //! axes. Nikravesh, *Computer-Aided Analysis of Mechanical Systems* (1988), chapter 6.
 
-use crate::array::{Array, StateParts, finite};
+use crate::array::{Array, StateParts, Vector};
 use crate::error::Fault;
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
@@ -98,7 +98,7 @@ pub(crate) fn normalised_or_zero<S: Scalar>(p: &[S; 4]) -> [S; 4] {
 
 /// Refuses a state that holds a number that is not finite, or Euler parameters that are zero.
 pub(crate) fn check_state<S: Real, M: Mechanism>(state: &M::State<S>) -> Result<(), Fault> {
-    if !finite(state) {
+    if !state.is_finite() {
         return Err(Fault::StateNotFinite);
     }
     let coordinates = state.coordinates().as_slice();

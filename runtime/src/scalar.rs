@@ -218,22 +218,27 @@ macro_rules! real {
                 if self < bound { less } else { otherwise }
             }
 
+            #[inline]
             fn sin(self) -> Self {
                 elementary::$sin(self)
             }
 
+            #[inline]
             fn cos(self) -> Self {
                 elementary::$cos(self)
             }
 
+            #[inline]
             fn exp(self) -> Self {
                 elementary::$exp(self)
             }
 
+            #[inline]
             fn atan2(self, cosine: Self) -> Self {
                 elementary::$atan2(self, cosine)
             }
 
+            #[inline]
             fn round(self) -> Self {
                 elementary::$round(self)
             }
@@ -243,26 +248,32 @@ macro_rules! real {
         impl Real for $float {
             const EPSILON: Self = <$float>::EPSILON;
 
+            #[inline]
             fn smallest() -> Self {
                 <$float>::MIN_POSITIVE
             }
 
+            #[inline]
             fn to_f64(self) -> f64 {
                 self.into()
             }
 
+            #[inline]
             fn is_finite(self) -> bool {
                 <$float>::is_finite(self)
             }
 
+            #[inline]
             fn powf(self, exponent: f64) -> Self {
                 elementary::$pow(self, exponent as $float)
             }
 
+            #[inline]
             fn ulp(self) -> Self {
                 <$float>::abs(self).next_up() - <$float>::abs(self)
             }
 
+            #[inline]
             fn quotient(self, divisor: Self) -> Self {
                 self / divisor
             }

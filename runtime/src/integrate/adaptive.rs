@@ -7,7 +7,7 @@ use super::{
     Counted, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages, Scheme, Span,
     Start, Stride, System,
 };
-use crate::array::{Vector, finite};
+use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
 
@@ -93,7 +93,7 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
         let error = self
             .state
             .relative_norm(&state, self.controller.floor, terms);
-        Ok(if self.controller.accepts(error) && finite(&state) {
+        Ok(if self.controller.accepts(error) && state.is_finite() {
             Trial::Accepted { state, error }
         } else {
             Trial::Rejected { error }

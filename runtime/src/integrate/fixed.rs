@@ -1,7 +1,7 @@
 //! A scheme at a fixed step.
 
 use super::{Counted, Counts, Course, Integrator, Scheme, Span, Start, Stride, System, positive};
-use crate::array::{Vector, finite};
+use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
 
@@ -131,7 +131,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
         let mut state = self
             .scheme
             .stride(&mut system, start, step, &mut self.stages)?;
-        if !finite(&state) {
+        if !state.is_finite() {
             return Err(Fault::StateNotFinite);
         }
         system.settle(&mut state, None);

@@ -27,7 +27,7 @@ pub use rk4::{Rk4, Rk4Stages};
 
 use core::fmt::Debug;
 
-use crate::array::{Vector, finite};
+use crate::array::Vector;
 use crate::error::Fault;
 use crate::reporting::interval;
 use crate::scalar::Real;
@@ -198,7 +198,7 @@ pub trait Scheme<S: Real>: Copy + Debug {
             slope: &slope,
         };
         let mut next = self.stride(system, start, step, &mut stages)?;
-        if !finite(&next) {
+        if !next.is_finite() {
             return Err(Fault::StateNotFinite);
         }
         system.settle(&mut next, None);
