@@ -16,6 +16,7 @@ use crate::origin::origin;
 use crate::rotation::{
     bring_to_unit_length, check_state, read, scale_euler_rates, stretch, with_unit_orientations,
 };
+use crate::sample::Evaluate;
 use crate::scalar::Real;
 use crate::view::View;
 use crate::watch::{Seen, Step, Watch};
@@ -146,22 +147,36 @@ where
     P: Orientation,
     A: AppliedForces<S, M>,
 {
+    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation may iterate.
+    const IN_PARTS: bool = A::PRESENT || F::ITERATED;
+
     /// Rates of the state and multipliers, and how often the system was solved.
     ///
     /// # Errors
     /// [`Fault::Singular`] where constraints depend on each other and the formulation has no compliance,
     /// [`Fault::NotConverged`] of the augmented Lagrangian, a state or rates that are not finite.
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(
         &self,
         time: S,
         state: &M::State<S>,
     ) -> Result<(Evaluation<S, M>, usize), Fault> {
-        if A::PRESENT || F::ITERATED {
+        if Self::IN_PARTS {
             let parts = self.evaluate_in_parts(time, state)?;
             Ok((parts.evaluation, parts.iterations))
         } else {
-            Ok((self.evaluate_fused(time, state)?, 1))
+            let mut evaluation = Evaluation::<S, M>::zeros();
+            let Evaluation {
+                rates,
+                multipliers,
+                pivot,
+            } = &mut evaluation;
+            *pivot = self.straight(time, state, rates, multipliers);
+            if sound::<S, M, F::Terms>(&evaluation) {
+                Ok((evaluation, 1))
+            } else {
+                Err(self.fault(time, state, None))
+            }
         }
     }
 
@@ -179,14 +194,11 @@ where
         let Fault::StepSizeUnderflow { step, is_least, .. } = fault else {
             return fault;
         };
-        let joint = self
-            .evaluate(time, &state)
-            .ok()
-            .and_then(|(evaluation, _)| {
-                let Pivot { relative, joint } = evaluation.pivot;
-                let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
-                near.then(|| field::<M>(joint.to_f64() as usize))
-            });
+        let joint = self.evaluation(time, &state).ok().and_then(|evaluation| {
+            let Pivot { relative, joint } = evaluation.pivot;
+            let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
+            near.then(|| field::<M>(joint.to_f64() as usize))
+        });
         let coordinates = state.coordinates().as_slice();
         let farthest = M::REPORT.bodies.iter().fold(S::zero(), |most, body| {
             let position: [S; 3] = read(coordinates, body.coordinate);
@@ -205,17 +217,42 @@ where
 
     /// The evaluation in one straight line.
     #[inline(always)]
-    fn evaluate_fused(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
+    fn straight(
+        &self,
+        time: S,
+        state: &M::State<S>,
+        rates: &mut M::State<S>,
+        multipliers: &mut M::Multipliers<S>,
+    ) -> Pivot<S> {
         let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let mut evaluation = M::evaluate::<S, F::Terms, P>(constants, coefficients, time, state);
+        let pivot = M::evaluate_into::<S, F::Terms, P>(
+            constants,
+            coefficients,
+            time,
+            state,
+            rates,
+            multipliers,
+        );
         if P::NORMALISED_RATES {
-            let rates = evaluation.rates.coordinates_mut();
-            scale_euler_rates::<S, M>(rates, state, |length| length.reciprocal());
+            scale_euler_rates::<S, M>(rates.coordinates_mut(), state, |length| length.reciprocal());
         }
-        if sound::<S, M, F::Terms>(&evaluation) {
-            Ok(evaluation)
+        pivot
+    }
+
+    /// The pivot as an evaluation computes it.
+    #[cold]
+    #[inline(never)]
+    fn pivot_at(&self, time: S, state: &M::State<S>) -> Pivot<S> {
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        if Self::IN_PARTS {
+            let read = &Self::read(state);
+            M::factor::<S, F::Terms>(constants, coefficients, time, read).1
         } else {
-            Err(self.fault(evaluation.pivot, time, state, None))
+            let mut evaluation = Evaluation::<S, M>::zeros();
+            let Evaluation {
+                rates, multipliers, ..
+            } = &mut evaluation;
+            self.straight(time, state, rates, multipliers)
         }
     }
 
@@ -234,7 +271,7 @@ where
         let read = &Self::read(state);
         let (constants, coefficients) = (&self.constants, &self.coefficients);
         let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
-        if vanishes::<S, F::Terms>(&pivot) {
+        if vanishes::<S, F::Terms>(pivot.relative) {
             return Err(singular::<S, M>(&pivot));
         }
         let mut upper = M::forces(constants, time, read);
@@ -265,7 +302,7 @@ where
             .formulation
             .solve(&saddle)
             .map_err(|fault| match fault {
-                Fault::RatesNotFinite { .. } => self.fault(pivot, time, state, Some(&upper)),
+                Fault::RatesNotFinite { .. } => self.fault(time, state, Some(&upper)),
                 other => other,
             })?;
         let mut coordinate_rates = M::coordinate_rates(constants, read);
@@ -287,24 +324,19 @@ where
                 applied_power,
             })
         } else {
-            Err(self.fault(pivot, time, state, Some(&upper)))
+            Err(self.fault(time, state, Some(&upper)))
         }
     }
 
     /// Why an evaluation is not sound: solved again, in parts, so that the rates of one that is sound need not be kept.
     #[cold]
     #[inline(never)]
-    fn fault(
-        &self,
-        pivot: Pivot<S>,
-        time: S,
-        state: &M::State<S>,
-        applied: Option<&M::Velocities<S>>,
-    ) -> Fault {
+    fn fault(&self, time: S, state: &M::State<S>, applied: Option<&M::Velocities<S>>) -> Fault {
         if let Err(fault) = check_state::<S, M>(state) {
             return fault;
         }
-        if vanishes::<S, F::Terms>(&pivot) {
+        let pivot = self.pivot_at(time, state);
+        if vanishes::<S, F::Terms>(pivot.relative) {
             return singular::<S, M>(&pivot);
         }
         let read = &Self::read(state);
@@ -374,29 +406,37 @@ where
 {
     type State = M::State<S>;
 
-    // Part of every stage of an integrator: rates then reach the next stage without passing through memory.
     #[inline(always)]
     fn rates(&mut self, time: S, state: &M::State<S>) -> Result<M::State<S>, Fault> {
-        if !(A::PRESENT || F::ITERATED) {
-            let evaluation = self.evaluate_fused(time, state)?;
-            self.look(&evaluation);
-            return Ok(evaluation.rates);
+        let mut rates = M::State::from_parts(Array::zeros(), Array::zeros());
+        match self.stage(time, state, &mut rates) {
+            Ok(()) if rates.is_finite() => Ok(rates),
+            Err(fault) if Self::IN_PARTS => Err(fault),
+            _ => Err(self.fault(time, state, None)),
         }
-        let Parts {
-            evaluation,
-            iterations,
-            excused,
-            applied_power,
-        } = self.evaluate_in_parts(time, state)?;
-        self.look(&evaluation);
-        self.seen.applied_power = applied_power;
-        if F::ITERATED {
-            let excused = usize::from(excused);
-            self.iterations.excused = self.iterations.excused.saturating_add(excused);
-            self.iterations.total = self.iterations.total.saturating_add(iterations);
-            self.iterations.largest = self.iterations.largest.max(iterations);
+    }
+
+    // Part of every stage of an integrator: rates then reach the next stage without passing through memory, or by one way through it.
+    #[inline(always)]
+    fn stage(
+        &mut self,
+        time: S,
+        state: &M::State<S>,
+        rates: &mut M::State<S>,
+    ) -> Result<(), Fault> {
+        if Self::IN_PARTS {
+            let parts = self.evaluate_in_parts(time, state)?;
+            *rates = self.gathered(&parts);
+            return Ok(());
         }
-        Ok(evaluation.rates)
+        let mut multipliers = Array::zeros();
+        let pivot = self.straight(time, state, rates, &mut multipliers);
+        if vanishes::<S, F::Terms>(pivot.relative) {
+            // Why is not asked here: a reference to the state would keep it in memory at every stage.
+            return Err(Fault::StateNotFinite);
+        }
+        self.look(pivot, &multipliers);
+        Ok(())
     }
 
     #[inline]
@@ -439,13 +479,31 @@ where
     const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
 
     #[inline(always)]
-    fn look(&mut self, evaluation: &Evaluation<S, M>) {
+    fn look(&mut self, pivot: Pivot<S>, multipliers: &M::Multipliers<S>) {
         if !F::Terms::COMPLIANT {
-            self.seen.last = evaluation.pivot;
+            self.seen.last = pivot;
         }
         if M::REPORT.time.constraints {
-            self.seen.multipliers = evaluation.multipliers;
+            self.seen.multipliers = *multipliers;
         }
+    }
+
+    /// Counts and looks at an evaluation in parts, and hands on its rates.
+    fn gathered(&mut self, parts: &Parts<S, M>) -> M::State<S> {
+        let Evaluation {
+            rates,
+            multipliers,
+            pivot,
+        } = &parts.evaluation;
+        self.look(*pivot, multipliers);
+        self.seen.applied_power = parts.applied_power;
+        if F::ITERATED {
+            let excused = usize::from(parts.excused);
+            self.iterations.excused = self.iterations.excused.saturating_add(excused);
+            self.iterations.total = self.iterations.total.saturating_add(parts.iterations);
+            self.iterations.largest = self.iterations.largest.max(parts.iterations);
+        }
+        *rates
     }
 
     /// Shows the end of a step to the watch, with what was seen at the last evaluation.
@@ -468,7 +526,7 @@ where
 
     #[inline(never)]
     fn show_bias(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
-        if let Ok((evaluation, _)) = self.evaluate(time, state) {
+        if let Ok(evaluation) = self.evaluation(time, state) {
             watch.yielded(
                 &self.compliances,
                 &evaluation.multipliers,
@@ -520,12 +578,12 @@ where
 /// With a compliance the system is solvable whatever the constraints are. A pivot of NaN shows in the rates.
 #[inline(always)]
 fn sound<S: Real, M: Mechanism, T: Terms>(evaluation: &Evaluation<S, M>) -> bool {
-    evaluation.rates.is_finite() && !vanishes::<S, T>(&evaluation.pivot)
+    evaluation.rates.is_finite() && !vanishes::<S, T>(evaluation.pivot.relative)
 }
 
 #[inline(always)]
-fn vanishes<S: Real, T: Terms>(pivot: &Pivot<S>) -> bool {
-    !T::COMPLIANT && pivot.relative < S::constant(64.0) * S::EPSILON
+fn vanishes<S: Real, T: Terms>(relative_pivot: S) -> bool {
+    !T::COMPLIANT && relative_pivot < S::constant(64.0) * S::EPSILON
 }
 
 #[cold]

@@ -181,15 +181,42 @@ pub trait Mechanism: Sized + 'static {
     fn recount<S: Scalar>(_constants: &Self::Constants<S>, _state: &mut Self::State<S>) {}
 
     /// The whole right-hand side in one straight line: rates of the state and multipliers, from the saddle system
-    /// with `lambda_previous = 0` and without applied forces of a user.
+    /// with `lambda_previous = 0` and without applied forces of a user. Writes every element of both; returns the smallest relative pivot.
     ///
     /// `T` names the terms that the formulation has, `P` how Euler parameters are read.
+    fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
+        constants: &Self::Constants<S>,
+        coefficients: &Self::Coefficients<S>,
+        time: S,
+        state: &Self::State<S>,
+        rates: &mut Self::State<S>,
+        multipliers: &mut Self::Multipliers<S>,
+    ) -> Pivot<S>;
+
+    /// The same, with its results in one value.
+    #[inline(always)]
     fn evaluate<S: Scalar, T: Terms, P: Orientation>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,
         time: S,
         state: &Self::State<S>,
-    ) -> Evaluation<S, Self>;
+    ) -> Evaluation<S, Self> {
+        let mut evaluation = Evaluation::<S, Self>::zeros();
+        let Evaluation {
+            rates,
+            multipliers,
+            pivot,
+        } = &mut evaluation;
+        *pivot = Self::evaluate_into::<S, T, P>(
+            constants,
+            coefficients,
+            time,
+            state,
+            rates,
+            multipliers,
+        );
+        evaluation
+    }
 
     /// Factorises the matrix of the saddle system; with compliance where `T::COMPLIANT`. `p` is read as it is.
     fn factor<S: Scalar, T: Terms>(
@@ -247,6 +274,18 @@ pub struct Evaluation<S: Scalar, M: Mechanism> {
     pub multipliers: M::Multipliers<S>,
     /// The smallest relative pivot.
     pub pivot: Pivot<S>,
+}
+
+impl<S: Scalar, M: Mechanism> Evaluation<S, M> {
+    /// A place for results.
+    #[inline(always)]
+    pub(crate) fn zeros() -> Self {
+        Self {
+            rates: M::State::from_parts(Array::zeros(), Array::zeros()),
+            multipliers: Array::zeros(),
+            pivot: Pivot::unchecked(),
+        }
+    }
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Evaluation<S, M> {
@@ -308,7 +347,7 @@ impl<S: Scalar> Pivot<S> {
         // Zero over zero is a row that vanishes.
         let relative = relative.select(S::constant(f64::INFINITY), relative, S::zero());
         Self {
-            relative: self.relative.min(relative),
+            relative: relative.select(self.relative, relative, self.relative),
             joint: relative.select(self.relative, S::constant(joint as f64), self.joint),
         }
     }

@@ -247,9 +247,9 @@ macro_rules! __stub_mechanism {
                 fn kinetic_energy<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> __S { loop {} }
                 fn potential_energy<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> __S { loop {} }
                 fn coordinate_rates<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> [__S; 0] { [] }
-                fn evaluate<__S: $crate::Scalar, __T: $crate::Terms, __P: $crate::Orientation>(
-                    _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::State<__S>,
-                ) -> $crate::Evaluation<__S, Self> { loop {} }
+                fn evaluate_into<__S: $crate::Scalar, __T: $crate::Terms, __P: $crate::Orientation>(
+                    _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::State<__S>, _: &mut Self::State<__S>, _: &mut [__S; 0],
+                ) -> $crate::Pivot<__S> { loop {} }
                 fn factor<__S: $crate::Scalar, __T: $crate::Terms>(
                     _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::State<__S>,
                 ) -> ([__S; 0], $crate::Pivot<__S>) { loop {} }

@@ -37,6 +37,7 @@ where
     P: Orientation,
     A: AppliedForces<S, M>,
 {
+    #[inline(never)]
     fn evaluation(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
         self.evaluate(time, state).map(|(evaluation, _)| evaluation)
     }

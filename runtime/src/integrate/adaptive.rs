@@ -4,8 +4,8 @@ use core::mem::{replace, swap};
 
 use super::controller::Controller;
 use super::{
-    Counted, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages, Scheme, Span,
-    Start, Stride, System,
+    Checked, Counted, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages, Scheme,
+    Span, Start, Stride, System, named,
 };
 use crate::array::Vector;
 use crate::error::Fault;
@@ -78,7 +78,7 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
         step: S,
         end: S,
     ) -> Result<Trial<S, X>, Fault> {
-        let mut system = Counted {
+        let mut counted = Counted {
             system,
             counts: &mut self.counts,
         };
@@ -87,16 +87,55 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
             state: &self.state,
             slope: &self.first,
         };
-        let state = DormandPrince5.stride(&mut system, start, step, &mut self.stages)?;
-        self.last = system.rates(end, &state)?;
+        let outcome = DormandPrince5
+            .stride(&mut counted, start, step, &mut self.stages)
+            .and_then(|state| {
+                counted.stage(end, &state, &mut self.last)?;
+                Ok(state)
+            });
+        let state = match outcome {
+            Ok(state) => state,
+            Err(fault) => {
+                let named = self.refused(system, step, end, Some(fault));
+                return Err(named.unwrap_or(fault));
+            }
+        };
         let terms = self.stages.error_terms(step, &self.first, &self.last);
         let error = self
             .state
             .relative_norm(&state, self.controller.floor, terms);
-        Ok(if self.controller.accepts(error) && state.is_finite() {
+        if !(error.is_finite() && state.is_finite()) {
+            return match self.refused(system, step, end, None) {
+                Some(fault) => Err(fault),
+                None => Ok(Trial::Rejected { error }),
+            };
+        }
+        Ok(if self.controller.accepts(error) {
             Trial::Accepted { state, error }
         } else {
             Trial::Rejected { error }
+        })
+    }
+
+    /// Why a trial failed, or why its end or its error is not finite; `None` where all rates are finite, and only their sums are not.
+    #[cold]
+    #[inline(never)]
+    fn refused<Y: System<S, State = X>>(
+        &mut self,
+        system: &mut Y,
+        step: S,
+        end: S,
+        fault: Option<Fault>,
+    ) -> Option<Fault> {
+        named(fault, || {
+            let mut system = Checked { system };
+            let start = Start {
+                time: self.time,
+                state: &self.state,
+                slope: &self.first,
+            };
+            let state = DormandPrince5.stride(&mut system, start, step, &mut self.stages)?;
+            system.rates(end, &state)
         })
     }
 }

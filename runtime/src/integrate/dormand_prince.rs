@@ -223,14 +223,17 @@ impl<S: Real> Scheme<S> for DormandPrince5 {
             tableau::TIMES.map(|fraction| S::constant(fraction).fused(step, time));
 
         let [a] = tableau::STAGE_2.map(scaled);
-        let k2 = system.rates(t2, &state.plus([(a, k1)]))?;
+        let mut k2 = k1.clone();
+        system.stage(t2, &state.plus([(a, k1)]), &mut k2)?;
         let [a, b] = tableau::STAGE_3.map(scaled);
-        k.third = system.rates(t3, &state.plus([(a, k1), (b, &k2)]))?;
+        let stage = state.plus([(a, k1), (b, &k2)]);
+        system.stage(t3, &stage, &mut k.third)?;
         let [a, b, c] = tableau::STAGE_4.map(scaled);
-        k.fourth = system.rates(t4, &state.plus([(a, k1), (b, &k2), (c, &k.third)]))?;
+        let stage = state.plus([(a, k1), (b, &k2), (c, &k.third)]);
+        system.stage(t4, &stage, &mut k.fourth)?;
         let [a, b, c, d] = tableau::STAGE_5.map(scaled);
         let stage = state.plus([(a, k1), (b, &k2), (c, &k.third), (d, &k.fourth)]);
-        k.fifth = system.rates(t5, &stage)?;
+        system.stage(t5, &stage, &mut k.fifth)?;
         let [a, b, c, d, e] = tableau::STAGE_6.map(scaled);
         let stage = state.plus([
             (a, k1),
@@ -239,7 +242,7 @@ impl<S: Real> Scheme<S> for DormandPrince5 {
             (d, &k.fourth),
             (e, &k.fifth),
         ]);
-        k.sixth = system.rates(time + step, &stage)?;
+        system.stage(time + step, &stage, &mut k.sixth)?;
         let [a, b, c, d, e] = tableau::RESULT.map(scaled);
         Ok(state.plus([
             (a, k1),

@@ -1,6 +1,9 @@
 //! A scheme at a fixed step.
 
-use super::{Counted, Counts, Course, Integrator, Scheme, Span, Start, Stride, System, positive};
+use super::{
+    Checked, Counted, Counts, Course, Integrator, Scheme, Span, Start, Stride, System, named,
+    positive, refused,
+};
 use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
@@ -84,11 +87,15 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> FixedCourse<S, X, K> {
     /// Computes the slope at the state that was reached, once.
     fn slope<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
         if !self.known {
-            let mut system = Counted {
+            let mut counted = Counted {
                 system,
                 counts: &mut self.counts,
             };
-            self.last = system.rates(self.time, &self.state)?;
+            let outcome = counted.stage(self.time, &self.state, &mut self.last);
+            if outcome.is_err() || !self.last.is_finite() {
+                let again = || Checked { system }.rates(self.time, &self.state);
+                return Err(named(outcome.err(), again).unwrap_or(Fault::StateNotFinite));
+            }
             self.known = true;
         }
         Ok(())
@@ -119,7 +126,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
                 time: self.time.to_f64(),
             });
         }
-        let mut system = Counted {
+        let mut counted = Counted {
             system,
             counts: &mut self.counts,
         };
@@ -128,12 +135,16 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
             state: &self.state,
             slope: &self.last,
         };
-        let mut state = self
+        let outcome = self
             .scheme
-            .stride(&mut system, start, step, &mut self.stages)?;
-        if !state.is_finite() {
-            return Err(Fault::StateNotFinite);
-        }
+            .stride(&mut counted, start, step, &mut self.stages);
+        let mut state = match outcome {
+            Ok(state) if state.is_finite() => state,
+            outcome => {
+                let from = (self.time, &self.state);
+                return Err(refused(&self.scheme, system, from, step, outcome.err()));
+            }
+        };
         system.settle(&mut state, None);
         self.counts.accepted += 1;
         core::mem::swap(&mut self.first, &mut self.last);

@@ -64,6 +64,22 @@ pub trait System<S: Real> {
     /// Rates that are not finite, and what else keeps the system from having rates here.
     fn rates(&mut self, time: S, state: &Self::State) -> Result<Self::State, Fault>;
 
+    /// Writes the rates at a stage of a step. They need not be finite: whoever takes the step looks at what it leads to, once, and asks
+    /// [`System::rates`] at every stage where that is not finite.
+    ///
+    /// # Errors
+    /// What else keeps the system from having rates here; [`Fault::StateNotFinite`] leaves it to [`System::rates`] to say why.
+    #[inline(always)]
+    fn stage(
+        &mut self,
+        time: S,
+        state: &Self::State,
+        rates: &mut Self::State,
+    ) -> Result<(), Fault> {
+        *rates = self.rates(time, state)?;
+        Ok(())
+    }
+
     /// Brings a state that a step has led to into its normal form, and its rates, where they are known, with it.
     ///
     /// What the state says must not change, so that the rates stay valid; a step that goes on from it uses both as they come out.
@@ -158,7 +174,7 @@ pub trait Scheme<S: Real>: Copy + Debug {
     /// Memory for states like this one.
     fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X>;
 
-    /// The state after one step, from the slope at its start.
+    /// The state after one step, from the slope at its start; not finite where a slope at a stage is not, see [`System::stage`].
     ///
     /// # Errors
     /// A fault of the system at a stage.
@@ -190,17 +206,19 @@ pub trait Scheme<S: Real>: Copy + Debug {
         state: &mut Y::State,
         step: S,
     ) -> Result<(), Fault> {
-        let slope = system.rates(time, state)?;
-        let mut stages = self.stages(&slope);
-        let start = Start {
-            time,
-            state: &*state,
-            slope: &slope,
+        let mut slope = state.clone();
+        let outcome = match system.stage(time, state, &mut slope) {
+            Ok(()) => {
+                let slope = &slope;
+                let start = Start { time, state, slope };
+                self.stride(system, start, step, &mut self.stages(slope))
+            }
+            Err(fault) => Err(fault),
         };
-        let mut next = self.stride(system, start, step, &mut stages)?;
-        if !next.is_finite() {
-            return Err(Fault::StateNotFinite);
-        }
+        let mut next = match outcome {
+            Ok(next) if next.is_finite() => next,
+            outcome => return Err(refused(self, system, (time, state), step, outcome.err())),
+        };
         system.settle(&mut next, None);
         *state = next;
         Ok(())
@@ -280,6 +298,48 @@ impl Counts {
     }
 }
 
+/// Why a step failed, or led to a state that is not finite.
+#[cold]
+#[inline(never)]
+fn refused<S: Real, K: Scheme<S>, Y: System<S>>(
+    scheme: &K,
+    system: &mut Y,
+    (time, state): (S, &Y::State),
+    step: S,
+    fault: Option<Fault>,
+) -> Fault {
+    named(fault, || {
+        let mut system = Checked { system };
+        let slope = &system.rates(time, state)?;
+        let start = Start { time, state, slope };
+        scheme.stride(&mut system, start, step, &mut scheme.stages(slope))
+    })
+    .unwrap_or(Fault::StateNotFinite)
+}
+
+/// A fault of a stage that says why; else that of the same once more, with a look at the rates of every stage.
+fn named<X>(fault: Option<Fault>, again: impl FnOnce() -> Result<X, Fault>) -> Option<Fault> {
+    match fault {
+        None | Some(Fault::StateNotFinite) => again().err().or(fault),
+        known => known,
+    }
+}
+
+/// A system that looks at the rates of every stage, by one piece of code for all of them.
+struct Checked<'a, Y> {
+    system: &'a mut Y,
+}
+
+impl<S: Real, Y: System<S>> System<S> for Checked<'_, Y> {
+    type State = Y::State;
+
+    #[cold]
+    #[inline(never)]
+    fn rates(&mut self, time: S, state: &Y::State) -> Result<Y::State, Fault> {
+        self.system.rates(time, state)
+    }
+}
+
 /// A system that counts its evaluations.
 struct Counted<'a, Y> {
     system: &'a mut Y,
@@ -293,6 +353,12 @@ impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
     fn rates(&mut self, time: S, state: &Y::State) -> Result<Y::State, Fault> {
         self.counts.evaluations += 1;
         self.system.rates(time, state)
+    }
+
+    #[inline(always)]
+    fn stage(&mut self, time: S, state: &Y::State, rates: &mut Y::State) -> Result<(), Fault> {
+        self.counts.evaluations += 1;
+        self.system.stage(time, state, rates)
     }
 
     #[inline(always)]

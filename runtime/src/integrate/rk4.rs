@@ -50,15 +50,16 @@ impl<S: Real> Scheme<S> for Rk4 {
         let half = S::constant(0.5) * step;
         let sixth = S::constant(1.0 / 6.0) * step;
         let third = sixth + sixth;
-        let second = system.rates(time + half, &state.plus([(half, first)]))?;
-        let third_slope = system.rates(time + half, &state.plus([(half, &second)]))?;
-        let fourth = system.rates(time + step, &state.plus([(step, &third_slope)]))?;
-        Ok(state.plus([
-            (sixth, first),
-            (third, &second),
-            (third, &third_slope),
-            (sixth, &fourth),
-        ]))
+        let mut slope = first.clone();
+        let mut next = state.plus([(sixth, first)]);
+        system.stage(time + half, &state.plus([(half, first)]), &mut slope)?;
+        next = next.plus([(third, &slope)]);
+        let at = state.plus([(half, &slope)]);
+        system.stage(time + half, &at, &mut slope)?;
+        next = next.plus([(third, &slope)]);
+        let at = state.plus([(step, &slope)]);
+        system.stage(time + step, &at, &mut slope)?;
+        Ok(next.plus([(sixth, &slope)]))
     }
 
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Rk4Stages>, theta: S) -> X {

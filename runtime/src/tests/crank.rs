@@ -181,12 +181,14 @@ impl Mechanism for Crank {
         state.coordinates_mut()[7] = Self::joint_angle(c, state, 0).angle();
     }
 
-    fn evaluate<S: Scalar, T: Terms, P: Orientation>(
+    fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
         c: &Constants<S>,
         coefficients: &Self::Coefficients<S>,
         time: S,
         state: &State<S, 8, 6>,
-    ) -> Evaluation<S, Self> {
+        rates: &mut State<S, 8, 6>,
+        multipliers: &mut [S; 6],
+    ) -> Pivot<S> {
         let unit = crate::rotation::with_unit_orientations::<S, Self>(state);
         let read = if P::NORMALISED { &unit } else { state };
         let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
@@ -198,14 +200,11 @@ impl Mechanism for Crank {
             lower = from_fn(|i| lower[i] - (rate * phi_rate[i] + position * phi[i]));
         }
         let upper = Self::forces(c, time, read);
-        let (accelerations, multipliers) =
+        let accelerations;
+        (accelerations, *multipliers) =
             Self::solve::<S, T>(c, coefficients, &factors, &upper, &lower);
-        let rates = State::from_parts(Self::coordinate_rates(c, state), accelerations);
-        Evaluation {
-            rates,
-            multipliers,
-            pivot,
-        }
+        *rates = State::from_parts(Self::coordinate_rates(c, state), accelerations);
+        pivot
     }
 
     fn factor<S: Scalar, T: Terms>(

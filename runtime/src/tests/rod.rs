@@ -217,12 +217,14 @@ impl Mechanism for Rod {
         [x, y, z, rates[0], rates[1], rates[2], rates[3]]
     }
 
-    fn evaluate<S: Scalar, T: Terms, P: Orientation>(
+    fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
         c: &[S; 6],
         coefficients: &Self::Coefficients<S>,
         time: S,
         state: &State<S, 7, 6>,
-    ) -> Evaluation<S, Self> {
+        rates: &mut State<S, 7, 6>,
+        multipliers: &mut [S; 5],
+    ) -> Pivot<S> {
         let unit = rotation::with_unit_orientations::<S, Self>(state);
         let read = if P::NORMALISED { &unit } else { state };
         let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
@@ -236,14 +238,11 @@ impl Mechanism for Rod {
             }
         }
         let upper = Self::forces(c, time, read);
-        let (accelerations, multipliers) =
+        let accelerations;
+        (accelerations, *multipliers) =
             Self::solve::<S, T>(c, coefficients, &factors, &upper, &lower);
-        let rates = State::from_parts(Self::coordinate_rates(c, state), accelerations);
-        Evaluation {
-            rates,
-            multipliers,
-            pivot,
-        }
+        *rates = State::from_parts(Self::coordinate_rates(c, state), accelerations);
+        pivot
     }
 
     fn factor<S: Scalar, T: Terms>(

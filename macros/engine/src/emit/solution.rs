@@ -31,6 +31,16 @@ impl Writer<'_> {
         }
     }
 
+    /// Where an evaluation writes its results.
+    fn results(&self) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let (rates, multipliers) = (local("rates"), local("multipliers"));
+        quote! {
+            #rates: &mut <#name as #facade::Mechanism>::State<__S>,
+            #multipliers: &mut <#name as #facade::Mechanism>::Multipliers<__S>,
+        }
+    }
+
     fn pivots(&self, checks: &[PivotCheck], values: &[TokenStream]) -> TokenStream {
         let facade = self.facade;
         let mut pivot = quote!(#facade::Pivot::unchecked());
@@ -126,22 +136,24 @@ impl Writer<'_> {
 
     /// An evaluation that is a function of the rotation matrices.
     fn by_rotations(&self, evaluation: &Evaluation) -> TokenStream {
-        let (name, facade) = (&self.model.name, self.facade);
+        let facade = self.facade;
         let function = evaluation_function(evaluation.terms, evaluation.reading);
         let of_rotations = of_rotations(evaluation.terms);
         let rotations = rotations_function(evaluation.reading);
         let (arguments, passed) = (self.arguments(), Self::passed());
+        let (rates, multipliers) = (local("rates"), local("multipliers"));
+        let results = self.results();
         quote! {
             #[inline]
-            fn #function<__S: #facade::Scalar>(#arguments) -> #facade::Evaluation<__S, #name> {
-                #of_rotations(#passed &#rotations(#passed))
+            fn #function<__S: #facade::Scalar>(#arguments #results) -> #facade::Pivot<__S> {
+                #of_rotations(#passed &#rotations(#passed), #rates, #multipliers)
             }
         }
     }
 
     /// An evaluation; as a function of rotation matrices, if these are given.
     fn evaluation(&mut self, evaluation: &Evaluation, given: Option<&[Expr]>) -> TokenStream {
-        let (name, facade) = (&self.model.name, self.facade);
+        let facade = self.facade;
         let layout = self.model.layout();
         let mut function = evaluation_function(evaluation.terms, evaluation.reading);
         let (mut arguments, mut passed) = (self.arguments(), Self::passed());
@@ -170,16 +182,16 @@ impl Writer<'_> {
         let pivot = self.pivots(&evaluation.checks, pivots);
         let unpack = Self::unpack();
         let inline = inline(&evaluation.kernel.arena, &evaluation.kernel.outputs);
+        let (rates, forces) = (local("rates"), local("multipliers"));
+        let results = self.results();
         quote! {
             #inline
-            fn #function<__S: #facade::Scalar>(#arguments) -> #facade::Evaluation<__S, #name> {
+            fn #function<__S: #facade::Scalar>(#arguments #results) -> #facade::Pivot<__S> {
                 #unpack
                 #statements
-                #facade::Evaluation {
-                    rates: #facade::State::from_parts([#(#coordinates),*], [#(#velocities),*]),
-                    multipliers: [#(#multipliers),*],
-                    pivot: #pivot,
-                }
+                *#rates = #facade::State::from_parts([#(#coordinates),*], [#(#velocities),*]);
+                *#forces = [#(#multipliers),*];
+                #pivot
             }
         }
     }
@@ -189,6 +201,7 @@ impl Writer<'_> {
         let (constants, coefficients, state) =
             (local("constants"), local("coefficients"), local("state"));
         let (factors, upper, lower) = (local("factors"), local("upper"), local("lower"));
+        let (rates, multipliers) = (local("rates"), local("multipliers"));
         let time = local("time");
         let arms = self.kernels.evaluations.iter().map(|evaluation| {
             let (stabilised, compliant) = match evaluation.terms {
@@ -198,16 +211,20 @@ impl Writer<'_> {
             };
             let normalised = evaluation.reading == Reading::Normalised;
             let function = evaluation_function(evaluation.terms, evaluation.reading);
-            quote!((#normalised, #stabilised, #compliant) => #function(#constants, #coefficients, #time, #state),)
+            quote! {
+                (#normalised, #stabilised, #compliant) => #function(#constants, #coefficients, #time, #state, #rates, #multipliers),
+            }
         });
         quote! {
             #[inline(always)]
-            fn evaluate<__S: #facade::Scalar, __T: #facade::Terms, __P: #facade::Orientation>(
+            fn evaluate_into<__S: #facade::Scalar, __T: #facade::Terms, __P: #facade::Orientation>(
                 #constants: &Self::Constants<__S>,
                 #coefficients: &Self::Coefficients<__S>,
                 #time: __S,
                 #state: &Self::State<__S>,
-            ) -> #facade::Evaluation<__S, Self> {
+                #rates: &mut Self::State<__S>,
+                #multipliers: &mut Self::Multipliers<__S>,
+            ) -> #facade::Pivot<__S> {
                 match (__P::NORMALISED, __T::STABILISED, __T::COMPLIANT) {
                     #(#arms)*
                 }

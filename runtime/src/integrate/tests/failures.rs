@@ -81,6 +81,135 @@ fn rates_of_nan_leave_the_last_good_state() {
     assert_eq!(state, [1.0]);
 }
 
+/// `y' = -y`; at one stage of a step, and there alone, the rate is not finite, or there is none. Only [`System::rates`] says why.
+struct Hole {
+    /// Beyond this time.
+    time: f64,
+    /// What [`System::stage`] leaves there; nothing where it refuses.
+    left: Option<f64>,
+    /// Calls of both.
+    calls: (usize, usize),
+}
+
+const WHY: Fault = Fault::RatesNotFinite {
+    origin: NotFinite::Body("a body"),
+};
+
+impl System<f64> for Hole {
+    type State = [f64; 1];
+
+    fn rates(&mut self, time: f64, state: &[f64; 1]) -> Result<[f64; 1], Fault> {
+        self.calls.1 += 1;
+        if time > self.time {
+            Err(WHY)
+        } else {
+            Ok([-state[0]])
+        }
+    }
+
+    fn stage(&mut self, time: f64, state: &[f64; 1], rates: &mut [f64; 1]) -> Result<(), Fault> {
+        self.calls.0 += 1;
+        if time > self.time {
+            *rates = [self.left.ok_or(Fault::StateNotFinite)?];
+        } else {
+            *rates = [-state[0]];
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn the_stage_that_is_not_finite_is_asked_why() {
+    let left = [
+        Some(f64::NAN),
+        Some(f64::INFINITY),
+        Some(-f64::INFINITY),
+        None,
+    ];
+    // Stages of a step of 1 from 0: all of Dormand and Prince's, both of the classical method's, and the start.
+    for (left, time) in left
+        .into_iter()
+        .flat_map(|left| [-0.1, 0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 0.95].map(|time| (left, time)))
+    {
+        let hole = || Hole {
+            time,
+            left,
+            calls: (0, 0),
+        };
+        let mut state = [1.0];
+        assert_eq!(Rk4.step(&mut hole(), 0.0, &mut state, 1.0), Err(WHY));
+        assert_eq!(
+            DormandPrince5.step(&mut hole(), 0.0, &mut state, 1.0),
+            Err(WHY)
+        );
+        assert_eq!(state, [1.0]);
+        if time < 0.0 {
+            continue;
+        }
+        let mut system = hole();
+        let mut course = Rk4::every(1.0)
+            .start(&mut system, span(2.0, 2.0), [1.0])
+            .unwrap();
+        assert_eq!(course.advance(&mut system), Err(WHY));
+        assert_eq!((course.time(), *course.state()), (0.0, [1.0]));
+        // With control of the step it gets as near as steps resolve, and each trial is asked once.
+        let mut system = hole();
+        let method = DormandPrince::<f64>::default();
+        let mut course = method.start(&mut system, span(2.0, 2.0), [1.0]).unwrap();
+        let fault = loop {
+            if let Err(fault) = course.advance(&mut system) {
+                break fault;
+            }
+        };
+        assert_eq!(fault, WHY);
+        assert!(course.time() <= time && course.time() > time - 1e-12);
+        assert!((course.state()[0] - (-course.time()).exp()).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_fault_that_says_why_is_not_asked_again() {
+    let mut system = Hole {
+        time: 0.1,
+        left: Some(f64::NAN),
+        calls: (0, 0),
+    };
+    let mut state = [1.0];
+    assert_eq!(Rk4.step(&mut system, 0.0, &mut state, 1.0), Err(WHY));
+    assert_eq!(system.calls, (4, 2));
+
+    /// Says why at once.
+    struct Told(usize);
+    impl System<f64> for Told {
+        type State = [f64; 1];
+        fn rates(&mut self, _: f64, _: &[f64; 1]) -> Result<[f64; 1], Fault> {
+            self.0 += 1;
+            Err(WHY)
+        }
+    }
+    let mut system = Told(0);
+    assert_eq!(Rk4.step(&mut system, 0.0, &mut state, 1.0), Err(WHY));
+    assert_eq!(system.0, 1);
+}
+
+#[test]
+fn a_slope_for_output_that_is_not_finite_is_refused() {
+    let mut system = Hole {
+        time: 0.0,
+        left: None,
+        calls: (0, 0),
+    };
+    system.time = f64::INFINITY;
+    let mut course = Rk4::every(0.5)
+        .start(&mut system, span(2.0, 2.0), [1.0])
+        .unwrap();
+    course.advance(&mut system).unwrap();
+    for left in [Some(f64::NAN), Some(f64::INFINITY), None] {
+        (system.time, system.left) = (0.4, left);
+        assert_eq!(course.at(&mut system, 0.25), Err(WHY));
+    }
+}
+
 #[test]
 fn settings_that_are_not_positive_are_refused() {
     let mut system = equation(curved);
