@@ -435,7 +435,7 @@ where
             // Why is not asked here: a reference to the state would keep it in memory at every stage.
             return Err(Fault::StateNotFinite);
         }
-        self.look(pivot, &multipliers);
+        self.look(pivot.relative, &multipliers);
         Ok(())
     }
 
@@ -479,9 +479,9 @@ where
     const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
 
     #[inline(always)]
-    fn look(&mut self, pivot: Pivot<S>, multipliers: &M::Multipliers<S>) {
+    fn look(&mut self, pivot: S, multipliers: &M::Multipliers<S>) {
         if !F::Terms::COMPLIANT {
-            self.seen.last = pivot;
+            self.seen.pivot = pivot;
         }
         if M::REPORT.time.constraints {
             self.seen.multipliers = *multipliers;
@@ -495,7 +495,7 @@ where
             multipliers,
             pivot,
         } = &parts.evaluation;
-        self.look(*pivot, multipliers);
+        self.look(pivot.relative, multipliers);
         self.seen.applied_power = parts.applied_power;
         if F::ITERATED {
             let excused = usize::from(parts.excused);
@@ -556,19 +556,37 @@ where
         Some(power)
     }
 
-    /// The relative pivot at the end of a step; with a compliance, by a factorisation without it. `None` where equations that depend on others are
+    /// The smallest relative pivot at the end of a step; with a compliance, by a factorisation without it. `None` where equations that depend on others are
     /// kept: their pivots tell nothing.
     #[inline]
-    fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<Pivot<S>> {
+    fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<S> {
         if M::REPORT.equations == 0 || M::REPORT.redundant.iter().any(|row| !row.dropped) {
             return None;
         }
         if F::Terms::COMPLIANT {
-            let pivot =
-                || M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1;
+            let pivot = || self.rigid_pivot(time, state).relative;
             step.is_multiple_of(PIVOT_EVERY).then(pivot)
         } else {
-            Some(self.seen.last)
+            Some(self.seen.pivot)
+        }
+    }
+
+    /// The smallest relative pivot without a compliance.
+    #[inline]
+    fn rigid_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
+        M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1
+    }
+
+    /// Finds the joint of the smallest pivot of a run: once, at the end, so that no step has to know it.
+    #[cold]
+    pub(crate) fn name_smallest_pivot(&self, watch: &mut Watch<S, M>) {
+        if let Some((time, state)) = watch.nearest() {
+            let pivot = if F::Terms::COMPLIANT {
+                self.rigid_pivot(time, &state)
+            } else {
+                self.pivot_at(time, &state)
+            };
+            watch.name(pivot.joint.to_f64() as usize);
         }
     }
 }

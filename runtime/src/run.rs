@@ -176,7 +176,10 @@ where
     }
 
     /// The last state is one that was shown.
-    fn report(self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
+    fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
+        if let Some(watch) = &mut self.watch {
+            self.dynamics.name_smallest_pivot(watch);
+        }
         RunReport {
             evaluations: self.counts.evaluations,
             accepted: self.counts.accepted,

@@ -37,6 +37,10 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     position: Worst<S, M>,
     velocity: Worst<S, M>,
     approach: Option<Approach<S>>,
+    /// The end of the step of the smallest pivot.
+    nearest: (S, M::State<S>),
+    /// The index of the joint of the smallest pivot, which is found at the end of a run.
+    joint: usize,
     balance: Balance<S>,
     /// The end of the last step, where potentials change with time by themselves.
     before: Option<(S, M::State<S>)>,
@@ -171,7 +175,7 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     /// The power (W) of all forces without a potential, drivers included; `None` where there are none.
     pub(crate) power: Option<S>,
     /// The relative pivot at this state, of formulations that have one.
-    pub(crate) pivot: Option<crate::mechanism::Pivot<S>>,
+    pub(crate) pivot: Option<S>,
     /// The largest `| |p| - 1 |` of a body at the end of the step.
     pub(crate) stretch: S,
     /// Whether it was mended, so that every step adds another.
@@ -188,6 +192,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             position: Worst::none(time),
             velocity: Worst::none(time),
             approach: None,
+            nearest: (time, *state),
+            joint: 0,
             balance: Balance::new(kinetic, M::potential_energy(constants, time, state)),
             before: None,
             speed: S::zero(),
@@ -237,7 +243,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.velocity.take(phi_rate.as_slice(), factors, time);
         if let Some(pivot) = pivot {
             let approach = self.approach.get_or_insert_with(Approach::new);
-            approach.step(time, pivot);
+            if approach.step(time, pivot) {
+                self.nearest = (time, *state);
+            }
         }
         let kinetic = M::kinetic_energy(constants, state);
         let potential = M::potential_energy(constants, time, state);
@@ -325,6 +333,16 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
+    /// Time and state of the smallest pivot, or right after it; `None` where there are no pivots.
+    pub(crate) fn nearest(&self) -> Option<(S, M::State<S>)> {
+        self.approach.is_some().then_some(self.nearest)
+    }
+
+    /// Takes the joint of the smallest pivot.
+    pub(crate) fn name(&mut self, joint: usize) {
+        self.joint = joint;
+    }
+
     /// Steps that were looked at.
     #[inline]
     pub(crate) fn steps(&self) -> usize {
@@ -379,9 +397,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     #[must_use]
     pub fn smallest_pivot(&self) -> Option<SmallestPivot<S>> {
         let nearest = self.approach.as_ref()?.least()?;
-        let joint = M::REPORT.joints.get(nearest.pivot.joint.to_f64() as usize);
+        let joint = M::REPORT.joints.get(self.joint);
         Some(SmallestPivot {
-            relative: nearest.pivot.relative,
+            relative: nearest.pivot,
             joint: joint.map_or("", |info| info.name),
             time: nearest.time,
         })

@@ -1,13 +1,13 @@
 //! What evaluations leave behind on the way of an integration.
 
 use crate::array::Array;
-use crate::mechanism::{Mechanism, Pivot};
+use crate::mechanism::Mechanism;
 use crate::scalar::{Real, Scalar};
 
 /// Kept by [`Dynamics`](crate::Dynamics) at every evaluation, for the watch to read at the end of a step.
 pub(crate) struct Seen<S: Scalar, M: Mechanism> {
-    /// The smallest relative pivot of the last evaluation.
-    pub(crate) last: Pivot<S>,
+    /// The smallest relative pivot of the last evaluation, without its joint: to find that costs more than to look again at the end of a run.
+    pub(crate) pivot: S,
     /// The multipliers of the last evaluation, of a mechanism with drivers.
     pub(crate) multipliers: M::Multipliers<S>,
     /// The power (W) of forces from a closure in the last evaluation.
@@ -19,7 +19,7 @@ pub(crate) struct Seen<S: Scalar, M: Mechanism> {
 impl<S: Real, M: Mechanism> Seen<S, M> {
     pub(crate) fn nothing() -> Self {
         Self {
-            last: Pivot::unchecked(),
+            pivot: S::one(),
             multipliers: M::Multipliers::<S>::zeros(),
             applied_power: S::zero(),
             stretch: S::zero(),

@@ -1,12 +1,11 @@
 //! How near a run came to a singular configuration.
 
-use crate::mechanism::Pivot;
 use crate::scalar::Real;
 
-/// A relative pivot, its joint and its time.
+/// A relative pivot and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nearest<S> {
-    pub(super) pivot: Pivot<S>,
+    pub(super) pivot: S,
     pub(super) time: S,
 }
 
@@ -30,62 +29,60 @@ impl<S: Real> Approach<S> {
         Self {
             largest: S::zero(),
             least: Nearest {
-                pivot: Pivot {
-                    relative: S::constant(f64::INFINITY),
-                    joint: S::zero(),
-                },
+                pivot: S::constant(f64::INFINITY),
                 time: S::zero(),
             },
             before: [None; 2],
         }
     }
 
-    /// Takes the pivot at the end of a step.
+    /// Takes the pivot at the end of a step; tells whether there, or since the step before, it was smaller than ever.
     #[inline]
-    pub(super) fn step(&mut self, time: S, pivot: Pivot<S>) {
-        self.largest = self.largest.max(pivot.relative);
-        if pivot.relative < self.least.pivot.relative {
+    pub(super) fn step(&mut self, time: S, pivot: S) -> bool {
+        self.largest = self.largest.max(pivot);
+        let mut is_least = pivot < self.least.pivot;
+        if is_least {
             self.least = Nearest { pivot, time };
         }
         let [first, second] = self.before;
         if let (Some(first), Some(second)) = (first, second)
             && second.1 < first.1
-            && second.1 <= pivot.relative
+            && second.1 <= pivot
         {
-            self.between([first, second, (time, pivot.relative)], pivot.joint);
+            is_least |= self.between([first, second, (time, pivot)]);
         }
-        self.before = [second, Some((time, pivot.relative))];
+        self.before = [second, Some((time, pivot))];
+        is_least
     }
 
-    /// The lowest point between three of which the second is lowest.
-    fn between(&mut self, points: [(S, S); 3], joint: S) {
+    /// The lowest point between three of which the second is lowest; whether it is the smallest pivot.
+    fn between(&mut self, points: [(S, S); 3]) -> bool {
         let [a, b, c] = points;
         let (slope, curvature) = parabola(points);
         let mut lowest = b.1 - (slope * slope).quotient(S::constant(4.0) * curvature);
         if passes_zero(points) {
             lowest = S::zero();
         }
-        if lowest.is_finite() && lowest < self.least.pivot.relative {
+        let is_least = lowest.is_finite() && lowest < self.least.pivot;
+        if is_least {
             let middle = b.0 - S::constant(0.5) * slope.quotient(curvature);
             self.least = Nearest {
-                pivot: Pivot {
-                    relative: lowest.max(S::zero()),
-                    joint,
-                },
+                pivot: lowest.max(S::zero()),
                 time: middle.max(a.0).min(c.0),
             };
         }
+        is_least
     }
 
     /// The smallest relative pivot, with its time.
     pub(super) fn least(&self) -> Option<Nearest<S>> {
-        self.least.pivot.relative.is_finite().then_some(self.least)
+        self.least.pivot.is_finite().then_some(self.least)
     }
 
     /// The smallest over the largest.
     pub(super) fn fall(&self) -> S {
         if self.largest > S::zero() {
-            self.least.pivot.relative.quotient(self.largest)
+            self.least.pivot.quotient(self.largest)
         } else {
             S::one()
         }
@@ -114,23 +111,22 @@ fn passes_zero<S: Real>(points: [(S, S); 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::Approach;
-    use crate::mechanism::Pivot;
 
     /// Steps over `c ((t - t0)^2 + d^2)`, and the fall that is found.
     fn fall(step: f64, distance: f64) -> f64 {
         let mut approach = Approach::new();
+        let mut last = f64::INFINITY;
         for k in -40..40 {
             let time = step * (f64::from(k) + 0.3);
             if time.abs() > 1.5 {
                 continue;
             }
-            let pivot = Pivot {
-                relative: 0.5 * (time.sin().powi(2) + distance * distance),
-                joint: 2.0,
-            };
-            approach.step(time, pivot);
+            let pivot = 0.5 * (time.sin().powi(2) + distance * distance);
+            if approach.step(time, pivot) {
+                last = time;
+            }
         }
-        assert_eq!(approach.least().unwrap().pivot.joint, 2.0);
+        assert!(last.abs() <= 2.0 * step);
         assert!(approach.least().unwrap().time.abs() < step);
         approach.fall()
     }
