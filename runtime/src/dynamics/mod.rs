@@ -1,5 +1,7 @@
 //! A mechanism as a system of differential equations.
 
+mod watched;
+
 use core::marker::PhantomData;
 
 use crate::access::MechanismExt;
@@ -10,7 +12,7 @@ use crate::formulation::{Formulation, Saddle, inconsistency};
 use crate::integrate::System;
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
-    Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Stabilisation, Terms,
+    Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
 };
 use crate::origin::origin;
 use crate::rotation::{
@@ -19,7 +21,7 @@ use crate::rotation::{
 use crate::sample::Evaluate;
 use crate::scalar::Real;
 use crate::view::View;
-use crate::watch::{Seen, Step, Watch};
+use crate::watch::Seen;
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
@@ -459,136 +461,6 @@ struct Parts<S: Real, M: Mechanism> {
     excused: bool,
     /// The power (W) of the forces of a closure.
     applied_power: S,
-}
-
-/// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as the forces do.
-const BIAS_EVERY: usize = 16;
-/// Of how many steps one is factorised without its compliance: what is passed between two of them is found all the same.
-const PIVOT_EVERY: usize = 2;
-
-/// What the watch wants to know.
-impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    P: Orientation,
-    A: AppliedForces<S, M>,
-{
-    /// Whether accelerations are off by what a compliance leaves.
-    const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
-
-    #[inline(always)]
-    fn look(&mut self, pivot: S, multipliers: &M::Multipliers<S>) {
-        if !F::Terms::COMPLIANT {
-            self.seen.pivot = pivot;
-        }
-        if M::REPORT.time.constraints {
-            self.seen.multipliers = *multipliers;
-        }
-    }
-
-    /// Counts and looks at an evaluation in parts, and hands on its rates.
-    fn gathered(&mut self, parts: &Parts<S, M>) -> M::State<S> {
-        let Evaluation {
-            rates,
-            multipliers,
-            pivot,
-        } = &parts.evaluation;
-        self.look(pivot.relative, multipliers);
-        self.seen.applied_power = parts.applied_power;
-        if F::ITERATED {
-            let excused = usize::from(parts.excused);
-            self.iterations.excused = self.iterations.excused.saturating_add(excused);
-            self.iterations.total = self.iterations.total.saturating_add(parts.iterations);
-            self.iterations.largest = self.iterations.largest.max(parts.iterations);
-        }
-        *rates
-    }
-
-    /// Shows the end of a step to the watch, with what was seen at the last evaluation.
-    #[inline]
-    pub(crate) fn watch(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
-        let step = Step {
-            constants: &self.constants,
-            time,
-            state,
-            power: self.power(time, state),
-            pivot: self.pivot(watch.steps(), time, state),
-            stretch: self.seen.stretch,
-            is_mended: P::NORMALISED && !P::NORMALISED_RATES,
-        };
-        if Self::YIELDS && watch.steps().is_multiple_of(BIAS_EVERY) {
-            self.show_bias(watch, time, state);
-        }
-        watch.step(step);
-    }
-
-    #[inline(never)]
-    fn show_bias(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
-        if let Ok(evaluation) = self.evaluation(time, state) {
-            watch.yielded(
-                &self.compliances,
-                &evaluation.multipliers,
-                evaluation.rates.velocities(),
-            );
-        }
-    }
-
-    /// The power (W) of all forces without a potential, and of drivers, whose multipliers work against `Phi_t`.
-    fn power(&self, time: S, state: &M::State<S>) -> Option<S> {
-        let is_driven = M::REPORT.time.constraints;
-        if M::REPORT.forces.is_empty() && !is_driven && !A::PRESENT {
-            return None;
-        }
-        let mut power = M::power(&self.constants, time, state) + self.seen.applied_power;
-        if is_driven {
-            let at_rest = M::State::from_parts(*state.coordinates(), M::Velocities::<S>::zeros());
-            let by_time = M::constraint_rates(&self.constants, time, &at_rest);
-            let rows = by_time
-                .as_slice()
-                .iter()
-                .zip(self.seen.multipliers.as_slice());
-            power = rows.fold(power, |sum, (&rate, &multiplier)| {
-                rate.fused(multiplier, sum)
-            });
-        }
-        Some(power)
-    }
-
-    /// The smallest relative pivot at the end of a step; with a compliance, by a factorisation without it. `None` where equations that depend on others are
-    /// kept: their pivots tell nothing.
-    #[inline]
-    fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<S> {
-        if M::REPORT.equations == 0 || M::REPORT.redundant.iter().any(|row| !row.dropped) {
-            return None;
-        }
-        if F::Terms::COMPLIANT {
-            let pivot = || self.rigid_pivot(time, state).relative;
-            step.is_multiple_of(PIVOT_EVERY).then(pivot)
-        } else {
-            Some(self.seen.pivot)
-        }
-    }
-
-    /// The smallest relative pivot without a compliance.
-    #[inline]
-    fn rigid_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
-        M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1
-    }
-
-    /// Finds the joint of the smallest pivot of a run: once, at the end, so that no step has to know it.
-    #[cold]
-    pub(crate) fn name_smallest_pivot(&self, watch: &mut Watch<S, M>) {
-        if let Some((time, state)) = watch.nearest() {
-            let pivot = if F::Terms::COMPLIANT {
-                self.rigid_pivot(time, &state)
-            } else {
-                self.pivot_at(time, &state)
-            };
-            watch.name(pivot.joint.to_f64() as usize);
-        }
-    }
 }
 
 /// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of the multiplier is left.
