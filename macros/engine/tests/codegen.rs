@@ -4,7 +4,12 @@ mod common;
 
 use common::{FAULTY, PENDULUM, SCENES, generated, model, tokens};
 use holonom_engine::emit::report::{counts, describe};
-use holonom_engine::plan::kernels::Kernels;
+use holonom_engine::plan::candidates::choose;
+use holonom_engine::plan::kernels::{Kernels, evaluation};
+use holonom_engine::plan::system::Terms;
+use holonom_engine::symbolic::arena::Stage;
+use holonom_engine::symbolic::count::count;
+use holonom_engine::symbolic::scene::Reading;
 use syn::{Block, Expr, File, Item, Stmt};
 
 /// The function of a name in the block that holds everything generated for a mechanism.
@@ -57,6 +62,66 @@ fn plans_and_counts() {
         }
     }
     insta::assert_snapshot!("counts", text);
+}
+
+/// Rods of 1 m and 1 kg one behind the other, with joints along their axes 1.
+fn chain(joint: &str, rods: usize) -> String {
+    let mut text = String::from("#[mechanism(gravity = [0.0, 0.0, -9.81])] struct Chain {");
+    for rod in 0..rods {
+        let (head, centre) = (rod as f64, rod as f64 + 0.5);
+        let before = match rod.checked_sub(1) {
+            Some(before) => format!("rod_{before}"),
+            None => "ground".into(),
+        };
+        let axis = match joint {
+            "Revolute" => ", axis = [1.0, 0.0, 0.0]",
+            _ => "",
+        };
+        text += &format!(
+            "#[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, {centre:?}, 0.0])] rod_{rod}: Body,
+            #[joint(between = [{before}, rod_{rod}], point = [0.0, {head:?}, 0.0]{axis})] joint_{rod}: {joint},"
+        );
+    }
+    text + "}"
+}
+
+/// Three rods on four hinges; one of the equations' sets that follow from the others is left out.
+const FOUR_BAR: &str = "#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = \"drop\")] struct FourBar {
+    #[body(mass = 1.0, inertia = [0.0833, 0.0833, 0.001], position = [0.0, 0.0, 0.5])] left: Body,
+    #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 1.0])] top: Body,
+    #[body(mass = 1.0, inertia = [0.0833, 0.0833, 0.001], position = [0.0, 1.0, 0.5])] right: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])] first: Revolute,
+    #[joint(between = [left, top], point = [0.0, 0.0, 1.0], axis = [1.0, 0.0, 0.0])] second: Revolute,
+    #[joint(between = [ground, right], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])] third: Revolute,
+    #[joint(between = [right, top], point = [0.0, 1.0, 1.0], axis = [1.0, 0.0, 0.0])] fourth: Revolute,
+}";
+
+#[test]
+fn chains_and_a_loop() {
+    let scenes = [
+        ("2 rods on ball joints", chain("Spherical", 2)),
+        ("8 rods on ball joints", chain("Spherical", 8)),
+        ("2 rods on hinges", chain("Revolute", 2)),
+        ("8 rods on hinges", chain("Revolute", 8)),
+        ("four-bar", FOUR_BAR.into()),
+    ];
+    let mut text = String::new();
+    for (name, item) in scenes {
+        let model = model(&tokens(&item));
+        let plans = choose(&model);
+        text += &format!("{name}\n");
+        for terms in Terms::ALL {
+            let kernel = evaluation(&model, plans.of(terms), Reading::Raw, terms).kernel;
+            let count = count(&kernel.arena, &kernel.outputs, Stage::State);
+            text += &format!(
+                "  {terms:?}: {} operations, {} of them reciprocals, depth {}\n",
+                count.total(),
+                count.divisions,
+                count.depth
+            );
+        }
+    }
+    insta::assert_snapshot!("chains", text);
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Plans worth counting, and the choice among them.
 //!
-//! Bodies are eliminated from the leaves of a spanning tree towards the ground, rows of a body's joint right behind it,
-//! closing joints last: work grows linearly along a chain. Candidates differ in the axes of point rows and of
-//! accelerations, and in whether point rows are paired with accelerations or left to the Schur complement.
+//! Bodies are eliminated from the leaves of a spanning tree towards the ground, rows of a body's joint right behind it, closing joints last: work
+//! grows linearly along a chain. Or rows wait for all bodies, all of them or the point rows between moving bodies. Candidates differ in this, in
+//! the points whose accelerations are eliminated, and in the axes of rows and of accelerations.
 
 use super::eliminate::Check;
 use super::order::{Course, Order, Rows, StartValues};
 use super::reach::Reach;
-use super::system::{System, Terms, coupling};
+use super::system::{Solution, System, Terms, applied_forces, coupling};
 use super::tree::{Tree, tree};
 use super::{Plan, Plans};
 use crate::model::{BodyKind, Model};
@@ -19,6 +19,8 @@ use crate::symbolic::vector::Frame;
 /// What the candidates differ in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Strategy {
+    /// Accelerations of the points where joints carry the bodies, instead of centres of mass.
+    carried_points: bool,
     /// Accelerations of rigid bodies in body axes.
     body_accelerations: bool,
     /// Rows in the axes of the body that is carried.
@@ -29,54 +31,53 @@ struct Strategy {
 impl Strategy {
     const fn new(body_accelerations: bool, body_rows: bool, course: Course) -> Self {
         Self {
+            carried_points: false,
             body_accelerations,
             body_rows,
             course,
         }
     }
+
+    /// The same with accelerations of the points where joints carry the bodies.
+    const fn at_joints(self) -> Self {
+        Self {
+            carried_points: true,
+            ..self
+        }
+    }
 }
 
-const fn leaves(saddles: bool, forbidden: bool, late: Option<Rows>) -> Course {
-    Course::Leaves {
-        saddles,
-        forbidden,
-        late,
-    }
+const fn leaves(forbidden: bool, late: Option<Rows>) -> Course {
+    Course::Leaves { forbidden, late }
 }
 
 const LATE: Option<Rows> = Some(Rows::BothEnds);
 const GROUND: Course = Course::BodiesFirst(Rows::Ground);
-const ENDS: Course = Course::BodiesFirst(Rows::BothEnds);
 
 /// Without a compliance: what forbids a motion is eliminated with it.
-const RIGID: [Strategy; 7] = {
-    const PAIRS: Course = leaves(true, true, None);
-    const LATE_PAIRS: Course = leaves(true, true, LATE);
+const RIGID: [Strategy; 6] = {
+    const PAIRS: Course = leaves(true, None);
+    const LATE_PAIRS: Course = leaves(true, LATE);
     [
-        Strategy::new(true, true, PAIRS),
+        Strategy::new(false, false, PAIRS).at_joints(),
+        Strategy::new(true, true, PAIRS).at_joints(),
         Strategy::new(false, false, PAIRS),
-        Strategy::new(true, true, LATE_PAIRS),
+        Strategy::new(true, true, PAIRS),
         Strategy::new(false, false, LATE_PAIRS),
         Strategy::new(true, true, GROUND),
-        Strategy::new(false, false, GROUND),
-        Strategy::new(false, false, ENDS),
     ]
 };
 
 /// With a compliance: no motion is forbidden.
-const COMPLIANT: [Strategy; 8] = {
-    const SADDLES: Course = leaves(true, false, None);
-    const LATE_SADDLES: Course = leaves(true, false, LATE);
-    const ALONE: Course = leaves(false, false, None);
+const COMPLIANT: [Strategy; 5] = {
+    const SADDLES: Course = leaves(false, None);
+    const LATE_SADDLES: Course = leaves(false, LATE);
     [
         Strategy::new(true, true, SADDLES),
         Strategy::new(false, false, SADDLES),
         Strategy::new(true, true, LATE_SADDLES),
         Strategy::new(false, false, LATE_SADDLES),
         Strategy::new(true, true, GROUND),
-        Strategy::new(false, false, GROUND),
-        Strategy::new(true, true, ALONE),
-        Strategy::new(false, false, ALONE),
     ]
 };
 
@@ -103,33 +104,49 @@ pub fn all(model: &Model, terms: Terms) -> Vec<Plan> {
     plans
 }
 
-/// The cheapest plans for a model, by the operations of the standard evaluation and of that with a compliance, each together with the
-/// back-substitution for a given right-hand side; of two that are equal, the one with the shorter path.
+/// The cheapest plans for a model.
 #[must_use]
 pub fn choose(model: &Model) -> Plans {
     let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| {
-        let plans = all(model, terms).into_iter();
-        plans
-            .min_by_key(|plan| cost(model, plan, terms))
-            .expect("there are strategies")
+        let mut best: Option<(usize, Plan)> = None;
+        for plan in all(model, terms) {
+            let least = best.as_ref().map_or(usize::MAX, |(least, _)| *least);
+            if let Some(cost) = cost(model, &plan, terms, least) {
+                best = Some((cost, plan));
+            }
+        }
+        best.expect("there are strategies").1
     });
     Plans { rigid, compliant }
 }
 
-/// What a plan costs: the operations of an evaluation (accelerations, multipliers and relative pivots) and of a back-substitution
-/// together, then the path of the evaluation.
-fn cost(model: &Model, plan: &Plan, terms: Terms) -> (usize, usize) {
+/// What a plan costs if that is less than a bound: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
+/// back-substitution for a given right-hand side, which runs less often.
+fn cost(model: &Model, plan: &Plan, terms: Terms, bound: usize) -> Option<usize> {
     let mut scene = Scene::for_solution(model, Reading::Raw);
-    let (solution, system) = equations_of_motion(&mut scene, model, plan.clone(), terms);
+    let system = System::new(&mut scene, &kinds(model), plan.clone(), terms);
     let checks = system.checks(&scene);
     let ratio = |check: &Check| scene.space.arena.div(check.pivot, check.before);
-    let pivots = checks.iter().map(ratio).collect();
-    let outputs: Vec<Expr> = [solution.accelerations, solution.multipliers, pivots].concat();
-    let evaluation = count(&scene.space.arena, &outputs, Stage::State);
+    let pivots: Vec<Expr> = checks.iter().map(ratio).collect();
+    let served: &[Terms] = match terms {
+        Terms::Compliant => &[Terms::Compliant],
+        Terms::Plain | Terms::Stabilised => &[Terms::Plain, Terms::Stabilised],
+    };
+    // All of them need the factors.
+    let factors = count(&scene.space.arena, &system.factors(), Stage::State);
+    if 4 * factors.total() * served.len() >= bound {
+        return None;
+    }
+    let evaluations = served.iter().map(|&terms| {
+        let solution = solved(&mut scene, model, &system, terms);
+        let outputs = [&solution.accelerations[..], &solution.multipliers, &pivots].concat();
+        count(&scene.space.arena, &outputs, Stage::State).weighted()
+    });
+    let evaluations: usize = evaluations.sum();
     let solution = system.solve_given(&mut scene);
-    let outputs = [solution.accelerations, solution.multipliers].concat();
+    let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
     let back = count(&scene.space.arena, &outputs, Stage::RightHandSide);
-    (evaluation.total() + back.total(), evaluation.depth)
+    Some(4 * evaluations + back.weighted()).filter(|cost| *cost < bound)
 }
 
 /// The solved equations of motion.
@@ -138,13 +155,20 @@ pub fn equations_of_motion(
     model: &Model,
     plan: Plan,
     terms: Terms,
-) -> (super::system::Solution, System) {
-    let kinds: Vec<BodyKind> = model.bodies.iter().map(|body| body.kind).collect();
-    let system = System::new(scene, &kinds, plan, terms);
-    let right = system.equations_of_motion(scene, terms);
-    let upper = crate::plan::system::applied_forces(scene, &kinds);
-    let solution = system.solve(scene, &right, &upper, Stage::State);
+) -> (Solution, System) {
+    let system = System::new(scene, &kinds(model), plan, terms);
+    let solution = solved(scene, model, &system, terms);
     (solution, system)
+}
+
+fn kinds(model: &Model) -> Vec<BodyKind> {
+    model.bodies.iter().map(|body| body.kind).collect()
+}
+
+fn solved(scene: &mut Scene, model: &Model, system: &System, terms: Terms) -> Solution {
+    let right = system.equations_of_motion(scene, terms);
+    let upper = applied_forces(scene, &kinds(model));
+    system.solve(scene, &right, &upper, Stage::State)
 }
 
 fn plan(
@@ -179,13 +203,27 @@ fn plan(
             child.map_or(Frame::Global, |body| frame_of(body, strategy.body_rows))
         })
         .collect();
+    let points = (0..model.bodies.len())
+        .map(|body| {
+            let joint = tree.child.iter().position(|child| *child == Some(body));
+            let carries = |place: &usize| {
+                Some(scene.constraints[*place].joint) == joint
+                    && scene.point_on(*place, body).is_some()
+            };
+            (0..scene.constraints.len())
+                .filter(|_| strategy.carried_points && model.bodies[body].kind == BodyKind::Rigid)
+                .find(carries)
+        })
+        .collect();
     let mut plan = Plan {
         translation,
+        points,
         rows,
         pivots: Vec::new(),
         determinants: Vec::new(),
     };
-    let kinds: Vec<BodyKind> = model.bodies.iter().map(|body| body.kind).collect();
+    let kinds = kinds(model);
+    plan.refer(&mut scene);
     let coupling = coupling(&mut scene, &kinds, &plan);
     let mut order = Order::new(&scene, &coupling, &kinds, start, reach);
     (plan.pivots, plan.determinants) = order.pivots(tree, strategy.course);

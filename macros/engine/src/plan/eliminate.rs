@@ -1,4 +1,4 @@
-//! Symbolic elimination of a symmetric system with pivots of one or two unknowns, in a given order: `L D L^T`.
+//! Symbolic elimination of a symmetric system with pivots of one, two or four unknowns, in a given order: `L D L^T`.
 
 use std::collections::BTreeMap;
 
@@ -58,7 +58,7 @@ impl Symmetric {
         sum
     }
 
-    fn neighbours(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn neighbours(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
         self.rows[k].keys().copied()
     }
 
@@ -73,19 +73,20 @@ impl Symmetric {
 
 /// One step of the elimination: `x_P = P^-1 rhs_P - sum L_i^T x_i`.
 #[derive(Clone, Debug)]
-struct Step {
-    unknowns: Vec<usize>,
-    inverse: Inverse,
+pub(super) struct Step {
+    pub(super) unknowns: Vec<usize>,
+    pub(super) inverse: Inverse,
     lower: Vec<(usize, Vec<Expr>)>,
 }
 
 /// The inverse of a pivot.
 #[derive(Clone, Debug)]
-enum Inverse {
+pub(super) enum Inverse {
     /// Entry by entry.
     Matrix(Vec<Vec<Expr>>),
-    /// Of `[A C^T; C 0]`: `C^-1` and `A`.
+    /// Of `[A C^T; C 0]`: `C`, `C^-1` and `A`.
     Forbidden {
+        coupling: [[Expr; 2]; 2],
         inverse: [[Expr; 2]; 2],
         mass: [[Expr; 2]; 2],
     },
@@ -107,6 +108,7 @@ impl Inverse {
             Self::Forbidden {
                 inverse: [first, second],
                 mass,
+                ..
             } => {
                 let (upper, lower) = b.split_at(2);
                 let x = [dot(first, lower), dot(second, lower)];
@@ -142,14 +144,14 @@ pub struct Check {
 /// A factorised symmetric matrix.
 #[derive(Clone, Debug)]
 pub struct Factors {
-    steps: Vec<Step>,
+    pub(super) steps: Vec<Step>,
     /// The pivots that depend on the state and are not safe by themselves.
     pub checks: Vec<Check>,
 }
 
 /// Factorises a matrix.
 ///
-/// `determinants` are those of the blocks [`Pivot::Forbidden`] at the start, in order. Whatever the plan says, the result solves the
+/// `about_centres` is the same system with accelerations of centres of mass: pivots are compared with what rows would be in it. `determinants` are those of the blocks [`Pivot::Forbidden`] at the start, in order. Whatever the plan says, the result solves the
 /// system: a block that an earlier step has filled, so that it is not what its kind of pivot is safe for, is eliminated
 /// one unknown after the other, and a multiplier waits until its pivot is not zero by structure. What is zero to the end is
 /// zero because rows depend on each other, and is recorded.
@@ -159,6 +161,7 @@ pub struct Factors {
 pub fn factorise(
     arena: &mut Arena,
     matrix: Symmetric,
+    about_centres: Symmetric,
     pivots: &[Pivot],
     determinants: &[f64],
 ) -> Factors {
@@ -169,7 +172,7 @@ pub fn factorise(
     }
     let mut elimination = Elimination {
         turn,
-        original: matrix.clone(),
+        about_centres,
         matrix,
         eliminated: Vec::new(),
         waiting: Vec::new(),
@@ -204,8 +207,8 @@ pub fn factorise(
 
 /// The state of an elimination.
 struct Elimination {
-    /// As assembled.
-    original: Symmetric,
+    /// As assembled with accelerations of centres of mass, which do not know of each other.
+    about_centres: Symmetric,
     /// What is left.
     matrix: Symmetric,
     /// When the plan eliminates each unknown: sums are taken in this order, so that the numbers of the unknowns, and with them the order of the fields,
@@ -287,7 +290,7 @@ impl Elimination {
         sorted.sort_unstable();
         let [as_eliminated, as_numbered] = [&self.eliminated, &sorted].map(|over| {
             let mark = arena.mark();
-            self.original.schur_diagonal(arena, row, over);
+            self.about_centres.schur_diagonal(arena, row, over);
             let operations = arena.operations_since(mark);
             arena.rollback(mark);
             operations
@@ -297,7 +300,7 @@ impl Elimination {
         } else {
             &sorted
         };
-        self.original.schur_diagonal(arena, row, over)
+        self.about_centres.schur_diagonal(arena, row, over)
     }
 
     fn step(&mut self, arena: &mut Arena, pivot: Pivot, determinant: f64) {
@@ -388,17 +391,29 @@ fn invert_forbidden(
     accelerations: [usize; 2],
     rows: [usize; 2],
 ) -> (Inverse, Expr) {
-    let [[a, b], [c, d]] = rows.map(|row| accelerations.map(|k| matrix.get(row, k)));
+    let coupling = rows.map(|row| accelerations.map(|k| matrix.get(row, k)));
+    let [[a, b], [c, d]] = coupling;
     let (ad, bc) = (arena.mul(a, d), arena.mul(b, c));
     let determinant = arena.sub(ad, bc);
     let reciprocal = arena.reciprocal(determinant);
     // Rows are accelerations, columns are rows of C.
     let inverse = [[d, -b], [-c, a]].map(|row| row.map(|entry| arena.mul(entry, reciprocal)));
     let mass = accelerations.map(|k| accelerations.map(|l| matrix.get(k, l)));
-    (Inverse::Forbidden { inverse, mass }, determinant)
+    let inverse = Inverse::Forbidden {
+        coupling,
+        inverse,
+        mass,
+    };
+    (inverse, determinant)
 }
 
 impl Factors {
+    /// The entries of `L`.
+    pub(super) fn entries(&self) -> Vec<Expr> {
+        let rows = self.steps.iter().flat_map(|step| &step.lower);
+        rows.flat_map(|(_, row)| row.iter().copied()).collect()
+    }
+
     /// Solves the system for a right-hand side.
     pub fn solve(&self, arena: &mut Arena, mut right: Vec<Expr>) -> Vec<Expr> {
         for step in &self.steps {
@@ -449,7 +464,7 @@ mod tests {
                 Pivot::Multiplier(2),
             ],
         ] {
-            let factors = factorise(&mut arena, matrix.clone(), &pivots, &[]);
+            let factors = factorise(&mut arena, matrix.clone(), matrix.clone(), &pivots, &[]);
             let right = [9.0, 7.0, 1.0].map(|value| arena.constant(value)).to_vec();
             let solution = factors.solve(&mut arena, right);
             let values: Vec<f64> = solution
@@ -476,7 +491,7 @@ mod tests {
             Pivot::Multiplier(1),
             Pivot::Multiplier(2),
         ];
-        let factors = factorise(&mut arena, matrix, &pivots, &[]);
+        let factors = factorise(&mut arena, matrix.clone(), matrix, &pivots, &[]);
         let [check] = factors.checks[..] else {
             panic!("{:?}", factors.checks)
         };

@@ -5,6 +5,7 @@
 
 pub mod alone;
 pub mod candidates;
+mod carried;
 pub mod eliminate;
 pub mod kernels;
 mod order;
@@ -50,6 +51,8 @@ impl Pivot {
 pub struct Plan {
     /// The axes of each body's translational acceleration.
     pub translation: Vec<Frame>,
+    /// The constraint whose point on each body has the acceleration that is eliminated; `None` for the centre of mass.
+    pub points: Vec<Option<usize>>,
     /// The axes of each constraint's rows; of no meaning for a single row.
     pub rows: Vec<Frame>,
     /// Pivots, first to last. Unknowns are numbered like velocities, then rows.

@@ -1,5 +1,5 @@
 //! The order of elimination: bodies from the leaves of a spanning tree to the ground, rows of a body's joint behind it as soon as
-//! they are safe, closing joints last.
+//! they are safe, closing joints last; or rows behind all bodies.
 //!
 //! A row may follow the bodies that are eliminated already if their accelerations determine its multiplier in every regular
 //! configuration. The bodies that rows have tied together so far make a part of the mechanism, and what is left of the
@@ -7,6 +7,9 @@
 //! no force and no moment on the part; where they hold it against *one* other body, or against the ground, reaction and action
 //! cancel, and it would act on nothing: the rows of `D` would be dependent. With two bodies outside the part this does
 //! not follow, and the row waits.
+//!
+//! Rows may also wait until all bodies are eliminated. Rows that were eliminated before are independent with the bodies that were, the others with all
+//! bodies: `D M^-1 D^T` is positive definite, and so is what is left of it after any of its rows. Their order is free.
 
 use std::collections::BTreeSet;
 
@@ -58,10 +61,8 @@ struct Part {
 /// The order of elimination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
-    /// Bodies from the leaves, rows behind them as soon as they are safe.
+    /// Bodies from the leaves, point rows together with the accelerations that they carry, other rows behind them as soon as they are safe.
     Leaves {
-        /// Point rows paired with accelerations.
-        saddles: bool,
         /// Two single rows paired with two components of the angular acceleration.
         forbidden: bool,
         /// Point rows between moving bodies wait until all bodies are eliminated, and begin there then.
@@ -118,11 +119,7 @@ impl<'a> Order<'a> {
         self.done = vec![false; self.scene.layout.velocities + self.scene.layout.rows];
         self.parts = Vec::new();
         match course {
-            Course::Leaves {
-                saddles,
-                forbidden,
-                late,
-            } => self.from_leaves(tree, saddles, forbidden, late),
+            Course::Leaves { forbidden, late } => self.leaves_first(tree, forbidden, late),
             Course::BodiesFirst(rows) => (self.bodies_first(tree, rows), Vec::new()),
         }
     }
@@ -164,10 +161,9 @@ impl<'a> Order<'a> {
         }
     }
 
-    fn from_leaves(
+    fn leaves_first(
         &mut self,
         tree: &Tree,
-        saddles: bool,
         forbidden: bool,
         late: Option<Rows>,
     ) -> (Vec<Pivot>, Vec<f64>) {
@@ -179,7 +175,7 @@ impl<'a> Order<'a> {
         for &(body, joint) in &tree.bodies {
             let first = scene.layout.velocity[body];
             self.enter(body);
-            if let Some(joint) = joint.filter(|_| saddles) {
+            if let Some(joint) = joint {
                 for row in self.carried_rows(joint, first) {
                     let rows = [row, row + 1, row + 2];
                     let is_free = |row: &usize| self.is_first_on(*row, body);

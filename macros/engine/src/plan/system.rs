@@ -6,7 +6,7 @@ use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
 use crate::symbolic::scene::{Constraint, Scene};
-use crate::symbolic::vector::{Frame, Triple};
+use crate::symbolic::vector::{Frame, Triple, VectorId, ZERO, cross};
 
 /// The terms of a formulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -37,7 +37,7 @@ impl Terms {
 }
 
 /// Accelerations and multipliers, in the axes of the state and of the definitions.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// `u'`: translation in global axes, rotation in principal axes.
     pub accelerations: Vec<Expr>,
@@ -45,23 +45,25 @@ pub struct Solution {
     pub multipliers: Vec<Expr>,
 }
 
-impl Solution {
-    /// The operations that it takes, of a stage or later.
-    fn operations(&self, arena: &Arena, stage: Stage) -> usize {
-        let outputs = [&self.accelerations[..], &self.multipliers].concat();
-        count(arena, &outputs, stage).total()
-    }
-}
-
 /// The right-hand side, in the axes of the plan.
 #[derive(Clone, Debug)]
-pub struct RightHandSide(Vec<Expr>);
+pub struct RightHandSide {
+    values: Vec<Expr>,
+    /// The forces and moments on the bodies about their centres of mass, in the same axes.
+    about_centres: Vec<Expr>,
+    /// What the present motion adds to the acceleration of each centre of mass, beyond that of the point of reference and the
+    /// angular acceleration.
+    known: Vec<VectorId>,
+}
 
 /// The factorised system of a scene.
 #[derive(Clone, Debug)]
 pub struct System {
     plan: Plan,
     kinds: Vec<BodyKind>,
+    /// The matrix in the axes of the plan and about its points, and the same about centres of mass.
+    matrix: Symmetric,
+    about_centres: Symmetric,
     factors: Factors,
 }
 
@@ -89,29 +91,81 @@ pub fn coupling(scene: &mut Scene, kinds: &[BodyKind], plan: &Plan) -> Vec<Vec<(
     rows
 }
 
+impl Plan {
+    /// Makes the points of the plan those of reference.
+    pub(super) fn refer(&self, scene: &mut Scene) {
+        for (body, constraint) in self.points.iter().enumerate() {
+            let point = constraint.and_then(|constraint| scene.point_on(constraint, body));
+            scene.motion.reference[body] = point.unwrap_or(ZERO);
+        }
+    }
+}
+
+/// The matrix in the axes of a plan, about the present points of reference.
+fn assembled(
+    scene: &mut Scene,
+    kinds: &[BodyKind],
+    plan: &Plan,
+    compliances: &[Expr],
+) -> Symmetric {
+    let (velocities, rows) = (scene.layout.velocities, scene.layout.rows);
+    let mut matrix = Symmetric::new(velocities + rows);
+    for (body, kind) in kinds.iter().enumerate() {
+        let first = scene.layout.velocity[body];
+        let mass = scene.mass[body];
+        for k in 0..3 {
+            matrix.set(first + k, first + k, mass);
+        }
+        if *kind != BodyKind::Rigid {
+            continue;
+        }
+        let inertia = scene.inertia_about_reference(body);
+        let centre = scene.centre(body);
+        for k in 0..3 {
+            for (l, &entry) in inertia[k].iter().enumerate().skip(k) {
+                matrix.set(first + 3 + k, first + 3 + l, entry);
+            }
+            // What a rotation about one axis does to the centre of mass.
+            let mut axis = ZERO;
+            axis[k] = Arena::ONE;
+            let moved = cross(&mut scene.space.arena, axis, centre);
+            let moved = scene.space.native(Frame::Body(body), moved);
+            let moved = scene.space.components(moved, plan.translation[body]);
+            for (l, component) in moved.into_iter().enumerate() {
+                let entry = scene.space.arena.mul(mass, component);
+                matrix.set(first + l, first + 3 + k, entry);
+            }
+        }
+    }
+    for (row, entries) in coupling(scene, kinds, plan).into_iter().enumerate() {
+        for (unknown, value) in entries {
+            matrix.set(velocities + row, unknown, value);
+        }
+        matrix.set(velocities + row, velocities + row, -compliances[row]);
+    }
+    matrix
+}
+
 impl System {
     /// Assembles and factorises the matrix.
     pub fn new(scene: &mut Scene, kinds: &[BodyKind], plan: Plan, terms: Terms) -> Self {
-        let (velocities, rows) = (scene.layout.velocities, scene.layout.rows);
-        let mut matrix = Symmetric::new(velocities + rows);
-        for (body, kind) in kinds.iter().enumerate() {
-            let first = scene.layout.velocity[body];
-            for k in 0..3 {
-                matrix.set(first + k, first + k, scene.mass[body]);
-                if *kind == BodyKind::Rigid {
-                    matrix.set(first + 3 + k, first + 3 + k, scene.inertia[body][k]);
-                }
-            }
-        }
         let compliances = compliances(scene, terms);
-        for (row, entries) in coupling(scene, kinds, &plan).into_iter().enumerate() {
-            for (unknown, value) in entries {
-                matrix.set(velocities + row, unknown, value);
-            }
-            matrix.set(velocities + row, velocities + row, -compliances[row]);
-        }
+        scene.motion.reference.fill(ZERO);
+        let about_centres = assembled(scene, kinds, &plan, &compliances);
+        let matrix = if plan.points.iter().any(Option::is_some) {
+            plan.refer(scene);
+            assembled(scene, kinds, &plan, &compliances)
+        } else {
+            about_centres.clone()
+        };
         let arena = &mut scene.space.arena;
-        let mut factors = factorise(arena, matrix, &plan.pivots, &plan.determinants);
+        let mut factors = factorise(
+            arena,
+            matrix.clone(),
+            about_centres.clone(),
+            &plan.pivots,
+            &plan.determinants,
+        );
         if terms == Terms::Compliant {
             // Quasi-definite: every pivot is safe.
             factors.checks.clear();
@@ -119,8 +173,16 @@ impl System {
         Self {
             plan,
             kinds: kinds.to_vec(),
+            matrix,
+            about_centres,
             factors,
         }
+    }
+
+    /// What every solution needs.
+    #[must_use]
+    pub fn factors(&self) -> Vec<Expr> {
+        self.factors.entries()
     }
 
     /// The pivots to be checked, with the row instead of the unknown.
@@ -139,12 +201,23 @@ impl System {
 
     /// The right-hand side of the equations of motion: gravity, gyroscopic moments, `gamma*`.
     pub fn equations_of_motion(&self, scene: &mut Scene, terms: Terms) -> RightHandSide {
-        let mut right = forces(scene, &self.kinds, &self.plan.translation);
+        let frames = &self.plan.translation;
+        scene.motion.reference.fill(ZERO);
+        let about_centres = forces(scene, &self.kinds, frames, false);
+        self.plan.refer(scene);
+        let mut right = forces(scene, &self.kinds, frames, true);
         let factors = terms.factors(&mut scene.space.arena);
         for (place, &frame) in self.plan.rows.iter().enumerate() {
             right.extend(scene.combination(place, frame, factors));
         }
-        RightHandSide(right)
+        let known = (0..self.kinds.len())
+            .map(|body| centripetal(scene, body))
+            .collect();
+        RightHandSide {
+            values: right,
+            about_centres,
+            known,
+        }
     }
 
     /// Solves for a given right-hand side, in the axes of the state and of the definitions.
@@ -162,18 +235,30 @@ impl System {
         let mut right: Vec<Expr> = (0..scene.layout.velocities)
             .map(|k| arena.input(Input::Upper(k as u32)))
             .collect();
+        let mut about_centres = right.clone();
         right.extend((0..scene.layout.rows).map(|k| arena.input(Input::Lower(k as u32))));
         for (body, &frame) in self.plan.translation.iter().enumerate() {
-            turn(
-                scene,
-                &mut right,
-                scene.layout.velocity[body],
-                Frame::Global,
-                frame,
-            );
+            let first = scene.layout.velocity[body];
+            let force = [0, 1, 2].map(|k| right[first + k]);
+            let force = scene.space.native(Frame::Global, force);
+            let components = scene.space.components(force, frame);
+            right[first..first + 3].copy_from_slice(&components);
+            about_centres[first..first + 3].copy_from_slice(&components);
+            if self.kinds[body] == BodyKind::Rigid {
+                let moment = about_reference(scene, body, force);
+                for (k, moment) in moment.into_iter().enumerate() {
+                    let sum = scene.space.arena.add(right[first + 3 + k], moment);
+                    right[first + 3 + k] = sum;
+                }
+            }
         }
         self.turn_rows(scene, &mut right, true);
-        RightHandSide(right)
+        let nothing = scene.space.native(Frame::Global, ZERO);
+        RightHandSide {
+            values: right,
+            about_centres,
+            known: vec![nothing; self.kinds.len()],
+        }
     }
 
     fn turn_rows(&self, scene: &mut Scene, values: &mut [Expr], into_plan: bool) {
@@ -191,6 +276,29 @@ impl System {
         }
     }
 
+    /// The acceleration of the centre of mass of a body from that of its point of reference, and what is known of the difference.
+    fn of_centre(
+        &self,
+        scene: &mut Scene,
+        body: usize,
+        accelerations: &[Expr],
+        known: VectorId,
+    ) -> Triple {
+        let first = scene.layout.velocity[body];
+        let [a, w] = [first, first + 3].map(|first| [0, 1, 2].map(|k| accelerations[first + k]));
+        let frame = Frame::Body(body);
+        let centre = scene.centre(body);
+        let space = &mut scene.space;
+        let (a, w) = (
+            space.native(self.plan.translation[body], a),
+            space.native(frame, w),
+        );
+        let centre = space.native(frame, centre);
+        let turning = space.cross(frame, w, centre);
+        let sum = space.sum([a, turning, known].map(|term| (Arena::ONE, term)));
+        space.components(sum, Frame::Global)
+    }
+
     /// Solves for a right-hand side, with as few operations of a stage or later as possible.
     pub fn solve(
         &self,
@@ -199,16 +307,76 @@ impl System {
         upper: &[Expr],
         stage: Stage,
     ) -> Solution {
-        let mut values = self.factors.solve(&mut scene.space.arena, right.0.clone());
+        let arena = &mut scene.space.arena;
+        let factors = &self.factors;
+        let mut ways = vec![factors.solve(arena, right.values.clone())];
+        if factors.carry() {
+            ways.push(factors.solve_from_known(arena, &self.matrix, &right.values));
+        }
+        let mut solutions = Vec::new();
+        for values in ways {
+            let (centres, balanced) = self.about_centres(scene, &values, right);
+            let substituted = self.finished(scene, values, &centres);
+            let by_newton = self.by_newton(scene, &substituted, upper);
+            let balanced = self.finished(scene, balanced, &centres);
+            solutions.extend([substituted, by_newton, balanced]);
+        }
+        solutions.dedup();
+        let arena = &scene.space.arena;
+        let cheapest = solutions.into_iter().min_by_key(|solution| {
+            let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
+            count(arena, &outputs, stage).weighted()
+        });
+        cheapest.expect("there is a way")
+    }
+
+    /// The accelerations of the centres of mass in global axes; and, in the axes of the plan, the solution about centres of mass with multipliers by the
+    /// balance of forces.
+    fn about_centres(
+        &self,
+        scene: &mut Scene,
+        values: &[Expr],
+        right: &RightHandSide,
+    ) -> (Vec<Triple>, Vec<Expr>) {
+        let mut about_centres = values.to_vec();
+        let mut centres = Vec::new();
+        for (body, &frame) in self.plan.translation.iter().enumerate() {
+            let first = scene.layout.velocity[body];
+            if self.plan.points[body].is_none() {
+                let known = [0, 1, 2].map(|k| values[first + k]);
+                centres.push(scene.space.turn(known, frame, Frame::Global));
+                continue;
+            }
+            let global = self.of_centre(scene, body, values, right.known[body]);
+            let vector = scene.space.native(Frame::Global, global);
+            let components = scene.space.components(vector, frame);
+            about_centres[first..first + 3].copy_from_slice(&components);
+            centres.push(global);
+        }
+        let (arena, matrix) = (&mut scene.space.arena, &self.about_centres);
+        let factors = &self.factors;
+        factors.balance(arena, matrix, &right.about_centres, &mut about_centres);
+        (centres, about_centres)
+    }
+
+    /// A solution in the axes of the state and of the definitions.
+    fn finished(&self, scene: &mut Scene, mut values: Vec<Expr>, centres: &[Triple]) -> Solution {
         self.turn_rows(scene, &mut values, false);
         let multipliers = values.split_off(scene.layout.velocities);
-        let mut solution = Solution {
+        for (&first, centre) in scene.layout.velocity.iter().zip(centres) {
+            values[first..first + 3].copy_from_slice(centre);
+        }
+        Solution {
             accelerations: values,
             multipliers,
-        };
-        let mut by_newton = Vec::new();
+        }
+    }
+
+    /// The same with accelerations of centres of mass by Newton's law where the plan has others.
+    fn by_newton(&self, scene: &mut Scene, solution: &Solution, upper: &[Expr]) -> Solution {
+        let mut solution = solution.clone();
         for (body, &frame) in self.plan.translation.iter().enumerate() {
-            if frame == Frame::Global {
+            if frame == Frame::Global && self.plan.points[body].is_none() {
                 continue;
             }
             let first = scene.layout.velocity[body];
@@ -217,19 +385,7 @@ impl System {
             let gradients = self.forces_on(scene, body);
             let arena = &mut scene.space.arena;
             let global = newton(arena, mass, force, &gradients, &solution.multipliers);
-            by_newton.push((first, global));
-            let accelerations = &mut solution.accelerations;
-            turn(scene, accelerations, first, frame, Frame::Global);
-        }
-        // Whether the accelerations along the axes of the plan are needed at all shows in the whole only.
-        let mut least = solution.operations(&scene.space.arena, stage);
-        for (first, global) in by_newton {
-            let mut other = solution.clone();
-            other.accelerations[first..first + 3].copy_from_slice(&global);
-            let operations = other.operations(&scene.space.arena, stage);
-            if operations < least {
-                (solution, least) = (other, operations);
-            }
+            solution.accelerations[first..first + 3].copy_from_slice(&global);
         }
         solution
     }
@@ -300,27 +456,60 @@ fn turn(scene: &mut Scene, values: &mut [Expr], first: usize, from: Frame, to: F
     values[first..first + 3].copy_from_slice(&turned);
 }
 
-/// `g`: gravity and forces of the language in global axes; moments, the gyroscopic among them, in principal axes.
-pub fn applied_forces(scene: &mut Scene, kinds: &[BodyKind]) -> Vec<Expr> {
-    forces(scene, kinds, &vec![Frame::Global; kinds.len()])
+/// `w x (w x c)` of the centre of mass from the point of reference.
+fn centripetal(scene: &mut Scene, body: usize) -> VectorId {
+    let (w, centre) = (scene.motion.spin_components[body], scene.centre(body));
+    scene.space.spun(body, w, centre)
 }
 
-/// `g` with forces in given axes.
-fn forces(scene: &mut Scene, kinds: &[BodyKind], frames: &[Frame]) -> Vec<Expr> {
+/// The moment of a force at the centre of mass about the point of reference, principal axes.
+fn about_reference(scene: &mut Scene, body: usize, force: VectorId) -> Triple {
+    let frame = Frame::Body(body);
+    let centre = scene.centre(body);
+    let centre = scene.space.native(frame, centre);
+    let moment = scene.space.cross(frame, centre, force);
+    scene.space.components(moment, frame)
+}
+
+/// `g`: gravity and forces of the language in global axes; moments, the gyroscopic among them, in principal axes.
+pub fn applied_forces(scene: &mut Scene, kinds: &[BodyKind]) -> Vec<Expr> {
+    forces(scene, kinds, &vec![Frame::Global; kinds.len()], false)
+}
+
+/// `g` with forces in given axes and moments about the points of reference; if wished, with what the accelerations of centres of mass take that
+/// those of the points of reference do not have.
+fn forces(scene: &mut Scene, kinds: &[BodyKind], frames: &[Frame], inertial: bool) -> Vec<Expr> {
     let applied = scene.applied();
     let mut forces = Vec::new();
     for (body, (kind, &frame)) in kinds.iter().zip(frames).enumerate() {
         let gravity = scene.space.native(Frame::Global, scene.gravity);
-        let gravity = scene.space.components(gravity, frame);
-        let weight = gravity.map(|g| scene.space.arena.mul(scene.mass[body], g));
+        let weight = scene.space.scale(scene.mass[body], gravity);
+        let known = centripetal(scene, body);
+        let factor = if inertial {
+            -scene.mass[body]
+        } else {
+            Arena::ZERO
+        };
+        let known = scene.space.scale(factor, known);
         let force = applied.force(&mut scene.space, body);
-        let force = scene.space.components(force, frame);
-        forces.extend([0, 1, 2].map(|k| scene.space.arena.add(weight[k], force[k])));
+        let [weight, known, force] =
+            [weight, known, force].map(|term| scene.space.components(term, frame));
+        forces.extend([0, 1, 2].map(|k| {
+            let arena = &mut scene.space.arena;
+            let sum = arena.add(weight[k], force[k]);
+            arena.add(sum, known[k])
+        }));
         if *kind == BodyKind::Rigid {
             let gyroscopic = scene.gyroscopic_moment(body);
+            let weight = scene.space.scale(scene.mass[body], gravity);
+            let weight = about_reference(scene, body, weight);
             let moment = applied.moment(&mut scene.space, body);
             let moment = scene.space.components(moment, Frame::Body(body));
-            forces.extend([0, 1, 2].map(|k| scene.space.arena.add(gyroscopic[k], moment[k])));
+            forces.extend([0, 1, 2].map(|k| {
+                let arena = &mut scene.space.arena;
+                let sum = arena.add(gyroscopic[k], moment[k]);
+                arena.add(sum, weight[k])
+            }));
         }
     }
     forces

@@ -26,6 +26,13 @@ impl Count {
     pub const fn total(&self) -> usize {
         self.additions + self.multiplications + self.divisions + self.square_roots + self.functions
     }
+
+    /// What is compared where one way is chosen among several: the operations, those on the longest chain twice. A kernel that is called from step to step of
+    /// an integrator waits for the chain, so that few operations are not worth a chain that is much longer.
+    #[must_use]
+    pub const fn weighted(&self) -> usize {
+        self.total() + self.depth
+    }
 }
 
 /// The operations that the outputs need, of the given stage or later.

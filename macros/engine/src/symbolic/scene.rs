@@ -253,6 +253,7 @@ impl Scene {
                 .map(|(body, (_, _, w))| space.native(Frame::Body(body), *w))
                 .collect(),
             spin_components: inputs.iter().map(|(_, _, w)| *w).collect(),
+            reference: vec![super::vector::ZERO; inputs.len()],
             time,
         };
         let mut constraints = Vec::new();
@@ -442,14 +443,71 @@ impl Scene {
         }
     }
 
-    /// The gyroscopic moment `-w x J w` of a body, principal axes (Euler's equations).
-    pub fn gyroscopic_moment(&mut self, body: usize) -> Triple {
-        let (w, j) = (self.motion.spin_components[body], self.inertia[body]);
+    /// The point on a body that a constraint between vectors speaks of, from the centre of mass.
+    #[must_use]
+    pub fn point_on(&self, constraint: usize, body: usize) -> Option<Triple> {
+        let Constraint::Vector(VectorExpr::Sum(terms)) = &self.constraints[constraint].constraint
+        else {
+            return None;
+        };
+        let mut points = terms.iter().filter_map(|(_, term)| match term {
+            VectorExpr::Point(Some(on), point) if *on == body => Some(*point),
+            _ => None,
+        });
+        points.next().filter(|_| points.next().is_none())
+    }
+
+    /// The centre of mass of a body from the point of reference, body axes.
+    pub fn centre(&self, body: usize) -> Triple {
+        self.motion.reference[body].map(|component| -component)
+    }
+
+    /// The tensor of inertia of a body about the point of reference, principal axes: `J + m (c.c I - c c^T)` (Huygens, Steiner).
+    pub fn inertia_about_reference(&mut self, body: usize) -> [Triple; 3] {
+        let (c, m, j) = (self.centre(body), self.mass[body], self.inertia[body]);
         let arena = &mut self.space.arena;
-        [(1, 2), (2, 0), (0, 1)].map(|(k, l)| {
-            let difference = arena.sub(j[k], j[l]);
+        let mut tensor = [super::vector::ZERO; 3];
+        for k in 0..3 {
+            for l in 0..3 {
+                let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+                let arms = if k == l {
+                    let (first, second) = (arena.square(c[a]), arena.square(c[b]));
+                    arena.add(first, second)
+                } else {
+                    -arena.mul(c[k], c[l])
+                };
+                let moved = arena.mul(m, arms);
+                tensor[k][l] = if k == l {
+                    arena.add(j[k], moved)
+                } else {
+                    moved
+                };
+            }
+        }
+        tensor
+    }
+
+    /// The gyroscopic moment `-w x J w` of a body about the point of reference, principal axes (Euler's equations).
+    pub fn gyroscopic_moment(&mut self, body: usize) -> Triple {
+        let w = self.motion.spin_components[body];
+        let j = self.inertia_about_reference(body);
+        let arena = &mut self.space.arena;
+        [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(m, k, l)| {
+            let difference = arena.sub(j[k][k], j[l][l]);
             let product = arena.mul(w[k], w[l]);
-            arena.mul(difference, product)
+            let mut moment = arena.mul(difference, product);
+            for (factor, a, b) in [(j[m][k], m, l), (-j[m][l], m, k)] {
+                let product = arena.mul(w[a], w[b]);
+                let term = arena.mul(factor, product);
+                moment = arena.add(moment, term);
+            }
+            if j[k][l] != Arena::ZERO {
+                let (first, second) = (arena.square(w[l]), arena.square(w[k]));
+                let squares = arena.sub(first, second);
+                let term = arena.mul(j[k][l], squares);
+                moment = arena.add(moment, term);
+            }
+            moment
         })
     }
 }

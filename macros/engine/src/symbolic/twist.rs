@@ -58,8 +58,19 @@ pub struct Motion {
     pub spin: Vec<VectorId>,
     /// The components of `w` in body axes.
     pub spin_components: Vec<Triple>,
+    /// The point of every body whose acceleration is an unknown and about which moments are taken, from the centre of mass in body axes: the centre of
+    /// mass itself unless a plan says otherwise. Positions and velocities are always those of centres of mass.
+    pub reference: Vec<Triple>,
     /// The time.
     pub time: Expr,
+}
+
+impl Motion {
+    /// A point of a body from the point of reference.
+    fn arm(&self, space: &mut Space, body: usize, point: Triple) -> Triple {
+        let reference = self.reference[body];
+        [0, 1, 2].map(|k| space.arena.sub(point[k], reference[k]))
+    }
 }
 
 /// The gradient of a scalar: the force and the moment on every body by which a virtual motion `(dr, dw)` is multiplied.
@@ -160,8 +171,10 @@ impl VectorExpr {
     pub fn quadratic(&self, space: &mut Space, motion: &Motion) -> VectorId {
         match self {
             Self::Fixed(None, _) | Self::Point(None, _) => space.native(Frame::Global, ZERO),
-            Self::Fixed(Some(body), s) | Self::Point(Some(body), s) => {
-                space.spun(*body, motion.spin_components[*body], *s)
+            Self::Fixed(Some(body), s) => space.spun(*body, motion.spin_components[*body], *s),
+            Self::Point(Some(body), s) => {
+                let arm = motion.arm(space, *body, *s);
+                space.spun(*body, motion.spin_components[*body], arm)
             }
             Self::Sum(terms) => {
                 let terms: Vec<_> = terms
@@ -224,7 +237,8 @@ impl VectorExpr {
                     .entry(*body)
                     .or_default()
                     .push((factor, covector));
-                Self::Fixed(Some(*body), *s).pull_back(space, motion, factor, covector, gradient);
+                let arm = motion.arm(space, *body, *s);
+                Self::Fixed(Some(*body), arm).pull_back(space, motion, factor, covector, gradient);
             }
             Self::Sum(terms) => {
                 for (coefficient, term) in terms {
