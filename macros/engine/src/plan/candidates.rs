@@ -88,30 +88,59 @@ const fn strategies(terms: Terms) -> &'static [Strategy] {
     }
 }
 
+/// What all candidates begin with.
+struct Beginning<'a> {
+    model: &'a Model,
+    kinds: Vec<BodyKind>,
+    /// Of which nothing is computed yet: every candidate works on a copy.
+    scene: Scene,
+    reach: Reach,
+    tree: Tree,
+    start: StartValues,
+}
+
+impl<'a> Beginning<'a> {
+    fn new(model: &'a Model) -> Self {
+        let scene = Scene::for_solution(model, Reading::Raw);
+        let reach = Reach::new(model, scene.clone());
+        Self {
+            model,
+            kinds: kinds(model),
+            tree: tree(model, &reach),
+            scene,
+            reach,
+            start: StartValues::new(model),
+        }
+    }
+
+    /// The plans worth counting, each once.
+    fn plans(&self, terms: Terms) -> Vec<Plan> {
+        let mut plans: Vec<Plan> = Vec::new();
+        for &strategy in strategies(terms) {
+            let plan = self.plan(strategy);
+            if !plans.contains(&plan) {
+                plans.push(plan);
+            }
+        }
+        plans
+    }
+}
+
 /// The plans worth counting, each once.
 #[must_use]
 pub fn all(model: &Model, terms: Terms) -> Vec<Plan> {
-    let reach = Reach::new(model);
-    let tree = tree(model, &reach);
-    let start = StartValues::new(model);
-    let mut plans: Vec<Plan> = Vec::new();
-    for &strategy in strategies(terms) {
-        let plan = plan(model, &tree, &reach, &start, strategy);
-        if !plans.contains(&plan) {
-            plans.push(plan);
-        }
-    }
-    plans
+    Beginning::new(model).plans(terms)
 }
 
 /// The cheapest plans for a model.
 #[must_use]
 pub fn choose(model: &Model) -> Plans {
+    let beginning = Beginning::new(model);
     let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| {
         let mut best: Option<(usize, Plan)> = None;
-        for plan in all(model, terms) {
+        for plan in beginning.plans(terms) {
             let least = best.as_ref().map_or(usize::MAX, |(least, _)| *least);
-            if let Some(cost) = cost(model, &plan, terms, least) {
+            if let Some(cost) = beginning.cost(&plan, terms, least) {
                 best = Some((cost, plan));
             }
         }
@@ -120,33 +149,92 @@ pub fn choose(model: &Model) -> Plans {
     Plans { rigid, compliant }
 }
 
-/// What a plan costs if that is less than a bound: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
-/// back-substitution for a given right-hand side, which runs less often.
-fn cost(model: &Model, plan: &Plan, terms: Terms, bound: usize) -> Option<usize> {
-    let mut scene = Scene::for_solution(model, Reading::Raw);
-    let system = System::new(&mut scene, &kinds(model), plan.clone(), terms);
-    let checks = system.checks(&scene);
-    let ratio = |check: &Check| scene.space.arena.div(check.pivot, check.before);
-    let pivots: Vec<Expr> = checks.iter().map(ratio).collect();
-    let served: &[Terms] = match terms {
-        Terms::Compliant => &[Terms::Compliant],
-        Terms::Plain | Terms::Stabilised => &[Terms::Plain, Terms::Stabilised],
-    };
-    // All of them need the factors.
-    let factors = count(&scene.space.arena, &system.factors(), Stage::State);
-    if 4 * factors.total() * served.len() >= bound {
-        return None;
+impl Beginning<'_> {
+    /// What a plan costs if that is less than a bound: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
+    /// back-substitution for a given right-hand side, which runs less often.
+    fn cost(&self, plan: &Plan, terms: Terms, bound: usize) -> Option<usize> {
+        let mut scene = self.scene.clone();
+        let system = System::new(&mut scene, &self.kinds, plan.clone(), terms);
+        let checks = system.checks(&scene);
+        let ratio = |check: &Check| scene.space.arena.div(check.pivot, check.before);
+        let pivots: Vec<Expr> = checks.iter().map(ratio).collect();
+        let served: &[Terms] = match terms {
+            Terms::Compliant => &[Terms::Compliant],
+            Terms::Plain | Terms::Stabilised => &[Terms::Plain, Terms::Stabilised],
+        };
+        // All of them need the factors.
+        let factors = count(&scene.space.arena, &system.factors(), Stage::State);
+        if 4 * factors.total() * served.len() >= bound {
+            return None;
+        }
+        let evaluations = served.iter().map(|&terms| {
+            let solution = solved(&mut scene, &self.kinds, &system, terms);
+            let outputs = [&solution.accelerations[..], &solution.multipliers, &pivots].concat();
+            count(&scene.space.arena, &outputs, Stage::State).weighted()
+        });
+        let evaluations: usize = evaluations.sum();
+        let solution = system.solve_given(&mut scene);
+        let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
+        let back = count(&scene.space.arena, &outputs, Stage::RightHandSide);
+        Some(4 * evaluations + back.weighted()).filter(|cost| *cost < bound)
     }
-    let evaluations = served.iter().map(|&terms| {
-        let solution = solved(&mut scene, model, &system, terms);
-        let outputs = [&solution.accelerations[..], &solution.multipliers, &pivots].concat();
-        count(&scene.space.arena, &outputs, Stage::State).weighted()
-    });
-    let evaluations: usize = evaluations.sum();
-    let solution = system.solve_given(&mut scene);
-    let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
-    let back = count(&scene.space.arena, &outputs, Stage::RightHandSide);
-    Some(4 * evaluations + back.weighted()).filter(|cost| *cost < bound)
+
+    fn plan(&self, strategy: Strategy) -> Plan {
+        let Self {
+            model, kinds, tree, ..
+        } = self;
+        let frame_of = |body: usize, wanted: bool| match model.bodies[body].kind {
+            BodyKind::Rigid if wanted => Frame::Body(body),
+            _ => Frame::Global,
+        };
+        let translation = (0..model.bodies.len())
+            .map(|body| frame_of(body, strategy.body_accelerations))
+            .collect();
+        let mut scene = self.scene.clone();
+        let last_body = |joint: usize| {
+            model.joints[joint]
+                .bodies
+                .iter()
+                .rev()
+                .copied()
+                .flatten()
+                .next()
+        };
+        let rows = scene
+            .constraints
+            .iter()
+            .map(|constrained| {
+                let child = tree.child[constrained.joint].or_else(|| last_body(constrained.joint));
+                child.map_or(Frame::Global, |body| frame_of(body, strategy.body_rows))
+            })
+            .collect();
+        let points = (0..model.bodies.len())
+            .map(|body| {
+                let joint = tree.child.iter().position(|child| *child == Some(body));
+                let carries = |place: &usize| {
+                    Some(scene.constraints[*place].joint) == joint
+                        && scene.point_on(*place, body).is_some()
+                };
+                (0..scene.constraints.len())
+                    .filter(|_| {
+                        strategy.carried_points && model.bodies[body].kind == BodyKind::Rigid
+                    })
+                    .find(carries)
+            })
+            .collect();
+        let mut plan = Plan {
+            translation,
+            points,
+            rows,
+            pivots: Vec::new(),
+            determinants: Vec::new(),
+        };
+        plan.refer(&mut scene);
+        let coupling = coupling(&mut scene, kinds, &plan);
+        let mut order = Order::new(&scene, &coupling, kinds, &self.start, &self.reach);
+        (plan.pivots, plan.determinants) = order.pivots(tree, strategy.course);
+        plan
+    }
 }
 
 /// The solved equations of motion.
@@ -156,8 +244,9 @@ pub fn equations_of_motion(
     plan: Plan,
     terms: Terms,
 ) -> (Solution, System) {
-    let system = System::new(scene, &kinds(model), plan, terms);
-    let solution = solved(scene, model, &system, terms);
+    let kinds = kinds(model);
+    let system = System::new(scene, &kinds, plan, terms);
+    let solution = solved(scene, &kinds, &system, terms);
     (solution, system)
 }
 
@@ -165,67 +254,8 @@ fn kinds(model: &Model) -> Vec<BodyKind> {
     model.bodies.iter().map(|body| body.kind).collect()
 }
 
-fn solved(scene: &mut Scene, model: &Model, system: &System, terms: Terms) -> Solution {
+fn solved(scene: &mut Scene, kinds: &[BodyKind], system: &System, terms: Terms) -> Solution {
     let right = system.equations_of_motion(scene, terms);
-    let upper = applied_forces(scene, &kinds(model));
+    let upper = applied_forces(scene, kinds);
     system.solve(scene, &right, &upper, Stage::State)
-}
-
-fn plan(
-    model: &Model,
-    tree: &Tree,
-    reach: &Reach,
-    start: &StartValues,
-    strategy: Strategy,
-) -> Plan {
-    let frame_of = |body: usize, wanted: bool| match model.bodies[body].kind {
-        BodyKind::Rigid if wanted => Frame::Body(body),
-        _ => Frame::Global,
-    };
-    let translation = (0..model.bodies.len())
-        .map(|body| frame_of(body, strategy.body_accelerations))
-        .collect();
-    let mut scene = Scene::for_solution(model, Reading::Raw);
-    let last_body = |joint: usize| {
-        model.joints[joint]
-            .bodies
-            .iter()
-            .rev()
-            .copied()
-            .flatten()
-            .next()
-    };
-    let rows = scene
-        .constraints
-        .iter()
-        .map(|constrained| {
-            let child = tree.child[constrained.joint].or_else(|| last_body(constrained.joint));
-            child.map_or(Frame::Global, |body| frame_of(body, strategy.body_rows))
-        })
-        .collect();
-    let points = (0..model.bodies.len())
-        .map(|body| {
-            let joint = tree.child.iter().position(|child| *child == Some(body));
-            let carries = |place: &usize| {
-                Some(scene.constraints[*place].joint) == joint
-                    && scene.point_on(*place, body).is_some()
-            };
-            (0..scene.constraints.len())
-                .filter(|_| strategy.carried_points && model.bodies[body].kind == BodyKind::Rigid)
-                .find(carries)
-        })
-        .collect();
-    let mut plan = Plan {
-        translation,
-        points,
-        rows,
-        pivots: Vec::new(),
-        determinants: Vec::new(),
-    };
-    let kinds = kinds(model);
-    plan.refer(&mut scene);
-    let coupling = coupling(&mut scene, &kinds, &plan);
-    let mut order = Order::new(&scene, &coupling, &kinds, start, reach);
-    (plan.pivots, plan.determinants) = order.pivots(tree, strategy.course);
-    plan
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::evaluate::evaluate;
-use crate::symbolic::scene::{Reading, Scene};
+use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::{Frame, Triple, ZERO};
 
 /// What the rows act on.
@@ -26,8 +26,7 @@ type Wrench = [Triple; 2];
 impl Reach {
     /// Forces and moments of a row on the bodies cancel unless it speaks of the ground: then, and where it cannot be told, the ground
     /// is counted. This is tried at one state that has nothing special.
-    pub(super) fn new(model: &Model) -> Self {
-        let mut scene = Scene::for_solution(model, Reading::Raw);
+    pub(super) fn new(model: &Model, mut scene: Scene) -> Self {
         let mut wrenches: Vec<Vec<(usize, Wrench)>> = Vec::new();
         let mut slopes: Vec<Triple> = Vec::new();
         for constraint in 0..scene.constraints.len() {
