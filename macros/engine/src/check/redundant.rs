@@ -1,5 +1,6 @@
 //! Equations that follow from others: refused, left out or kept, as the user says.
 
+use proc_macro2::Ident;
 use syn::{Expr, ExprLit, Lit};
 
 use crate::diag::{Faults, did_you_mean, list};
@@ -81,63 +82,56 @@ pub(super) fn check(
 /// One fault for each joint with an equation that is violated and cannot be helped. Points and axes that stand in axes of bodies may
 /// be meant for another configuration.
 fn stuck(model: &Model, faults: &mut Faults) {
-    let mut named: Vec<usize> = Vec::new();
-    for &(place, row) in &model.independence.stuck {
-        let joint = &model.joints[place];
-        let is_local = |binding: &Binding| matches!(binding, Binding::Local(_));
-        if joint.bindings.iter().any(is_local) || named.contains(&place) {
-            continue;
-        }
-        named.push(place);
-        let name = &joint.name;
-        faults.at(
-            name,
-            format!(
-                "`{name}[{row}]` does not hold in the described configuration, and no motion that begins there brings it nearer: look for \
+    let is_local = |binding: &Binding| matches!(binding, Binding::Local(_));
+    let stuck = model.independence.stuck.iter().copied();
+    let stuck: Vec<(usize, usize)> = stuck
+        .filter(|(joint, _)| !model.joints[*joint].bindings.iter().any(is_local))
+        .collect();
+    once_a_joint(model, &stuck, faults, |name, row| {
+        format!(
+            "`{name}[{row}]` does not hold in the described configuration, and no motion that begins there brings it nearer: look for \
                  axes of `{name}` that are parallel and should be perpendicular, and for points that should be apart; what is meant for \
                  another configuration is given by `local(..)`"
-            ),
-        );
+        )
+    });
+}
+
+/// Says something of the first of these rows, by joint and place, of every joint.
+fn once_a_joint(
+    model: &Model,
+    rows: &[(usize, usize)],
+    faults: &mut Faults,
+    message: impl Fn(&Ident, usize) -> String,
+) {
+    let mut named: Vec<usize> = Vec::new();
+    for &(joint, row) in rows {
+        if !named.contains(&joint) {
+            named.push(joint);
+            let name = &model.joints[joint].name;
+            faults.at(name, message(name, row));
+        }
     }
 }
 
 /// One fault for each joint with an equation that says nothing where it was looked at, but not everywhere.
 fn dormant(model: &Model, faults: &mut Faults) {
-    let mut named: Vec<usize> = Vec::new();
-    for &(place, row) in &model.independence.dormant {
-        if named.contains(&place) {
-            continue;
-        }
-        named.push(place);
-        let name = &model.joints[place].name;
-        faults.at(
-            name,
-            format!(
-                "the gradient of `{name}[{row}]` vanishes wherever the equations hold, as far as they were followed, though not everywhere: the \
+    once_a_joint(model, &model.independence.dormant, faults, |name, row| {
+        format!(
+            "the gradient of `{name}[{row}]` vanishes wherever the equations hold, as far as they were followed, though not everywhere: the \
                  equation follows from no others and cannot be left out, and its multiplier is not unique; write one whose gradient \
                  does not vanish, or `redundant = \"keep\"` for formulations with a compliance (penalty, augmented Lagrangian)"
-            ),
-        );
-    }
+        )
+    });
 }
 
 /// One fault for each joint with an equation that follows from others where it was looked at, and not elsewhere.
 fn by_chance(model: &Model, faults: &mut Faults) {
-    let mut named: Vec<usize> = Vec::new();
-    for &(place, row) in &model.independence.by_chance {
-        if named.contains(&place) {
-            continue;
-        }
-        named.push(place);
-        let name = &model.joints[place].name;
-        faults.at(
-            name,
-            format!(
-                "`{name}[{row}]` cannot be left out: it follows from the other equations near the described configuration by chance, and does not \
+    once_a_joint(model, &model.independence.by_chance, faults, |name, row| {
+        format!(
+            "`{name}[{row}]` cannot be left out: it follows from the other equations near the described configuration by chance, and does not \
                  hold where these lead to; look for constraints that only touch each other, and for a singular start"
-            ),
-        );
-    }
+        )
+    });
 }
 
 /// One fault for each equation that contradicts others.

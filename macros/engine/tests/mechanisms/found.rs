@@ -141,16 +141,25 @@ const SHORTENED: &str = "
     }";
 
 #[test]
-fn what_follows_by_chance_is_not_left_out() {
-    let text = Text {
-        item: SHORTENED.into(),
-        definitions: Vec::new(),
+fn what_follows_by_chance_is_not_left_out_nor_advised_to_be() {
+    let refusal = |item: &str| {
+        let text = Text {
+            item: item.into(),
+            definitions: Vec::new(),
+        };
+        match text.check(&text, 0, Extent::Quick) {
+            Ok(Outcome::Refused(why)) => why,
+            _ => panic!("not refused: {text}"),
+        }
     };
-    let Ok(Outcome::Refused(why)) = text.check(&text, 0, Extent::Quick) else {
-        panic!("not refused");
-    };
+    let why = refusal(SHORTENED);
     assert!(
         why.contains("by chance, and does not hold where these lead to"),
         "{why}"
     );
+    for item in [SHORTENED, TOUCHING] {
+        let why = refusal(&item.replace("#[mechanism(redundant = \"drop\")]", ""));
+        assert!(why.contains("and perhaps only there"), "{why}");
+        assert!(why.contains("keep") && !why.contains("drop"), "{why}");
+    }
 }
