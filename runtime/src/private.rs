@@ -87,7 +87,16 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 ///
 /// Statements beside equations: `let name = expression;`, `drive x to y;`, the equation `x - y` of a driver, with `y` a function of time, whose effort can be
 /// read ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and `displacement x;`, which can be read
-/// ([`View::angle`](crate::View::angle), [`View::displacement`](crate::View::displacement)). A joint connects one or more
+/// ([`View::angle`](crate::View::angle), [`View::displacement`](crate::View::displacement)), and `motion ..;`, which says how the second of two
+/// bodies moves against the first: motions separated by commas, each carried by those before it, or `none`.
+///
+/// | motion | |
+/// |---|---|
+/// | `turn axis at point` | a rotation about the line through `point` along `axis` |
+/// | `slide axis` | a translation along `axis` |
+/// | `ball at point` | every rotation about `point`: three motions |
+///
+/// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a `Point`, as they are in the described configuration. A joint connects one or more
 /// bodies; the `ground` of a mechanism may be any of them.
 ///
 /// The joint's reaction is `-D^T lambda`, whatever the units of its equations are. What a good equation looks like, and a joint in use:

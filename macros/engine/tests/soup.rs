@@ -13,6 +13,11 @@ const JOINT: &str = "/** Everything. */ pub joint Any(i, j, k; point: Point, axi
     j.point - i.point + size * cross(i.axis, k.axis); dot(i.axis.normals(), j.axis); \
     squared(j.origin - -i.point) - size * 2.0; angle about axis; }";
 
+/// A definition that says how its joint moves, and is compared with that.
+const SLAB: &str = "/** A slab. */ pub joint Slab(i, j; point: Point, normal: Axis) { \
+    dot(i.normal.normals(), j.normal); dot(i.normal, j.point - i.point); \
+    motion slide normal.normal(), slide normal.binormal(), turn normal at point; }";
+
 type EntryPoint = fn(TokenStream) -> TokenStream;
 
 /// A small generator of numbers, the same ones on every machine (Knuth's linear congruence).
@@ -105,6 +110,10 @@ fn spoil(list: &mut Vec<TokenTree>, at: usize, dice: &mut Dice) {
                 "let",
                 "along",
                 "drive",
+                "motion",
+                "turn",
+                "ball at point",
+                "none",
                 "i",
                 "j",
                 "(i.point)",
@@ -204,7 +213,8 @@ fn written(path: &str) -> TokenStream {
 
 #[test]
 fn definitions_of_joints() {
-    let (any, winch) = (tokens(JOINT), written("Winch"));
+    let (any, slab, winch) = (tokens(JOINT), tokens(SLAB), written("Winch"));
+    assert_survives_soup(joint, &slab, 2000, 6, |_| true);
     assert_survives_soup(joint, &any, 2000, 1, |_| true);
     assert_survives_soup(joint, &winch, 3000, 2, |_| true);
     assert_survives(joint, &TokenStream::new());

@@ -10,5 +10,6 @@ crate::joint! {
         dot(i.axis.normals(), j.point - i.point);
         angle about axis;
         displacement dot(i.axis, j.point - i.point);
+        motion turn axis at point, slide axis;
     }
 }

@@ -12,5 +12,6 @@ crate::joint! {
         dot(fixed(i, y), fixed(j, x));
         dot(fixed(i, z), fixed(j, x));
         dot(fixed(i, y), fixed(j, z));
+        motion none;
     }
 }

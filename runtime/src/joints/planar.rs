@@ -6,5 +6,6 @@ crate::joint! {
     pub joint Planar(i, j; point: Point, normal: Axis) {
         dot(i.normal.normals(), j.normal);
         dot(i.normal, j.point - i.point);
+        motion slide normal.normal(), slide normal.binormal(), turn normal at point;
     }
 }

@@ -6,6 +6,7 @@ crate::joint! {
     pub joint PointOnLine(i, j; point: Point, axis: Axis) {
         dot(i.axis.normals(), j.point - i.point);
         displacement dot(i.axis, j.point - i.point);
+        motion slide axis, ball at point;
     }
 }
 
@@ -13,5 +14,6 @@ crate::joint! {
     /// A point of `j` stays in a plane of `i`, which passes through the point perpendicular to `normal`; five motions are left.
     pub joint PointOnPlane(i, j; point: Point, normal: Axis) {
         dot(i.normal, j.point - i.point);
+        motion slide normal.normal(), slide normal.binormal(), ball at point;
     }
 }

@@ -10,5 +10,6 @@ crate::joint! {
         dot(i.axis.normals(), j.point - i.point);
         dot(i.axis.normal(), j.axis.binormal());
         displacement dot(i.axis, j.point - i.point);
+        motion slide axis;
     }
 }

@@ -9,5 +9,6 @@ crate::joint! {
         j.point - i.point;
         dot(i.axis.normals(), j.axis);
         angle about axis;
+        motion turn axis at point;
     }
 }

@@ -5,5 +5,6 @@ crate::joint! {
     /// section 8.2).
     pub joint Spherical(i, j; point: Point) {
         j.point - i.point;
+        motion ball at point;
     }
 }

@@ -9,5 +9,6 @@ crate::joint! {
     pub joint Universal(i, j; point: Point, axis_i: Axis, axis_j: Axis) {
         j.point - i.point;
         dot(i.axis_i, j.axis_j);
+        motion turn axis_i at point, turn axis_j at point;
     }
 }

@@ -12,13 +12,14 @@ use crate::model::{ElementKind, Extent, Function, Parameter, ParameterKind, Term
 use crate::syntax::ungroup;
 
 /// Words that begin statements, or join two halves of one.
-const STATEMENTS: [&str; 7] = [
+const STATEMENTS: [&str; 8] = [
     "along",
     "angle",
     "displacement",
     "drive",
     "force",
     "moment",
+    "motion",
     "potential",
 ];
 
@@ -148,7 +149,7 @@ impl Context<'_> {
     }
 
     /// "the joint has `length`", "the force has none".
-    fn has(&self, names: &[String]) -> String {
+    pub(super) fn has(&self, names: &[String]) -> String {
         let word = self.kind.word();
         if names.is_empty() {
             return format!("the {word} has none");
@@ -157,7 +158,7 @@ impl Context<'_> {
     }
 
     /// The names of the parameters of some kinds.
-    fn known(&self, wanted: impl Fn(ParameterKind) -> bool) -> Vec<String> {
+    pub(super) fn known(&self, wanted: impl Fn(ParameterKind) -> bool) -> Vec<String> {
         let known = self.parameters.iter().filter(|p| wanted(p.kind));
         known
             .filter(|p| !self.doubtful.contains(&&p.name))

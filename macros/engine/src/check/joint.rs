@@ -8,9 +8,10 @@ use quote::ToTokens;
 use super::expression::{Context, Shaped, extent, too_large};
 use crate::diag::{Faults, did_you_mean, list};
 use crate::model::{
-    Action, ElementKind, Extent, JointDef, Parameter, ParameterKind, Row, Term, Turn,
+    Action, ElementKind, Extent, JointDef, Motion, Parameter, ParameterKind, Row, Term, Turn,
 };
 use crate::syntax::joint::{JointSyntax, ParameterSyntax, Statement};
+use crate::syntax::motion::MotionSyntax;
 use crate::wire;
 
 /// Names that a definition may not use for itself.
@@ -49,6 +50,7 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
         actions: Vec::new(),
         angle: None,
         displacement: None,
+        motions: None,
         drive: None,
     };
     let mut defaults = Vec::new();
@@ -63,6 +65,7 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
         actions,
         angle,
         displacement,
+        motions,
         drive,
         ..
     } = reader;
@@ -100,6 +103,7 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
             actions,
             angle,
             displacement,
+            motions,
             drive,
             turns: Vec::new(),
             fingerprint: fingerprint(&syntax.body.to_string()),
@@ -144,6 +148,7 @@ struct Reader<'a> {
     actions: Vec<Action>,
     angle: Option<Turn>,
     displacement: Option<Term>,
+    motions: Option<Vec<Motion>>,
     drive: Option<usize>,
 }
 
@@ -224,6 +229,9 @@ impl Reader<'_> {
                     self.displacement = term;
                 }
             }
+            Statement::Motion {
+                keyword, motions, ..
+            } => self.read_motions(keyword, motions, faults),
             Statement::Drive(keyword, written, law) => {
                 let driven = self.context.scalar(written, faults);
                 let law = self.context.scalar(law, faults);
@@ -350,6 +358,29 @@ impl Reader<'_> {
             );
         }
         fits
+    }
+
+    fn read_motions(&mut self, keyword: &Ident, written: &[MotionSyntax], faults: &mut Faults) {
+        let motions = self.context.motions(written, faults);
+        if self.motions.is_some() {
+            faults.at(
+                keyword,
+                "a joint says once how it moves; this is the second time",
+            );
+        } else if self.joint_only(keyword, "how something moves", faults) {
+            let count = self.syntax.bodies.len();
+            // Without bodies there is one fault, and it is another one.
+            if count != 2 && count != 0 {
+                let name = &self.syntax.name;
+                faults.at(
+                    keyword,
+                    format!(
+                        "a motion is that of a second body against a first; `{name}` has {count}"
+                    ),
+                );
+            }
+            self.motions = Some(motions);
+        }
     }
 
     fn read_angle(&mut self, keyword: &Ident, axis: &Ident, faults: &mut Faults) {

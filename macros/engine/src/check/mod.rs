@@ -8,6 +8,7 @@ mod joints;
 pub mod kinds;
 mod laws;
 pub mod mechanism;
+mod motion;
 pub mod number;
 pub mod pairs;
 mod redundant;

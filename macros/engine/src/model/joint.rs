@@ -414,6 +414,48 @@ impl Action {
     }
 }
 
+/// One motion that a joint leaves free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// A rotation about a line.
+    Turn {
+        /// The direction of the line.
+        axis: Direction,
+        /// The place of the parameter of a point on it.
+        point: usize,
+    },
+    /// A translation.
+    Slide {
+        /// Its direction.
+        along: Direction,
+    },
+    /// Every rotation about a point.
+    Ball {
+        /// The place of the point's parameter.
+        point: usize,
+    },
+}
+
+impl Motion {
+    /// The number of its scalar motions.
+    #[must_use]
+    pub const fn freedoms(self) -> usize {
+        match self {
+            Self::Turn { .. } | Self::Slide { .. } => 1,
+            Self::Ball { .. } => 3,
+        }
+    }
+}
+
+/// A direction of a definition: an axis, or a normal of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Direction {
+    /// The place of the axis among the parameters.
+    pub parameter: usize,
+    /// First (0) or second (1) normal; `None` for the axis itself.
+    pub normal: Option<usize>,
+}
+
 /// What a definition defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
@@ -453,6 +495,9 @@ pub struct JointDef {
     pub angle: Option<Turn>,
     /// The displacement that can be read.
     pub displacement: Option<Term>,
+    /// The motions that it leaves free, of its second body against its first: each carries those behind it. `None` where the definition
+    /// does not say; none are left where it says so. What stands in them is fixed on no body by that: they change nothing in the equations.
+    pub motions: Option<Vec<Motion>>,
     /// The place of the row that drives, among its equations.
     pub drive: Option<usize>,
     /// The angles over many turns that it speaks of, in the order of first mention.

@@ -7,7 +7,8 @@ pub mod number;
 pub mod rank;
 
 pub use joint::{
-    Action, ElementKind, Extent, Function, JointDef, Parameter, ParameterKind, Row, Term, Turn,
+    Action, Direction, ElementKind, Extent, Function, JointDef, Motion, Parameter, ParameterKind,
+    Row, Term, Turn,
 };
 pub use mechanism::{Binding, Body, BodyKind, JointUse, LawTerm, Model, RunTimeValue};
 pub use number::{Number, Symbol};

@@ -6,6 +6,7 @@
 //!     j.point - i.point;                   // vectors give three equations, scalars one
 //!     dot(i.axis.normals(), j.axis);       // normals are two vectors: two equations
 //!     angle about axis;                    // the joint has an angle
+//!     motion turn axis at point;           // what the equations leave free
 //! }
 //!
 //! pub force Name(i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0) {
@@ -19,6 +20,7 @@ use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Attribute, Token, Visibility};
 
+use super::motion::{MotionSyntax, motions};
 use super::{Piece, split};
 use crate::diag::{Faults, list};
 use crate::model::{ElementKind, ParameterKind};
@@ -75,6 +77,15 @@ pub enum Statement {
     },
     /// `displacement expr`.
     Displacement(Ident, Box<syn::Expr>),
+    /// `motion ..`.
+    Motion {
+        /// The word `motion`.
+        keyword: Ident,
+        /// All tokens.
+        tokens: TokenStream,
+        /// The motions; none of `motion none`.
+        motions: Vec<MotionSyntax>,
+    },
     /// `drive expr to expr`.
     Drive(Ident, Box<syn::Expr>, Box<syn::Expr>),
     /// `potential expr`.
@@ -315,7 +326,7 @@ fn parameters(pieces: &[Piece], faults: &mut Faults) -> Vec<ParameterSyntax> {
 }
 
 /// What stands before and behind a word, if it stands between two operands of the piece.
-fn around(piece: &Piece, word: &str) -> Option<(Piece, Ident, Piece)> {
+pub(super) fn around(piece: &Piece, word: &str) -> Option<(Piece, Ident, Piece)> {
     let mut before = TokenStream::new();
     let mut tokens = piece.tokens.clone().into_iter();
     let mut behind_operand = false;
@@ -373,9 +384,18 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
         faults.at_span(piece.end, "one `;` is too many here");
         return None;
     }
-    let first = piece.tokens.clone().into_iter().next();
-    let is_binding = matches!(first, Some(TokenTree::Ident(word)) if word == "let");
-    if !is_binding && let Some((effort, word, coordinate)) = around(piece, "along") {
+    let mut words = piece.tokens.clone().into_iter();
+    let (first, second) = (words.next(), words.next());
+    let begins_with =
+        |word: &str| matches!(&first, Some(TokenTree::Ident(found)) if *found == word);
+    let is_binding = begins_with("let");
+    // A number or a law may bear this name, and then no other word follows but `along`.
+    let is_motion =
+        begins_with("motion") && matches!(second, Some(TokenTree::Ident(word)) if word != "along");
+    if !is_binding
+        && !is_motion
+        && let Some((effort, word, coordinate)) = around(piece, "along")
+    {
         let effort = expression(&effort, faults);
         let coordinate = expression(&coordinate, faults);
         return Some(Statement::Along(effort?, word, coordinate?));
@@ -417,6 +437,15 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
                 faults.at(&piece.tokens, "expected an axis, as in `angle about axis`");
             }
             axis.map(|axis| Statement::Angle { keyword, axis })
+        }
+        "motion" => {
+            let motions = motions(&rest, faults);
+            let tokens = piece.tokens.clone();
+            Some(Statement::Motion {
+                keyword,
+                tokens,
+                motions,
+            })
         }
         "displacement" => {
             expression(&rest, faults).map(|expr| Statement::Displacement(keyword, expr))
@@ -500,10 +529,14 @@ mod tests {
 
     #[test]
     fn laws_and_numbers_may_bear_the_words_of_statements() {
-        use Statement::{Along, Let, Zero};
+        use Statement::{Along, Let, Motion, Zero};
         assert!(matches!(read(quote!(let along = i.axis)), Let(..)));
         assert!(matches!(read(quote!(force(d, rate(d)) along d)), Along(..)));
         assert!(matches!(read(quote!(moment - a)), Zero(..)));
+        assert!(matches!(read(quote!(motion() - a)), Zero(..)));
+        assert!(matches!(read(quote!(motion * a)), Zero(..)));
+        assert!(matches!(read(quote!(motion along a)), Along(..)));
+        assert!(matches!(read(quote!(motion slide a)), Motion { .. }));
         assert!(matches!(read(quote!(force(a) - drive(b))), Zero(..)));
     }
 }

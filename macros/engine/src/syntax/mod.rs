@@ -3,6 +3,7 @@
 pub mod depth;
 pub mod joint;
 pub mod mechanism;
+pub mod motion;
 pub mod words;
 
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};

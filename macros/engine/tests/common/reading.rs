@@ -5,7 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
@@ -269,6 +269,12 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
         }
     }
     let word = input.parse::<Ident>()?.to_string();
+    if word == "motion" {
+        while !input.peek(Token![;]) {
+            input.parse::<TokenTree>()?;
+        }
+        return Ok(Statement::Reading);
+    }
     if word == "angle" {
         input.parse::<Ident>()?;
         input.parse::<Ident>()?;

@@ -73,6 +73,7 @@ pub(crate) enum Statement {
     Let(String, String),
     Row(String),
     Drive(String, String),
+    Motion(String),
     Potential(String),
     /// Effort and coordinate.
     Along(String, String),
@@ -124,6 +125,17 @@ impl Written {
             let law = format!("law({})", writer.scalar(1, false));
             statements.push(Statement::Drive(driven, law));
         }
+        if kind == ElementKind::Joint && bodies == 2 {
+            // Of dice of its own: the equations are what they would be without.
+            let size = statements
+                .iter()
+                .map(|s| format!("{s:?}").len())
+                .sum::<usize>();
+            let mut dice = Dice::new(size as u64);
+            if dice.below(2) == 0 {
+                statements.push(Statement::Motion(motions(&mut dice)));
+            }
+        }
         let angles = writer.angles;
         Self { statements, angles }
     }
@@ -136,6 +148,7 @@ pub(crate) fn definition(name: &str, bodies: usize, statements: &[Statement]) ->
         Statement::Let(name, text) => format!("let {name} = {text};\n"),
         Statement::Row(text) => format!("{text};\n"),
         Statement::Drive(driven, law) => format!("drive {driven} to {law};\n"),
+        Statement::Motion(text) => format!("motion {text};\n"),
         Statement::Potential(energy) => format!("potential {energy};\n"),
         Statement::Along(effort, coordinate) => format!("{effort} along {coordinate};\n"),
         Statement::Force(force, point) => format!("force {force} at {point};\n"),
@@ -157,6 +170,25 @@ pub(crate) fn law(dice: &mut Dice) -> String {
         3 => format!("sqrt(1.0 + x * x) * (time - {a:?}) / 2.0"),
         _ => format!("{a:?} * time * time * x + {b:?} * cos(time) * x * x"),
     }
+}
+
+/// Motions that need not be those that the equations leave: a mechanism is the same with them and without.
+fn motions(dice: &mut Dice) -> String {
+    let count = dice.below(4);
+    let motions = (0..count).map(|_| {
+        let direction = dice.one(&["a", "b", "a.normal()", "b.binormal()"]);
+        let point = dice.one(&["p", "q"]);
+        match dice.below(3) {
+            0 => format!("turn {direction} at {point}"),
+            1 => format!("slide {direction}"),
+            _ => format!("ball at {point}"),
+        }
+    });
+    let motions: Vec<String> = motions.collect();
+    if motions.is_empty() {
+        return "none".into();
+    }
+    motions.join(", ")
 }
 
 /// Writes expressions.

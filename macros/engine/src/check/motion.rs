@@ -1,0 +1,146 @@
+//! What a definition says of how its joint moves: names bound.
+
+use proc_macro2::Ident;
+use syn::{Expr, Member};
+
+use super::expression::Context;
+use crate::diag::{Faults, code, did_you_mean};
+use crate::model::{Direction, Motion, ParameterKind};
+use crate::syntax::motion::{MotionKind, MotionSyntax};
+use crate::syntax::ungroup;
+
+impl Context<'_> {
+    /// The motions that can be understood; of the others the faults tell.
+    pub(super) fn motions(&self, written: &[MotionSyntax], faults: &mut Faults) -> Vec<Motion> {
+        let motions = written.iter().filter_map(|motion| match &motion.kind {
+            MotionKind::Turn { axis, point } => {
+                let (axis, point) = (self.direction(axis, faults), self.place(point, faults));
+                Some(Motion::Turn {
+                    axis: axis?,
+                    point: point?,
+                })
+            }
+            MotionKind::Slide { along } => {
+                let along = self.direction(along, faults)?;
+                Some(Motion::Slide { along })
+            }
+            MotionKind::Ball { point } => {
+                let point = self.place(point, faults)?;
+                Some(Motion::Ball { point })
+            }
+        });
+        motions.collect()
+    }
+
+    /// An axis, or a normal of one.
+    fn direction(&self, expr: &Expr, faults: &mut Faults) -> Option<Direction> {
+        let Expr::MethodCall(call) = ungroup(expr) else {
+            let parameter = self.named(expr, ParameterKind::Axis, faults)?;
+            return Some(Direction {
+                parameter,
+                normal: None,
+            });
+        };
+        let method = call.method.to_string();
+        let normal = match method.as_str() {
+            "normal" => Some(0),
+            "binormal" => Some(1),
+            "normals" => {
+                faults.at(
+                    &call.method,
+                    "a motion has one direction, and `normals()` are two; write `normal()` or `binormal()`",
+                );
+                None
+            }
+            _ => {
+                faults.at(
+                    &call.method,
+                    format!("no `{method}` here; an axis has `normal()` and `binormal()`, unit vectors perpendicular to it"),
+                );
+                None
+            }
+        };
+        if normal.is_some() && !call.args.is_empty() {
+            let found = call.args.len();
+            faults.at(
+                &call.args,
+                format!("`{method}()` takes nothing in its parentheses; found {found}"),
+            );
+        }
+        let parameter = self.named(&call.receiver, ParameterKind::Axis, faults)?;
+        normal.map(|normal| Direction {
+            parameter,
+            normal: Some(normal),
+        })
+    }
+
+    /// A point.
+    fn place(&self, expr: &Expr, faults: &mut Faults) -> Option<usize> {
+        self.named(expr, ParameterKind::Point, faults)
+    }
+
+    /// A parameter of a kind that a motion speaks of, by its name alone.
+    fn named(&self, expr: &Expr, wanted: ParameterKind, faults: &mut Faults) -> Option<usize> {
+        let (word, what) = match wanted {
+            ParameterKind::Point => ("point", "the point of a motion is a `Point` of the joint"),
+            _ => (
+                "axis",
+                "the direction of a motion is an `Axis` of the joint, or the `normal()` or `binormal()` of one",
+            ),
+        };
+        let known = self.known(|kind| kind == wanted);
+        let has = self.has(&known);
+        let Some(name) = ident(expr) else {
+            let message = match self.on_a_body(expr, wanted) {
+                Some(name) => format!(
+                    "a motion is told in the described configuration, where both bodies have one `{name}`; write `{name}`"
+                ),
+                None => format!("{what}, and {has}; found `{}`", code(expr)),
+            };
+            faults.at(expr, message);
+            return None;
+        };
+        let place = self.parameters.iter().position(|p| p.name == *name);
+        if self.doubtful.contains(&name) {
+            return None;
+        }
+        let message = match place.map(|place| self.parameters[place].kind) {
+            Some(kind) if kind == wanted => return place,
+            Some(kind) => {
+                let mut kinds = ParameterKind::ALL.into_iter();
+                let kind = kinds.find(|(_, known)| *known == kind);
+                let kind = kind.map_or("parameter", |(word, _)| word);
+                let article = if kind.starts_with('A') { "an" } else { "a" };
+                format!("{what}, and {has}; `{name}` is {article} `{kind}`")
+            }
+            None if self.bodies.contains(name) => format!("{what}, and {has}; `{name}` is a body"),
+            None => {
+                let near = did_you_mean(&name.to_string(), known.iter().map(String::as_str));
+                format!("no {word} `{name}`; {has}{near}")
+            }
+        };
+        faults.at(name, message);
+        None
+    }
+
+    /// The name of a parameter of a kind that is written with a body.
+    fn on_a_body<'e>(&self, expr: &'e Expr, wanted: ParameterKind) -> Option<&'e Ident> {
+        let Expr::Field(field) = ungroup(expr) else {
+            return None;
+        };
+        let Member::Named(name) = &field.member else {
+            return None;
+        };
+        let is_body = ident(&field.base).is_some_and(|body| self.bodies.contains(body));
+        let mut parameters = self.parameters.iter();
+        let is_known = parameters.any(|p| p.name == *name && p.kind == wanted);
+        (is_body && is_known).then_some(name)
+    }
+}
+
+fn ident(expr: &Expr) -> Option<&Ident> {
+    match ungroup(expr) {
+        Expr::Path(path) => path.path.get_ident(),
+        _ => None,
+    }
+}
