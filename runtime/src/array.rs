@@ -33,7 +33,7 @@ impl<S: Scalar, const N: usize> Array<S> for [S; N] {
 
 /// What an integrator moves: a vector with addition and scaling, element by element.
 ///
-/// The derivative of a state has the same type. The two sums that integrators need have a default body, so that a
+/// The derivative of a state has the same type. What integrators need has a default body, so that a
 /// vector of another kind (on the heap, say) has two functions to write.
 pub trait Vector<S: Scalar>: Clone {
     /// `f(self[k], other[k])` for every element.
@@ -51,6 +51,22 @@ pub trait Vector<S: Scalar>: Clone {
             result = result.zip(direction, |x, slope| slope.fused(factor, x));
         }
         result
+    }
+
+    /// `self + weight * (to - self) + sum of factor * direction`: on the way to another state, and beside it.
+    ///
+    /// `way` is the increment, in its sum, that leads to the other state or nearly so. It counts where many increments lead there: an angle
+    /// goes on by any number of turns.
+    #[must_use]
+    fn towards<const W: usize, const N: usize>(
+        &self,
+        to: &Self,
+        weight: S,
+        way: [(S, &Self); W],
+        terms: [(S, &Self); N],
+    ) -> Self {
+        let _ = way;
+        self.plus([(-weight, self), (weight, to)]).plus(terms)
     }
 
     /// `max over k of |sum of factor * direction[k]| / max(|self[k]|, |other[k]|, floor)`: an increment, relative

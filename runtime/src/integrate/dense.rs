@@ -13,12 +13,14 @@ pub(super) fn cubic<S: Real, X: Vector<S>, K>(stride: &Stride<'_, S, X, K>, thet
     let rest = S::one() - theta;
     let weight = theta * theta * (S::constant(3.0) - theta - theta);
     let bend = stride.step * theta * rest;
-    stride.from.plus([
-        (-weight, stride.from),
-        (weight, stride.to),
-        (bend * rest, stride.first),
-        (-(bend * theta), stride.last),
-    ])
+    // About what the step has added: the trapezoidal rule.
+    let half = S::constant(0.5) * stride.step;
+    stride.from.towards(
+        stride.to,
+        weight,
+        [(half, stride.first), (half, stride.last)],
+        [(bend * rest, stride.first), (-(bend * theta), stride.last)],
+    )
 }
 
 /// The weights of slopes 1, 3, 4, 5, 6, 7 of Dormand and Prince at the fraction `theta` of a step, times `step`.

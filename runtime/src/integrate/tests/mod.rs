@@ -268,3 +268,32 @@ fn euler_parameters_lose_length_at_the_known_rate() {
         assert!((square - 1.0 - drift).abs() < 2e-12 + 1e-9 * drift.abs());
     }
 }
+
+#[test]
+fn the_cubic_of_plain_vectors_is_one_sum() {
+    let value = |k: usize| (1.0 + k as f64).sqrt().sin();
+    let vector = |place: usize| -> [f64; 5] { core::array::from_fn(|k| value(5 * place + k)) };
+    let [from, to, first, last] = core::array::from_fn(vector);
+    for part in 0..=64 {
+        let theta = f64::from(part) / 64.0 * 0.9;
+        let step = 0.37;
+        let stride = Stride {
+            step,
+            from: &from,
+            first: &first,
+            stages: &(),
+            to: &to,
+            last: &last,
+        };
+        let rest = 1.0 - theta;
+        let weight = theta * theta * (3.0 - theta - theta);
+        let bend = step * theta * rest;
+        let expected = from.plus([
+            (-weight, &from),
+            (weight, &to),
+            (bend * rest, &first),
+            (-(bend * theta), &last),
+        ]);
+        assert_eq!(dense::cubic(&stride, theta), expected);
+    }
+}
