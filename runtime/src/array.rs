@@ -34,7 +34,8 @@ impl<S: Scalar, const N: usize> Array<S> for [S; N] {
 /// What an integrator moves: a vector with addition and scaling, element by element.
 ///
 /// The derivative of a state has the same type. What integrators need has a default body, so that a
-/// vector of another kind (on the heap, say) has two functions to write.
+/// vector of another kind (on the heap, say) has two functions to write. A state that is no vector throughout, such as
+/// [`crate::JointState`], replaces what adds to it and what measures an increment.
 pub trait Vector<S: Scalar>: Clone {
     /// `f(self[k], other[k])` for every element.
     #[must_use]
@@ -146,7 +147,7 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
 
 /// The greater of two numbers; the first if either is NaN.
 #[inline(always)]
-fn greater<S: Real>(a: S, b: S) -> S {
+pub(crate) fn greater<S: Real>(a: S, b: S) -> S {
     if a < b { b } else { a }
 }
 
@@ -154,7 +155,7 @@ fn greater<S: Real>(a: S, b: S) -> S {
 ///
 /// Four places at once, and NaN looked for apart, so that the comparisons do not wait for each other.
 #[inline(always)]
-fn greatest<S: Real>(elements: &[S]) -> S {
+pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
     let mut lanes = [S::zero(); 4];
     let mut ordered = true;
     for chunk in elements.chunks(4) {
@@ -175,7 +176,7 @@ fn greatest<S: Real>(elements: &[S]) -> S {
 ///
 /// Without a comparison for each, and four places at once, as in [`greatest`].
 #[inline(always)]
-fn all_finite<S: Real>(elements: &[S]) -> bool {
+pub(crate) fn all_finite<S: Real>(elements: &[S]) -> bool {
     let mut lanes = [S::zero(); 4];
     for chunk in elements.chunks(4) {
         for (lane, &element) in lanes.iter_mut().zip(chunk) {

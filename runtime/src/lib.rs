@@ -18,6 +18,7 @@
 //! | samples as lines of a CSV file | `Recorder`, with the feature `recorder` |
 //! | correction onto the constraints | [`Projection`] |
 //! | the kernels themselves, sizes and operation counts | [`trait@Mechanism`], [`Report`] |
+//! | states of an integrator's [`System`] | arrays, [`State`], [`JointState`] |
 //! | numbers | [`Scalar`], [`Real`] |
 //!
 //! Units are SI, angles are in radians. The crate needs no heap and no standard library: with default features off, turn on
@@ -44,6 +45,7 @@ mod error;
 mod formulation;
 mod handle;
 mod integrate;
+mod joint_state;
 mod kinematics;
 mod load;
 mod mechanism;
@@ -68,6 +70,7 @@ mod self_stress;
 mod simulation;
 mod start;
 mod stepper;
+mod versine;
 mod view;
 mod watch;
 
@@ -182,6 +185,7 @@ pub use integrate::{
     FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, StepLimits, Stride,
     System, Tolerance,
 };
+pub use joint_state::JointState;
 pub use kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
 pub use mechanism::{

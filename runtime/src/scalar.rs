@@ -7,6 +7,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
+use crate::versine;
+
 /// A number that generated kernels compute with: no branches, no conversions, no panics.
 ///
 /// NaN must travel: every operation with a NaN operand yields NaN, [`Scalar::min`] and the functions included.
@@ -64,6 +66,16 @@ pub trait Scalar:
 
     /// The nearest integer, halves away from zero. Piecewise constant: a dual number has derivative zero here, at the jumps too.
     fn round(self) -> Self;
+
+    /// The sines of angles (rad), and their versines, `1 - cos`: what turns by these angles are made of, see [`crate::JointState`]. Both keep
+    /// their digits however small or large the angle is; NaN for an infinite one.
+    ///
+    /// By [`Scalar::sin`] and [`Scalar::cos`] of half the angles, if a type does not know better: `f64` and `f32` have no call of a function
+    /// where all angles are below 0.5 rad.
+    #[must_use]
+    fn sines_and_versines<const N: usize>(angles: &[Self; N]) -> [[Self; 2]; N] {
+        angles.map(versine::of)
+    }
 
     /// Zero.
     fn zero() -> Self {
@@ -166,7 +178,7 @@ pub(crate) mod elementary {
 }
 
 macro_rules! real {
-    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident) => {
+    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident, $terms:literal) => {
         impl Scalar for $float {
             #[inline(always)]
             fn constant(value: f64) -> Self {
@@ -242,6 +254,38 @@ macro_rules! real {
             fn round(self) -> Self {
                 elementary::$round(self)
             }
+
+            #[inline(always)]
+            fn sines_and_versines<const N: usize>(angles: &[Self; N]) -> [[Self; 2]; N] {
+                const SMALL: $float = versine::SMALL as $float;
+
+                #[inline(always)]
+                fn of_small(angle: $float) -> [$float; 2] {
+                    let (sine, versine) = (&versine::SINE, &versine::VERSINE);
+                    versine::of_small(angle, &sine[..$terms], &versine[..$terms])
+                }
+
+                // The same number for an angle, whatever stands beside it.
+                #[cold]
+                #[inline(never)]
+                fn of_any(angle: $float) -> [$float; 2] {
+                    if angle.abs() < SMALL {
+                        of_small(angle)
+                    } else {
+                        versine::of(angle)
+                    }
+                }
+
+                // One branch for all, which does not keep them from being computed side by side.
+                let small = angles
+                    .iter()
+                    .fold(true, |small, angle| small & (angle.abs() < SMALL));
+                if small {
+                    angles.map(of_small)
+                } else {
+                    angles.map(of_any)
+                }
+            }
         }
 
         #[diagnostic::do_not_recommend]
@@ -281,8 +325,12 @@ macro_rules! real {
     };
 }
 
-real!(f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64);
-real!(f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32);
+real!(
+    f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64, 6
+);
+real!(
+    f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32, 3
+);
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,7 @@
 //! Order, counts and failures of the integrators on equations with closed solutions.
 
 mod failures;
+mod pairs;
 
 use super::*;
 use crate::scalar::Real;
