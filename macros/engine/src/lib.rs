@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 pub mod check;
+pub mod coordinates;
 pub mod diag;
 pub mod emit;
 pub mod model;

@@ -60,7 +60,7 @@ pub fn matrix(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     super::scene::homogeneous_rotation(arena, p)
 }
 
-pub(super) fn transpose(m: [Triple; 3]) -> [Triple; 3] {
+pub(crate) fn transpose(m: [Triple; 3]) -> [Triple; 3] {
     [0, 1, 2].map(|k| [m[0][k], m[1][k], m[2][k]])
 }
 
@@ -69,7 +69,7 @@ pub(super) fn apply(arena: &mut Arena, m: [Triple; 3], v: Triple) -> Triple {
 }
 
 /// Takes components that are round-off beside `size` as zero, and those that are `size` but for round-off as `size`, so that they fold.
-pub(super) fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
+pub(crate) fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
     let round_off = 8.0 * f64::EPSILON * size;
     v.map(|component| match arena.literal(component) {
         Some(value) if value.abs() <= round_off => Arena::ZERO,
@@ -80,7 +80,7 @@ pub(super) fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
     })
 }
 
-pub(super) fn size(arena: &Arena, v: Triple) -> f64 {
+pub(crate) fn size(arena: &Arena, v: Triple) -> f64 {
     v.iter()
         .filter_map(|&c| arena.literal(c))
         .fold(0.0, |m, x| m.max(x.abs()))
@@ -126,17 +126,25 @@ fn normal(arena: &mut Arena, a: Triple) -> Triple {
     [first, arena.mul(sign, b), -arena.mul(sign, x)]
 }
 
+/// An axis given in global axes, of unit length, and its two normals.
+pub(crate) fn axis_and_normals(arena: &mut Arena, given: Triple) -> [Triple; 3] {
+    let axis = normalise(arena, given);
+    let first = normal(arena, axis);
+    let second = cross(arena, axis, first);
+    [axis, first, clean(arena, second, 1.0)]
+}
+
 /// Where a body stands at the start.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placement {
-    pub(super) position: Triple,
+pub(crate) struct Placement {
+    pub(crate) position: Triple,
     /// From principal to global axes.
-    pub(super) axes: [Triple; 3],
+    pub(crate) axes: [Triple; 3],
     /// From the user's to principal axes.
     user_axes: [Triple; 3],
 }
 
-pub(super) fn placement(arena: &mut Arena, model: &Model, body: Option<usize>) -> Placement {
+pub(crate) fn placement(arena: &mut Arena, model: &Model, body: Option<usize>) -> Placement {
     let identity = rotation([1.0, 0.0, 0.0, 0.0]).map(|row| row.map(|entry| arena.constant(entry)));
     let Some(body) = body.map(|body| &model.bodies[body]) else {
         return Placement {

@@ -40,6 +40,21 @@ impl From<Reading> for Rotation {
     }
 }
 
+/// How a body stands and moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Chart {
+    /// The centre of mass, global axes.
+    pub position: Triple,
+    /// Its velocity, global axes.
+    pub velocity: Triple,
+    /// The angular velocity, principal axes.
+    pub spin: Triple,
+    /// From principal to global axes; `None` for a particle.
+    pub rotation: Option<[Triple; 3]>,
+    /// Euler parameters, where these are coordinates.
+    pub orientation: Option<[Expr; 4]>,
+}
+
 /// One constraint of a mechanism.
 #[derive(Clone, Debug)]
 pub enum Constraint {
@@ -127,7 +142,7 @@ pub fn homogeneous_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
 
 /// The rotation of `p / |p|`, row by row. The vector part is doubled and divided by `p.p` at once, so that
 /// no square root stands in the way. 33 operations.
-fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
+pub fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     let squares = p.map(|e| arena.square(e));
     let (first, second) = (
         arena.add(squares[0], squares[1]),
@@ -192,35 +207,49 @@ impl Scene {
     fn build(model: &Model, rotation: Rotation, exact: bool) -> Self {
         let layout = model.layout();
         let mut arena = Arena::new();
-        let mut rotations = Vec::new();
-        let mut orientation = vec![None; model.bodies.len()];
-        let mut inputs = Vec::new();
+        let mut charts = Vec::new();
         for (place, body) in model.bodies.iter().enumerate() {
             let at = |k: usize| Input::Coordinate((layout.coordinate[place] + k) as u32);
             let rate = |k: usize| Input::Velocity((layout.velocity[place] + k) as u32);
-            let r = [0, 1, 2].map(|k| arena.input(at(k)));
-            let v = [0, 1, 2].map(|k| arena.input(rate(k)));
-            let (w, rotation) = match body.kind {
-                BodyKind::Particle => (super::vector::ZERO, None),
-                BodyKind::Rigid => {
-                    let p = [3, 4, 5, 6].map(|k| arena.input(at(k)));
-                    let matrix = match rotation {
-                        Rotation::Homogeneous => homogeneous_rotation(&mut arena, p),
-                        Rotation::Unit => unit_rotation(&mut arena, p),
-                        Rotation::Normalised => normalised_rotation(&mut arena, p),
-                    };
-                    orientation[place] = Some(p);
-                    for (k, row) in matrix.iter().enumerate() {
-                        for (l, entry) in row.iter().enumerate() {
-                            arena.name(*entry, || format!("{}_a{}{}", body.name, k + 1, l + 1));
-                        }
-                    }
-                    ([3, 4, 5].map(|k| arena.input(rate(k))), Some(matrix))
-                }
+            let position = [0, 1, 2].map(|k| arena.input(at(k)));
+            let velocity = [0, 1, 2].map(|k| arena.input(rate(k)));
+            let mut chart = Chart {
+                position,
+                velocity,
+                spin: super::vector::ZERO,
+                rotation: None,
+                orientation: None,
             };
-            rotations.push(rotation);
-            inputs.push((r, v, w));
+            if body.kind == BodyKind::Rigid {
+                let p = [3, 4, 5, 6].map(|k| arena.input(at(k)));
+                let matrix = match rotation {
+                    Rotation::Homogeneous => homogeneous_rotation(&mut arena, p),
+                    Rotation::Unit => unit_rotation(&mut arena, p),
+                    Rotation::Normalised => normalised_rotation(&mut arena, p),
+                };
+                for (k, row) in matrix.iter().enumerate() {
+                    for (l, entry) in row.iter().enumerate() {
+                        arena.name(*entry, || format!("{}_a{}{}", body.name, k + 1, l + 1));
+                    }
+                }
+                chart.spin = [3, 4, 5].map(|k| arena.input(rate(k)));
+                chart.rotation = Some(matrix);
+                chart.orientation = Some(p);
+            }
+            charts.push(chart);
         }
+        Self::on(model, arena, &charts, layout.coordinates, exact)
+    }
+
+    /// The scene of a model whose bodies move as some charts say; `first_counter` is the coordinate of the first auxiliary variable.
+    pub(crate) fn on(
+        model: &Model,
+        mut arena: Arena,
+        charts: &[Chart],
+        first_counter: usize,
+        exact: bool,
+    ) -> Self {
+        let layout = model.layout();
         let mass = model
             .bodies
             .iter()
@@ -234,26 +263,27 @@ impl Scene {
         let gravity = triple(&mut arena, model.gravity);
         let copies = all_copies(&mut arena, model);
         let time = arena.input(Input::Time);
-        let mut space = Space::new(arena, rotations);
+        let rotations = charts.iter().map(|chart| chart.rotation);
+        let mut space = Space::new(arena, rotations.collect());
         if exact {
             space = space.exact();
         }
         let motion = Motion {
-            position: inputs
+            position: charts
                 .iter()
-                .map(|(r, _, _)| space.native(Frame::Global, *r))
+                .map(|chart| space.native(Frame::Global, chart.position))
                 .collect(),
-            velocity: inputs
+            velocity: charts
                 .iter()
-                .map(|(_, v, _)| space.native(Frame::Global, *v))
+                .map(|chart| space.native(Frame::Global, chart.velocity))
                 .collect(),
-            spin: inputs
+            spin: charts
                 .iter()
                 .enumerate()
-                .map(|(body, (_, _, w))| space.native(Frame::Body(body), *w))
+                .map(|(body, chart)| space.native(Frame::Body(body), chart.spin))
                 .collect(),
-            spin_components: inputs.iter().map(|(_, _, w)| *w).collect(),
-            reference: vec![super::vector::ZERO; inputs.len()],
+            spin_components: charts.iter().map(|chart| chart.spin).collect(),
+            reference: vec![super::vector::ZERO; charts.len()],
             time,
         };
         let mut constraints = Vec::new();
@@ -266,7 +296,7 @@ impl Scene {
                 model,
                 element,
                 copies: &copies[place],
-                first_counter: layout.coordinates + counters.len(),
+                first_counter: first_counter + counters.len(),
             };
             let arena = &mut space.arena;
             // Forces, which stand behind the joints, have no rows.
@@ -314,7 +344,7 @@ impl Scene {
             space,
             motion,
             constraints,
-            orientation,
+            orientation: charts.iter().map(|chart| chart.orientation).collect(),
             mass,
             inertia,
             gravity,

@@ -1,5 +1,6 @@
 //! A mechanism through the engine's passes, evaluated by numbers, against a dense solution of the same equations.
 
+use holonom_engine::coordinates::candidates::Strategy;
 use holonom_engine::model::Model;
 use holonom_engine::plan::Plans;
 use holonom_engine::plan::candidates::all;
@@ -138,7 +139,7 @@ impl<'a> Comparison<'a> {
         None
     }
 
-    fn equations(&self, state: &State) -> Option<Equations> {
+    pub(crate) fn equations(&self, state: &State) -> Option<Equations> {
         let equations = Equations::new(self.described, state)?;
         Some(equations.without(&self.dropped))
     }
@@ -177,6 +178,16 @@ impl<'a> Comparison<'a> {
             self.direct(&stretched, &exact, coefficients).map_err(at)?;
             self.solutions(state, &stretched, &unit, coefficients)
                 .map_err(at)?;
+        }
+        for state in &states {
+            let coefficients = Coefficients {
+                rate_gain: 4.0,
+                position_gain: 9.0,
+                compliance: 1e-2,
+            };
+            for strategy in Strategy::ALL {
+                self.reduced(state, strategy, coefficients, Terms::Plain)?;
+            }
         }
         self.initial_state(&states[0])?;
         self.left_out(&states[0])?;

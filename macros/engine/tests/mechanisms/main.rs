@@ -20,6 +20,7 @@ mod language;
 mod library;
 #[path = "../common/reading.rs"]
 mod reading;
+mod reduced;
 mod redundancy;
 mod reference;
 mod shrink;

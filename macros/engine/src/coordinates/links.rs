@@ -1,0 +1,493 @@
+//! Links: what carries what. A joint is one link for each of its motions, the last of which carries the body; those before have no mass.
+
+use super::algebra::{Inertia, add_tensors, apply, scale, sub};
+use super::frames::{FrameId, Frames, identity};
+use super::spanning::{Carried, Spanning};
+use crate::model::{Binding, BodyKind, Direction, Model, Motion};
+use crate::symbolic::arena::{Arena, Input};
+use crate::symbolic::fixed::{axis_and_normals, clean, placement, size, transpose, triple};
+use crate::symbolic::vector::{Triple, ZERO};
+
+/// How a link moves against the one that carries it.
+#[derive(Clone, Copy, Debug)]
+pub enum Freedom {
+    /// It turns about a coordinate axis of its frame, by a pair of cosine and sine. A negative turn of the joint is a positive one here
+    /// where `is_reversed`.
+    Turn {
+        /// The axis.
+        axis: usize,
+        /// The place among the pairs.
+        pair: usize,
+        /// Whether the joint counts the angle the other way round.
+        is_reversed: bool,
+    },
+    /// It slides along a direction of its frame, which is that of its carrier.
+    Slide {
+        /// The direction, of unit length.
+        along: Triple,
+        /// The place among the further coordinates.
+        rest: usize,
+    },
+    /// It turns freely against the ground, by Euler parameters.
+    Ball {
+        /// The place of the first among the further coordinates.
+        rest: usize,
+    },
+}
+
+impl Freedom {
+    /// How many velocities it has.
+    #[must_use]
+    pub const fn velocities(self) -> usize {
+        match self {
+            Self::Turn { .. } | Self::Slide { .. } => 1,
+            Self::Ball { .. } => 3,
+        }
+    }
+}
+
+/// A link.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// The link that carries it, `None` for the ground.
+    pub carrier: Option<usize>,
+    /// Its motion.
+    pub freedom: Freedom,
+    /// The axes that it turns with.
+    pub frame: FrameId,
+    /// The axes in which its motion is written: its own, or those that they turn against.
+    pub axes: FrameId,
+    /// Its origin from that of the carrier, where nothing has slid; in the carrier's frame.
+    pub offset: Triple,
+    /// The inertia that moves with it, about its origin, in its frame.
+    pub(super) inertia: Inertia,
+    /// Its first velocity.
+    pub velocity: usize,
+}
+
+/// How a body stands on the link that it moves with.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing {
+    /// The link, `None` for a body that is welded to the ground.
+    pub link: Option<usize>,
+    /// Its centre of mass from the link's origin, in the link's frame.
+    pub centre: Triple,
+    /// From principal axes to the link's frame.
+    pub axes: [Triple; 3],
+}
+
+/// The links of a mechanism.
+#[derive(Clone, Debug)]
+pub struct Links {
+    /// All frames.
+    pub frames: Frames,
+    /// A link stands behind its carrier.
+    pub links: Vec<Link>,
+    /// Body by body.
+    pub bodies: Vec<Standing>,
+    /// Pairs of cosine and sine.
+    pub turns: usize,
+    /// Coordinates behind the pairs.
+    pub rest: usize,
+    /// All velocities.
+    pub velocities: usize,
+    /// The constant rotations from global axes in the reference configuration to each frame.
+    from_global: Vec<[Triple; 3]>,
+    /// The origins of the links in the reference configuration, global axes.
+    origins: Vec<Triple>,
+}
+
+/// How runs of parallel axes are described.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Runs {
+    /// Every angle against the carrier, in axes of its own.
+    Relative,
+    /// Angles against the carrier of the run, in axes that do not turn within it.
+    Shared,
+}
+
+impl Links {
+    /// The links of a spanning tree.
+    #[must_use]
+    pub fn new(arena: &mut Arena, model: &Model, spanning: &Spanning, runs: Runs) -> Self {
+        let turns = spanning.carried.iter().flat_map(|carried| &carried.motions);
+        let turns = turns.filter(|motion| matches!(motion, Motion::Turn { .. }));
+        let mut links = Self {
+            frames: Frames::alone(),
+            links: Vec::new(),
+            bodies: vec![
+                Standing {
+                    link: None,
+                    centre: ZERO,
+                    axes: identity(),
+                };
+                model.bodies.len()
+            ],
+            turns: turns.count(),
+            rest: 0,
+            velocities: 0,
+            from_global: vec![identity()],
+            origins: Vec::new(),
+        };
+        let mut pairs = 0;
+        for carried in &spanning.carried {
+            links.carry(arena, model, carried, runs, &mut pairs);
+        }
+        links
+    }
+
+    fn frame_of(&self, link: Option<usize>) -> FrameId {
+        link.map_or(Frames::GROUND, |link| self.links[link].frame)
+    }
+
+    /// The rotation from global axes in the reference configuration to a frame.
+    fn rotation_into(&self, frame: FrameId) -> [Triple; 3] {
+        self.from_global[frame.place()]
+    }
+
+    /// Adds the links of one body.
+    fn carry(
+        &mut self,
+        arena: &mut Arena,
+        model: &Model,
+        carried: &Carried,
+        runs: Runs,
+        pairs: &mut usize,
+    ) {
+        let mut carrier = carried.by.and_then(|body| self.bodies[body].link);
+        let body = &model.bodies[carried.body];
+        let placed = placement(arena, model, Some(carried.body));
+        for (place, motion) in carried.motions.iter().enumerate() {
+            let later = carried.motions[place..].iter();
+            let origin = later
+                .filter_map(|motion| match motion {
+                    Motion::Turn { point, .. } | Motion::Ball { point } => Some(*point),
+                    Motion::Slide { .. } => None,
+                })
+                .map(|point| carried.point(arena, model, point))
+                .next()
+                .unwrap_or(placed.position);
+            let base = self.frame_of(carrier);
+            let link = match *motion {
+                Motion::Turn { axis, .. } => {
+                    let direction = carried.direction(arena, model, axis);
+                    let (base, axis, is_negative) = self.along_axis(arena, base, direction);
+                    let is_reversed = is_negative != carried.is_reversed;
+                    let base = match (runs, carrier) {
+                        (Runs::Shared, Some(carrier)) => self.base_of_run(carrier, base, axis),
+                        _ => base,
+                    };
+                    let pair = *pairs;
+                    *pairs += 1;
+                    let [c, s] = [2 * pair, 2 * pair + 1]
+                        .map(|place| arena.input(Input::Coordinate(place as u32)));
+                    let frame = self.frames.turned(base, axis, c, s);
+                    self.from_global.push(self.rotation_into(base));
+                    let freedom = Freedom::Turn {
+                        axis,
+                        pair,
+                        is_reversed,
+                    };
+                    (freedom, frame, frame)
+                }
+                Motion::Slide { along } => {
+                    let direction = carried.direction(arena, model, along);
+                    let direction = if carried.is_reversed {
+                        direction.map(|component| -component)
+                    } else {
+                        direction
+                    };
+                    let into = self.rotation_into(base);
+                    let along = apply(arena, into, direction);
+                    let along = clean(arena, along, 1.0);
+                    let rest = self.rest;
+                    self.rest += 1;
+                    let axes = carrier.map_or(Frames::GROUND, |link| self.links[link].axes);
+                    (Freedom::Slide { along, rest }, base, axes)
+                }
+                Motion::Ball { .. } => {
+                    let rest = self.rest;
+                    self.rest += 4;
+                    let first = 2 * self.turns + rest;
+                    let p =
+                        [0, 1, 2, 3].map(|k| arena.input(Input::Coordinate((first + k) as u32)));
+                    let frame = self.frames.free(arena, p);
+                    self.from_global.push(transpose(placed.axes));
+                    (Freedom::Ball { rest }, frame, frame)
+                }
+            };
+            let (freedom, frame, axes) = link;
+            let from = carrier.map_or(ZERO, |link| self.origins[link]);
+            let offset = sub(arena, origin, from);
+            let scale = size(arena, origin).max(size(arena, from));
+            let offset = clean(arena, offset, scale);
+            let offset = self.turned_into(arena, offset, base);
+            let velocity = self.velocities;
+            self.velocities += freedom.velocities();
+            self.links.push(Link {
+                carrier,
+                freedom,
+                frame,
+                axes,
+                offset,
+                inertia: Inertia::NONE,
+                velocity,
+            });
+            self.origins.push(origin);
+            carrier = Some(self.links.len() - 1);
+        }
+        let frame = self.frame_of(carrier);
+        let from = carrier.map_or(ZERO, |link| self.origins[link]);
+        let arm = sub(arena, placed.position, from);
+        let scale = size(arena, placed.position).max(size(arena, from));
+        let arm = clean(arena, arm, scale);
+        let centre = self.turned_into(arena, arm, frame);
+        // Column by column: principal to global to frame.
+        let columns = transpose(placed.axes).map(|column| self.turned_into(arena, column, frame));
+        let axes = transpose(columns);
+        self.bodies[carried.body] = Standing {
+            link: carrier,
+            centre,
+            axes,
+        };
+        let Some(link) = carrier else { return };
+        let mass = crate::symbolic::fixed::number(arena, body.mass);
+        let mut inertia = Inertia::point(arena, mass, centre);
+        if body.kind == BodyKind::Rigid {
+            let principal = triple(arena, body.inertia);
+            let mut tensor = super::algebra::NOTHING;
+            for k in 0..3 {
+                for l in 0..3 {
+                    let products = [0, 1, 2].map(|m| {
+                        let both = arena.mul(axes[k][m], axes[l][m]);
+                        arena.mul(principal[m], both)
+                    });
+                    tensor[k][l] = arena.sum(products);
+                }
+            }
+            inertia.tensor = add_tensors(arena, inertia.tensor, tensor);
+        }
+        self.links[link].inertia = self.links[link].inertia.plus(arena, inertia);
+    }
+
+    /// A vector of the reference configuration in a frame, without round-off beside its size.
+    fn turned_into(&self, arena: &mut Arena, v: Triple, frame: FrameId) -> Triple {
+        let turned = apply(arena, self.rotation_into(frame), v);
+        let scale = size(arena, v);
+        clean(arena, turned, scale)
+    }
+
+    /// A frame at rest in another in which a direction is a coordinate axis; that one itself if it is one there.
+    fn along_axis(
+        &mut self,
+        arena: &mut Arena,
+        base: FrameId,
+        direction: Triple,
+    ) -> (FrameId, usize, bool) {
+        let own = self.turned_into(arena, direction, base);
+        for axis in 0..3 {
+            let mut unit = ZERO;
+            unit[axis] = Arena::ONE;
+            if own == unit || own == unit.map(|component| -component) {
+                return (base, axis, own != unit);
+            }
+        }
+        let [third, first, second] = axis_and_normals(arena, own);
+        let rows = transpose([first, second, third]);
+        let frame = self.frames.fixed(base, rows);
+        let into = self.rotation_into(base);
+        let columns = transpose(into);
+        let turned = columns.map(|column| {
+            let turned = [first, second, third];
+            let turned = apply(arena, turned, column);
+            clean(arena, turned, 1.0)
+        });
+        self.from_global.push(transpose(turned));
+        (frame, 2, false)
+    }
+
+    /// The rotation from a link's frame to that of one further down in the reference configuration, row by row.
+    pub(super) fn between(
+        &self,
+        arena: &mut Arena,
+        from: Option<usize>,
+        link: usize,
+    ) -> [Triple; 3] {
+        let own = self.rotation_into(self.links[link].frame);
+        let from = self.rotation_into(self.frame_of(from));
+        from.map(|row| {
+            let turned = apply(arena, own, row);
+            clean(arena, turned, 1.0)
+        })
+    }
+
+    /// The links of a body from the first to the last, which is given: those before have no body.
+    pub(super) fn way(&self, link: usize) -> Vec<usize> {
+        let has_body = |link: usize| self.bodies.iter().any(|body| body.link == Some(link));
+        let mut way = vec![link];
+        let mut carrier = self.links[link].carrier;
+        while let Some(place) = carrier.filter(|&place| !has_body(place)) {
+            way.push(place);
+            carrier = self.links[place].carrier;
+        }
+        way.reverse();
+        way
+    }
+
+    /// The axis of a link in the frame of its carrier.
+    pub(super) fn axis_on_carrier(&self, arena: &mut Arena, link: usize, axis: usize) -> Triple {
+        let rows = self.between(arena, self.links[link].carrier, link);
+        rows.map(|row| row[axis])
+    }
+
+    /// A part of a link's inertia that is the same however the link is turned, about the origin and in the frame of the carrier.
+    pub(super) fn part_on_carrier(&self, arena: &mut Arena, link: usize, part: Inertia) -> Inertia {
+        let rows = self.between(arena, self.links[link].carrier, link);
+        let mut tensor = super::algebra::NOTHING;
+        for k in 0..3 {
+            let column = apply(arena, part.tensor, rows[k]);
+            tensor[k] = apply(arena, rows, column);
+        }
+        let turned = Inertia {
+            mass: part.mass,
+            first: apply(arena, rows, part.first),
+            tensor,
+        };
+        turned.seen_at(arena, self.links[link].offset)
+    }
+
+    /// The frame that a link's angle is measured against: where its carrier turns about the same axis, the one that the carrier's is.
+    fn base_of_run(&mut self, carrier: usize, base: FrameId, axis: usize) -> FrameId {
+        let link = &self.links[carrier];
+        match link.freedom {
+            Freedom::Turn { axis: other, .. } if other == axis && link.frame == base => {
+                self.frames.base(base)
+            }
+            _ => base,
+        }
+    }
+
+    /// The links from the leaves to the ground.
+    pub fn leaves_first(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.links.len()).rev()
+    }
+
+    /// The links that a link carries.
+    pub fn children(&self, link: Option<usize>) -> impl Iterator<Item = usize> + '_ {
+        (0..self.links.len()).filter(move |&child| self.links[child].carrier == link)
+    }
+
+    /// Whether a link turns when its carrier does: else it is only taken along.
+    #[must_use]
+    pub fn turns_with_carrier(&self, link: usize) -> bool {
+        let carrier = self.links[link].carrier;
+        let carrier = self.frame_of(carrier);
+        self.frames.follows(self.links[link].frame, carrier)
+    }
+
+    /// The axes in which the motion of a link, or of the ground, is written.
+    #[must_use]
+    pub fn axes(&self, link: Option<usize>) -> FrameId {
+        link.map_or(Frames::GROUND, |link| self.links[link].axes)
+    }
+
+    /// Writes the motion of runs in axes that do not turn with them.
+    pub fn share_axes(&mut self) {
+        for place in 0..self.links.len() {
+            let link = &self.links[place];
+            if !matches!(link.freedom, Freedom::Turn { .. }) {
+                if let (Freedom::Slide { .. }, Some(carrier)) = (link.freedom, link.carrier) {
+                    self.links[place].axes = self.links[carrier].axes;
+                }
+                continue;
+            }
+            let base = self.frames.base(link.frame);
+            let with_carrier = link.carrier.is_some() && !self.turns_with_carrier(place);
+            let children: Vec<usize> = self.children(Some(place)).collect();
+            let taken_along = children.iter().any(|&child| {
+                matches!(self.links[child].freedom, Freedom::Turn { .. })
+                    && !self.turns_with_carrier(child)
+            });
+            let turning = children.iter().any(|&child| self.turns_with_carrier(child));
+            if (with_carrier || taken_along) && !turning {
+                self.links[place].axes = base;
+            }
+        }
+    }
+
+    /// A vector of a link's own frame in the axes of its motion.
+    pub fn in_axes(&self, arena: &mut Arena, v: Triple, link: Option<usize>) -> Triple {
+        let (frame, axes) = (self.frame_of(link), self.axes(link));
+        self.frames.turn(arena, v, frame, axes)
+    }
+
+    /// The inertia of a link in the axes of its motion.
+    pub(super) fn inertia_in_axes(&self, arena: &mut Arena, link: usize) -> Inertia {
+        let own = &self.links[link];
+        Inertia {
+            mass: own.inertia.mass,
+            first: self.in_axes(arena, own.inertia.first, Some(link)),
+            tensor: self
+                .frames
+                .tensor(arena, own.inertia.tensor, own.frame, own.axes),
+        }
+    }
+
+    /// The unit vector of a turn.
+    #[must_use]
+    pub fn unit(axis: usize) -> Triple {
+        let mut unit = ZERO;
+        unit[axis] = Arena::ONE;
+        unit
+    }
+
+    /// The origin of a link from that of its carrier, in the axes of the carrier's motion.
+    pub fn offset(&self, arena: &mut Arena, link: usize) -> Triple {
+        let own = &self.links[link];
+        let mut offset = own.offset;
+        if let Freedom::Slide { along, rest } = own.freedom {
+            let x = arena.input(Input::Coordinate((2 * self.turns + rest) as u32));
+            let moved = scale(arena, x, along);
+            offset = super::algebra::add(arena, offset, moved);
+        }
+        self.in_axes(arena, offset, own.carrier)
+    }
+
+    /// The direction of a slide in the axes of a link's motion.
+    pub fn slide(&self, arena: &mut Arena, link: usize) -> Option<Triple> {
+        let Freedom::Slide { along, .. } = self.links[link].freedom else {
+            return None;
+        };
+        Some(self.in_axes(arena, along, Some(link)))
+    }
+}
+
+impl Carried {
+    /// A point of the joint in the reference configuration.
+    fn point(&self, arena: &mut Arena, model: &Model, parameter: usize) -> Triple {
+        match self
+            .joint
+            .map(|joint| &model.joints[joint].bindings[parameter])
+        {
+            Some(Binding::Global(given)) => triple(arena, *given),
+            // A body without a joint turns about its centre of mass.
+            _ => triple(arena, model.bodies[self.body].position),
+        }
+    }
+
+    /// A direction of the joint in the reference configuration, of unit length.
+    fn direction(&self, arena: &mut Arena, model: &Model, direction: Direction) -> Triple {
+        match self
+            .joint
+            .map(|joint| &model.joints[joint].bindings[direction.parameter])
+        {
+            Some(Binding::Global(given)) => {
+                let given = triple(arena, *given);
+                let axes = axis_and_normals(arena, given);
+                axes[direction.normal.map_or(0, |normal| normal + 1)]
+            }
+            // A body without a joint slides along the global axes.
+            _ => Links::unit(direction.parameter),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Joint coordinates: bodies move by what the joints of a spanning tree leave free, and only joints that close loops stay as equations.
+
+mod algebra;
+pub mod candidates;
+pub mod frames;
+pub mod from_bodies;
+mod kinematics;
+pub mod links;
+mod mass;
+mod regroup;
+pub mod spanning;
+pub mod system;
+mod wrenches;

@@ -1,0 +1,197 @@
+//! A spanning tree of the bodies: which joint carries which body by the motions that it leaves free, and which joints stay as equations.
+
+use std::cmp::Reverse;
+
+use crate::model::number::literals;
+use crate::model::{Binding, BodyKind, Direction, JointUse, Model, Motion, ParameterKind};
+
+/// A body and what it moves by.
+#[derive(Clone, Debug)]
+pub struct Carried {
+    /// The body.
+    pub body: usize,
+    /// The body that carries it, `None` for the ground.
+    pub by: Option<usize>,
+    /// The joint; `None` for a body that no joint carries, which moves freely.
+    pub joint: Option<usize>,
+    /// The motions, from the carrier to the body. Of a free body: parameters are coordinate axes.
+    pub motions: Vec<Motion>,
+    /// Whether the joint names the carrier last, so that its motions are those of the carrier against the body.
+    pub is_reversed: bool,
+}
+
+/// The tree.
+#[derive(Clone, Debug)]
+pub struct Spanning {
+    /// A body stands behind the one that carries it.
+    pub carried: Vec<Carried>,
+    /// The joints that stay as equations.
+    pub closing: Vec<usize>,
+}
+
+/// A way to carry a body: freedoms, depth, names decide in this order.
+type Merit = (usize, usize, String, String);
+
+impl Spanning {
+    /// The tree of a mechanism, whatever the order of its fields: the joint with the fewest motions first, then the one nearest to the ground.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        let mut depth: Vec<Option<usize>> = vec![None; model.bodies.len()];
+        let mut carried = Vec::new();
+        let mut carries = vec![false; model.joints.len()];
+        loop {
+            let mut best: Option<(Merit, Carried)> = None;
+            for (place, joint) in model.joints.iter().enumerate() {
+                let depth_of = |body: Option<usize>| body.map_or(Some(0), |body| depth[body]);
+                let [first, second] = joint.bodies[..] else {
+                    continue;
+                };
+                for (by, body, is_reversed) in [(first, second, false), (second, first, true)] {
+                    let (Some(body), Some(from)) = (body, depth_of(by)) else {
+                        continue;
+                    };
+                    if depth[body].is_some() {
+                        continue;
+                    }
+                    let Some(motions) = motions(model, joint, by, body, is_reversed) else {
+                        continue;
+                    };
+                    let names = (joint.name.to_string(), model.bodies[body].name.to_string());
+                    let merit = (freedoms(&motions), from, names.0, names.1);
+                    if best.as_ref().is_none_or(|(known, _)| merit < *known) {
+                        let found = Carried {
+                            body,
+                            by,
+                            joint: Some(place),
+                            motions,
+                            is_reversed,
+                        };
+                        best = Some((merit, found));
+                    }
+                }
+            }
+            if let Some(((_, from, ..), found)) = best {
+                depth[found.body] = Some(from + 1);
+                carries[found.joint.expect("it was found at a joint")] = true;
+                carried.push(found);
+                continue;
+            }
+            let joints = |body: usize| {
+                let joints = model.joints.iter();
+                joints
+                    .filter(|joint| joint.bodies.contains(&Some(body)))
+                    .count()
+            };
+            let left = (0..model.bodies.len()).filter(|&body| depth[body].is_none());
+            let root = left
+                .min_by_key(|&body| (Reverse(joints(body)), model.bodies[body].name.to_string()));
+            let Some(body) = root else { break };
+            depth[body] = Some(1);
+            carried.push(free(model, body));
+        }
+        let mut closing: Vec<usize> = (0..model.joints.len()).filter(|&k| !carries[k]).collect();
+        closing.sort_by_key(|&joint| model.joints[joint].name.to_string());
+        Self { carried, closing }
+    }
+
+    /// The mechanism without the equations of the joints that carry.
+    #[must_use]
+    pub fn remaining(&self, model: &Model) -> Model {
+        let mut model = model.clone();
+        for joint in self.carried.iter().filter_map(|carried| carried.joint) {
+            let equations = model.definition(&model.joints[joint]).equations();
+            model.joints[joint].dropped = (0..equations).collect();
+        }
+        model
+    }
+}
+
+/// How many velocities motions have.
+pub(super) fn freedoms(motions: &[Motion]) -> usize {
+    let each = motions.iter().map(|motion| match motion {
+        Motion::Turn { .. } | Motion::Slide { .. } => 1,
+        Motion::Ball { .. } => 3,
+    });
+    each.sum()
+}
+
+/// A body that moves freely: along the global axes and about its centre of mass.
+fn free(model: &Model, body: usize) -> Carried {
+    let slides = [0, 1, 2].map(|parameter| Motion::Slide {
+        along: Direction {
+            parameter,
+            normal: None,
+        },
+    });
+    let mut motions = slides.to_vec();
+    if model.bodies[body].kind == BodyKind::Rigid {
+        motions.push(Motion::Ball { point: 0 });
+    }
+    Carried {
+        body,
+        by: None,
+        joint: None,
+        motions,
+        is_reversed: false,
+    }
+}
+
+/// The motions by which a joint carries a body, from the carrier on; `None` where it cannot, so that it stays as equations.
+fn motions(
+    model: &Model,
+    joint: &JointUse,
+    by: Option<usize>,
+    body: usize,
+    is_reversed: bool,
+) -> Option<Vec<Motion>> {
+    let definition = model.definition(joint);
+    let mut motions = definition.motions.clone()?;
+    // Lines and points that are given body by body need not meet in the reference configuration.
+    let vectors = definition.parameters.iter().zip(&joint.bindings);
+    let all_global = vectors
+        .filter(|(parameter, _)| parameter.kind.is_vector())
+        .all(|(_, binding)| matches!(binding, Binding::Global(_)));
+    let is_particle = |body: usize| model.bodies[body].kind == BodyKind::Particle;
+    if !all_global || by == Some(body) || by.is_some_and(is_particle) {
+        return None;
+    }
+    let turns = |motions: &[Motion]| {
+        let turns = motions
+            .iter()
+            .filter(|motion| !matches!(motion, Motion::Slide { .. }));
+        turns.count()
+    };
+    if is_reversed {
+        motions.reverse();
+    }
+    if is_particle(body) {
+        // It has no orientation: a ball at its own place is nothing.
+        match motions.last() {
+            Some(Motion::Ball { point }) if stands_at(model, joint, body, *point) => motions.pop(),
+            _ => return None,
+        };
+        return (turns(&motions) == 0).then_some(motions);
+    }
+    // More angles have no closed form from the orientations.
+    let is_closed = match motions
+        .iter()
+        .find(|motion| matches!(motion, Motion::Ball { .. }))
+    {
+        Some(_) => turns(&motions) == 1,
+        None => turns(&motions) <= 2,
+    };
+    is_closed.then_some(motions)
+}
+
+/// Whether a particle stands at a point of its joint, as far as the macro can see.
+fn stands_at(model: &Model, joint: &JointUse, body: usize, point: usize) -> bool {
+    let Binding::Global(given) = &joint.bindings[point] else {
+        return false;
+    };
+    let is_point = model.definition(joint).parameters[point].kind == ParameterKind::Point;
+    is_point
+        && match (literals(given), literals(&model.bodies[body].position)) {
+            (Some(given), Some(position)) => given == position,
+            _ => *given == model.bodies[body].position,
+        }
+}

@@ -1,0 +1,258 @@
+//! The equations of motion in joint coordinates: `[M D^T; D -E] (u', lambda) = (forces, gamma*)`.
+
+use super::algebra::{add, apply};
+use super::candidates::Strategy;
+use super::frames::Frames;
+use super::kinematics::Kinematics;
+use super::links::{Links, Runs};
+use super::spanning::Spanning;
+use super::wrenches::{Wrench, inertial};
+use crate::model::{BodyKind, Model};
+use crate::plan::Pivot;
+use crate::plan::eliminate::{Check, Symmetric, factorise};
+use crate::plan::system::Terms;
+use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::scene::{Chart, Scene};
+use crate::symbolic::twist::Gradient;
+use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
+
+/// A mechanism in joint coordinates, in symbols.
+#[derive(Clone, Debug)]
+pub struct Reduced {
+    /// The links.
+    pub links: Links,
+    /// The bodies as functions of joint coordinates, forces, and the equations that remain.
+    pub scene: Scene,
+    /// Of the bodies.
+    pub charts: Vec<Chart>,
+}
+
+/// The solution of the equations of motion.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Rates of the velocities.
+    pub accelerations: Vec<Expr>,
+    /// Multipliers of the rows that remain.
+    pub multipliers: Vec<Expr>,
+    /// Pivots that depend on the state and are not safe by themselves, with the row in the place of the unknown.
+    pub checks: Vec<Check>,
+}
+
+impl Reduced {
+    /// A mechanism in the coordinates of its joints.
+    #[must_use]
+    pub fn of(model: &Model, strategy: Strategy) -> Self {
+        let spanning = Spanning::new(model);
+        let mut arena = Arena::new();
+        let mut links = Links::new(&mut arena, model, &spanning, strategy.runs);
+        links.slide_origins(&mut arena);
+        links.regroup(&mut arena);
+        if strategy.runs == Runs::Shared {
+            links.share_axes();
+        }
+        Self::new(arena, &spanning.remaining(model), links)
+    }
+
+    /// A mechanism whose joints of the tree have no equations any more.
+    #[must_use]
+    pub fn new(mut arena: Arena, model: &Model, links: Links) -> Self {
+        let motion = Kinematics::new(&mut arena, &links, ZERO);
+        let charts = charts(&mut arena, model, &links, &motion);
+        let first_counter = 2 * links.turns + links.rest;
+        let scene = Scene::on(model, arena, &charts, first_counter, false);
+        Self {
+            links,
+            scene,
+            charts,
+        }
+    }
+
+    /// The wrenches on the links of forces and moments on the bodies.
+    fn wrenches(&mut self, gradient: &Gradient) -> Vec<Wrench> {
+        let Self { links, scene, .. } = self;
+        let mut wrenches = vec![Wrench::NONE; links.links.len()];
+        for (body, standing) in links.bodies.iter().enumerate() {
+            let Some(link) = standing.link else { continue };
+            let force = gradient.force(&mut scene.space, body);
+            let moment = gradient.moment(&mut scene.space, body);
+            let force = scene.space.components(force, Frame::Global);
+            let moment = match scene.space.rotation(body) {
+                Some(_) => scene.space.components(moment, Frame::Body(body)),
+                None => ZERO,
+            };
+            let arena = &mut scene.space.arena;
+            let axes = links.axes(Some(link));
+            let force = links.frames.turn(arena, force, Frames::GROUND, axes);
+            let moment = apply(arena, standing.axes, moment);
+            let moment = links.in_axes(arena, moment, Some(link));
+            let centre = links.in_axes(arena, standing.centre, Some(link));
+            let by_arm = cross(arena, centre, force);
+            let moment = add(arena, moment, by_arm);
+            wrenches[link] = wrenches[link].plus(arena, Wrench { force, moment });
+        }
+        wrenches
+    }
+
+    /// Gravity, forces of the language and what the motion takes, along the velocities.
+    fn forces(&mut self) -> Vec<Expr> {
+        let applied = self.scene.applied();
+        let wrenches = self.wrenches(&applied);
+        let Self { links, scene, .. } = self;
+        let gravity = scene.gravity;
+        let arena = &mut scene.space.arena;
+        let motion = Kinematics::new(arena, links, gravity.map(|component| -component));
+        let taken: Vec<Wrench> = (0..links.links.len())
+            .map(|link| {
+                let taken = inertial(arena, links, &motion, link).opposite();
+                taken.plus(arena, wrenches[link])
+            })
+            .collect();
+        links.project(arena, taken)
+    }
+
+    /// The rows that remain: `D` along the velocities, and `gamma*`.
+    fn rows(&mut self, terms: Terms) -> (Vec<Vec<Expr>>, Vec<Expr>) {
+        let arena = &mut self.scene.space.arena;
+        let factors = terms.factors(arena);
+        let motion = Kinematics::new(arena, &self.links, ZERO);
+        let (mut rows, mut right) = (Vec::new(), Vec::new());
+        for place in 0..self.scene.constraints.len() {
+            let wanted = self.scene.combination(place, Frame::Global, factors);
+            let gradients = self.scene.gradients(place, Frame::Global);
+            for (gradient, wanted) in gradients.into_iter().zip(wanted) {
+                let wrenches = self.wrenches(&gradient);
+                let known = self.known(&motion, &gradient);
+                let arena = &mut self.scene.space.arena;
+                right.push(arena.sub(wanted, known));
+                rows.push(self.links.project(arena, wrenches));
+            }
+        }
+        (rows, right)
+    }
+
+    /// What accelerations of bodies without second rates contribute to a row.
+    fn known(&mut self, motion: &Kinematics, gradient: &Gradient) -> Expr {
+        let Self { links, scene, .. } = self;
+        let mut sum = Arena::ZERO;
+        for (body, standing) in links.bodies.iter().enumerate() {
+            let Some(link) = standing.link else { continue };
+            let force = gradient.force(&mut scene.space, body);
+            let moment = gradient.moment(&mut scene.space, body);
+            let axes = links.axes(Some(link));
+            if !scene.space.is_zero(force) {
+                let force = scene.space.components(force, Frame::Global);
+                let arena = &mut scene.space.arena;
+                let force = links.frames.turn(arena, force, Frames::GROUND, axes);
+                let centre = links.in_axes(arena, standing.centre, Some(link));
+                let bend = apply(arena, motion.second[link], centre);
+                let acceleration = add(arena, motion.bias[link], bend);
+                let term = dot(arena, force, acceleration);
+                sum = arena.add(sum, term);
+            }
+            if !scene.space.is_zero(moment) && motion.spin_bias[link] != ZERO {
+                let moment = scene.space.components(moment, Frame::Body(body));
+                let arena = &mut scene.space.arena;
+                let moment = apply(arena, standing.axes, moment);
+                let moment = links.in_axes(arena, moment, Some(link));
+                let term = dot(arena, moment, motion.spin_bias[link]);
+                sum = arena.add(sum, term);
+            }
+        }
+        sum
+    }
+
+    /// Rates of the velocities, and multipliers.
+    pub fn solve(&mut self, terms: Terms) -> Solution {
+        let mut right = self.forces();
+        let mass = {
+            let Self { links, scene, .. } = self;
+            links.mass_matrix(&mut scene.space.arena)
+        };
+        let (rows, gamma) = self.rows(terms);
+        right.extend(gamma);
+        let velocities = self.links.velocities;
+        let mut matrix = Symmetric::new(velocities + rows.len());
+        for k in 0..velocities {
+            for l in 0..=k {
+                matrix.set(k, l, mass.get(k, l));
+            }
+        }
+        let arena = &mut self.scene.space.arena;
+        for (row, entries) in rows.iter().enumerate() {
+            for (k, &entry) in entries.iter().enumerate() {
+                matrix.set(velocities + row, k, entry);
+            }
+            if terms == Terms::Compliant {
+                let compliance = arena.input(Input::Compliance(row as u32));
+                matrix.set(velocities + row, velocities + row, -compliance);
+            }
+        }
+        let pivots: Vec<Pivot> = (0..velocities)
+            .rev()
+            .map(Pivot::Acceleration)
+            .chain((0..rows.len()).map(|row| Pivot::Multiplier(velocities + row)))
+            .collect();
+        let factors = factorise(arena, matrix.clone(), matrix, &pivots, &[]);
+        let mut solution = factors.solve(arena, right);
+        let multipliers = solution.split_off(velocities);
+        // Quasi-definite with a compliance: every pivot is safe.
+        let checks = factors.checks.iter().filter(|_| terms != Terms::Compliant);
+        let checks = checks.map(|check| Check {
+            unknown: check.unknown - velocities,
+            ..*check
+        });
+        Solution {
+            accelerations: solution,
+            multipliers,
+            checks: checks.collect(),
+        }
+    }
+}
+
+/// The bodies as functions of joint coordinates.
+fn charts(arena: &mut Arena, model: &Model, links: &Links, motion: &Kinematics) -> Vec<Chart> {
+    let mut origins: Vec<Triple> = Vec::new();
+    for link in 0..links.links.len() {
+        let carrier = links.links[link].carrier;
+        let offset = links.offset(arena, link);
+        let offset = links
+            .frames
+            .turn(arena, offset, links.axes(carrier), Frames::GROUND);
+        let from = carrier.map_or(ZERO, |carrier| origins[carrier]);
+        origins.push(add(arena, from, offset));
+    }
+    let bodies = model.bodies.iter().zip(&links.bodies);
+    bodies
+        .map(|(body, standing)| {
+            let link = standing.link;
+            let axes = links.axes(link);
+            let frame = link.map_or(Frames::GROUND, |link| links.links[link].frame);
+            let centre = links.in_axes(arena, standing.centre, link);
+            let arm = links.frames.turn(arena, centre, axes, Frames::GROUND);
+            let position = add(arena, link.map_or(ZERO, |link| origins[link]), arm);
+            let mut chart = Chart {
+                position,
+                velocity: ZERO,
+                spin: ZERO,
+                rotation: None,
+                orientation: None,
+            };
+            if let Some(link) = link {
+                let sweep = cross(arena, motion.spin[link], centre);
+                let velocity = add(arena, motion.velocity[link], sweep);
+                chart.velocity = links.frames.turn(arena, velocity, axes, Frames::GROUND);
+            }
+            if body.kind == BodyKind::Rigid {
+                let columns = crate::symbolic::fixed::transpose(standing.axes)
+                    .map(|column| links.frames.turn(arena, column, frame, Frames::GROUND));
+                chart.rotation = Some(crate::symbolic::fixed::transpose(columns));
+                if let Some(link) = link {
+                    let spin = links.frames.turn(arena, motion.spin[link], axes, frame);
+                    let into = crate::symbolic::fixed::transpose(standing.axes);
+                    chart.spin = apply(arena, into, spin);
+                }
+            }
+            chart
+        })
+        .collect()
+}

@@ -1,0 +1,218 @@
+//! The same mechanism in joint coordinates: the accelerations of its bodies against a dense solution over all equations.
+
+use holonom_engine::coordinates::candidates::Strategy;
+use holonom_engine::coordinates::from_bodies::from_bodies;
+use holonom_engine::coordinates::links::{Freedom, Links};
+use holonom_engine::coordinates::system::Reduced;
+use holonom_engine::model::BodyKind;
+use holonom_engine::plan::system::Terms;
+use holonom_engine::symbolic::arena::{Arena, Expr, Input, Node};
+
+use crate::comparison::{Comparison, difference};
+use crate::inputs::{Coefficients, Inputs, in_axes, transposed, turned, user_axes};
+use crate::reading::Numbers;
+use crate::reference::{State, euler_rates};
+use crate::solutions::{System, TOLERANCE};
+
+/// Euler parameters of a rotation (Shepperd's method: from the largest of the four).
+fn euler_parameters(a: [Numbers; 3]) -> [f64; 4] {
+    let trace = a[0][0] + a[1][1] + a[2][2];
+    let mut squares = [trace, a[0][0], a[1][1], a[2][2]];
+    squares[1..].iter_mut().for_each(|x| *x = 2.0 * *x - trace);
+    let largest = (0..4)
+        .max_by(|&k, &l| squares[k].total_cmp(&squares[l]))
+        .expect("four");
+    let x = [a[2][1] - a[1][2], a[0][2] - a[2][0], a[1][0] - a[0][1]];
+    let y = [a[2][1] + a[1][2], a[0][2] + a[2][0], a[1][0] + a[0][1]];
+    let own = 1.0 + squares[largest];
+    let p = match largest {
+        0 => [own, x[0], x[1], x[2]],
+        1 => [x[0], own, y[2], y[1]],
+        2 => [x[1], y[2], own, y[0]],
+        _ => [x[2], y[1], y[0], own],
+    };
+    let length = p.iter().map(|e| e * e).sum::<f64>().sqrt();
+    p.map(|e| e / length)
+}
+
+/// Values and their rates, by the rules for sums, products and reciprocals.
+fn rates(
+    arena: &Arena,
+    outputs: &[Expr],
+    input: impl Fn(Input) -> Option<(f64, f64)>,
+) -> Vec<(f64, f64)> {
+    let last = outputs.iter().map(|x| x.node()).max().unwrap_or(0);
+    let mut values: Vec<(f64, f64)> = Vec::new();
+    let nan = (f64::NAN, f64::NAN);
+    for place in 0..=last {
+        let of = |x: Expr| {
+            let (value, rate) = values[x.node()];
+            if x.is_negative() {
+                (-value, -rate)
+            } else {
+                (value, rate)
+            }
+        };
+        let value = match arena.node(place) {
+            Node::Constant(bits) => (f64::from_bits(bits), 0.0),
+            Node::Input(known) => input(known).unwrap_or(nan),
+            Node::Add(a, b) => (of(a).0 + of(b).0, of(a).1 + of(b).1),
+            Node::Multiply(a, b) => (of(a).0 * of(b).0, of(a).1 * of(b).0 + of(a).0 * of(b).1),
+            Node::Reciprocal(a) => (of(a).0.recip(), -of(a).1 / of(a).0.powi(2)),
+            Node::SquareRoot(a) => (of(a).0.sqrt(), of(a).1 / (2.0 * of(a).0.sqrt())),
+            Node::Sign(a) => (if of(a).0 < 0.0 { -1.0 } else { 1.0 }, 0.0),
+            // Constants are made of them at most.
+            _ => nan,
+        };
+        values.push(value);
+    }
+    let signed = |x: &Expr| {
+        let (value, rate) = values[x.node()];
+        if x.is_negative() {
+            (-value, -rate)
+        } else {
+            (value, rate)
+        }
+    };
+    outputs.iter().map(signed).collect()
+}
+
+/// The rates of joint coordinates.
+fn coordinate_rates(links: &Links, coordinates: &[f64], velocities: &[f64]) -> Vec<f64> {
+    let mut rates = vec![0.0; coordinates.len()];
+    for link in &links.links {
+        let u = link.velocity;
+        match link.freedom {
+            Freedom::Turn { pair, .. } => {
+                let (c, s) = (coordinates[2 * pair], coordinates[2 * pair + 1]);
+                rates[2 * pair] = -s * velocities[u];
+                rates[2 * pair + 1] = c * velocities[u];
+            }
+            Freedom::Slide { rest, .. } => rates[2 * links.turns + rest] = velocities[u],
+            Freedom::Ball { rest } => {
+                let first = 2 * links.turns + rest;
+                let p = [0, 1, 2, 3].map(|k| coordinates[first + k]);
+                let w = [0, 1, 2].map(|k| velocities[u + k]);
+                rates[first..first + 4].copy_from_slice(&euler_rates(p, w));
+            }
+        }
+    }
+    rates
+}
+
+impl Comparison<'_> {
+    /// Joint coordinates of a state, the state that they describe, and its accelerations.
+    pub(crate) fn reduced(
+        &mut self,
+        state: &State,
+        strategy: Strategy,
+        coefficients: Coefficients,
+        terms: Terms,
+    ) -> Result<(), String> {
+        if self.dropped.contains(&true) {
+            return Ok(());
+        }
+        let mut model = self.model.clone();
+        // Random definitions need not move as they say.
+        for definition in &mut model.definitions {
+            if definition.name.to_string().starts_with("Own") {
+                definition.motions = None;
+            }
+        }
+        let model = &model;
+        let mut reduced = Reduced::of(model, strategy);
+        let Some(equations) = self.equations(state) else {
+            return Ok(());
+        };
+        let cartesian = |state: &State, angles: &[(f64, f64)]| {
+            Inputs::new(model, self.described, state, angles, coefficients)
+        };
+        let mut inputs = cartesian(state, &equations.angles);
+        let mut arena = reduced.scene.space.arena.clone();
+        let outputs = from_bodies(&mut arena, model, &reduced.links);
+        let joint = inputs.values(&arena, &outputs);
+        let velocities = reduced.links.velocities;
+        let (coordinates, rates_of_joints) = joint.split_at(joint.len() - velocities);
+        inputs.coordinates = coordinates.to_vec();
+        inputs.velocities = rates_of_joints.to_vec();
+        let moving = coordinate_rates(&reduced.links, coordinates, rates_of_joints);
+        // The state of the bodies.
+        let mut exact = state.clone();
+        let arena = &reduced.scene.space.arena;
+        for (body, chart) in reduced.charts.iter().enumerate() {
+            let r = inputs.values(arena, &chart.position);
+            let v = inputs.values(arena, &chart.velocity);
+            exact.poses[body].0 = [r[0], r[1], r[2]];
+            exact.rates[body].0 = [v[0], v[1], v[2]];
+            let Some(rotation) = chart.rotation else {
+                continue;
+            };
+            let rows = rotation.map(|row| inputs.values(arena, &row));
+            let rows = rows.map(|row| [row[0], row[1], row[2]]);
+            let own = transposed(user_axes(model, body));
+            // A C, row by row.
+            let user = rows.map(|row| turned(own, row));
+            exact.poses[body].1 = euler_parameters(user);
+            let w = inputs.values(arena, &chart.spin);
+            let w = turned(own, [w[0], w[1], w[2]]);
+            exact.rates[body].1 = w;
+        }
+        let Some(equations) = self.equations(&exact) else {
+            return Ok(());
+        };
+        let Some(system) = System::new(
+            &equations,
+            if terms == Terms::Compliant {
+                coefficients.compliance
+            } else {
+                0.0
+            },
+        ) else {
+            return Ok(());
+        };
+        let (gain, square) = if terms == Terms::Plain {
+            (0.0, 0.0)
+        } else {
+            (coefficients.rate_gain, coefficients.position_gain)
+        };
+        let mut right = equations.forces.clone();
+        right
+            .extend((0..equations.phi.len()).map(|k| {
+                equations.gamma[k] - gain * equations.rate[k] - square * equations.phi[k]
+            }));
+        let (wanted, round_off) = system.solve(&right);
+        let accelerations = reduced.solve(terms).accelerations;
+        let arena = &reduced.scene.space.arena;
+        let second = inputs.values(arena, &accelerations);
+        let input = |input: Input| {
+            let at = |values: &[f64], rates: &[f64], k: u32| {
+                let k = k as usize;
+                Some((*values.get(k)?, *rates.get(k)?))
+            };
+            match input {
+                Input::Coordinate(k) => at(&inputs.coordinates, &moving, k),
+                Input::Velocity(k) => at(&inputs.velocities, &second, k),
+                _ => None,
+            }
+        };
+        let mut found = Vec::new();
+        for (chart, body) in reduced.charts.iter().zip(&model.bodies) {
+            found.extend(rates(arena, &chart.velocity, input).iter().map(|x| x.1));
+            if body.kind == BodyKind::Rigid {
+                found.extend(rates(arena, &chart.spin, input).iter().map(|x| x.1));
+            }
+        }
+        if model.symbols.is_empty() {
+            let own = in_axes(model, &found, false);
+            let relative = difference(&own, &wanted[..own.len()]) / round_off;
+            if relative > TOLERANCE || relative.is_nan() {
+                return Err(format!(
+                    "joint coordinates, {strategy:?}, {terms:?}: {own:?}\nwanted: {wanted:?}\ndifference over condition {relative:e}, {round_off:e}\nin {coordinates:?} {rates_of_joints:?}"
+                ));
+            }
+            self.statistics.worst = self.statistics.worst.max(relative);
+            self.statistics.solutions += 1;
+        }
+        Ok(())
+    }
+}
