@@ -96,7 +96,8 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// | `slide axis` | a translation along `axis` |
 /// | `ball at point` | every rotation about `point`: three motions |
 ///
-/// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a `Point`, as they are in the described configuration. A joint connects one or more
+/// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a `Point`, as they are in the described configuration. Motions that
+/// are not those that the equations leave are refused, where that can be told without a mechanism. A joint connects one or more
 /// bodies; the `ground` of a mechanism may be any of them.
 ///
 /// The joint's reaction is `-D^T lambda`, whatever the units of its equations are. What a good equation looks like, and a joint in use:

@@ -63,7 +63,7 @@ fn element(tokens: TokenStream, kind: ElementKind) -> TokenStream {
         let Some(syntax) = syntax::joint::parse(tokens.collect(), kind, &mut faults) else {
             return faults.into_tokens();
         };
-        let definition = check::joint::check(&syntax, &mut faults);
+        let definition = check::joint::define(&syntax, &mut faults);
         let items = emit::joint::emit(&syntax, definition.as_ref(), &facade);
         let errors = faults.into_tokens();
         quote!(#errors #items)

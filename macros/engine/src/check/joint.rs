@@ -2,10 +2,12 @@
 
 use std::cell::Cell;
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 use quote::ToTokens;
+use syn::spanned::Spanned;
 
 use super::expression::{Context, Shaped, extent, too_large};
+use super::moves;
 use crate::diag::{Faults, did_you_mean, list};
 use crate::model::{
     Action, ElementKind, Extent, JointDef, Motion, Parameter, ParameterKind, Row, Term, Turn,
@@ -28,8 +30,20 @@ const RESERVED: [&str; 10] = [
     "time",
 ];
 
-/// Checks a definition. `None` if anything is wrong; the faults say what.
+/// Checks a definition where it stands, and what it says of motions against its equations. `None` if anything is wrong; the faults say
+/// what.
+pub fn define(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
+    let (joint, places) = read(syntax, faults)?;
+    moves::check(syntax, &joint, &places, faults).then_some(joint)
+}
+
+/// Checks a definition that may have come from elsewhere, where its motions were looked at. `None` if anything is wrong; the faults say what.
 pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
+    read(syntax, faults).map(|(joint, _)| joint)
+}
+
+/// A definition, and where its constraints are written.
+fn read(syntax: &JointSyntax, faults: &mut Faults) -> Option<(JointDef, Vec<Span>)> {
     if !syntax.is_complete {
         return None;
     }
@@ -47,6 +61,7 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
             left: Cell::new(Extent::MOST.size),
         },
         rows: Vec::new(),
+        places: Vec::new(),
         actions: Vec::new(),
         angle: None,
         displacement: None,
@@ -62,6 +77,7 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
     }
     let Reader {
         rows,
+        places,
         actions,
         angle,
         displacement,
@@ -110,7 +126,7 @@ pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
             span: syntax.name.span(),
         };
         joint.turns = turns(&joint);
-        joint
+        (joint, places)
     })
 }
 
@@ -145,6 +161,8 @@ struct Reader<'a> {
     syntax: &'a JointSyntax,
     context: Context<'a>,
     rows: Vec<Row>,
+    /// Where they are written.
+    places: Vec<Span>,
     actions: Vec<Action>,
     angle: Option<Turn>,
     displacement: Option<Term>,
@@ -218,6 +236,7 @@ impl Reader<'_> {
                         .all(|term| self.must_move(term, expr, "this equation", faults))
                 {
                     self.rows.extend(shaped.rows());
+                    self.places.resize(self.rows.len(), expr.span());
                 }
             }
             Statement::Angle { keyword, axis } => self.read_angle(keyword, axis, faults),
@@ -247,6 +266,7 @@ impl Reader<'_> {
                     self.drive = Some(self.rows.iter().map(Row::equations).sum());
                     let difference = Term::Sum(vec![(false, driven), (true, law)]);
                     self.rows.push(Row::Scalar(difference));
+                    self.places.push(keyword.span());
                 }
             }
             Statement::Potential(keyword, written) => {

@@ -425,6 +425,6 @@ fn uses(joint: &JointDef, body: usize) -> Vec<(usize, ParameterKind)> {
 }
 
 /// "1 body", "2 bodies".
-fn plural(count: usize, one: &str, many: &str) -> String {
+pub(super) fn plural(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }

@@ -9,6 +9,7 @@ pub mod kinds;
 mod laws;
 pub mod mechanism;
 mod motion;
+mod moves;
 pub mod number;
 pub mod pairs;
 mod redundant;

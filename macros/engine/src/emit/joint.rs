@@ -4,7 +4,7 @@ use proc_macro2::{Literal, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use crate::diag::list;
-use crate::model::{BodyKind, ElementKind, JointDef, Term};
+use crate::model::{BodyKind, Direction, ElementKind, JointDef, Motion, Term};
 use crate::syntax::joint::{JointSyntax, Statement};
 use crate::wire;
 
@@ -127,8 +127,38 @@ fn documentation(joint: &JointDef) -> TokenStream {
              configuration{turns}."
         ));
     }
+    if let Some(motions) = &joint.motions {
+        let (i, j) = (&joint.bodies[0], &joint.bodies[1]);
+        let motions = motions.iter().map(|motion| self::motion(joint, *motion));
+        lines.push(String::new());
+        lines.push(match motions.len() {
+            0 => format!("`{j}` does not move against `{i}`."),
+            _ => format!(
+                "`{j}` moves against `{i}` by {}; each carries those behind it.",
+                list(motions)
+            ),
+        });
+    }
     let lines = lines.iter().map(|line| format!(" {line}"));
     quote!(#( #[doc = #lines] )*)
+}
+
+/// A motion as it is written.
+fn motion(joint: &JointDef, motion: Motion) -> String {
+    let name = |parameter: usize| &joint.parameters[parameter].name;
+    let direction = |of: Direction| {
+        let normal = match of.normal {
+            None => "",
+            Some(0) => ".normal()",
+            Some(_) => ".binormal()",
+        };
+        format!("{}{normal}", name(of.parameter))
+    };
+    match motion {
+        Motion::Turn { axis, point } => format!("turn {} at {}", direction(axis), name(point)),
+        Motion::Slide { along } => format!("slide {}", direction(along)),
+        Motion::Ball { point } => format!("ball at {}", name(point)),
+    }
 }
 
 /// The word for a kind of body in the run-time crate.

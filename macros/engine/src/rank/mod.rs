@@ -17,8 +17,10 @@ mod assemble;
 mod choice;
 mod contradiction;
 mod dense;
+mod displacement;
 mod geometry;
 mod motion;
+pub mod moves;
 mod normal;
 mod tour;
 
@@ -332,15 +334,15 @@ fn place_of(layout: &Layout, row: usize) -> (usize, usize) {
 }
 
 /// Numbers without a pattern, the same at every expansion (Marsaglia's xorshift).
-struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self(0x9e37_79b9_7f4a_7c15)
     }
 
     /// Between -1 and 1.
-    fn number(&mut self) -> f64 {
+    pub(crate) fn number(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;

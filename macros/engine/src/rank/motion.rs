@@ -4,8 +4,10 @@
 
 use super::TOLERANCE;
 use super::dense::{Rows, norm, transposed};
+use super::displacement::{Twist, apply};
 use super::geometry::{along_screw, length, turned};
 use super::normal::solve_normal;
+use crate::model::inertia::IDENTITY;
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{Block, Kernel, counter_rates, counters, initial_state, jacobian, rows};
@@ -58,7 +60,7 @@ pub(super) struct Constraints {
     /// linear function of time are not known.
     pub(super) breaks: Vec<f64>,
     /// The size of the mechanism (m).
-    length: f64,
+    pub(super) length: f64,
     /// The size of each row's gradient near the start; `None` for a row that vanishes everywhere.
     pub(super) sizes: Vec<Option<f64>>,
     /// What the size of a row is at least: that of an angle, a length or a squared length.
@@ -326,6 +328,51 @@ impl Constraints {
             }
         }
         moved
+    }
+
+    /// Whether a body has an orientation.
+    pub(super) fn kind(&self, body: usize) -> BodyKind {
+        self.kinds[body]
+    }
+
+    /// Where a body is.
+    pub(super) fn pose(&self, at: &Configuration, body: usize) -> ([f64; 3], [f64; 4]) {
+        let q = self.layout.coordinate[body];
+        let position = [0, 1, 2].map(|k| at.coordinates[q + k]);
+        match self.kinds[body] {
+            BodyKind::Rigid => (position, [3, 4, 5, 6].map(|k| at.coordinates[q + k])),
+            BodyKind::Particle => (position, IDENTITY),
+        }
+    }
+
+    /// Puts a body somewhere else.
+    pub(super) fn place(
+        &self,
+        at: &mut Configuration,
+        body: usize,
+        (position, orientation): ([f64; 3], [f64; 4]),
+    ) {
+        let q = self.layout.coordinate[body];
+        at.coordinates[q..q + 3].copy_from_slice(&position);
+        if self.kinds[body] == BodyKind::Rigid {
+            at.coordinates[q + 3..q + 7].copy_from_slice(&orientation);
+        }
+    }
+
+    /// The motion without dimension of a body that moves by a twist; the others are at rest.
+    pub(super) fn velocity_of(&self, at: &Configuration, body: usize, twist: &Twist) -> Vec<f64> {
+        let (position, [e0, e1, e2, e3]) = self.pose(at, body);
+        let u = self.layout.velocity[body];
+        let mut motion = vec![0.0; self.layout.velocities];
+        for (x, velocity) in motion[u..].iter_mut().zip(twist.at(position)) {
+            *x = velocity / self.length;
+        }
+        if self.kinds[body] == BodyKind::Rigid {
+            // In axes of the body.
+            let spin = apply([e0, -e1, -e2, -e3], twist.spin);
+            motion[u + 3..u + 6].copy_from_slice(&spin);
+        }
+        motion
     }
 
     /// Auxiliary variables as the angles that they count.

@@ -68,7 +68,7 @@ fn motion(piece: &Piece, is_alone: bool, faults: &mut Faults) -> Option<MotionSy
         Some(other) => {
             faults.at(
                 other,
-                "expected a motion: `turn axis at point`, `slide axis` or `ball at point`, or `none`",
+                "expected `turn axis at point`, `slide axis`, `ball at point` or `none`",
             );
             return None;
         }
