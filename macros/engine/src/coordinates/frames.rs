@@ -79,6 +79,19 @@ impl Frames {
         self.frames[frame.0].0
     }
 
+    /// Whether a frame is at rest in the one that it is based on.
+    pub(super) fn is_fixed(&self, frame: FrameId) -> bool {
+        matches!(self.frames[frame.0].1, Turn::Fixed(_))
+    }
+
+    /// Axis, cosine and sine of a frame that turns about a coordinate axis.
+    pub(super) fn pair(&self, frame: FrameId) -> Option<(usize, Expr, Expr)> {
+        match self.frames[frame.0].1 {
+            Turn::About(axis, c, s) => Some((axis, c, s)),
+            Turn::Fixed(_) | Turn::Free(_) => None,
+        }
+    }
+
     /// Whether a frame is another one or turns with it.
     #[must_use]
     pub fn follows(&self, mut frame: FrameId, other: FrameId) -> bool {

@@ -136,12 +136,12 @@ impl Links {
         links
     }
 
-    fn frame_of(&self, link: Option<usize>) -> FrameId {
+    pub(super) fn frame_of(&self, link: Option<usize>) -> FrameId {
         link.map_or(Frames::GROUND, |link| self.links[link].frame)
     }
 
     /// The rotation from global axes in the reference configuration to a frame.
-    fn rotation_into(&self, frame: FrameId) -> [Triple; 3] {
+    pub(super) fn rotation_into(&self, frame: FrameId) -> [Triple; 3] {
         self.from_global[frame.place()]
     }
 

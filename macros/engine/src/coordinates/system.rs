@@ -59,7 +59,8 @@ impl Reduced {
         let motion = Kinematics::new(&mut arena, &links, ZERO);
         let charts = charts(&mut arena, model, &links, &motion);
         let first_counter = 2 * links.turns + links.rest;
-        let scene = Scene::on(model, arena, &charts, first_counter, false);
+        let known = |arena: &mut Arena, bodies, axis| links.angle(arena, bodies, axis);
+        let scene = Scene::on(model, arena, &charts, first_counter, false, &known);
         Self {
             links,
             scene,
@@ -107,7 +108,9 @@ impl Reduced {
                 taken.plus(arena, wrenches[link])
             })
             .collect();
-        links.project(arena, taken)
+        let mut generalised = links.project(arena, taken);
+        applied.add_along(arena, &mut generalised);
+        generalised
     }
 
     /// The rows that remain: `D` along the velocities, and `gamma*`.
@@ -124,7 +127,9 @@ impl Reduced {
                 let known = self.known(&motion, &gradient);
                 let arena = &mut self.scene.space.arena;
                 right.push(arena.sub(wanted, known));
-                rows.push(self.links.project(arena, wrenches));
+                let mut row = self.links.project(arena, wrenches);
+                gradient.add_along(arena, &mut row);
+                rows.push(row);
             }
         }
         (rows, right)

@@ -1,8 +1,8 @@
 //! Definitions bound to the bodies and numbers of a mechanism.
 
 use super::arena::{Arena, Expr, Input};
-use super::fixed::{Copies, copies, number};
-use super::functions::AngleExpr;
+use super::fixed::{Copies, axis_and_normals, copies, number, triple};
+use super::functions::{AngleExpr, PairedAngles};
 use super::start;
 use super::twist::{ScalarExpr, VectorExpr};
 use super::vector::{Triple, ZERO};
@@ -46,6 +46,8 @@ pub(super) struct Binder<'a> {
     pub(super) copies: &'a [Option<Copies>],
     /// The place of its first auxiliary variable in the state.
     pub(super) first_counter: usize,
+    /// Angles that the coordinates hold as pairs.
+    pub(super) paired: &'a PairedAngles<'a>,
 }
 
 impl Binder<'_> {
@@ -212,7 +214,18 @@ impl Binder<'_> {
                 Box::new(self.normal(axis, to, 0)),
             )
         };
+        // Axes given body by body need not be parallel in the reference configuration.
+        let paired = match self.element.bindings[axis] {
+            Binding::Global(given) => {
+                let given = triple(arena, given);
+                let [axis, ..] = axis_and_normals(arena, given);
+                let bodies = [from, to].map(|body| self.element.bodies[body]);
+                (self.paired)(arena, bodies, axis)
+            }
+            _ => None,
+        };
         AngleExpr {
+            paired,
             sine: dot(1),
             cosine: dot(0),
             // An angle that stands within `initial` alone has none: it is zero there.

@@ -1,8 +1,8 @@
 //! Functions of scalars and their derivatives.
 
-use super::arena::{Arena, Expr};
+use super::arena::{Arena, Expr, Input};
 use super::twist::{Gradient, Motion, ScalarExpr};
-use super::vector::Space;
+use super::vector::{Space, Triple};
 use crate::model::Function;
 
 impl Function {
@@ -108,6 +108,59 @@ pub struct AngleExpr {
     pub cosine: ScalarExpr,
     /// The auxiliary variable that counts turns.
     pub near: Expr,
+    /// The angle by the coordinates, where these hold it.
+    pub paired: Option<PairedAngle>,
+}
+
+/// An angle whose cosine and sine are known by pairs of the coordinates, its rate by velocities.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PairedAngle {
+    cosine: Expr,
+    sine: Expr,
+    /// The velocities that it is the integral of, each with a factor.
+    along: Vec<(usize, Expr)>,
+}
+
+/// What knows an angle by the coordinates: that of the second body against the first about an axis, which is given in the reference configuration by
+/// a vector of unit length.
+pub(crate) type PairedAngles<'a> =
+    dyn Fn(&mut Arena, [Option<usize>; 2], Triple) -> Option<PairedAngle> + 'a;
+
+impl PairedAngle {
+    /// Of two bodies that do not turn against each other.
+    pub const ZERO: Self = Self {
+        cosine: Arena::ONE,
+        sine: Arena::ZERO,
+        along: Vec::new(),
+    };
+
+    /// The angle and another one, forwards or backwards (`sign` is 1 or -1).
+    #[must_use]
+    pub fn plus(
+        mut self,
+        arena: &mut Arena,
+        velocity: usize,
+        cosine: Expr,
+        sine: Expr,
+        sign: Expr,
+    ) -> Self {
+        let sine = arena.mul(sign, sine);
+        let (cc, ss) = (arena.mul(self.cosine, cosine), arena.mul(self.sine, sine));
+        let (sc, cs) = (arena.mul(self.sine, cosine), arena.mul(self.cosine, sine));
+        self.cosine = arena.sub(cc, ss);
+        self.sine = arena.add(sc, cs);
+        self.along.push((velocity, sign));
+        self
+    }
+
+    fn rate(&self, arena: &mut Arena) -> Expr {
+        let terms = self.along.iter().map(|&(velocity, sign)| {
+            let rate = arena.input(Input::Velocity(velocity as u32));
+            arena.mul(sign, rate)
+        });
+        let terms: Vec<Expr> = terms.collect();
+        arena.sum(terms)
+    }
 }
 
 impl AngleExpr {
@@ -126,6 +179,9 @@ impl AngleExpr {
 
     /// `(c s' - s c') / (c^2 + s^2)`.
     pub fn rate(&self, space: &mut Space, motion: &Motion) -> Expr {
+        if let Some(paired) = &self.paired {
+            return paired.rate(&mut space.arena);
+        }
         let (s, c) = self.parts(space, motion);
         let (ds, dc) = (
             self.sine.rate(space, motion),
@@ -140,6 +196,9 @@ impl AngleExpr {
 
     /// `(c s'' - s c'' - 2 angle' (c c' + s s')) / (c^2 + s^2)` without accelerations.
     pub fn quadratic(&self, space: &mut Space, motion: &Motion) -> Expr {
+        if self.paired.is_some() {
+            return Arena::ZERO;
+        }
         let (s, c) = self.parts(space, motion);
         let rate = self.rate(space, motion);
         let (ds, dc) = (
@@ -170,6 +229,13 @@ impl AngleExpr {
         seed: Expr,
         gradient: &mut Gradient,
     ) {
+        if let Some(paired) = &self.paired {
+            for &(velocity, sign) in &paired.along {
+                let factor = space.arena.mul(sign, seed);
+                gradient.push_along(velocity, factor);
+            }
+            return;
+        }
         let (s, c) = self.parts(space, motion);
         let inverse = inverse_square(&mut space.arena, s, c);
         let seed = space.arena.mul(seed, inverse);
@@ -179,6 +245,9 @@ impl AngleExpr {
     }
 
     fn parts(&self, space: &mut Space, motion: &Motion) -> (Expr, Expr) {
+        if let Some(PairedAngle { cosine, sine, .. }) = &self.paired {
+            return (*sine, *cosine);
+        }
         (
             self.sine.value(space, motion),
             self.cosine.value(space, motion),

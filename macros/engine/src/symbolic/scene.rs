@@ -3,7 +3,7 @@
 use super::arena::{Arena, Expr, Input};
 use super::bind::{Binder, Effect, all_copies};
 use super::fixed::{Copies, number, triple};
-use super::functions::AngleExpr;
+use super::functions::{AngleExpr, PairedAngles};
 use super::identities::from_centres;
 use super::kept::kept;
 use super::twist::{Gradient, Motion, ScalarExpr, VectorExpr};
@@ -238,16 +238,25 @@ impl Scene {
             }
             charts.push(chart);
         }
-        Self::on(model, arena, &charts, layout.coordinates, exact)
+        Self::on(
+            model,
+            arena,
+            &charts,
+            layout.coordinates,
+            exact,
+            &|_, _, _| None,
+        )
     }
 
-    /// The scene of a model whose bodies move as some charts say; `first_counter` is the coordinate of the first auxiliary variable.
+    /// The scene of a model whose bodies move as some charts say; `first_counter` is the coordinate of the first auxiliary variable, and `paired` knows
+    /// angles by the pairs of the coordinates.
     pub(crate) fn on(
         model: &Model,
         mut arena: Arena,
         charts: &[Chart],
         first_counter: usize,
         exact: bool,
+        paired: &PairedAngles<'_>,
     ) -> Self {
         let layout = model.layout();
         let mass = model
@@ -297,6 +306,7 @@ impl Scene {
                 element,
                 copies: &copies[place],
                 first_counter: first_counter + counters.len(),
+                paired,
             };
             let arena = &mut space.arena;
             // Forces, which stand behind the joints, have no rows.

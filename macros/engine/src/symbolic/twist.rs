@@ -78,6 +78,8 @@ impl Motion {
 pub struct Gradient {
     force: BTreeMap<usize, Vec<(Expr, VectorId)>>,
     moment: BTreeMap<usize, Vec<(Expr, VectorId)>>,
+    /// What is along a velocity by itself, not by way of a body.
+    along: Vec<(usize, Expr)>,
 }
 
 impl Gradient {
@@ -85,6 +87,18 @@ impl Gradient {
     pub fn add_moment(&mut self, body: usize, moment: VectorId) {
         let moments = self.moment.entry(body).or_default();
         moments.push((Arena::ONE, moment));
+    }
+
+    /// Adds a generalised force on a velocity.
+    pub(super) fn push_along(&mut self, velocity: usize, factor: Expr) {
+        self.along.push((velocity, factor));
+    }
+
+    /// Adds what is along velocities by itself to the generalised forces on them.
+    pub(crate) fn add_along(&self, arena: &mut Arena, generalised: &mut [Expr]) {
+        for &(velocity, factor) in &self.along {
+            generalised[velocity] = arena.add(generalised[velocity], factor);
+        }
     }
 
     /// The factor of `dr` of a body.

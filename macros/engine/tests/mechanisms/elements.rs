@@ -230,6 +230,9 @@ impl Generator {
                     let pitch = 0.1 + self.dice.number().abs();
                     entries.push(("pitch".into(), self.number(pitch)));
                 }
+                if matches!(ty, "Revolute" | "Cylindrical" | "Planar") {
+                    self.hinges.push((pair, direction));
+                }
                 if ty == "DisplacementDriver" {
                     entries.push(("motion".into(), self.law(&[])));
                 }
@@ -268,7 +271,7 @@ impl Generator {
         &mut self,
         pair: [Option<usize>; 2],
     ) -> Option<(&'static str, Bodies, Entries)> {
-        let pair = if self.is_particle(pair[0]) {
+        let mut pair = if self.is_particle(pair[0]) {
             [pair[1], pair[0]]
         } else {
             pair
@@ -306,7 +309,19 @@ impl Generator {
                 entries.push(("tail".into(), written));
             }
             "TorsionalSpringDamper" | "TorsionalActuator" => {
-                let direction = self.direction();
+                let mut direction = self.direction();
+                if !self.hinges.is_empty() && self.dice.below(4) > 0 {
+                    // At a hinge, as joints are moved; either body may come first, and the axis may be turned.
+                    let chosen = self.dice.below(self.hinges.len());
+                    (pair, direction) = self.hinges[chosen];
+                    if self.dice.below(2) == 0 {
+                        pair.swap(0, 1);
+                    }
+                    if self.dice.below(2) == 0 {
+                        direction = direction.map(|x| -x);
+                    }
+                    bodies = pair.into();
+                }
                 entries.push(self.axis("axis", direction, &bodies));
             }
             _ => {

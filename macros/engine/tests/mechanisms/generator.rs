@@ -111,6 +111,8 @@ pub(crate) struct Generator {
     is_simple: bool,
     /// The axis of all joints, in a mechanism that moves in a plane.
     plane: Option<[f64; 3]>,
+    /// The axes of hinges, and their bodies.
+    pub(crate) hinges: Vec<([Option<usize>; 2], [f64; 3])>,
 }
 
 impl Generator {
@@ -139,6 +141,7 @@ impl Generator {
             run_time,
             is_simple,
             plane,
+            hinges: Vec::new(),
         }
     }
 
