@@ -12,16 +12,25 @@ use crate::symbolic::count::count;
 pub struct Strategy {
     /// How runs of parallel axes are described: a part of what the state is.
     pub runs: Runs,
+    /// Whether motions are solved for link by link, by articulated inertias, where no equations remain; else by the mass matrix.
+    pub is_articulated: bool,
 }
 
 impl Strategy {
     /// All of them.
-    pub const ALL: [Self; 2] = [
-        Self {
-            runs: Runs::Relative,
-        },
-        Self { runs: Runs::Shared },
+    pub const ALL: [Self; 4] = [
+        Self::new(Runs::Relative, false),
+        Self::new(Runs::Shared, false),
+        Self::new(Runs::Relative, true),
+        Self::new(Runs::Shared, true),
     ];
+
+    const fn new(runs: Runs, is_articulated: bool) -> Self {
+        Self {
+            runs,
+            is_articulated,
+        }
+    }
 }
 
 /// The cheapest for constraints without stabilisation.

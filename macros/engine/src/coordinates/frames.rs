@@ -1,6 +1,7 @@
 //! Axes that turn against each other: a tree of frames, and what it takes to bring components from one to another.
 
 use crate::symbolic::arena::{Arena, Expr};
+use crate::symbolic::fixed::transpose;
 use crate::symbolic::scene::normalised_rotation;
 use crate::symbolic::vector::{Triple, dot};
 
@@ -121,36 +122,72 @@ impl Frames {
         v
     }
 
-    /// The components of a symmetric tensor in the base of its frame.
-    fn tensor_up(&self, arena: &mut Arena, t: Tensor, frame: FrameId) -> Tensor {
-        match self.frames[frame.0].1 {
-            Turn::About(axis, c, s) => about_tensor(arena, t, axis, c, s),
-            Turn::Fixed(rows) | Turn::Free(rows) => {
-                // `R t R^T`: first the columns of `t` turned, then the rows of that.
-                let half = t.map(|row| rows.map(|turned| dot(arena, turned, row)));
-                let mut result = t;
-                for k in 0..3 {
-                    for l in k..3 {
-                        let column = [half[0][l], half[1][l], half[2][l]];
-                        result[k][l] = dot(arena, rows[k], column);
-                        result[l][k] = result[k][l];
-                    }
-                }
-                result
+    /// The steps from a frame to another: up to the base of a frame, or down to the frame.
+    fn steps(&self, from: FrameId, to: FrameId) -> Vec<(FrameId, bool)> {
+        let (mut from, mut to) = (from, to);
+        let (mut steps, mut down) = (Vec::new(), Vec::new());
+        while from != to {
+            if from > to {
+                steps.push((from, true));
+                from = self.base(from);
+            } else {
+                down.push((to, false));
+                to = self.base(to);
             }
         }
+        steps.extend(down.into_iter().rev());
+        steps
     }
 
-    /// The components of a symmetric tensor in a frame that its own one is based on, directly or not.
+    /// The components of a symmetric tensor in another frame.
     pub fn tensor(&self, arena: &mut Arena, t: Tensor, from: FrameId, to: FrameId) -> Tensor {
-        let (mut t, mut from) = (t, from);
-        while from != to {
-            assert!(
-                from > to,
-                "tensors are handed on from the leaves to the root"
-            );
-            t = self.tensor_up(arena, t, from);
-            from = self.base(from);
+        let mut t = t;
+        for (frame, is_up) in self.steps(from, to) {
+            t = match self.frames[frame.0].1 {
+                Turn::About(axis, c, s) => {
+                    about_tensor(arena, t, axis, c, if is_up { s } else { -s })
+                }
+                Turn::Fixed(rows) | Turn::Free(rows) => {
+                    let rows = if is_up { rows } else { transpose(rows) };
+                    // `R t R^T`: first the columns of `t` turned, then the rows of that.
+                    let half = t.map(|row| rows.map(|turned| dot(arena, turned, row)));
+                    let mut result = t;
+                    for k in 0..3 {
+                        for l in k..3 {
+                            let column = [half[0][l], half[1][l], half[2][l]];
+                            result[k][l] = dot(arena, rows[k], column);
+                            result[l][k] = result[k][l];
+                        }
+                    }
+                    result
+                }
+            };
+        }
+        t
+    }
+
+    /// The components of any tensor in another frame.
+    pub fn matrix(
+        &self,
+        arena: &mut Arena,
+        t: [Triple; 3],
+        from: FrameId,
+        to: FrameId,
+    ) -> [Triple; 3] {
+        let mut t = t;
+        for (frame, is_up) in self.steps(from, to) {
+            t = match self.frames[frame.0].1 {
+                Turn::About(axis, c, s) => {
+                    about_matrix(arena, t, axis, c, if is_up { s } else { -s })
+                }
+                Turn::Fixed(rows) | Turn::Free(rows) => {
+                    let rows = if is_up { rows } else { transpose(rows) };
+                    let half = t.map(|row| rows.map(|turned| dot(arena, turned, row)));
+                    let columns =
+                        transpose(half).map(|column| rows.map(|row| dot(arena, row, column)));
+                    transpose(columns)
+                }
+            };
         }
         t
     }
@@ -192,6 +229,29 @@ pub fn about(arena: &mut Arena, v: Triple, axis: usize, c: Expr, s: Expr) -> Tri
     let mut turned = v;
     turned[i] = arena.sub(ci, sj);
     turned[j] = arena.add(si, cj);
+    turned
+}
+
+/// A tensor turned about a coordinate axis; the block across it by the double angle.
+fn about_matrix(arena: &mut Arena, t: [Triple; 3], axis: usize, c: Expr, s: Expr) -> [Triple; 3] {
+    let (i, j) = across(axis);
+    let mut turned = t;
+    let (difference, sum) = (arena.sub(t[i][i], t[j][j]), arena.add(t[i][j], t[j][i]));
+    let (ss, cs) = (arena.square(s), arena.mul(c, s));
+    let (a, b) = (arena.mul(ss, difference), arena.mul(cs, sum));
+    let shift = arena.add(a, b);
+    turned[i][i] = arena.sub(t[i][i], shift);
+    turned[j][j] = arena.add(t[j][j], shift);
+    let (a, b) = (arena.mul(cs, difference), arena.mul(ss, sum));
+    let shift = arena.sub(a, b);
+    turned[i][j] = arena.add(t[i][j], shift);
+    turned[j][i] = arena.add(t[j][i], shift);
+    let column = about(arena, [t[0][axis], t[1][axis], t[2][axis]], axis, c, s);
+    let row = about(arena, t[axis], axis, c, s);
+    for k in [i, j] {
+        turned[k][axis] = column[k];
+        turned[axis][k] = row[k];
+    }
     turned
 }
 

@@ -2,6 +2,7 @@
 
 mod algebra;
 mod angles;
+mod articulated;
 pub mod candidates;
 pub mod frames;
 pub mod from_bodies;

@@ -25,6 +25,8 @@ pub struct Reduced {
     pub scene: Scene,
     /// Of the bodies.
     pub charts: Vec<Chart>,
+    /// How they are solved.
+    strategy: Strategy,
 }
 
 /// The solution of the equations of motion.
@@ -50,12 +52,12 @@ impl Reduced {
         if strategy.runs == Runs::Shared {
             links.share_axes();
         }
-        Self::new(arena, &spanning.remaining(model), links)
+        Self::new(arena, &spanning.remaining(model), links, strategy)
     }
 
     /// A mechanism whose joints of the tree have no equations any more.
     #[must_use]
-    pub fn new(mut arena: Arena, model: &Model, links: Links) -> Self {
+    pub fn new(mut arena: Arena, model: &Model, links: Links, strategy: Strategy) -> Self {
         let motion = Kinematics::new(&mut arena, &links, ZERO);
         let charts = charts(&mut arena, model, &links, &motion);
         let first_counter = 2 * links.turns + links.rest;
@@ -65,6 +67,7 @@ impl Reduced {
             links,
             scene,
             charts,
+            strategy,
         }
     }
 
@@ -94,8 +97,8 @@ impl Reduced {
         wrenches
     }
 
-    /// Gravity, forces of the language and what the motion takes, along the velocities.
-    fn forces(&mut self) -> Vec<Expr> {
+    /// Gravity, forces of the language and what the motion takes, as wrenches on the links, and efforts along the velocities.
+    fn forces(&mut self) -> (Vec<Wrench>, Vec<Expr>) {
         let applied = self.scene.applied();
         let wrenches = self.wrenches(&applied);
         let Self { links, scene, .. } = self;
@@ -108,9 +111,9 @@ impl Reduced {
                 taken.plus(arena, wrenches[link])
             })
             .collect();
-        let mut generalised = links.project(arena, taken);
-        applied.add_along(arena, &mut generalised);
-        generalised
+        let mut efforts = vec![Arena::ZERO; links.velocities];
+        applied.add_along(arena, &mut efforts);
+        (taken, efforts)
     }
 
     /// The rows that remain: `D` along the velocities, and `gamma*`.
@@ -168,11 +171,21 @@ impl Reduced {
 
     /// Rates of the velocities, and multipliers.
     pub fn solve(&mut self, terms: Terms) -> Solution {
-        let mut right = self.forces();
-        let mass = {
-            let Self { links, scene, .. } = self;
-            links.mass_matrix(&mut scene.space.arena)
-        };
+        let (wrenches, efforts) = self.forces();
+        let Self { links, scene, .. } = self;
+        let arena = &mut scene.space.arena;
+        if self.strategy.is_articulated && scene.constraints.is_empty() {
+            return Solution {
+                accelerations: links.articulated(arena, &wrenches, &efforts),
+                multipliers: Vec::new(),
+                checks: Vec::new(),
+            };
+        }
+        let mut right = links.project(arena, wrenches);
+        for (force, effort) in right.iter_mut().zip(efforts) {
+            *force = arena.add(*force, effort);
+        }
+        let mass = links.mass_matrix(arena);
         let (rows, gamma) = self.rows(terms);
         right.extend(gamma);
         let velocities = self.links.velocities;
