@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 
 use crate::model::number::literals;
-use crate::model::{Binding, BodyKind, Direction, JointUse, Model, Motion, ParameterKind};
+use crate::model::{Binding, BodyKind, Direction, JointUse, Model, Motion, ParameterKind, Rank};
 
 /// A body and what it moves by.
 #[derive(Clone, Debug)]
@@ -94,10 +94,26 @@ impl Spanning {
         Self { carried, closing }
     }
 
-    /// The mechanism without the equations of the joints that carry.
+    /// How many of the equations that remain are independent, where that is known and not all of them need be.
+    pub(super) fn independent(&self, model: &Model) -> Option<usize> {
+        let Rank::Decided { rank, .. } = model.independence.rank else {
+            return None;
+        };
+        let carrying = self.carried.iter().filter_map(|carried| carried.joint);
+        let hold = carrying.map(|joint| model.definition(&model.joints[joint]).equations());
+        let wanted = rank.saturating_sub(hold.sum());
+        model.independence.dropped.then_some(wanted)
+    }
+
+    /// The mechanism without the equations of the joints that carry, and with all others.
     #[must_use]
     pub fn remaining(&self, model: &Model) -> Model {
         let mut model = model.clone();
+        // What follows from what is another question where some equations hold by themselves.
+        model
+            .joints
+            .iter_mut()
+            .for_each(|joint| joint.dropped.clear());
         for joint in self.carried.iter().filter_map(|carried| carried.joint) {
             let equations = model.definition(&model.joints[joint]).equations();
             model.joints[joint].dropped = (0..equations).collect();

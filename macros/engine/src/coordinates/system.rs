@@ -11,6 +11,7 @@ use crate::model::{BodyKind, Model};
 use crate::plan::Pivot;
 use crate::plan::eliminate::{Check, Symmetric, factorise};
 use crate::plan::system::Terms;
+use crate::rank::closing;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::scene::{Chart, Scene};
 use crate::symbolic::twist::Gradient;
@@ -25,6 +26,8 @@ pub struct Reduced {
     pub scene: Scene,
     /// Of the bodies.
     pub charts: Vec<Chart>,
+    /// The equations of each joint that are left out, of those that remain.
+    pub dropped: Vec<Vec<usize>>,
     /// How they are solved.
     strategy: Strategy,
 }
@@ -52,7 +55,54 @@ impl Reduced {
         if strategy.runs == Runs::Shared {
             links.share_axes();
         }
-        Self::new(arena, &spanning.remaining(model), links, strategy)
+        let mut remaining = spanning.remaining(model);
+        let mut reduced = Self::new(arena.clone(), &remaining, links.clone(), strategy);
+        // Nothing can be done about these, and where they hold nothing need be.
+        let mut left_out = reduced.empty_rows(&remaining);
+        let rows = remaining.layout().rows - left_out.len();
+        if spanning
+            .independent(model)
+            .is_some_and(|wanted| wanted < rows)
+        {
+            let mut whole = model.clone();
+            let joints = whole.joints.iter_mut();
+            joints.for_each(|joint| joint.dropped.clear());
+            left_out.extend(closing::following(&whole, &spanning.closing).unwrap_or_default());
+        }
+        if !left_out.is_empty() {
+            for (joint, row) in left_out {
+                let dropped = &mut remaining.joints[joint].dropped;
+                if !dropped.contains(&row) {
+                    dropped.push(row);
+                    dropped.sort_unstable();
+                }
+            }
+            reduced = Self::new(arena, &remaining, links, strategy);
+        }
+        for joint in spanning.closing {
+            reduced.dropped[joint].clone_from(&remaining.joints[joint].dropped);
+        }
+        reduced
+    }
+
+    /// The equations, by joint and place, that no velocity changes.
+    fn empty_rows(&mut self, model: &Model) -> Vec<(usize, usize)> {
+        let mut empty = Vec::new();
+        let (rows, _) = self.rows(Terms::Plain);
+        for constrained in &self.scene.constraints {
+            let joint = constrained.joint;
+            let of_joint = &model.joints[joint];
+            let count = model.definition(of_joint).equations();
+            let mut kept = (0..count).filter(|row| !of_joint.dropped.contains(row));
+            let first = constrained.row - self.scene.layout.row[joint];
+            let own = rows[constrained.row..].iter().take(constrained.equations());
+            for (entries, row) in own.zip(kept.by_ref().skip(first)) {
+                if entries.iter().all(|&entry| entry == Arena::ZERO) {
+                    empty.push((joint, row));
+                }
+            }
+        }
+        empty
     }
 
     /// A mechanism whose joints of the tree have no equations any more.
@@ -67,6 +117,7 @@ impl Reduced {
             links,
             scene,
             charts,
+            dropped: vec![Vec::new(); model.joints.len()],
             strategy,
         }
     }

@@ -15,6 +15,7 @@
 
 mod assemble;
 mod choice;
+pub(crate) mod closing;
 mod contradiction;
 mod dense;
 mod displacement;

@@ -11,7 +11,7 @@ use holonom_engine::symbolic::arena::{Arena, Expr, Input, Node};
 use crate::comparison::{Comparison, difference};
 use crate::inputs::{Coefficients, Inputs, in_axes, transposed, turned, user_axes};
 use crate::reading::Numbers;
-use crate::reference::{State, euler_rates};
+use crate::reference::{Equations, State, euler_rates};
 use crate::solutions::{System, TOLERANCE};
 
 /// Euler parameters of a rotation (Shepperd's method: from the largest of the four).
@@ -109,9 +109,6 @@ impl Comparison<'_> {
         coefficients: Coefficients,
         terms: Terms,
     ) -> Result<(), String> {
-        if self.dropped.contains(&true) {
-            return Ok(());
-        }
         let mut model = self.model.clone();
         // Random definitions need not move as they say.
         for definition in &mut model.definitions {
@@ -157,9 +154,16 @@ impl Comparison<'_> {
             let w = turned(own, [w[0], w[1], w[2]]);
             exact.rates[body].1 = w;
         }
-        let Some(equations) = self.equations(&exact) else {
+        let Some(equations) = Equations::new(self.described, &exact) else {
             return Ok(());
         };
+        // Joints of the tree hold by themselves.
+        let mut dropped = Vec::new();
+        for (joint, left_out) in model.joints.iter().zip(&reduced.dropped) {
+            let rows = model.definition(joint).equations();
+            dropped.extend((0..rows).map(|row| left_out.contains(&row)));
+        }
+        let equations = equations.without(&dropped);
         let Some(system) = System::new(
             &equations,
             if terms == Terms::Compliant {

@@ -1,0 +1,74 @@
+//! Which equations close loops: those of other joints are not in question, because coordinates satisfy them by themselves.
+
+use super::dense::{Rows, independent, orthonormal, remove_all};
+use super::motion::Constraints;
+use super::{Random, TOLERANCE, choice, place_of, tour, walk};
+use crate::model::Model;
+
+/// The equations, by joint and place, of the given joints that follow from those of all others and of each other. Of a model without dropped equations
+/// that no equation of contradicts another; `None` where nothing can be told, because of numbers that the macro cannot see.
+pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, usize)>> {
+    let mut random = Random::new();
+    let (constraints, described) = Constraints::new(model, |velocities| random.motion(velocities))?;
+    let start = constraints.assembled(&described)?;
+    let mut configurations = walk(&constraints, start.clone(), None, &mut random);
+    let mut way = Vec::new();
+    if constraints.is_driven() {
+        let course = tour::course(&constraints, &start, |_| None);
+        way = course.reached[..course.followed].to_vec();
+        configurations.extend(course.reached);
+    }
+    let layout = model.layout();
+    let is_closing: Vec<bool> = (0..layout.rows)
+        .map(|row| closing.contains(&place_of(&layout, row).0))
+        .collect();
+    let stands_out = |rows: &Rows| beside(rows, &is_closing);
+    let directions = configurations
+        .iter()
+        .map(|at| constraints.directions(at, TOLERANCE));
+    let directions: Option<Vec<Rows>> = directions.collect();
+    let left: Vec<Rows> = directions?.iter().map(stands_out).collect();
+    let sets: Vec<Vec<usize>> = left
+        .iter()
+        .map(|rows| independent(std::slice::from_ref(rows), TOLERANCE))
+        .collect();
+    let rank = sets.iter().map(Vec::len).max()?;
+    let regular: Vec<usize> = (0..sets.len()).filter(|&k| sets[k].len() == rank).collect();
+    let among: Vec<Rows> = regular.iter().map(|&k| left[k].clone()).collect();
+    let mut kept = independent(&among, TOLERANCE);
+    if kept.len() < rank {
+        kept.clone_from(&sets[*regular.first()?]);
+    }
+    let rows: Vec<usize> = (0..layout.rows).filter(|&row| is_closing[row]).collect();
+    if rank < rows.len() {
+        let heading = random.motion(layout.velocities);
+        let mut tour = tour::tour(&constraints, &start, heading);
+        // One way through the start.
+        tour.reverse();
+        tour.extend(
+            way.iter()
+                .filter_map(|at| constraints.directions(at, TOLERANCE)),
+        );
+        let tour: Vec<Rows> = tour.iter().map(stands_out).collect();
+        kept = choice::steady(kept, &tour, TOLERANCE);
+    }
+    let following = (0..rows.len()).filter(|place| !kept.contains(place));
+    Some(
+        following
+            .map(|place| place_of(&layout, rows[place]))
+            .collect(),
+    )
+}
+
+/// What is left of the rows that close loops beside all others.
+fn beside(rows: &Rows, is_closing: &[bool]) -> Rows {
+    let of = |wanted: bool| -> Rows {
+        let rows = rows.iter().zip(is_closing);
+        let rows = rows.filter(|(_, is_closing)| **is_closing == wanted);
+        rows.map(|(row, _)| row.clone()).collect()
+    };
+    let others = orthonormal(&of(false), TOLERANCE);
+    let mut rest = of(true);
+    rest.iter_mut().for_each(|row| remove_all(row, &others));
+    rest
+}
