@@ -7,29 +7,40 @@ use crate::plan::system::Terms;
 use crate::symbolic::arena::Stage;
 use crate::symbolic::count::count;
 
+/// How the equations of motion are solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// By the mass matrix, with rows that close loops behind it.
+    MassMatrix,
+    /// Link by link, by articulated inertias, where no equations remain; else like [`Self::MassMatrix`].
+    Articulated,
+    /// By the mass matrix behind the velocities that the rows determine, where these stand out all along a tour of the mechanism and rows have no
+    /// compliance; else like [`Self::MassMatrix`].
+    Dependent,
+}
+
 /// What the candidates differ in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Strategy {
     /// How runs of parallel axes are described: a part of what the state is.
     pub runs: Runs,
-    /// Whether motions are solved for link by link, by articulated inertias, where no equations remain; else by the mass matrix.
-    pub is_articulated: bool,
+    /// How the equations of motion are solved.
+    pub method: Method,
 }
 
 impl Strategy {
     /// All of them.
-    pub const ALL: [Self; 4] = [
-        Self::new(Runs::Relative, false),
-        Self::new(Runs::Shared, false),
-        Self::new(Runs::Relative, true),
-        Self::new(Runs::Shared, true),
+    pub const ALL: [Self; 6] = [
+        Self::new(Runs::Relative, Method::MassMatrix),
+        Self::new(Runs::Shared, Method::MassMatrix),
+        Self::new(Runs::Relative, Method::Articulated),
+        Self::new(Runs::Shared, Method::Articulated),
+        Self::new(Runs::Relative, Method::Dependent),
+        Self::new(Runs::Shared, Method::Dependent),
     ];
 
-    const fn new(runs: Runs, is_articulated: bool) -> Self {
-        Self {
-            runs,
-            is_articulated,
-        }
+    const fn new(runs: Runs, method: Method) -> Self {
+        Self { runs, method }
     }
 }
 

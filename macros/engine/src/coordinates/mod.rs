@@ -4,6 +4,7 @@ mod algebra;
 mod angles;
 mod articulated;
 pub mod candidates;
+mod dependent;
 pub mod frames;
 pub mod from_bodies;
 mod kinematics;

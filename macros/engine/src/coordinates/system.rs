@@ -1,7 +1,8 @@
 //! The equations of motion in joint coordinates: `[M D^T; D -E] (u', lambda) = (forces, gamma*)`.
 
 use super::algebra::{add, apply};
-use super::candidates::Strategy;
+use super::candidates::{Method, Strategy};
+use super::dependent::{dependent, tour};
 use super::frames::Frames;
 use super::kinematics::Kinematics;
 use super::links::{Links, Runs};
@@ -30,6 +31,8 @@ pub struct Reduced {
     pub dropped: Vec<Vec<usize>>,
     /// How they are solved.
     strategy: Strategy,
+    /// Time and coordinates at the stops of a tour, if these are wanted.
+    tour: Vec<(f64, Vec<f64>)>,
 }
 
 /// The solution of the equations of motion.
@@ -79,6 +82,9 @@ impl Reduced {
             }
             reduced = Self::new(arena, &remaining, links, strategy);
         }
+        if strategy.method == Method::Dependent && !reduced.scene.constraints.is_empty() {
+            reduced.tour = tour(&reduced.scene.space.arena, model, &reduced.links);
+        }
         for joint in spanning.closing {
             reduced.dropped[joint].clone_from(&remaining.joints[joint].dropped);
         }
@@ -119,6 +125,7 @@ impl Reduced {
             charts,
             dropped: vec![Vec::new(); model.joints.len()],
             strategy,
+            tour: Vec::new(),
         }
     }
 
@@ -225,7 +232,7 @@ impl Reduced {
         let (wrenches, efforts) = self.forces();
         let Self { links, scene, .. } = self;
         let arena = &mut scene.space.arena;
-        if self.strategy.is_articulated && scene.constraints.is_empty() {
+        if self.strategy.method == Method::Articulated && scene.constraints.is_empty() {
             return Solution {
                 accelerations: links.articulated(arena, &wrenches, &efforts),
                 multipliers: Vec::new(),
@@ -256,12 +263,31 @@ impl Reduced {
                 matrix.set(velocities + row, velocities + row, -compliance);
             }
         }
-        let pivots: Vec<Pivot> = (0..velocities)
-            .rev()
-            .map(Pivot::Acceleration)
-            .chain((0..rows.len()).map(|row| Pivot::Multiplier(velocities + row)))
+        let (together, determinants) = if terms == Terms::Compliant {
+            (Vec::new(), Vec::new())
+        } else {
+            let constraints = self.scene.constraints.iter();
+            let joints: Vec<usize> = constraints
+                .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
+                .collect();
+            dependent(arena, &rows, &joints, &self.tour)
+        };
+        // Leaves that close no loop, then what their rows determine, then the rest.
+        let closing: Vec<usize> = (0..velocities)
+            .filter(|&k| rows.iter().any(|row| row[k] != Arena::ZERO))
             .collect();
-        let factors = factorise(arena, matrix.clone(), matrix, &pivots, &[]);
+        let is_leaf = |k: &usize| closing.last().is_none_or(|last| k > last);
+        let done: Vec<usize> = together.iter().flat_map(|pivot| pivot.unknowns()).collect();
+        let accelerations = (0..velocities).rev().filter(|k| !done.contains(k));
+        let (leaves, rest): (Vec<usize>, Vec<usize>) = accelerations.partition(is_leaf);
+        let behind = (velocities..velocities + rows.len()).filter(|row| !done.contains(row));
+        let leaves = leaves.into_iter().map(Pivot::Acceleration);
+        let pivots: Vec<Pivot> = leaves
+            .chain(together.iter().copied())
+            .chain(rest.into_iter().map(Pivot::Acceleration))
+            .chain(behind.map(Pivot::Multiplier))
+            .collect();
+        let factors = factorise(arena, matrix.clone(), matrix, &pivots, &determinants);
         let mut solution = factors.solve(arena, right);
         let multipliers = solution.split_off(velocities);
         // Quasi-definite with a compliance: every pivot is safe.

@@ -90,6 +90,8 @@ pub(super) enum Inverse {
         inverse: [[Expr; 2]; 2],
         mass: [[Expr; 2]; 2],
     },
+    /// Of `[a c; c 0]`: `1 / c` and `a`.
+    Dependent { reciprocal: Expr, mass: Expr },
 }
 
 impl Inverse {
@@ -105,6 +107,12 @@ impl Inverse {
         };
         match self {
             Self::Matrix(rows) => rows.iter().map(|row| dot(row, b)).collect(),
+            Self::Dependent { reciprocal, mass } => {
+                let x = arena.mul(*reciprocal, b[1]);
+                let inertia = arena.mul(*mass, x);
+                let left = arena.sub(b[0], inertia);
+                vec![x, arena.mul(*reciprocal, left)]
+            }
             Self::Forbidden {
                 inverse: [first, second],
                 mass,
@@ -184,7 +192,7 @@ pub fn factorise(
     let mut determinants = determinants.iter();
     for &pivot in pivots {
         let determinant = match pivot {
-            Pivot::Forbidden(..) => *determinants
+            Pivot::Forbidden(..) | Pivot::Dependent(..) => *determinants
                 .next()
                 .expect("a plan has a determinant for every forbidden motion"),
             _ => 1.0,
@@ -229,13 +237,16 @@ impl Elimination {
             Pivot::Acceleration(_) | Pivot::Multiplier(_) => true,
             // `-a e - c^2` cannot vanish for `c = 1`, whatever was added to `a` or to `e`.
             Pivot::Saddle(k, l) => entry(k, l).abs() == Arena::ONE,
+            Pivot::Dependent(_, l) => entry(l, l) == Arena::ZERO,
             Pivot::Forbidden(_, [m, n]) => {
                 [(m, m), (m, n), (n, n)].map(|(k, l)| entry(k, l)) == [Arena::ZERO; 3]
             }
         };
         match pivot {
             _ if is_sound => vec![pivot],
-            Pivot::Saddle(k, l) => vec![Pivot::Acceleration(k), Pivot::Multiplier(l)],
+            Pivot::Saddle(k, l) | Pivot::Dependent(k, l) => {
+                vec![Pivot::Acceleration(k), Pivot::Multiplier(l)]
+            }
             Pivot::Forbidden([k, l], [m, n]) => vec![
                 Pivot::Acceleration(k),
                 Pivot::Acceleration(l),
@@ -315,6 +326,21 @@ impl Elimination {
                     before,
                 });
                 inverse
+            }
+            Pivot::Dependent(velocity, row) => {
+                let pivot = self.matrix.get(velocity, row);
+                if arena.literal(pivot).is_none() {
+                    let before = arena.constant(determinant);
+                    self.factors.checks.push(Check {
+                        unknown: row,
+                        pivot,
+                        before,
+                    });
+                }
+                Inverse::Dependent {
+                    reciprocal: arena.reciprocal(pivot),
+                    mass: self.matrix.get(velocity, velocity),
+                }
             }
             Pivot::Multiplier(row) => {
                 let check = self.check(arena, row);

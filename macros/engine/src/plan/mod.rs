@@ -30,6 +30,9 @@ pub enum Pivot {
     /// motion that a joint forbids its body. `C` is safe on the constraints, where its determinant stays near to what it is
     /// at the start; checked at run time.
     Forbidden([usize; 2], [usize; 2]),
+    /// The saddle block `[a c; c 0]` of an acceleration and the row that determines it. Checked at run time like [`Self::Forbidden`], unless `c` is a
+    /// number.
+    Dependent(usize, usize),
     /// A multiplier. Safe only where rows are independent: checked at run time unless there is a compliance.
     Multiplier(usize),
 }
@@ -40,7 +43,7 @@ impl Pivot {
     pub fn unknowns(self) -> Vec<usize> {
         match self {
             Self::Acceleration(k) | Self::Multiplier(k) => vec![k],
-            Self::Saddle(k, l) => vec![k, l],
+            Self::Saddle(k, l) | Self::Dependent(k, l) => vec![k, l],
             Self::Forbidden([k, l], [m, n]) => vec![k, l, m, n],
         }
     }
@@ -57,7 +60,7 @@ pub struct Plan {
     pub rows: Vec<Frame>,
     /// Pivots, first to last. Unknowns are numbered like velocities, then rows.
     pub pivots: Vec<Pivot>,
-    /// The determinant of `C` of each [`Pivot::Forbidden`] at the start, in order.
+    /// The determinant of `C` of each [`Pivot::Forbidden`], and `c` of each [`Pivot::Dependent`], at the start, in order.
     pub determinants: Vec<f64>,
 }
 

@@ -60,6 +60,21 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     )
 }
 
+/// Times and coordinates of the bodies along a motion that the constraints leave free, from the described configuration on; none where nothing can be told.
+pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
+    let mut random = Random::new();
+    let constraints = Constraints::new(model, |velocities| random.motion(velocities));
+    let Some((constraints, described)) = constraints else {
+        return Vec::new();
+    };
+    let Some(start) = constraints.assembled(&described) else {
+        return Vec::new();
+    };
+    let heading = random.motion(model.layout().velocities);
+    let stops = tour::stops(&constraints, &start, heading).into_iter();
+    stops.map(|(at, _)| (at.time, at.coordinates)).collect()
+}
+
 /// What is left of the rows that close loops beside all others.
 fn beside(rows: &Rows, is_closing: &[bool]) -> Rows {
     let of = |wanted: bool| -> Rows {

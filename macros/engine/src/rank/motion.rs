@@ -28,7 +28,7 @@ const LATER: f64 = 0.6180;
 #[derive(Clone, Debug)]
 pub(super) struct Configuration {
     /// Those of the bodies; behind them the auxiliary variables.
-    coordinates: Vec<f64>,
+    pub(super) coordinates: Vec<f64>,
     /// In s.
     pub(super) time: f64,
 }

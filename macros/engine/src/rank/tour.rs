@@ -14,16 +14,26 @@ const STEP: f64 = 0.3;
 pub(super) fn tour(
     constraints: &Constraints,
     start: &Configuration,
-    mut heading: Vec<f64>,
+    heading: Vec<f64>,
 ) -> Vec<Rows> {
-    let mut rows = Vec::new();
+    let stops = stops(constraints, start, heading).into_iter();
+    stops.map(|(_, rows)| rows).collect()
+}
+
+/// The same with the configurations.
+pub(super) fn stops(
+    constraints: &Constraints,
+    start: &Configuration,
+    mut heading: Vec<f64>,
+) -> Vec<(Configuration, Rows)> {
+    let mut stops = Vec::new();
     let mut at = start.clone();
     for _ in 0..STOPS {
         let Some(here) = constraints.directions(&at, TOLERANCE) else {
             break;
         };
         remove_all(&mut heading, &orthonormal(&here, TOLERANCE));
-        rows.push(here);
+        stops.push((at.clone(), here));
         let most = largest(&heading);
         if most < TOLERANCE {
             break;
@@ -34,7 +44,7 @@ pub(super) fn tour(
         };
         at = reached;
     }
-    rows
+    stops
 }
 
 fn largest(motion: &[f64]) -> f64 {

@@ -1,9 +1,9 @@
 //! The same mechanism in joint coordinates: the accelerations of its bodies against a dense solution over all equations.
 
-use holonom_engine::coordinates::candidates::Strategy;
+use holonom_engine::coordinates::candidates::{Method, Strategy};
 use holonom_engine::coordinates::from_bodies::from_bodies;
 use holonom_engine::coordinates::links::{Freedom, Links};
-use holonom_engine::coordinates::system::Reduced;
+use holonom_engine::coordinates::system::{Reduced, Solution};
 use holonom_engine::model::BodyKind;
 use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::arena::{Arena, Expr, Input, Node};
@@ -12,7 +12,7 @@ use crate::comparison::{Comparison, difference};
 use crate::inputs::{Coefficients, Inputs, in_axes, transposed, turned, user_axes};
 use crate::reading::Numbers;
 use crate::reference::{Equations, State, euler_rates};
-use crate::solutions::{System, TOLERANCE};
+use crate::solutions::{SMALL, SOUND, System, TOLERANCE};
 
 /// Euler parameters of a rotation (Shepperd's method: from the largest of the four).
 fn euler_parameters(a: [Numbers; 3]) -> [f64; 4] {
@@ -185,8 +185,34 @@ impl Comparison<'_> {
                 equations.gamma[k] - gain * equations.rate[k] - square * equations.phi[k]
             }));
         let (wanted, round_off) = system.solve(&right);
-        let accelerations = reduced.solve(terms).accelerations;
+        let Solution {
+            accelerations,
+            checks,
+            ..
+        } = reduced.solve(terms);
         let arena = &reduced.scene.space.arena;
+        let pairs: Vec<Expr> = checks
+            .iter()
+            .flat_map(|check| [check.pivot, check.before])
+            .collect();
+        let pairs = inputs.values(arena, &pairs);
+        let pivots = pairs.chunks(2).map(|pair| (pair[0] / pair[1]).abs());
+        // A pivot that is not a number comes behind one that vanishes.
+        let smallest = match strategy.method {
+            Method::Dependent => pivots.fold(1.0_f64, f64::min),
+            _ => 1.0,
+        };
+        if smallest < SMALL {
+            // The kernel says so. Off the constraints velocities may be undetermined that follow from the others on them.
+            if equations.hold() && system.condition() < SOUND {
+                return Err(format!(
+                    "joint coordinates, {strategy:?}, {terms:?}: a pivot of {smallest:e} in a system that is not singular\nin {coordinates:?}"
+                ));
+            }
+            self.statistics.told += 1;
+            return Ok(());
+        }
+        let round_off = round_off / smallest;
         let second = inputs.values(arena, &accelerations);
         let input = |input: Input| {
             let at = |values: &[f64], rates: &[f64], k: u32| {

@@ -14,7 +14,7 @@ pub(crate) const TOLERANCE: f64 = 1e-13;
 /// Systems beyond this are not compared.
 const CONDITION: f64 = 1e10;
 /// In systems of a condition below `SOUND`, no relative pivot is below `SMALL`.
-const SOUND: f64 = 1e5;
+pub(crate) const SOUND: f64 = 1e5;
 pub(crate) const SMALL: f64 = 1e-9;
 
 /// A saddle system at a state, and the size of what is lost by round-off in its solution.
