@@ -1,6 +1,7 @@
 //! Ways to the equations of motion worth counting, and the choice among them.
 
 use super::links::Runs;
+use super::spanning::Spanning;
 use super::system::Reduced;
 use crate::model::Model;
 use crate::plan::system::Terms;
@@ -39,6 +40,18 @@ impl Strategy {
         Self::new(Runs::Shared, Method::Dependent),
     ];
 
+    /// Those that differ for a mechanism.
+    #[must_use]
+    pub fn all(model: &Model) -> Vec<Self> {
+        let has_loops = !Spanning::new(model).closing.is_empty();
+        let differs = |strategy: &Self| match strategy.method {
+            Method::MassMatrix => true,
+            Method::Articulated => !has_loops,
+            Method::Dependent => has_loops,
+        };
+        Self::ALL.into_iter().filter(differs).collect()
+    }
+
     const fn new(runs: Runs, method: Method) -> Self {
         Self { runs, method }
     }
@@ -53,6 +66,6 @@ pub fn choose(model: &Model) -> Strategy {
         let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
         count(&reduced.scene.space.arena, &outputs, Stage::State).weighted()
     };
-    let cheapest = Strategy::ALL.into_iter().min_by_key(cost);
+    let cheapest = Strategy::all(model).into_iter().min_by_key(cost);
     cheapest.expect("there is a way")
 }

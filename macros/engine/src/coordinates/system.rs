@@ -14,6 +14,7 @@ use crate::plan::eliminate::{Check, Symmetric, factorise};
 use crate::plan::system::Terms;
 use crate::rank::closing;
 use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::fixed::{clean, size, transpose};
 use crate::symbolic::scene::{Chart, Scene};
 use crate::symbolic::twist::Gradient;
 use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
@@ -118,7 +119,18 @@ impl Reduced {
         let charts = charts(&mut arena, model, &links, &motion);
         let first_counter = 2 * links.turns + links.rest;
         let known = |arena: &mut Arena, bodies, axis| links.angle(arena, bodies, axis);
-        let scene = Scene::on(model, arena, &charts, first_counter, false, &known);
+        let mut scene = Scene::on(model, arena, &charts, first_counter, false, &known);
+        // Forces on bodies count at the origins of links. A particle has no axes for the arm.
+        for (body, standing) in links.bodies.iter().enumerate() {
+            if model.bodies[body].kind == BodyKind::Particle {
+                continue;
+            }
+            let into = transpose(standing.axes);
+            let arm = apply(&mut scene.space.arena, into, standing.centre);
+            let scale = size(&scene.space.arena, standing.centre);
+            let arm = clean(&mut scene.space.arena, arm, scale);
+            scene.motion.reference[body] = arm.map(|component| -component);
+        }
         Self {
             links,
             scene,
@@ -138,18 +150,21 @@ impl Reduced {
             let force = gradient.force(&mut scene.space, body);
             let moment = gradient.moment(&mut scene.space, body);
             let force = scene.space.components(force, Frame::Global);
-            let moment = match scene.space.rotation(body) {
-                Some(_) => scene.space.components(moment, Frame::Body(body)),
-                None => ZERO,
+            let is_particle = scene.space.rotation(body).is_none();
+            let moment = if is_particle {
+                ZERO
+            } else {
+                scene.space.components(moment, Frame::Body(body))
             };
             let arena = &mut scene.space.arena;
             let axes = links.axes(Some(link));
             let force = links.frames.turn(arena, force, Frames::GROUND, axes);
             let moment = apply(arena, standing.axes, moment);
-            let moment = links.in_axes(arena, moment, Some(link));
-            let centre = links.in_axes(arena, standing.centre, Some(link));
-            let by_arm = cross(arena, centre, force);
-            let moment = add(arena, moment, by_arm);
+            let mut moment = links.in_axes(arena, moment, Some(link));
+            if is_particle {
+                let centre = links.in_axes(arena, standing.centre, Some(link));
+                moment = cross(arena, centre, force);
+            }
             wrenches[link] = wrenches[link].plus(arena, Wrench { force, moment });
         }
         wrenches
@@ -207,11 +222,15 @@ impl Reduced {
             let axes = links.axes(Some(link));
             if !scene.space.is_zero(force) {
                 let force = scene.space.components(force, Frame::Global);
+                let is_particle = scene.space.rotation(body).is_none();
                 let arena = &mut scene.space.arena;
                 let force = links.frames.turn(arena, force, Frames::GROUND, axes);
-                let centre = links.in_axes(arena, standing.centre, Some(link));
-                let bend = apply(arena, motion.second[link], centre);
-                let acceleration = add(arena, motion.bias[link], bend);
+                let mut acceleration = motion.bias[link];
+                if is_particle {
+                    let centre = links.in_axes(arena, standing.centre, Some(link));
+                    let bend = apply(arena, motion.second[link], centre);
+                    acceleration = add(arena, acceleration, bend);
+                }
                 let term = dot(arena, force, acceleration);
                 sum = arena.add(sum, term);
             }
@@ -338,12 +357,12 @@ fn charts(arena: &mut Arena, model: &Model, links: &Links, motion: &Kinematics) 
                 chart.velocity = links.frames.turn(arena, velocity, axes, Frames::GROUND);
             }
             if body.kind == BodyKind::Rigid {
-                let columns = crate::symbolic::fixed::transpose(standing.axes)
+                let columns = transpose(standing.axes)
                     .map(|column| links.frames.turn(arena, column, frame, Frames::GROUND));
-                chart.rotation = Some(crate::symbolic::fixed::transpose(columns));
+                chart.rotation = Some(transpose(columns));
                 if let Some(link) = link {
                     let spin = links.frames.turn(arena, motion.spin[link], axes, frame);
-                    let into = crate::symbolic::fixed::transpose(standing.axes);
+                    let into = transpose(standing.axes);
                     chart.spin = apply(arena, into, spin);
                 }
             }
