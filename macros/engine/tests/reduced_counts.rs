@@ -1,0 +1,147 @@
+//! Operations of the accelerations in joint coordinates, by the way that takes the fewest. The rates of the coordinates are not among them: two for each pair of
+//! cosine and sine.
+
+mod common;
+#[allow(dead_code, reason = "other tests need all of it")]
+#[path = "mechanisms/library.rs"]
+mod library;
+
+use common::{delivered, tokens};
+use holonom_engine::coordinates::candidates::Strategy;
+use holonom_engine::coordinates::system::Reduced;
+use holonom_engine::model::Model;
+use holonom_engine::plan::system::Terms;
+use holonom_engine::symbolic::arena::Stage;
+use holonom_engine::symbolic::count::{Count, count};
+
+/// Rods of 1 m and 1 kg one behind the other.
+fn chain(joint: &str, rods: usize, alternating: bool) -> String {
+    let mut text = String::from("#[mechanism(gravity = [0.0, 0.0, -9.81])] struct Chain {");
+    for rod in 0..rods {
+        let (head, centre) = (rod as f64, rod as f64 + 0.5);
+        let before = match rod.checked_sub(1) {
+            Some(before) => format!("rod_{before}"),
+            None => "ground".into(),
+        };
+        let axis = match joint {
+            "Revolute" if alternating && rod % 2 == 1 => ", axis = [0.0, 0.0, 1.0]",
+            "Revolute" => ", axis = [1.0, 0.0, 0.0]",
+            _ => "",
+        };
+        text += &format!(
+            "#[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, {centre:?}, 0.0])] rod_{rod}: Body,
+            #[joint(between = [{before}, rod_{rod}], point = [0.0, {head:?}, 0.0]{axis})] joint_{rod}: {joint},"
+        );
+    }
+    text + "}"
+}
+
+/// Four-bars side by side: a row of rods on the ground, each joined to the next at the top.
+fn windows(count: usize) -> String {
+    let mut text = String::from(
+        "#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = \"drop\")] struct Windows {",
+    );
+    let axis = "axis = [0.0, 0.0, 1.0]";
+    for rod in 0..=count {
+        let x = rod as f64;
+        text += &format!(
+            "#[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [{x:?}, 0.5, 0.0])] rod_{rod}: Body,
+            #[joint(between = [ground, rod_{rod}], point = [{x:?}, 0.0, 0.0], {axis})] foot_{rod}: Revolute,"
+        );
+    }
+    for rod in 0..count {
+        let (x, next) = (rod as f64, rod + 1);
+        let (centre, end) = (x + 0.5, x + 1.0);
+        text += &format!(
+            "#[body(mass = 1.0, inertia = [0.001, 0.0833, 0.0833], position = [{centre:?}, 1.0, 0.0])] top_{rod}: Body,
+            #[joint(between = [rod_{rod}, top_{rod}], point = [{x:?}, 1.0, 0.0], {axis})] left_{rod}: Revolute,
+            #[joint(between = [top_{rod}, rod_{next}], point = [{end:?}, 1.0, 0.0], {axis})] right_{rod}: Revolute,"
+        );
+    }
+    text + "}"
+}
+
+/// A struct of the crate with the models.
+fn of_library(name: &str) -> String {
+    let text = std::fs::read_to_string(format!(
+        "{}/../../models/src/{name}.rs",
+        env!("CARGO_MANIFEST_DIR")
+    ))
+    .expect("a file");
+    let file = syn::parse_file(&text).expect("Rust");
+    let item = file
+        .items
+        .into_iter()
+        .filter_map(|item| match item {
+            syn::Item::Struct(s) => Some(s),
+            _ => None,
+        })
+        .next()
+        .expect("a struct");
+    quote::quote!(#item).to_string()
+}
+
+/// The cheapest way for some terms.
+fn cheapest(model: &Model, terms: Terms) -> (Strategy, Count, usize) {
+    let counts = Strategy::all(model).into_iter().map(|strategy| {
+        let mut reduced = Reduced::of(model, strategy);
+        let solution = reduced.solve(terms);
+        let arena = &reduced.scene.space.arena;
+        let count = count(arena, &solution.accelerations, Stage::State);
+        (strategy, count, solution.checks.len())
+    });
+    let cheapest = counts.min_by_key(|(_, count, _)| count.weighted());
+    cheapest.expect("there is a way")
+}
+
+#[test]
+fn accelerations_in_joint_coordinates() {
+    let mut scenes: Vec<(String, String)> = Vec::new();
+    for rods in [1, 2, 4, 8, 32] {
+        scenes.push((
+            format!("{rods} parallel hinges"),
+            chain("Revolute", rods, false),
+        ));
+    }
+    for rods in [2, 4, 8] {
+        scenes.push((
+            format!("{rods} hinges in turn"),
+            chain("Revolute", rods, true),
+        ));
+    }
+    for rods in [2, 8] {
+        scenes.push((format!("{rods} balls"), chain("Spherical", rods, false)));
+    }
+    for count in [1, 10] {
+        scenes.push((format!("{count} windows"), windows(count)));
+    }
+    for name in ["slider_crank", "heavy_top", "cart_pole", "ur5", "panda"] {
+        scenes.push((name.into(), of_library(name)));
+    }
+    let mut text = String::new();
+    for (name, item) in scenes {
+        let model = delivered(&tokens(&item), |name| {
+            library::definition(name).map(|(kind, text)| (kind, tokens(&text)))
+        });
+        text += &format!("{name}\n");
+        let has_rows = !Reduced::of(&model, Strategy::ALL[0])
+            .scene
+            .constraints
+            .is_empty();
+        let terms: &[Terms] = if has_rows {
+            &Terms::ALL
+        } else {
+            &[Terms::Plain]
+        };
+        for &terms in terms {
+            let (Strategy { runs, method }, count, checks) = cheapest(&model, terms);
+            text += &format!(
+                "  {terms:?}: {} operations, {} of them reciprocals, depth {}, {checks} checks ({runs:?}, {method:?})\n",
+                count.total(),
+                count.divisions,
+                count.depth
+            );
+        }
+    }
+    insta::assert_snapshot!("reduced", text);
+}
