@@ -49,9 +49,16 @@ pub fn from_bodies(arena: &mut Arena, model: &Model, links: &Links) -> Vec<Expr>
         coordinates: vec![Arena::ZERO; 2 * links.turns + links.rest],
         velocities: vec![Arena::ZERO; links.velocities],
     };
-    // A link stands behind its carrier, and so do the bodies on it.
+    // A link stands behind its carrier, and so do the bodies on it; of those welded to each other the one that the joint carries comes first: a ball's Euler
+    // parameters are its own.
     let mut bodies: Vec<usize> = (0..model.bodies.len()).collect();
-    bodies.sort_by_key(|&body| links.bodies[body].link);
+    bodies.sort_by_key(|&body| {
+        let link = links.bodies[body].link;
+        (
+            link,
+            link.is_some_and(|link| links.links[link].body != body),
+        )
+    });
     let mut last = None;
     for body in bodies {
         let standing = links.bodies[body];
@@ -116,7 +123,6 @@ impl Reader<'_> {
         parameters: Option<([Expr; 4], Triple)>,
     ) {
         let way = self.links.way(link);
-        self.poses[link] = pose;
         self.turns(arena, &way, pose);
         for &place in &way {
             let own = &self.links.links[place];
@@ -160,11 +166,23 @@ impl Reader<'_> {
                 _ => None,
             })
             .collect();
-        for (number, &(place, axis, pair)) in turning.iter().enumerate() {
+        let mut number = 0;
+        for &place in way {
+            if matches!(self.links.links[place].freedom, Freedom::Slide { .. }) {
+                // It turns with what carries it.
+                self.poses[place] = self.pose(self.links.links[place].carrier);
+            }
+            let Some(&(turn, axis, pair)) = turning.get(number) else {
+                continue;
+            };
+            if turn != place {
+                continue;
+            }
+            number += 1;
             let before = self.before_turn(arena, place);
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
             let [bi, bj] = [i, j].map(|k| before.axis(k));
-            let (cosine, sine) = match turning.get(number + 1) {
+            let (cosine, sine) = match turning.get(number) {
                 None => {
                     // The frame itself is known.
                     let [oi, oj] = [i, j].map(|k| pose.axis(k));

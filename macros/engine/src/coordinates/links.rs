@@ -63,6 +63,10 @@ pub struct Link {
     pub(super) inertia: Inertia,
     /// Its first velocity.
     pub velocity: usize,
+    /// The joint that it is a motion of, `None` of a body that moves freely.
+    pub joint: Option<usize>,
+    /// The body that the joint carries.
+    pub body: usize,
 }
 
 /// How a body stands on the link that it moves with.
@@ -232,6 +236,8 @@ impl Links {
                 offset,
                 inertia: Inertia::NONE,
                 velocity,
+                joint: carried.joint,
+                body: carried.body,
             });
             self.origins.push(origin);
             carrier = Some(self.links.len() - 1);

@@ -3,7 +3,10 @@
 use std::cmp::Reverse;
 
 use crate::model::number::literals;
-use crate::model::{Binding, BodyKind, Direction, JointUse, Model, Motion, ParameterKind, Rank};
+use crate::model::{
+    Binding, BodyKind, Direction, JointUse, Model, Motion, Number, ParameterKind, Rank,
+};
+use crate::rank::moves::{Comparison, compare};
 
 /// A body and what it moves by.
 #[derive(Clone, Debug)]
@@ -39,6 +42,7 @@ impl Spanning {
         let mut depth: Vec<Option<usize>> = vec![None; model.bodies.len()];
         let mut carried = Vec::new();
         let mut carries = vec![false; model.joints.len()];
+        let able = able(model);
         loop {
             let mut best: Option<(Merit, Carried)> = None;
             for (place, joint) in model.joints.iter().enumerate() {
@@ -46,6 +50,9 @@ impl Spanning {
                 let [first, second] = joint.bodies[..] else {
                     continue;
                 };
+                if !able[place] {
+                    continue;
+                }
                 for (by, body, is_reversed) in [(first, second, false), (second, first, true)] {
                     let (Some(body), Some(from)) = (body, depth_of(by)) else {
                         continue;
@@ -122,13 +129,35 @@ impl Spanning {
     }
 }
 
+/// Which joints move as they say, by their own equations. Numbers that the macro cannot see stand for any: what holds with some holds with all, or by chance.
+fn able(model: &Model) -> Vec<bool> {
+    let mut seen = model.clone();
+    let any = |number: &mut Number| {
+        if let Number::Symbol(symbol) = *number {
+            // Numbers without a pattern: the golden ratio's multiples.
+            *number = Number::Literal(0.5 + (f64::from(symbol) * 0.618_033_988_749_895).fract());
+        }
+    };
+    for body in &mut seen.bodies {
+        body.position.iter_mut().for_each(any);
+        body.orientation.iter_mut().for_each(any);
+    }
+    for binding in seen.joints.iter_mut().flat_map(|joint| &mut joint.bindings) {
+        match binding {
+            Binding::Global(numbers) => numbers.iter_mut().for_each(any),
+            Binding::Local(copies) => copies.iter_mut().flatten().for_each(any),
+            Binding::Scalar(number) => any(number),
+            Binding::Law(_) | Binding::Default => {}
+        }
+    }
+    (0..model.joints.len())
+        .map(|joint| compare(&seen, joint) == Comparison::Agrees)
+        .collect()
+}
+
 /// How many velocities motions have.
 pub(super) fn freedoms(motions: &[Motion]) -> usize {
-    let each = motions.iter().map(|motion| match motion {
-        Motion::Turn { .. } | Motion::Slide { .. } => 1,
-        Motion::Ball { .. } => 3,
-    });
-    each.sum()
+    motions.iter().map(|motion| motion.freedoms()).sum()
 }
 
 /// A body that moves freely: along the global axes and about its centre of mass.

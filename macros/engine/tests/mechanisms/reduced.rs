@@ -77,6 +77,22 @@ fn rates(
     outputs.iter().map(signed).collect()
 }
 
+/// From joint coordinates to bodies and back, relative to the largest number: two axes of a universal joint may be nearly parallel.
+const THERE_AND_BACK: f64 = 1e-9;
+
+/// Joint coordinates whose Euler parameters have the signs of others: either is the same rotation.
+fn with_signs_of(links: &Links, mut coordinates: Vec<f64>, like: &[f64]) -> Vec<f64> {
+    for link in &links.links {
+        if let Freedom::Ball { rest } = link.freedom {
+            let first = 2 * links.turns + rest;
+            let product: f64 = (first..first + 4).map(|k| coordinates[k] * like[k]).sum();
+            let own = coordinates[first..first + 4].iter_mut();
+            own.for_each(|e| *e = e.abs().copysign(*e * product));
+        }
+    }
+    coordinates
+}
+
 /// The rates of joint coordinates.
 fn coordinate_rates(links: &Links, coordinates: &[f64], velocities: &[f64]) -> Vec<f64> {
     let mut rates = vec![0.0; coordinates.len()];
@@ -109,14 +125,7 @@ impl Comparison<'_> {
         coefficients: Coefficients,
         terms: Terms,
     ) -> Result<(), String> {
-        let mut model = self.model.clone();
-        // Random definitions need not move as they say.
-        for definition in &mut model.definitions {
-            if definition.name.to_string().starts_with("Own") {
-                definition.motions = None;
-            }
-        }
-        let model = &model;
+        let model = self.model;
         let mut reduced = Reduced::of(model, strategy);
         let Some(equations) = self.equations(state) else {
             return Ok(());
@@ -125,9 +134,9 @@ impl Comparison<'_> {
             Inputs::new(model, self.described, state, angles, coefficients)
         };
         let mut inputs = cartesian(state, &equations.angles);
-        let mut arena = reduced.scene.space.arena.clone();
-        let outputs = from_bodies(&mut arena, model, &reduced.links);
-        let joint = inputs.values(&arena, &outputs);
+        let mut from = reduced.scene.space.arena.clone();
+        let outputs = from_bodies(&mut from, model, &reduced.links);
+        let joint = inputs.values(&from, &outputs);
         let velocities = reduced.links.velocities;
         let (coordinates, rates_of_joints) = joint.split_at(joint.len() - velocities);
         inputs.coordinates = coordinates.to_vec();
@@ -153,6 +162,16 @@ impl Comparison<'_> {
             let w = inputs.values(arena, &chart.spin);
             let w = turned(own, [w[0], w[1], w[2]]);
             exact.rates[body].1 = w;
+        }
+        // And back: the bodies move as the joints of the tree let them now.
+        let again = cartesian(&exact, &equations.angles).values(&from, &outputs);
+        let again = with_signs_of(&reduced.links, again, &joint);
+        let largest = joint.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+        let relative = difference(&again, &joint) / largest;
+        if relative > THERE_AND_BACK || relative.is_nan() {
+            return Err(format!(
+                "joint coordinates, {strategy:?}: {joint:?}\nthere and back: {again:?}\ndifference {relative:e}"
+            ));
         }
         let Some(equations) = Equations::new(self.described, &exact) else {
             return Ok(());
