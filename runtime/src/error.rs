@@ -130,6 +130,8 @@ pub enum Fault {
         /// Its value.
         value: f64,
     },
+    /// A formulation that iterates, in joint coordinates, which take those that solve their system once.
+    Iterated,
     /// An interval of time whose ends are not finite or not in order.
     Interval {
         /// Where it begins (s).

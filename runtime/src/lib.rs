@@ -45,11 +45,14 @@ mod error;
 mod formulation;
 mod handle;
 mod integrate;
+mod joint_coordinates;
+mod joint_dynamics;
 mod joint_state;
 mod kinematics;
 mod load;
 mod mechanism;
 mod message;
+mod moving;
 mod newton;
 mod origin;
 mod project;
@@ -139,6 +142,7 @@ pub use bodies::{Body, Particle};
 /// hinges), which are refused otherwise: see [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the
 /// motion is the same, reactions are those of the joints without these equations. Keep them, and
 /// only formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
+/// `coordinates = "joints"` adds the equations of motion in joint coordinates, [`JointCoordinates`].
 /// `recursion_limit = 256` repeats what stands at the top of the crate, `#![recursion_limit = "256"]`: more than a hundred kinds of
 /// bodies, joints and forces in one mechanism need both.
 ///
@@ -185,6 +189,10 @@ pub use integrate::{
     FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, StepLimits, Stride,
     System, Tolerance,
 };
+pub use joint_coordinates::{
+    Freedom, JointCoordinates, JointEvaluation, JointMotion, JointParts, JointReport,
+};
+pub use joint_dynamics::JointDynamics;
 pub use joint_state::JointState;
 pub use kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
@@ -192,6 +200,7 @@ pub use mechanism::{
     Chapter15, Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw,
     Stabilisation, Stabilised, Terms,
 };
+pub use moving::{Bodies, Description, Joints, Moving};
 pub use nalgebra;
 pub use project::{Correction, Projection};
 pub use reaction::Wrench;

@@ -195,6 +195,10 @@ impl fmt::Display for Fault {
                     Given(value)
                 )
             }
+            Self::Iterated => write!(
+                f,
+                "the augmented Lagrangian iterates; joint coordinates take formulations that solve their system once"
+            ),
             Self::Interval { start, end } => {
                 let (from, to) = (Given(start), Given(end));
                 write!(f, "the interval from {from} s to {to} s ")?;

@@ -81,6 +81,30 @@ pub(crate) fn product<S: Scalar>(p: &[S; 4], q: &[S; 4]) -> [S; 4] {
     ]
 }
 
+/// Euler parameters of a rotation, given row by row: from the largest of the four (Shepperd 1978, J. Guidance and Control 1), of length 1.
+pub(crate) fn from_matrix<S: Real>(rows: &[[S; 3]; 3]) -> [S; 4] {
+    let [[a11, a12, a13], [a21, a22, a23], [a31, a32, a33]] = *rows;
+    let one = S::one();
+    // Four times the squares.
+    let squares = [
+        one + a11 + a22 + a33,
+        one + a11 - a22 - a33,
+        one - a11 + a22 - a33,
+        one - a11 - a22 + a33,
+    ];
+    let [e0, e1, e2, e3] = squares;
+    let p = if e0 >= e1 && e0 >= e2 && e0 >= e3 {
+        [e0, a32 - a23, a13 - a31, a21 - a12]
+    } else if e1 >= e2 && e1 >= e3 {
+        [a32 - a23, e1, a21 + a12, a13 + a31]
+    } else if e2 >= e3 {
+        [a13 - a31, a21 + a12, e2, a32 + a23]
+    } else {
+        [a21 - a12, a13 + a31, a32 + a23, e3]
+    };
+    normalised(&p)
+}
+
 /// `p / |p|`.
 pub(crate) fn normalised<S: Scalar>(p: &[S; 4]) -> [S; 4] {
     let [e0, e1, e2, e3] = *p;

@@ -3,12 +3,11 @@
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{Counts, Course, Integrator, Span};
-use crate::load::AppliedForces;
-use crate::mechanism::{Mechanism, Orientation};
+use crate::mechanism::Mechanism;
+use crate::moving::Moving;
 use crate::project::Projection;
 use crate::reporting::Schedule;
 use crate::run_report::RunReport;
@@ -17,8 +16,9 @@ use crate::scalar::Real;
 use crate::watch::Watch;
 
 /// A run under way.
-pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, P, A, O> {
-    pub(crate) dynamics: Dynamics<S, M, F, P, A>,
+pub(crate) struct Run<'r, S: Real, M: Mechanism, D, O> {
+    /// What the integrator moves.
+    pub(crate) moving: D,
     pub(crate) projection: Option<Projection<S>>,
     pub(crate) schedule: Schedule<S>,
     /// Instants (s) at which the integration begins anew, in any order, besides those of the description.
@@ -50,13 +50,11 @@ impl<'r, S: Real, M: Mechanism, O> Log<'r, S, M, O> {
     }
 }
 
-impl<S, M, F, P, A, O> Run<'_, S, M, F, P, A, O>
+impl<S, M, D, O> Run<'_, S, M, D, O>
 where
     S: Real,
     M: Mechanism,
-    F: Formulation<S>,
-    P: Orientation,
-    A: AppliedForces<S, M>,
+    D: Moving<S, M>,
     O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
 {
     /// Goes from a state to the end; keeps the last good state.
@@ -100,17 +98,19 @@ where
         span: Span<S>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
-        let mut course = integrator.start(&mut self.dynamics, span, last_good.1)?;
+        let start = self.moving.of(&last_good.1);
+        let mut course = integrator.start(&mut self.moving, span, start)?;
         if let Some(watch) = &mut self.watch {
             watch.restart();
-            self.dynamics.watch(watch, span.start, course.state());
+            self.moving.watch(watch, span.start, &last_good.1);
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
         while course.time() < span.end {
-            course.advance(&mut self.dynamics)?;
+            course.advance(&mut self.moving)?;
             while let Some(time) = self.schedule.within(course.time()) {
-                let mut state = course.at(&mut self.dynamics, time)?;
+                let state = course.at(&mut self.moving, time)?;
+                let mut state = self.moving.bodies(&state);
                 if let Some(projection) = self.projection {
                     state = self.corrected(projection, time, state)?;
                 }
@@ -122,19 +122,20 @@ where
                 }
             }
             let time = course.time();
+            let mut state = self.moving.bodies(course.state());
             if let Some(projection) = self.projection {
-                let state = self.corrected(projection, time, *course.state())?;
-                course.replace(state);
+                state = self.corrected(projection, time, state)?;
+                course.replace(self.moving.of(&state));
             }
-            *last_good = (time, *course.state());
+            *last_good = (time, state);
             if let Some(watch) = &mut self.watch {
-                self.dynamics.watch(watch, time, course.state());
-                let excused = self.dynamics.iterations().excused;
+                self.moving.watch(watch, time, &last_good.1);
+                let excused = self.moving.dynamics().iterations().excused;
                 watch.excuse_evaluations(excused, time);
             }
             self.log.unseen += 1;
             if self.schedule.at(time, self.log.unseen) {
-                self.show(time, course.state());
+                self.show(time, &last_good.1);
                 if self.log.flow.is_break() {
                     break;
                 }
@@ -157,7 +158,7 @@ where
         time: S,
         mut state: M::State<S>,
     ) -> Result<M::State<S>, Fault> {
-        let constants = self.dynamics.constants();
+        let constants = self.moving.dynamics().constants();
         let correction = projection.correct_in_motion::<M>(constants, time, &mut state)?;
         if let Some(watch) = &mut self.watch
             && correction.excused > S::zero()
@@ -168,24 +169,25 @@ where
     }
 
     fn show(&mut self, time: S, state: &M::State<S>) {
-        let view = self.dynamics.view(time, state);
+        let dynamics = self.moving.dynamics();
+        let view = dynamics.view(time, state);
         let log = &mut self.log;
         log.worst_violation = log.worst_violation.max(view.violation());
-        log.flow = (log.observe)(&Sample::new(view, &self.dynamics));
+        log.flow = (log.observe)(&Sample::new(view, dynamics));
         log.unseen = 0;
     }
 
     /// The last state is one that was shown.
     fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
         if let Some(watch) = &mut self.watch {
-            self.dynamics.name_smallest_pivot(watch);
+            self.moving.dynamics().name_smallest_pivot(watch);
         }
         RunReport {
             evaluations: self.counts.evaluations,
             accepted: self.counts.accepted,
             rejected: self.counts.rejected,
             worst_violation: self.log.worst_violation,
-            iterations: self.dynamics.iterations(),
+            iterations: self.moving.dynamics().iterations(),
             time,
             state,
             stopped: self.log.flow.is_break(),
@@ -208,7 +210,7 @@ where
         if not_finite
             && let (Some(step), Some(rate)) = (
                 integrator.fixed_step(),
-                self.dynamics.formulation().decay_rate(),
+                self.moving.dynamics().formulation().decay_rate(),
             )
             && step * rate > S::constant(STABLE)
         {
@@ -218,6 +220,6 @@ where
             };
         }
         let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
-        self.dynamics.explained(fault, absolute, last_good)
+        self.moving.dynamics().explained(fault, absolute, last_good)
     }
 }

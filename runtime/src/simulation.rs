@@ -8,8 +8,10 @@ use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
 use crate::integrate::{Counts, Integrator};
+use crate::joint_coordinates::JointCoordinates;
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Mechanism, Normalised, Orientation};
+use crate::moving::{Bodies, Description, Joints};
 use crate::project::Projection;
 use crate::reporting::{Reporting, Schedule, check_interval};
 use crate::rotation::check_state;
@@ -24,7 +26,7 @@ use crate::watch::Watch;
 ///
 /// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::Raw)), `A` which forces come on top of those of
 /// the description.
-pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoForces> {
+pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoForces, C = Bodies> {
     mechanism: &'a M,
     formulation: F,
     integrator: I,
@@ -35,7 +37,8 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoFor
     breaks: &'a [S],
     accepts_any_start: bool,
     is_watched: bool,
-    orientation: PhantomData<P>,
+    /// How Euler parameters are read, and by what the mechanism is described.
+    kind: PhantomData<(P, C)>,
 }
 
 impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<'a, S, M, F, I> {
@@ -54,12 +57,12 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<
             breaks: &[],
             accepts_any_start: false,
             is_watched: true,
-            orientation: PhantomData,
+            kind: PhantomData,
         }
     }
 }
 
-impl<'a, S, M, F, I, P, A> Simulation<'a, S, M, F, I, P, A>
+impl<'a, S, M, F, I, P, A, C> Simulation<'a, S, M, F, I, P, A, C>
 where
     S: Real,
     M: Mechanism,
@@ -111,6 +114,34 @@ where
         self
     }
 
+    fn exchange<P2, A2, C2>(
+        self,
+        forces: impl FnOnce(A) -> A2,
+    ) -> Simulation<'a, S, M, F, I, P2, A2, C2> {
+        Simulation {
+            mechanism: self.mechanism,
+            formulation: self.formulation,
+            integrator: self.integrator,
+            forces: forces(self.forces),
+            initial: self.initial,
+            assemble: self.assemble,
+            projection: self.projection,
+            breaks: self.breaks,
+            accepts_any_start: self.accepts_any_start,
+            is_watched: self.is_watched,
+            kind: PhantomData,
+        }
+    }
+}
+
+impl<'a, S, M, F, I, P, A> Simulation<'a, S, M, F, I, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Integrator<S>,
+    P: Orientation,
+{
     /// Reads Euler parameters in another way: `.orientation::<Raw>()`.
     #[must_use]
     pub fn orientation<P2: Orientation>(self) -> Simulation<'a, S, M, F, I, P2, A> {
@@ -127,25 +158,29 @@ where
     {
         self.exchange(|_| ForceLaw(law))
     }
+}
 
-    fn exchange<P2, A2>(self, forces: impl FnOnce(A) -> A2) -> Simulation<'a, S, M, F, I, P2, A2> {
-        Simulation {
-            mechanism: self.mechanism,
-            formulation: self.formulation,
-            integrator: self.integrator,
-            forces: forces(self.forces),
-            initial: self.initial,
-            assemble: self.assemble,
-            projection: self.projection,
-            breaks: self.breaks,
-            accepts_any_start: self.accepts_any_start,
-            is_watched: self.is_watched,
-            orientation: PhantomData,
-        }
+impl<'a, S, M, F, I> Simulation<'a, S, M, F, I>
+where
+    S: Real,
+    M: JointCoordinates,
+    F: Formulation<S>,
+    I: Integrator<S>,
+{
+    /// Moves joint coordinates, see [`JointCoordinates`]: bodies stand as the joints of a spanning tree let them at every step, to round-off, and an evaluation
+    /// costs what the mechanism's freedom asks for.
+    ///
+    /// A start that opens a joint is refused, whatever [`Simulation::inconsistent_start`] says: those of the tree cannot open.
+    ///
+    /// States go in and come out as those of the bodies; reports, reactions, projection (of the joints that close loops) and watch are the same. The watch
+    /// evaluates the equations of the bodies once a step, which takes more time than the step itself: see [`Simulation::unwatched`].
+    #[must_use]
+    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, NoForces, Joints> {
+        self.exchange(|forces| forces)
     }
 }
 
-impl<S, M, F, I, P, A> Simulation<'_, S, M, F, I, P, A>
+impl<S, M, F, I, P, A, C> Simulation<'_, S, M, F, I, P, A, C>
 where
     S: Real,
     M: Mechanism,
@@ -153,6 +188,7 @@ where
     I: Integrator<S>,
     P: Orientation,
     A: AppliedForces<S, M>,
+    C: for<'f> Description<S, M, F, P, &'f A>,
 {
     /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the reporting times and at the
     /// end; `ControlFlow::Break(())` stops the run, so an observer that never does so ends with `ControlFlow::Continue(())`.
@@ -209,14 +245,14 @@ where
             projection.correct::<M>(&constants, start, &mut state)?;
         }
         last_good.1 = state;
-        if !self.accepts_any_start {
+        if !self.accepts_any_start || C::HAS_EXACT_JOINTS {
             check_start::<S, M>(&constants, (start, end - start), &state)?;
         }
         let watch = self
             .is_watched
             .then(|| Watch::new(&constants, start, &state).over(&self.integrator));
         let run = Run {
-            dynamics,
+            moving: C::moving(self.mechanism, dynamics)?,
             projection: self.projection,
             schedule,
             breaks: self.breaks,

@@ -472,12 +472,12 @@ fn sound<S: Real, M: Mechanism, T: Terms>(evaluation: &Evaluation<S, M>) -> bool
 }
 
 #[inline(always)]
-fn vanishes<S: Real, T: Terms>(relative_pivot: S) -> bool {
+pub(crate) fn vanishes<S: Real, T: Terms>(relative_pivot: S) -> bool {
     !T::COMPLIANT && relative_pivot < S::constant(64.0) * S::EPSILON
 }
 
 #[cold]
-fn singular<S: Real, M: Mechanism>(pivot: &Pivot<S>) -> Fault {
+pub(crate) fn singular<S: Real, M: Mechanism>(pivot: &Pivot<S>) -> Fault {
     let joint = pivot.joint.to_f64() as usize;
     Fault::Singular {
         joint,

@@ -3,18 +3,21 @@
 use std::collections::HashSet;
 
 use proc_macro2::Ident;
-use syn::Expr;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
+use syn::{Expr, ExprLit, Lit};
 
 use super::bodies;
 use super::joints::{JointChecker, Mentioned};
 use super::number::Numbers;
 use super::pairs::Pairs;
 use super::{kinds, redundant};
-use crate::diag::{Faults, code};
-use crate::model::{BodyKind, ElementKind, Independence, JointDef, Model, Number, Redundant};
+use crate::diag::{Faults, code, did_you_mean};
+use crate::model::{
+    BodyKind, Coordinates, ElementKind, Independence, JointDef, Model, Number, Redundant,
+};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
+use crate::syntax::ungroup;
 
 /// What a field's type turned out to be.
 #[derive(Clone, Debug)]
@@ -40,7 +43,11 @@ pub fn check(
 ) -> Option<Model> {
     let mut numbers = Numbers::new(facade);
     numbers.values = super::values::values(syntax, faults);
-    let (gravity, wish) = attributes(syntax, &mut numbers, faults);
+    let Attributes {
+        gravity,
+        wish,
+        coordinates,
+    } = attributes(syntax, &mut numbers, faults);
     let mut names: Vec<&Ident> = Vec::new();
     let mut bodies = Vec::new();
     for field in &syntax.fields {
@@ -131,6 +138,7 @@ pub fn check(
         definitions,
         symbols,
         independence: Independence::default(),
+        coordinates,
     };
     if !faults.any() {
         redundant::check(&mut model, wish, faults);
@@ -138,12 +146,12 @@ pub fn check(
     Some(model)
 }
 
-/// What `#[mechanism(..)]` says: gravity, and what to do with redundant equations.
+/// Reads `#[mechanism(..)]`.
 fn attributes<'a>(
     syntax: &'a MechanismSyntax,
     numbers: &mut Numbers<'_>,
     faults: &mut Faults,
-) -> (Option<[Number; 3]>, (Redundant, Option<&'a Expr>)) {
+) -> Attributes<'a> {
     let mut pairs = Pairs::new(
         "`#[mechanism(..)]`".into(),
         syntax.name.span(),
@@ -156,10 +164,50 @@ fn attributes<'a>(
         None => Some([Number::ZERO; 3]),
     };
     let redundant = pairs.optional("redundant", faults);
-    let wish = redundant::read(redundant, faults);
+    let wish = redundant.map(|expr| {
+        // What was meant by something else is unknown: nothing is refused on top.
+        choice("redundant", expr, &Redundant::ALL, faults).unwrap_or(Redundant::Keep)
+    });
+    let coordinates = pairs
+        .optional("coordinates", faults)
+        .and_then(|expr| choice("coordinates", expr, &Coordinates::ALL, faults));
     kinds::read(pairs.optional(kinds::KEY, faults), faults);
     pairs.finish(faults);
-    (gravity, (wish, redundant))
+    Attributes {
+        gravity,
+        wish: (wish.unwrap_or_default(), redundant),
+        coordinates: coordinates.unwrap_or_default(),
+    }
+}
+
+/// What `#[mechanism(..)]` says.
+struct Attributes<'a> {
+    gravity: Option<[Number; 3]>,
+    /// What to do with redundant equations, and where that is said.
+    wish: (Redundant, Option<&'a Expr>),
+    coordinates: Coordinates,
+}
+
+/// One of some words in quotes.
+fn choice<T: Copy>(key: &str, expr: &Expr, all: &[(&str, T)], faults: &mut Faults) -> Option<T> {
+    let text = match ungroup(expr) {
+        Expr::Lit(ExprLit {
+            lit: Lit::Str(text),
+            ..
+        }) => text.value(),
+        _ => String::new(),
+    };
+    let known = all.iter().find(|(name, _)| *name == text);
+    if known.is_none() {
+        let near = did_you_mean(&text, all.iter().map(|(name, _)| *name));
+        let names: Vec<String> = all
+            .iter()
+            .map(|(name, _)| format!("`\"{name}\"`"))
+            .collect();
+        let names = names.join(" or ");
+        faults.at(expr, format!("`{key}` takes {names}{near}"));
+    }
+    known.map(|(_, meaning)| *meaning)
 }
 
 /// What the type of a field turned out to be.

@@ -9,8 +9,8 @@ use super::joints::plural;
 use crate::diag::Faults;
 use crate::model::inertia::IDENTITY;
 use crate::model::{
-    Binding, Body, BodyKind, Independence, JointDef, JointUse, Model, Number, ParameterKind, Row,
-    Term,
+    Binding, Body, BodyKind, Coordinates, Independence, JointDef, JointUse, Model, Number,
+    ParameterKind, Row, Term,
 };
 use crate::rank::Random;
 use crate::rank::moves::{Comparison, compare};
@@ -206,6 +206,7 @@ fn model(joint: &JointDef, choice: Choice) -> Model {
         definitions: vec![joint.clone()],
         symbols: Vec::new(),
         independence: Independence::default(),
+        coordinates: Coordinates::Bodies,
     }
 }
 

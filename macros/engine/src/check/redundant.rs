@@ -1,36 +1,11 @@
 //! Equations that follow from others: refused, left out or kept, as the user says.
 
 use proc_macro2::Ident;
-use syn::{Expr, ExprLit, Lit};
+use syn::Expr;
 
-use crate::diag::{Faults, did_you_mean, list};
+use crate::diag::{Faults, list};
 use crate::model::{Binding, Contradiction, Model, Rank, Redundant, RedundantRow};
 use crate::rank::judge;
-use crate::syntax::ungroup;
-
-/// The value of `redundant` in `#[mechanism(..)]`.
-pub(super) fn read(expr: Option<&Expr>, faults: &mut Faults) -> Redundant {
-    let Some(expr) = expr else {
-        return Redundant::Refuse;
-    };
-    let text = match ungroup(expr) {
-        Expr::Lit(ExprLit {
-            lit: Lit::Str(text),
-            ..
-        }) => text.value(),
-        _ => String::new(),
-    };
-    if let Some((_, wish)) = Redundant::ALL.iter().find(|(name, _)| *name == text) {
-        return *wish;
-    }
-    let near = did_you_mean(&text, Redundant::ALL.map(|(name, _)| name));
-    faults.at(
-        expr,
-        format!("`redundant` takes `\"drop\"` or `\"keep\"`{near}"),
-    );
-    // What was meant is unknown: nothing is refused on top.
-    Redundant::Keep
-}
 
 /// Finds the rank of a model that is sound otherwise, and does with redundant equations what the user wishes, which was written as `expr`.
 pub(super) fn check(

@@ -7,6 +7,7 @@ pub mod candidates;
 mod dependent;
 pub mod frames;
 pub mod from_bodies;
+pub mod kernels;
 mod kinematics;
 pub mod links;
 mod mass;

@@ -10,7 +10,8 @@ use super::parts::{Frame, write_in_parts};
 use super::report::report;
 use super::store::{Kernel as Arguments, Store};
 use super::straight_line::{Given, StraightLine, write};
-use crate::model::Model;
+use crate::coordinates::kernels::JointKernels;
+use crate::model::{Coordinates, Model};
 use crate::plan::kernels::{Kernel, Kernels};
 use crate::symbolic::arena::Stage;
 
@@ -84,6 +85,12 @@ impl Writer<'_> {
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
         let compliances = local("compliances");
         let vector_rows = &kernels.vector_rows;
+        let joints = match model.coordinates {
+            Coordinates::Joints => {
+                super::coordinates::implementation(model, &JointKernels::new(model), facade)
+            }
+            Coordinates::Bodies => TokenStream::new(),
+        };
         let parts = &self.parts;
         let given = local("parameters");
         quote! {
@@ -151,6 +158,8 @@ impl Writer<'_> {
                 #evaluations
                 #solvers
                 #parts
+
+                #joints
 
                 #construction
             };

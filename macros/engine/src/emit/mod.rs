@@ -1,5 +1,6 @@
 //! Kernels to Rust. Nothing here can fail: what could be wrong was refused before.
 
+mod coordinates;
 pub mod documentation;
 pub mod fallback;
 pub mod joint;

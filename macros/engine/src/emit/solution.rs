@@ -41,18 +41,6 @@ impl Writer<'_> {
         }
     }
 
-    fn pivots(&self, checks: &[PivotCheck], values: &[TokenStream]) -> TokenStream {
-        let facade = self.facade;
-        let mut pivot = quote!(#facade::Pivot::unchecked());
-        for (check, value) in checks.iter().zip(values) {
-            pivot = match check {
-                PivotCheck::Relative(joint) => quote!(#pivot.and(__S::abs(#value), #joint)),
-                PivotCheck::Nonzero(joint) => quote!(#pivot.and_nonzero(#value, #joint)),
-            };
-        }
-        pivot
-    }
-
     /// The names of the arguments.
     fn passed() -> TokenStream {
         let names = ["constants", "coefficients", "time", "state"].map(local);
@@ -179,7 +167,7 @@ impl Writer<'_> {
         let (coordinates, rest) = outputs.split_at(layout.coordinates + layout.auxiliaries);
         let (velocities, rest) = rest.split_at(layout.velocities);
         let (multipliers, pivots) = rest.split_at(layout.rows);
-        let pivot = self.pivots(&evaluation.checks, pivots);
+        let pivot = verdict(facade, &evaluation.checks, pivots);
         let unpack = Self::unpack();
         let inline = inline(&evaluation.kernel.arena, &evaluation.kernel.outputs);
         let (rates, forces) = (local("rates"), local("multipliers"));
@@ -315,7 +303,7 @@ impl Writer<'_> {
         };
         let factor = self.line_of(&kernel, &Given::default(), &frame);
         let (values, pivots) = factor.outputs.split_at(factors.len());
-        let pivot = self.pivots(&solver.checks, pivots);
+        let pivot = verdict(facade, &solver.checks, pivots);
         let (accelerations, multipliers) = solve.outputs.split_at(self.model.layout().velocities);
         let (factor_statements, solve_statements) = (factor.statements, solve.statements);
         let inline_factor = inline(&solver.arena, &outputs);
@@ -368,7 +356,7 @@ fn of_rotations(terms: Terms) -> Ident {
     format_ident!("__evaluate_{}_of_rotations", name(terms))
 }
 
-fn name(terms: Terms) -> &'static str {
+pub(super) fn name(terms: Terms) -> &'static str {
     match terms {
         Terms::Plain => "plain",
         Terms::Stabilised => "stabilised",
@@ -384,11 +372,27 @@ fn evaluation_function(terms: Terms, reading: Reading) -> Ident {
     }
 }
 
-fn inline(arena: &Arena, outputs: &[Expr]) -> TokenStream {
+pub(super) fn inline(arena: &Arena, outputs: &[Expr]) -> TokenStream {
     let operations = crate::symbolic::count::count(arena, outputs, Stage::State).total();
     if operations <= INLINE {
         quote!(#[inline(always)])
     } else {
         quote!(#[inline(never)])
     }
+}
+
+/// The verdict on recorded pivots.
+pub(super) fn verdict(
+    facade: &TokenStream,
+    checks: &[PivotCheck],
+    values: &[TokenStream],
+) -> TokenStream {
+    let mut pivot = quote!(#facade::Pivot::unchecked());
+    for (check, value) in checks.iter().zip(values) {
+        pivot = match check {
+            PivotCheck::Relative(joint) => quote!(#pivot.and(__S::abs(#value), #joint)),
+            PivotCheck::Nonzero(joint) => quote!(#pivot.and_nonzero(#value, #joint)),
+        };
+    }
+    pivot
 }

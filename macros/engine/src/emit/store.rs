@@ -142,7 +142,7 @@ impl Environment for Kernel<'_> {
 }
 
 /// The expression of an input that comes with the arguments of a kernel.
-fn load_input(input: Input) -> TokenStream {
+pub(super) fn load_input(input: Input) -> TokenStream {
     let (array, place) = match input {
         Input::Coordinate(place) => ("coordinates", place),
         Input::Velocity(place) => ("velocities", place),

@@ -141,6 +141,21 @@ pub struct Counter {
     pub turn: Turn,
 }
 
+/// By what the bodies of a mechanism are described.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coordinates {
+    /// Positions and orientations of the bodies.
+    #[default]
+    Bodies,
+    /// These, and besides what the joints of a spanning tree leave free.
+    Joints,
+}
+
+impl Coordinates {
+    /// What `coordinates` takes.
+    pub const ALL: [(&'static str, Self); 2] = [("bodies", Self::Bodies), ("joints", Self::Joints)];
+}
+
 /// A checked mechanism.
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -162,6 +177,8 @@ pub struct Model {
     pub symbols: Vec<Symbol>,
     /// Whether the equations depend on each other.
     pub independence: Independence,
+    /// By what the bodies are described.
+    pub coordinates: Coordinates,
 }
 
 impl Model {

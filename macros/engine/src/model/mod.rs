@@ -10,6 +10,6 @@ pub use joint::{
     Action, Direction, ElementKind, Extent, Function, JointDef, Motion, Parameter, ParameterKind,
     Row, Term, Turn,
 };
-pub use mechanism::{Binding, Body, BodyKind, JointUse, LawTerm, Model, RunTimeValue};
+pub use mechanism::{Binding, Body, BodyKind, Coordinates, JointUse, LawTerm, Model, RunTimeValue};
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};

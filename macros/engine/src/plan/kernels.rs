@@ -305,22 +305,7 @@ fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
             continue;
         };
         let arena = &mut scene.space.arena;
-        let half = arena.constant(0.5);
-        let w = scene.motion.spin_components[body].map(|component| arena.mul(half, component));
-        let mut combination = |terms: [(usize, usize, bool); 3]| {
-            let mut sum = Arena::ZERO;
-            for (k, l, minus) in terms {
-                let product = arena.mul(p[k], w[l]);
-                sum = arena.add(sum, if minus { -product } else { product });
-            }
-            sum
-        };
-        rates.extend([
-            combination([(1, 0, true), (2, 1, true), (3, 2, true)]),
-            combination([(0, 0, false), (2, 2, false), (3, 1, true)]),
-            combination([(0, 1, false), (3, 0, false), (1, 2, true)]),
-            combination([(0, 2, false), (1, 1, false), (2, 0, true)]),
-        ]);
+        rates.extend(euler_rates(arena, p, scene.motion.spin_components[body]));
     }
     for place in 0..scene.counters.len() {
         rates.push(turning(scene, place));
@@ -328,8 +313,28 @@ fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
     rates
 }
 
+/// `1/2 L(p)^T w` (Nikravesh 1988, eq. 6.111, body axes).
+pub(crate) fn euler_rates(arena: &mut Arena, p: [Expr; 4], w: [Expr; 3]) -> [Expr; 4] {
+    let half = arena.constant(0.5);
+    let w = w.map(|component| arena.mul(half, component));
+    let mut combination = |terms: [(usize, usize, bool); 3]| {
+        let mut sum = Arena::ZERO;
+        for (k, l, minus) in terms {
+            let product = arena.mul(p[k], w[l]);
+            sum = arena.add(sum, if minus { -product } else { product });
+        }
+        sum
+    };
+    [
+        combination([(1, 0, true), (2, 1, true), (3, 2, true)]),
+        combination([(0, 0, false), (2, 2, false), (3, 1, true)]),
+        combination([(0, 1, false), (3, 0, false), (1, 2, true)]),
+        combination([(0, 2, false), (1, 1, false), (2, 0, true)]),
+    ]
+}
+
 /// `a . (w(j) - w(i))` of an angle over many turns.
-fn turning(scene: &mut Scene, counter: usize) -> Expr {
+pub(crate) fn turning(scene: &mut Scene, counter: usize) -> Expr {
     let Scene {
         space,
         motion,
@@ -403,6 +408,12 @@ pub fn initial_state(model: &Model) -> Kernel {
 }
 
 fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotCheck>) {
+    let recorded = system.checks(scene);
+    relative(scene, &recorded)
+}
+
+/// Recorded pivots, by rows, over what they are compared with.
+pub(crate) fn relative(scene: &mut Scene, recorded: &[Check]) -> (Vec<Expr>, Vec<PivotCheck>) {
     let joint_of = |scene: &Scene, row: usize| {
         scene
             .constraints
@@ -414,11 +425,11 @@ fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotC
     };
     let mut pivots = Vec::new();
     let mut checks = Vec::new();
-    for Check {
+    for &Check {
         unknown,
         pivot,
         before,
-    } in system.checks(scene)
+    } in recorded
     {
         let joint = joint_of(scene, unknown);
         if pivot.abs() == before.abs() {

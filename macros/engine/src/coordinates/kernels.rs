@@ -1,0 +1,189 @@
+//! The kernels of a mechanism in joint coordinates.
+
+use super::candidates::{Strategy, choose};
+use super::from_bodies::from_bodies;
+use super::links::Freedom;
+use super::system::Reduced;
+use crate::model::{BodyKind, Model};
+use crate::plan::kernels::{Kernel, PivotCheck, euler_rates, relative, turning};
+use crate::plan::system::Terms;
+use crate::symbolic::arena::{Arena, Expr, Input};
+
+/// An evaluation: outputs are the rates of the pairs' angles, of the further coordinates and auxiliary variables, and of the velocities; multipliers; relative
+/// pivots in the order of `checks`.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// The terms of the formulation.
+    pub terms: Terms,
+    /// The outputs.
+    pub kernel: Kernel,
+    /// The pivots to check.
+    pub checks: Vec<PivotCheck>,
+}
+
+/// What a coordinate or a velocity of the reduced system is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// An angle, counted the other way round than the joint does if so.
+    Turn(bool),
+    /// A displacement.
+    Slide,
+    /// Every rotation.
+    Ball,
+}
+
+/// A link, for the report.
+#[derive(Clone, Copy, Debug)]
+pub struct Described {
+    /// The joint, `None` for a body that moves freely.
+    pub joint: Option<usize>,
+    /// The body that it carries, or is on the way to.
+    pub body: usize,
+    /// What it moves by.
+    pub meaning: Meaning,
+}
+
+/// Everything that is generated for a mechanism in joint coordinates.
+#[derive(Clone, Debug)]
+pub struct JointKernels {
+    /// The way that was chosen.
+    pub strategy: Strategy,
+    /// Pairs of cosine and sine.
+    pub turns: usize,
+    /// Further coordinates, auxiliary variables behind them.
+    pub rest: usize,
+    /// The auxiliary variables among them.
+    pub auxiliaries: usize,
+    /// Velocities.
+    pub velocities: usize,
+    /// The joints of the rows that remain, row by row.
+    pub rows: Vec<usize>,
+    /// The places of Euler parameters among the further coordinates.
+    pub balls: Vec<usize>,
+    /// What the velocities are, in order; one for three of a ball.
+    pub links: Vec<Described>,
+    /// One for each set of terms; one alone where no row remains.
+    pub evaluations: Vec<Evaluation>,
+    /// The bodies: position, velocity, and of a rigid one rotation matrix row by row and angular velocity in principal axes; auxiliary variables.
+    pub bodies: Kernel,
+    /// Pairs, further coordinates, auxiliary variables and velocities, from the state of the bodies.
+    pub joints: Kernel,
+}
+
+impl JointKernels {
+    /// Builds all kernels of a model.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        let strategy = choose(model);
+        let reduced = Reduced::of(model, strategy);
+        let rows: Vec<usize> = reduced
+            .scene
+            .constraints
+            .iter()
+            .flat_map(|constrained| vec![constrained.joint; constrained.equations()])
+            .collect();
+        let terms = if rows.is_empty() {
+            &Terms::ALL[..1]
+        } else {
+            &Terms::ALL[..]
+        };
+        let evaluations = terms
+            .iter()
+            .map(|&terms| evaluation(reduced.clone(), terms));
+        let links = &reduced.links;
+        let auxiliaries = reduced.scene.counters.len();
+        let balls = links.links.iter().filter_map(|link| match link.freedom {
+            Freedom::Ball { rest } => Some(rest),
+            _ => None,
+        });
+        Self {
+            strategy,
+            turns: links.turns,
+            rest: links.rest + auxiliaries,
+            auxiliaries,
+            velocities: links.velocities,
+            rows,
+            balls: balls.collect(),
+            links: links
+                .links
+                .iter()
+                .map(|link| Described {
+                    joint: link.joint,
+                    body: link.body,
+                    meaning: match link.freedom {
+                        Freedom::Turn { is_reversed, .. } => Meaning::Turn(is_reversed),
+                        Freedom::Slide { .. } => Meaning::Slide,
+                        Freedom::Ball { .. } => Meaning::Ball,
+                    },
+                })
+                .collect(),
+            evaluations: evaluations.collect(),
+            bodies: bodies(&reduced, model),
+            joints: {
+                let mut arena = reduced.scene.space.arena.clone();
+                let outputs = from_bodies(&mut arena, model, links);
+                Kernel { arena, outputs }
+            },
+        }
+    }
+}
+
+fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {
+    let solution = reduced.solve(terms);
+    let mut outputs = coordinate_rates(&mut reduced);
+    for place in 0..reduced.scene.counters.len() {
+        outputs.push(turning(&mut reduced.scene, place));
+    }
+    outputs.extend(solution.accelerations);
+    outputs.extend(solution.multipliers);
+    let (pivots, checks) = relative(&mut reduced.scene, &solution.checks);
+    outputs.extend(pivots);
+    Evaluation {
+        terms,
+        kernel: Kernel {
+            arena: reduced.scene.space.arena,
+            outputs,
+        },
+        checks,
+    }
+}
+
+/// The rates of the pairs' angles, then of the further coordinates.
+fn coordinate_rates(reduced: &mut Reduced) -> Vec<Expr> {
+    let Reduced { links, scene, .. } = reduced;
+    let arena = &mut scene.space.arena;
+    let mut rates = vec![Arena::ZERO; links.turns + links.rest];
+    for link in &links.links {
+        let mut rate = |k: usize| arena.input(Input::Velocity((link.velocity + k) as u32));
+        match link.freedom {
+            Freedom::Turn { pair, .. } => rates[pair] = rate(0),
+            Freedom::Slide { rest, .. } => rates[links.turns + rest] = rate(0),
+            Freedom::Ball { rest } => {
+                let w = [0, 1, 2].map(rate);
+                let first = 2 * links.turns + rest;
+                let p = [0, 1, 2, 3].map(|k| arena.input(Input::Coordinate((first + k) as u32)));
+                let of = euler_rates(arena, p, w);
+                rates[links.turns + rest..links.turns + rest + 4].copy_from_slice(&of);
+            }
+        }
+    }
+    rates
+}
+
+fn bodies(reduced: &Reduced, model: &Model) -> Kernel {
+    let mut outputs = Vec::new();
+    for (chart, body) in reduced.charts.iter().zip(&model.bodies) {
+        outputs.extend(chart.position);
+        outputs.extend(chart.velocity);
+        if let (BodyKind::Rigid, Some(rotation)) = (body.kind, chart.rotation) {
+            outputs.extend(rotation.as_flattened());
+            outputs.extend(chart.spin);
+        }
+    }
+    let mut arena = reduced.scene.space.arena.clone();
+    let first = 2 * reduced.links.turns + reduced.links.rest;
+    for place in 0..reduced.scene.counters.len() {
+        outputs.push(arena.input(Input::Coordinate((first + place) as u32)));
+    }
+    Kernel { arena, outputs }
+}

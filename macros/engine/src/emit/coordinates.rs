@@ -1,0 +1,383 @@
+//! The implementation of a mechanism in joint coordinates.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::local;
+use super::parts::{Frame, write_in_parts};
+use super::solution::{inline, name, verdict};
+use super::store::{Store, load_input};
+use super::straight_line::{Environment, Given, StraightLine};
+use crate::coordinates::kernels::{Evaluation, JointKernels, Meaning};
+use crate::model::Model;
+use crate::plan::kernels::Kernel;
+use crate::plan::system::Terms;
+use crate::symbolic::arena::{Arena, Expr, Input, Stage};
+use crate::symbolic::count::count;
+
+/// The environment of a kernel that reads a state in joint coordinates.
+struct Arguments<'a> {
+    store: &'a mut Store,
+    turns: usize,
+}
+
+impl Environment for Arguments<'_> {
+    fn input(&mut self, input: Input) -> TokenStream {
+        let (pairs, rest, rates) = (local("pairs"), local("rest"), local("velocities"));
+        match input {
+            Input::Coordinate(place) if (place as usize) < 2 * self.turns => {
+                let (pair, element) = (place as usize / 2, place as usize % 2);
+                quote!(#pairs[#pair][#element])
+            }
+            Input::Coordinate(place) => {
+                let place = place as usize - 2 * self.turns;
+                quote!(#rest[#place])
+            }
+            Input::Velocity(place) => {
+                let place = place as usize;
+                quote!(#rates[#place])
+            }
+            other => load_input(other),
+        }
+    }
+
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream {
+        self.store.load(arena, value)
+    }
+}
+
+struct Writer<'a> {
+    model: &'a Model,
+    kernels: &'a JointKernels,
+    facade: &'a TokenStream,
+    store: Store,
+    /// The functions that long kernels are written in.
+    parts: TokenStream,
+}
+
+/// The implementation, and the functions beside it.
+pub(super) fn implementation(
+    model: &Model,
+    kernels: &JointKernels,
+    facade: &TokenStream,
+) -> TokenStream {
+    let writer = Writer {
+        model,
+        kernels,
+        facade,
+        store: Store::default(),
+        parts: TokenStream::new(),
+    };
+    writer.write()
+}
+
+impl Writer<'_> {
+    fn write(mut self) -> TokenStream {
+        let (model, facade, kernels) = (self.model, self.facade, self.kernels);
+        let name = &model.name;
+        let JointKernels {
+            turns,
+            rest,
+            velocities,
+            ..
+        } = *kernels;
+        let rows = kernels.rows.len();
+        let read = kernels.bodies.outputs.len();
+        let evaluations: TokenStream = kernels
+            .evaluations
+            .iter()
+            .map(|evaluation| self.evaluation(evaluation))
+            .collect();
+        let dispatch = self.dispatch();
+        let bodies = self.bodies();
+        let joints = self.joints();
+        let coefficients = self.store.write_coefficients();
+        let prepared = self.store.write_constants(&model.symbols);
+        let (c, k) = (self.store.constants(), self.store.coefficients());
+        let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
+        let (coefficient_statements, coefficient_outputs) =
+            (coefficients.statements, coefficients.outputs);
+        let (constants, stabilisation) = (local("constants"), local("stabilisation"));
+        let (compliances, given) = (local("compliances"), local("parameters"));
+        let report = self.report();
+        let parts = &self.parts;
+        quote! {
+            #[automatically_derived]
+            impl #facade::JointCoordinates for #name {
+                type JointState<__S: #facade::Scalar> = #facade::JointState<__S, #turns, #rest, #velocities>;
+                type ClosingMultipliers<__S: #facade::Scalar> = [__S; #rows];
+                type JointConstants<__S: #facade::Scalar> = [__S; #c];
+                type JointCoefficients<__S: #facade::Scalar> = [__S; #k];
+                type BodyMotions<__S: #facade::Scalar> = [__S; #read];
+
+                const JOINT_REPORT: #facade::JointReport = #report;
+
+                fn prepare_joints<__S: #facade::Scalar>(
+                    #given: &Self::Parameters<__S>,
+                ) -> Self::JointConstants<__S> {
+                    #constant_statements
+                    [#(#constant_outputs),*]
+                }
+
+                fn joint_coefficients<__S: #facade::Scalar>(
+                    #constants: &Self::JointConstants<__S>,
+                    #stabilisation: &#facade::Stabilisation<__S>,
+                    #compliances: &Self::ClosingMultipliers<__S>,
+                ) -> Self::JointCoefficients<__S> {
+                    #coefficient_statements
+                    [#(#coefficient_outputs),*]
+                }
+
+                #dispatch
+                #bodies
+                #joints
+            }
+
+            #evaluations
+            #parts
+        }
+    }
+
+    fn line(&mut self, kernel: &Kernel, frame: &Frame) -> StraightLine {
+        let turns = self.kernels.turns;
+        let (line, parts) = write_in_parts(
+            (&kernel.arena, &kernel.outputs),
+            Stage::State,
+            &Given::default(),
+            &mut Arguments {
+                store: &mut self.store,
+                turns,
+            },
+            frame,
+        );
+        self.parts.extend(parts);
+        line
+    }
+
+    fn unpack() -> TokenStream {
+        let state = local("state");
+        let (pairs, rest, rates) = (local("pairs"), local("rest"), local("velocities"));
+        quote! {
+            let #pairs = #state.pairs();
+            let #rest = #state.rest();
+            let #rates = #state.rates();
+        }
+    }
+
+    fn arguments(&self) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let (constants, coefficients, state) =
+            (local("constants"), local("coefficients"), local("state"));
+        let time = local("time");
+        quote! {
+            #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
+            #coefficients: &<#name as #facade::JointCoordinates>::JointCoefficients<__S>,
+            #time: __S,
+            #state: &<#name as #facade::JointCoordinates>::JointState<__S>,
+        }
+    }
+
+    fn evaluation(&mut self, evaluation: &Evaluation) -> TokenStream {
+        let (model, facade, kernels) = (&self.model.name, self.facade, self.kernels);
+        let function = function(evaluation.terms);
+        let arguments = self.arguments();
+        let names = ["constants", "coefficients", "time", "state"].map(local);
+        let frame = Frame {
+            name: function.to_string(),
+            facade: facade.clone(),
+            declared: arguments.clone(),
+            passed: quote!(#(#names,)*),
+            unpack: Self::unpack(),
+        };
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line(&evaluation.kernel, &frame);
+        let (angles, others) = outputs.split_at(kernels.turns);
+        let (coordinates, others) = others.split_at(kernels.rest);
+        let (velocities, others) = others.split_at(kernels.velocities);
+        let (multipliers, recorded) = others.split_at(kernels.rows.len());
+        let pivot = verdict(facade, &evaluation.checks, recorded);
+        let inline = inline(&evaluation.kernel.arena, &evaluation.kernel.outputs);
+        let unpack = Self::unpack();
+        let (rates, forces) = (local("rates"), local("multipliers"));
+        quote! {
+            #inline
+            fn #function<__S: #facade::Scalar>(
+                #arguments
+                #rates: &mut <#model as #facade::JointCoordinates>::JointState<__S>,
+                #forces: &mut <#model as #facade::JointCoordinates>::ClosingMultipliers<__S>,
+            ) -> #facade::Pivot<__S> {
+                #unpack
+                #statements
+                *#rates = #facade::JointState::from_parts(
+                    [#([#angles, __S::constant(0.0)]),*],
+                    [#(#coordinates),*],
+                    [#(#velocities),*],
+                );
+                *#forces = [#(#multipliers),*];
+                #pivot
+            }
+        }
+    }
+
+    fn dispatch(&self) -> TokenStream {
+        let facade = self.facade;
+        let names = [
+            "constants",
+            "coefficients",
+            "time",
+            "state",
+            "rates",
+            "multipliers",
+        ];
+        let [constants, coefficients, time, state, rates, multipliers] = names.map(local);
+        let passed = quote!(#constants, #coefficients, #time, #state, #rates, #multipliers);
+        let [plain, stabilised, compliant] = Terms::ALL.map(function);
+        let body = if self.kernels.rows.is_empty() {
+            quote!(#plain(#passed))
+        } else {
+            quote! {
+                match (__T::STABILISED, __T::COMPLIANT) {
+                    (_, true) => #compliant(#passed),
+                    (true, false) => #stabilised(#passed),
+                    (false, false) => #plain(#passed),
+                }
+            }
+        };
+        quote! {
+            #[inline(always)]
+            fn evaluate_joints_into<__S: #facade::Scalar, __T: #facade::Terms>(
+                #constants: &Self::JointConstants<__S>,
+                #coefficients: &Self::JointCoefficients<__S>,
+                #time: __S,
+                #state: &Self::JointState<__S>,
+                #rates: &mut Self::JointState<__S>,
+                #multipliers: &mut Self::ClosingMultipliers<__S>,
+            ) -> #facade::Pivot<__S> {
+                #body
+            }
+        }
+    }
+
+    fn bodies(&mut self) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let (constants, state) = (local("constants"), local("state"));
+        let unpack = Self::unpack();
+        let frame = Frame {
+            name: "__body_motions".into(),
+            facade: facade.clone(),
+            declared: quote! {
+                #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
+                #state: &<#name as #facade::JointCoordinates>::JointState<__S>,
+            },
+            passed: quote!(#constants, #state,),
+            unpack: unpack.clone(),
+        };
+        let kernels = self.kernels;
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line(&kernels.bodies, &frame);
+        quote! {
+            fn body_motions<__S: #facade::Scalar>(
+                #constants: &Self::JointConstants<__S>,
+                #state: &Self::JointState<__S>,
+            ) -> Self::BodyMotions<__S> {
+                #unpack
+                #statements
+                [#(#outputs),*]
+            }
+        }
+    }
+
+    fn joints(&mut self) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let (constants, state) = (local("constants"), local("state"));
+        let (coordinates, velocities) = (local("coordinates"), local("velocities"));
+        let unpack = quote! {
+            let #coordinates = #state.coordinates();
+            let #velocities = #state.velocities();
+        };
+        let frame = Frame {
+            name: "__joint_state".into(),
+            facade: facade.clone(),
+            declared: quote! {
+                #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
+                #state: &<#name as #facade::Mechanism>::State<__S>,
+            },
+            passed: quote!(#constants, #state,),
+            unpack: unpack.clone(),
+        };
+        let kernels = self.kernels;
+        let (line, parts) = write_in_parts(
+            (&kernels.joints.arena, &kernels.joints.outputs),
+            Stage::State,
+            &Given::default(),
+            &mut super::store::Kernel {
+                store: &mut self.store,
+            },
+            &frame,
+        );
+        self.parts.extend(parts);
+        let StraightLine {
+            statements,
+            outputs,
+        } = line;
+        let (pairs, others) = outputs.split_at(2 * kernels.turns);
+        let (rest, rates) = others.split_at(kernels.rest);
+        let pairs = pairs.chunks(2).map(|pair| quote!([#(#pair),*]));
+        quote! {
+            fn joint_state<__S: #facade::Scalar>(
+                #constants: &Self::JointConstants<__S>,
+                #state: &Self::State<__S>,
+            ) -> Self::JointState<__S> {
+                #unpack
+                #statements
+                #facade::JointState::from_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
+            }
+        }
+    }
+
+    fn report(&self) -> TokenStream {
+        let (facade, kernels) = (self.facade, self.kernels);
+        let joint = |joint: Option<usize>| {
+            let joints = &self.model.joints;
+            joint.map_or(String::new(), |joint| joints[joint].name.to_string())
+        };
+        let links = kernels.links.iter().map(|link| {
+            let joint = joint(link.joint);
+            let body = self.model.bodies[link.body].name.to_string();
+            let motion = match link.meaning {
+                Meaning::Turn(is_reversed) => quote!(Turn { is_reversed: #is_reversed }),
+                Meaning::Slide => quote!(Slide),
+                Meaning::Ball => quote!(Ball),
+            };
+            quote! {
+                #facade::JointMotion { joint: #joint, body: #body, freedom: #facade::Freedom::#motion }
+            }
+        });
+        let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
+        let operations = kernels.evaluations.iter().map(|evaluation| {
+            let Kernel { arena, outputs } = &evaluation.kernel;
+            let counted = count(arena, outputs, Stage::State);
+            let (name, total, depth) = (name(evaluation.terms), counted.total(), counted.depth);
+            quote!((#name, #total, #depth))
+        });
+        let balls = &kernels.balls;
+        let auxiliaries = kernels.auxiliaries;
+        quote! {
+            #facade::JointReport {
+                motions: &[#(#links),*],
+                closing: &[#(#closing),*],
+                operations: &[#(#operations),*],
+                euler_parameters: &[#(#balls),*],
+                auxiliaries: #auxiliaries,
+            }
+        }
+    }
+}
+
+fn function(terms: Terms) -> Ident {
+    format_ident!("__evaluate_joints_{}", name(terms))
+}

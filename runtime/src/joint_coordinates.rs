@@ -1,0 +1,158 @@
+//! Mechanisms that are described by their joints as well as by their bodies.
+
+use core::fmt::Debug;
+
+use crate::array::{Array, Vector};
+use crate::joint_state::JointState;
+use crate::mechanism::{Mechanism, Pivot, Stabilisation, Terms};
+use crate::scalar::Scalar;
+
+/// A mechanism with `#[mechanism(coordinates = "joints")]`: besides the kernels of [`Mechanism`] it has those of its equations of motion in joint
+/// coordinates.
+///
+/// Bodies of a spanning tree move by what their joints leave free; only joints that close loops, and those that do not say how they move, keep equations and
+/// multipliers:
+///
+/// ```text
+/// [ M(q)  D^T ] [ u'     ]   [ forces along the velocities, less what the motion takes ]
+/// [ D     -E  ] [ lambda ] = [ gamma*                                                  ]
+/// ```
+///
+/// The four formulations mean what they mean for bodies, for the equations that remain.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not described by joint coordinates",
+    label = "no joint coordinates here",
+    note = "write `#[mechanism(coordinates = \"joints\")]` above the struct"
+)]
+pub trait JointCoordinates: Mechanism {
+    /// The state: a pair of cosine and sine for every turn, displacements, Euler parameters and auxiliary variables, and the velocities.
+    type JointState<S: Scalar>: JointParts<S>;
+    /// One number per equation that remains.
+    type ClosingMultipliers<S: Scalar>: Array<S>;
+    /// What depends on parameters alone.
+    type JointConstants<S: Scalar>: Copy + Debug;
+    /// What depends on constants and on the coefficients of the formulation.
+    type JointCoefficients<S: Scalar>: Copy + Debug;
+    /// Body by body position and velocity (global), and of a rigid one the rotation matrix from principal to global axes, row by row, and the angular
+    /// velocity in principal axes; behind them the auxiliary variables.
+    type BodyMotions<S: Scalar>: Array<S>;
+
+    /// What the coordinates are, and what an evaluation costs.
+    const JOINT_REPORT: JointReport;
+
+    /// Computes once what depends on parameters only.
+    fn prepare_joints<S: Scalar>(parameters: &Self::Parameters<S>) -> Self::JointConstants<S>;
+
+    /// Computes once what depends on the coefficients of a formulation, with a compliance for each equation that remains.
+    fn joint_coefficients<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        stabilisation: &Stabilisation<S>,
+        compliances: &Self::ClosingMultipliers<S>,
+    ) -> Self::JointCoefficients<S>;
+
+    /// The whole right-hand side in one straight line: the slope of the state, and the multipliers of the equations that remain. Writes every element of
+    /// both; returns the smallest relative pivot.
+    fn evaluate_joints_into<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        time: S,
+        state: &Self::JointState<S>,
+        rates: &mut Self::JointState<S>,
+        multipliers: &mut Self::ClosingMultipliers<S>,
+    ) -> Pivot<S>;
+
+    /// How the bodies stand and move.
+    fn body_motions<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        state: &Self::JointState<S>,
+    ) -> Self::BodyMotions<S>;
+
+    /// The joint coordinates of bodies that stand and move as the joints of the tree let them; of others, those of the nearest such motion.
+    fn joint_state<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        state: &Self::State<S>,
+    ) -> Self::JointState<S>;
+}
+
+/// The slope of a state, and the multipliers of the equations that remain.
+pub struct JointEvaluation<S: Scalar, M: JointCoordinates> {
+    /// Rates of the angles, of the further coordinates and of the velocities.
+    pub rates: M::JointState<S>,
+    /// `lambda`, one per equation that remains.
+    pub multipliers: M::ClosingMultipliers<S>,
+}
+
+/// Access to the parts of a [`JointState`], for code that is generic over the mechanism.
+pub trait JointParts<S: Scalar>: Vector<S> + Copy + Debug + PartialEq {
+    /// Nothing turned, nothing moved; of a slope, nothing that moves.
+    fn zeros() -> Self;
+
+    /// The further coordinates.
+    fn rest_slice(&self) -> &[S];
+
+    /// The further coordinates, to be written.
+    fn rest_slice_mut(&mut self) -> &mut [S];
+}
+
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> JointParts<S>
+    for JointState<S, TURNS, REST, RATES>
+{
+    #[inline(always)]
+    fn zeros() -> Self {
+        Self::from_parts(
+            [[S::zero(); 2]; TURNS],
+            [S::zero(); REST],
+            [S::zero(); RATES],
+        )
+    }
+
+    #[inline(always)]
+    fn rest_slice(&self) -> &[S] {
+        self.rest()
+    }
+
+    #[inline(always)]
+    fn rest_slice_mut(&mut self) -> &mut [S] {
+        self.rest_mut()
+    }
+}
+
+/// What the coordinates of a mechanism's joints are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointReport {
+    /// The motions in the order of the velocities; a ball has three of these.
+    pub motions: &'static [JointMotion],
+    /// The joint of each equation that remains.
+    pub closing: &'static [&'static str],
+    /// Name of the terms, operations and longest chain of operations of each evaluation; one alone where no equation remains.
+    pub operations: &'static [(&'static str, usize, usize)],
+    /// The places of Euler parameters among the further coordinates.
+    pub euler_parameters: &'static [usize],
+    /// How many of the further coordinates are auxiliary variables; they are the last.
+    pub auxiliaries: usize,
+}
+
+/// One motion of a joint that carries a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointMotion {
+    /// The joint; empty for a body that no joint carries, which moves freely.
+    pub joint: &'static str,
+    /// The body that it carries.
+    pub body: &'static str,
+    /// What it is.
+    pub freedom: Freedom,
+}
+
+/// What a motion is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may be measured against what carries the run.
+    Turn {
+        /// Whether it counts against the joint's own angle.
+        is_reversed: bool,
+    },
+    /// A displacement (m) and its rate (m/s).
+    Slide,
+    /// Euler parameters from principal to global axes, and an angular velocity (rad/s) in principal axes.
+    Ball,
+}

@@ -1,0 +1,314 @@
+//! A mechanism in joint coordinates as a system of differential equations.
+
+use crate::array::{Array, StateParts, Vector};
+use crate::dynamics::{Dynamics, singular, vanishes};
+use crate::error::{Fault, NotFinite};
+use crate::formulation::Formulation;
+use crate::integrate::System;
+use crate::joint_coordinates::{JointCoordinates, JointEvaluation, JointParts};
+use crate::load::{AppliedForces, NoForces};
+use crate::mechanism::{Normalised, Pivot};
+use crate::report::BodyKind;
+use crate::rotation::{check_state, from_matrix, normalised_or_zero, read, write};
+use crate::scalar::Real;
+use crate::start::check_start;
+
+/// A mechanism in joint coordinates with a formulation, prepared: what an integrator moves.
+///
+/// Its states are [`JointCoordinates::JointState`]; [`JointDynamics::bodies`] says how the bodies stand in one, and everything that can be read of a mechanism
+/// ([`View`](crate::View), reactions by [`Dynamics::evaluate`]) is read there.
+///
+/// ```
+/// use holonom::joints::Revolute;
+/// use holonom::prelude::*;
+/// use holonom::{JointDynamics, Scheme};
+///
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+/// struct Rod {
+///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+///     rod: Body,
+///     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     hinge: Revolute,
+/// }
+///
+/// let mut dynamics = JointDynamics::<f64, _, _>::new(&Rod::default(), StandardLagrange)?;
+/// let mut state = dynamics.initial_state()?;
+/// for step in 0..100 {
+///     Rk4.step(&mut dynamics, 0.01 * f64::from(step), &mut state, 0.01)?;
+/// }
+/// let bodies = dynamics.bodies(&state);
+/// let angle = dynamics.of_bodies().view(1.0, &bodies).angle(Rod::HANDLES.hinge);
+/// assert!((state.pairs()[0][0] - angle.cos()).abs() < 1e-14);
+/// # Ok::<(), Fault>(())
+/// ```
+pub struct JointDynamics<S: Real, M: JointCoordinates, F: Formulation<S>, A = NoForces> {
+    bodies: Dynamics<S, M, F, Normalised, A>,
+    constants: M::JointConstants<S>,
+    coefficients: M::JointCoefficients<S>,
+}
+
+impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
+    /// Prepares the kernels.
+    ///
+    /// # Errors
+    /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable; [`Fault::Iterated`] for an
+    /// [`AugmentedLagrangian`](crate::AugmentedLagrangian).
+    pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
+        Self::with(mechanism, Dynamics::new(mechanism, formulation)?)
+    }
+
+    /// Takes the present parameters and inputs of the mechanism.
+    ///
+    /// # Errors
+    /// A parameter that is not acceptable; the former ones then stay.
+    pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
+        let mut bodies = Dynamics::new(mechanism, *self.bodies.formulation())?;
+        core::mem::swap(&mut bodies, &mut self.bodies);
+        let former = bodies;
+        match prepared::<S, M, F>(mechanism, self.bodies.formulation()) {
+            Ok((constants, coefficients)) => {
+                self.constants = constants;
+                self.coefficients = coefficients;
+                Ok(())
+            }
+            Err(fault) => {
+                self.bodies = former;
+                Err(fault)
+            }
+        }
+    }
+
+    /// The state that the attributes of the bodies describe.
+    ///
+    /// # Errors
+    /// [`Fault::InconsistentStart`] where the bodies do not stand as the joints let them; [`MechanismExt::assemble`](crate::MechanismExt::assemble) mends that.
+    pub fn initial_state(&self) -> Result<M::JointState<S>, Fault> {
+        self.joints(&M::initial_state(self.bodies.constants()))
+    }
+}
+
+/// Constants and coefficients of a mechanism.
+#[expect(
+    clippy::type_complexity,
+    reason = "two arrays of the mechanism's own sizes"
+)]
+fn prepared<S: Real, M: JointCoordinates, F: Formulation<S>>(
+    mechanism: &M,
+    formulation: &F,
+) -> Result<(M::JointConstants<S>, M::JointCoefficients<S>), Fault> {
+    if F::ITERATED {
+        return Err(Fault::Iterated);
+    }
+    let stabilisation = formulation.stabilisation()?;
+    let constants = M::prepare_joints(&mechanism.parameters()?);
+    let mut compliances = M::ClosingMultipliers::<S>::zeros();
+    compliances.as_mut_slice().fill(stabilisation.compliance);
+    let coefficients = M::joint_coefficients(&constants, &stabilisation, &compliances);
+    Ok((constants, coefficients))
+}
+
+impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, A> {
+    /// The same system by its joints.
+    pub(crate) fn with(
+        mechanism: &M,
+        bodies: Dynamics<S, M, F, Normalised, A>,
+    ) -> Result<Self, Fault> {
+        let (constants, coefficients) = prepared::<S, M, F>(mechanism, bodies.formulation())?;
+        Ok(Self {
+            bodies,
+            constants,
+            coefficients,
+        })
+    }
+
+    /// The same mechanism as its bodies describe it.
+    #[must_use]
+    pub fn of_bodies(&self) -> &Dynamics<S, M, F, Normalised, A> {
+        &self.bodies
+    }
+
+    pub(crate) fn of_bodies_mut(&mut self) -> &mut Dynamics<S, M, F, Normalised, A> {
+        &mut self.bodies
+    }
+
+    /// How the bodies stand and move: exactly as the joints of the tree let them.
+    #[must_use]
+    pub fn bodies(&self, state: &M::JointState<S>) -> M::State<S> {
+        let motions = M::body_motions(&self.constants, state);
+        let mut parts = motions.as_slice();
+        let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
+        let mut next = |count: usize| {
+            let (first, rest) = parts.split_at_checked(count).unwrap_or((parts, &[]));
+            parts = rest;
+            first
+        };
+        for body in M::REPORT.bodies {
+            let linear = next(6);
+            let (position, velocity): ([S; 3], [S; 3]) = (read(linear, 0), read(linear, 3));
+            let coordinates = bodies.coordinates_mut().as_mut_slice();
+            write(coordinates, body.coordinate, position);
+            if body.kind == BodyKind::Rigid {
+                let angular = next(12);
+                let rows = [0, 3, 6].map(|place| read(angular, place));
+                write(coordinates, body.coordinate + 3, from_matrix(&rows));
+                let spin: [S; 3] = read(angular, 9);
+                let velocities = bodies.velocities_mut().as_mut_slice();
+                write(velocities, body.velocity + 3, spin);
+            }
+            let velocities = bodies.velocities_mut().as_mut_slice();
+            write(velocities, body.velocity, velocity);
+        }
+        let auxiliaries = next(M::REPORT.auxiliaries);
+        let coordinates = bodies.coordinates_mut().as_mut_slice();
+        for (place, &value) in auxiliaries.iter().enumerate() {
+            write(coordinates, M::REPORT.coordinates + place, [value]);
+        }
+        bodies
+    }
+
+    /// The joint coordinates of bodies.
+    ///
+    /// # Errors
+    /// [`Fault::InconsistentStart`] where the bodies do not stand as the joints let them, or move so that one would open within a second, by more
+    /// than four digits; smaller violations of the joints of the tree are taken away.
+    pub fn joints(&self, bodies: &M::State<S>) -> Result<M::JointState<S>, Fault> {
+        let mut bodies = *bodies;
+        M::recount(self.bodies.constants(), &mut bodies);
+        check_state::<S, M>(&bodies)?;
+        let second = (S::zero(), S::one());
+        check_start::<S, M>(self.bodies.constants(), second, &bodies)?;
+        Ok(M::joint_state(&self.constants, &bodies))
+    }
+
+    pub(crate) fn nearest(&self, bodies: &M::State<S>) -> M::JointState<S> {
+        M::joint_state(&self.constants, bodies)
+    }
+
+    #[inline(always)]
+    fn straight(
+        &self,
+        time: S,
+        state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+        multipliers: &mut M::ClosingMultipliers<S>,
+    ) -> Pivot<S> {
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        M::evaluate_joints_into::<S, F::Terms>(
+            constants,
+            coefficients,
+            time,
+            state,
+            rates,
+            multipliers,
+        )
+    }
+}
+
+impl<S, M, F, A> JointDynamics<S, M, F, A>
+where
+    S: Real,
+    M: JointCoordinates,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    /// The slope of a state, and the multipliers of the equations that remain.
+    ///
+    /// # Errors
+    /// As [`Dynamics::evaluate`].
+    pub fn evaluate(
+        &self,
+        time: S,
+        state: &M::JointState<S>,
+    ) -> Result<JointEvaluation<S, M>, Fault> {
+        let mut rates = M::JointState::<S>::zeros();
+        let mut multipliers = M::ClosingMultipliers::<S>::zeros();
+        let pivot = self.straight(time, state, &mut rates, &mut multipliers);
+        if rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative) {
+            Ok(JointEvaluation { rates, multipliers })
+        } else {
+            Err(self.fault(time, state, &pivot))
+        }
+    }
+
+    /// Why an evaluation is not sound.
+    #[cold]
+    #[inline(never)]
+    fn fault(&self, time: S, state: &M::JointState<S>, pivot: &Pivot<S>) -> Fault {
+        if !state.is_finite() {
+            return Fault::StateNotFinite;
+        }
+        if vanishes::<S, F::Terms>(pivot.relative) {
+            return singular::<S, M>(pivot);
+        }
+        let of_bodies = self.bodies.evaluate(time, &self.bodies(state));
+        of_bodies.err().unwrap_or(Fault::RatesNotFinite {
+            origin: NotFinite::Unknown,
+        })
+    }
+}
+
+impl<S, M, F, A> System<S> for JointDynamics<S, M, F, A>
+where
+    S: Real,
+    M: JointCoordinates,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    type State = M::JointState<S>;
+
+    #[inline(always)]
+    fn rates(&mut self, time: S, state: &M::JointState<S>) -> Result<M::JointState<S>, Fault> {
+        self.evaluate(time, state)
+            .map(|evaluation| evaluation.rates)
+    }
+
+    #[inline(always)]
+    fn stage(
+        &mut self,
+        time: S,
+        state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+    ) -> Result<(), Fault> {
+        let mut multipliers = Array::zeros();
+        let pivot = self.straight(time, state, rates, &mut multipliers);
+        if vanishes::<S, F::Terms>(pivot.relative) {
+            // Why is asked when the step is refused.
+            return Err(Fault::StateNotFinite);
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn settle(&mut self, state: &mut M::JointState<S>, mut rates: Option<&mut M::JointState<S>>) {
+        for &place in M::JOINT_REPORT.euler_parameters {
+            let p: [S; 4] = read(state.rest_slice(), place);
+            let unit = normalised_or_zero(&p);
+            write(state.rest_slice_mut(), place, unit);
+            if let Some(rates) = rates.as_deref_mut() {
+                // They are linear in `p`.
+                let factor = (0..4)
+                    .fold(S::zero(), |sum, k| unit[k].fused(p[k], sum))
+                    .reciprocal();
+                let slope: [S; 4] = read(rates.rest_slice(), place);
+                write(
+                    rates.rest_slice_mut(),
+                    place,
+                    slope.map(|rate| rate * factor),
+                );
+            }
+        }
+        let auxiliaries = M::JOINT_REPORT.auxiliaries;
+        if auxiliaries > 0 {
+            let mut bodies = self.bodies(state);
+            M::recount(self.bodies.constants(), &mut bodies);
+            let counted = bodies.coordinates().as_slice();
+            let counted = counted.get(M::REPORT.coordinates..).unwrap_or(&[]);
+            let rest = state.rest_slice_mut();
+            let first = rest.len().saturating_sub(auxiliaries);
+            for (place, &value) in counted.iter().enumerate() {
+                write(rest, first + place, [value]);
+            }
+        }
+    }
+}

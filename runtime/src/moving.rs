@@ -1,0 +1,154 @@
+//! What a run moves: the bodies of a mechanism, or its joints.
+
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::System;
+use crate::joint_coordinates::JointCoordinates;
+use crate::joint_dynamics::JointDynamics;
+use crate::load::AppliedForces;
+use crate::mechanism::{Mechanism, Normalised, Orientation};
+use crate::scalar::Real;
+use crate::watch::Watch;
+
+/// A run moves positions and orientations of the bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Bodies;
+
+/// A run moves joint coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct Joints;
+
+/// By what a run describes a mechanism: [`Bodies`] or [`Joints`].
+pub trait Description<S: Real, M: Mechanism, F: Formulation<S>, P, A> {
+    /// Whether there are joints that nothing can open.
+    #[doc(hidden)]
+    const HAS_EXACT_JOINTS: bool;
+
+    /// What the integrator moves.
+    #[doc(hidden)]
+    type Moving: Moving<S, M>;
+
+    /// Prepares it.
+    #[doc(hidden)]
+    fn moving(mechanism: &M, dynamics: Dynamics<S, M, F, P, A>) -> Result<Self::Moving, Fault>;
+}
+
+/// A system whose states say how the bodies of a mechanism stand.
+pub trait Moving<S: Real, M: Mechanism>: System<S> {
+    /// The formulation of what reads the mechanism.
+    type Formulation: Formulation<S>;
+    /// How it reads Euler parameters.
+    type Orientation: Orientation;
+    /// Its forces on top of those of the description.
+    type Forces: AppliedForces<S, M>;
+
+    /// How the bodies stand and move.
+    fn bodies(&self, state: &Self::State) -> M::State<S>;
+
+    /// The state in which they stand and move so, or nearly so.
+    fn of(&self, bodies: &M::State<S>) -> Self::State;
+
+    /// What reads the mechanism.
+    fn dynamics(&self) -> &Dynamics<S, M, Self::Formulation, Self::Orientation, Self::Forces>;
+
+    /// Shows the end of a step to the watch.
+    fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>);
+}
+
+impl<S, M, F, P, A> Description<S, M, F, P, A> for Bodies
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+{
+    const HAS_EXACT_JOINTS: bool = false;
+    type Moving = Dynamics<S, M, F, P, A>;
+
+    fn moving(_mechanism: &M, dynamics: Dynamics<S, M, F, P, A>) -> Result<Self::Moving, Fault> {
+        Ok(dynamics)
+    }
+}
+
+impl<S, M, F, P, A> Moving<S, M> for Dynamics<S, M, F, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+{
+    type Formulation = F;
+    type Orientation = P;
+    type Forces = A;
+
+    #[inline(always)]
+    fn bodies(&self, state: &M::State<S>) -> M::State<S> {
+        *state
+    }
+
+    #[inline(always)]
+    fn of(&self, bodies: &M::State<S>) -> M::State<S> {
+        *bodies
+    }
+
+    #[inline(always)]
+    fn dynamics(&self) -> &Self {
+        self
+    }
+
+    #[inline(always)]
+    fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
+        Dynamics::watch(self, watch, time, bodies);
+    }
+}
+
+impl<S, M, F, A> Description<S, M, F, Normalised, A> for Joints
+where
+    S: Real,
+    M: JointCoordinates,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    const HAS_EXACT_JOINTS: bool = true;
+    type Moving = JointDynamics<S, M, F, A>;
+
+    fn moving(
+        mechanism: &M,
+        dynamics: Dynamics<S, M, F, Normalised, A>,
+    ) -> Result<Self::Moving, Fault> {
+        JointDynamics::with(mechanism, dynamics)
+    }
+}
+
+impl<S, M, F, A> Moving<S, M> for JointDynamics<S, M, F, A>
+where
+    S: Real,
+    M: JointCoordinates,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    type Formulation = F;
+    type Orientation = Normalised;
+    type Forces = A;
+
+    fn bodies(&self, state: &M::JointState<S>) -> M::State<S> {
+        Self::bodies(self, state)
+    }
+
+    fn of(&self, bodies: &M::State<S>) -> M::JointState<S> {
+        self.nearest(bodies)
+    }
+
+    fn dynamics(&self) -> &Dynamics<S, M, F, Normalised, A> {
+        self.of_bodies()
+    }
+
+    fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
+        // The watch wants to know of all joints: pivots and multipliers of one evaluation. Where that has none, the pivot says why.
+        let _ = self.of_bodies_mut().rates(time, bodies);
+        self.of_bodies().watch(watch, time, bodies);
+    }
+}
