@@ -1,7 +1,7 @@
 //! A02: the four-bar and the double four-bar against the motion of a parallelogram.
 
 use holonom::prelude::*;
-use holonom::{BodyHandle, Integrator};
+use holonom::{BodyHandle, Integrator, JointCoordinates};
 use holonom_models::{DoubleFourBar, FourBar};
 use nalgebra::Vector3;
 
@@ -40,7 +40,7 @@ fn error_of_the_pin<M: Mechanism>(
     [position.norm(), velocity.norm()]
 }
 
-fn turns<M: Mechanism, F: Formulation<f64>>(
+fn turns<M: JointCoordinates, F: Formulation<f64>>(
     model: &M,
     left: BodyHandle<M>,
     method: F,
