@@ -13,6 +13,7 @@
 //! | [`redundant`] | equations that follow from others, singular configurations, and joints that avoid both |
 //! | [`embedded`] | fixed steps without a heap and without the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
+//! | [`coordinates`] | bodies or joints: the two descriptions of a mechanism, and what each costs and gives |
 //!
 //! # A first program
 //!
@@ -98,3 +99,6 @@ pub mod embedded {}
 
 #[doc = include_str!("choosing.md")]
 pub mod choosing {}
+
+#[doc = include_str!("coordinates.md")]
+pub mod coordinates {}
