@@ -12,6 +12,7 @@ use crate::report::BodyKind;
 use crate::rotation::{check_state, from_matrix, normalised_or_zero, read, write};
 use crate::scalar::Real;
 use crate::start::check_start;
+use crate::watch::Watch;
 
 /// A mechanism in joint coordinates with a formulation, prepared: what an integrator moves.
 ///
@@ -46,6 +47,8 @@ pub struct JointDynamics<S: Real, M: JointCoordinates, F: Formulation<S>, A = No
     bodies: Dynamics<S, M, F, Normalised, A>,
     constants: M::JointConstants<S>,
     coefficients: M::JointCoefficients<S>,
+    /// The smallest relative pivot of the last evaluation.
+    pivot: S,
 }
 
 impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
@@ -119,6 +122,7 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
             bodies,
             constants,
             coefficients,
+            pivot: S::one(),
         })
     }
 
@@ -126,10 +130,6 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     #[must_use]
     pub fn of_bodies(&self) -> &Dynamics<S, M, F, Normalised, A> {
         &self.bodies
-    }
-
-    pub(crate) fn of_bodies_mut(&mut self) -> &mut Dynamics<S, M, F, Normalised, A> {
-        &mut self.bodies
     }
 
     /// How the bodies stand and move: exactly as the joints of the tree let them.
@@ -212,6 +212,14 @@ where
     F: Formulation<S>,
     A: AppliedForces<S, M>,
 {
+    /// Shows the end of a step to the watch, which wants to know of all joints: pivots and multipliers of one evaluation of the bodies. Where that has none,
+    /// its pivot says why. What the velocities that rows determine lose counts as well.
+    pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
+        let _ = self.bodies.rates(time, bodies);
+        self.bodies.see_pivot(self.pivot);
+        self.bodies.watch(watch, time, bodies);
+    }
+
     /// The slope of a state, and the multipliers of the equations that remain.
     ///
     /// # Errors
@@ -276,6 +284,7 @@ where
             // Why is asked when the step is refused.
             return Err(Fault::StateNotFinite);
         }
+        self.pivot = pivot.relative;
         Ok(())
     }
 

@@ -147,8 +147,6 @@ where
     }
 
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
-        // The watch wants to know of all joints: pivots and multipliers of one evaluation. Where that has none, the pivot says why.
-        let _ = self.of_bodies_mut().rates(time, bodies);
-        self.of_bodies().watch(watch, time, bodies);
+        Self::watch(self, watch, time, bodies);
     }
 }

@@ -35,6 +35,13 @@ where
         }
     }
 
+    /// Looks at a relative pivot that counts beside that of the last evaluation.
+    pub(crate) fn see_pivot(&mut self, relative: S) {
+        if relative < self.seen.pivot {
+            self.seen.pivot = relative;
+        }
+    }
+
     /// Counts and looks at an evaluation in parts, and hands on its rates.
     pub(super) fn gathered(&mut self, parts: &Parts<S, M>) -> M::State<S> {
         let Evaluation {
