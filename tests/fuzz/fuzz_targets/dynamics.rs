@@ -23,6 +23,8 @@ mod library;
 mod reading;
 #[path = "../../../macros/engine/tests/mechanisms/redundancy.rs"]
 mod redundancy;
+#[path = "../../../macros/engine/tests/mechanisms/reduced.rs"]
+mod reduced;
 #[path = "../../../macros/engine/tests/mechanisms/reference.rs"]
 mod reference;
 #[path = "../../../macros/engine/tests/mechanisms/shrink.rs"]
