@@ -172,10 +172,18 @@ fn candidate(
     };
     let least = SINGULAR * largest(&volumes);
     let regular = determinants.iter().zip(&volumes);
-    let steady = regular
+    let shares: Vec<f64> = regular
         .filter(|(_, volume)| **volume > least)
-        .map(|(determinant, volume)| (determinant / scale).abs() / volume)
-        .fold(f64::INFINITY, f64::min);
+        .map(|(determinant, volume)| determinant / scale / volume)
+        .collect();
+    let vanishes = shares.windows(2).any(|pair| passes_zero(pair[0], pair[1]));
+    let steady = if vanishes {
+        0.0
+    } else {
+        shares
+            .iter()
+            .fold(f64::INFINITY, |least, share| least.min(share.abs()))
+    };
     let most = largest(&determinants);
     Candidate {
         rows: rows.to_vec(),
@@ -188,6 +196,11 @@ fn candidate(
         },
         velocities,
     }
+}
+
+/// Whether a share vanishes between two stops. In a singular position all shares change their signs at once, and keep their sizes.
+fn passes_zero(before: f64, behind: f64) -> bool {
+    before * behind < 0.0 && before.abs() + behind.abs() < 1.0
 }
 
 /// The largest entry of each column along a tour, 1 where there is none.
