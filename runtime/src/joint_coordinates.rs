@@ -130,6 +130,8 @@ pub struct JointReport {
     pub euler_parameters: &'static [usize],
     /// How many of the further coordinates are auxiliary variables; they are the last.
     pub auxiliaries: usize,
+    /// Whether some of these count angles that are no sums of the turns of joints, so that they are put right after every step.
+    pub recounts: bool,
 }
 
 /// One motion of a joint that carries a body.

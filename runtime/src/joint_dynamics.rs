@@ -308,7 +308,7 @@ where
             }
         }
         let auxiliaries = M::JOINT_REPORT.auxiliaries;
-        if auxiliaries > 0 {
+        if M::JOINT_REPORT.recounts {
             let mut bodies = self.bodies(state);
             M::recount(self.bodies.constants(), &mut bodies);
             let counted = bodies.coordinates().as_slice();

@@ -54,6 +54,8 @@ pub struct JointKernels {
     pub rest: usize,
     /// The auxiliary variables among them.
     pub auxiliaries: usize,
+    /// Whether one of these is not the integral of velocities.
+    pub recounts: bool,
     /// Velocities.
     pub velocities: usize,
     /// The joints of the rows that remain, row by row.
@@ -101,6 +103,11 @@ impl JointKernels {
             turns: links.turns,
             rest: links.rest + auxiliaries,
             auxiliaries,
+            recounts: reduced
+                .scene
+                .counters
+                .iter()
+                .any(|counted| counted.angle.paired.is_none()),
             velocities: links.velocities,
             rows,
             balls: balls.collect(),

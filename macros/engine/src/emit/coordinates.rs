@@ -365,7 +365,7 @@ impl Writer<'_> {
             quote!((#name, #total, #depth))
         });
         let balls = &kernels.balls;
-        let auxiliaries = kernels.auxiliaries;
+        let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
         quote! {
             #facade::JointReport {
                 motions: &[#(#links),*],
@@ -373,6 +373,7 @@ impl Writer<'_> {
                 operations: &[#(#operations),*],
                 euler_parameters: &[#(#balls),*],
                 auxiliaries: #auxiliaries,
+                recounts: #recounts,
             }
         }
     }

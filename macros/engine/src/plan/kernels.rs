@@ -342,6 +342,9 @@ pub(crate) fn turning(scene: &mut Scene, counter: usize) -> Expr {
         ..
     } = scene;
     let counted = &counters[counter];
+    if counted.angle.paired.is_some() {
+        return counted.angle.rate(space, motion);
+    }
     let axis = counted.axis.value(space, motion);
     let [from, to] = counted.bodies;
     let mut rate = Arena::ZERO;
