@@ -37,6 +37,9 @@ impl<S: Scalar, const N: usize> Array<S> for [S; N] {
 /// vector of another kind (on the heap, say) has two functions to write. A state that is no vector throughout, such as
 /// [`crate::JointState`], replaces what adds to it and what measures an increment.
 pub trait Vector<S: Scalar>: Clone {
+    /// Whether [`Vector::plus`] costs more than to keep a slope: a method then adds its slopes at once.
+    const IS_COSTLY: bool = false;
+
     /// `f(self[k], other[k])` for every element.
     #[must_use]
     fn zip(&self, other: &Self, f: impl FnMut(S, S) -> S) -> Self;

@@ -50,6 +50,23 @@ impl<S: Real> Scheme<S> for Rk4 {
         let half = S::constant(0.5) * step;
         let sixth = S::constant(1.0 / 6.0) * step;
         let third = sixth + sixth;
+        if Y::State::IS_COSTLY {
+            let [mut second, mut penultimate, mut last] =
+                [first.clone(), first.clone(), first.clone()];
+            system.stage(time + half, &state.plus([(half, first)]), &mut second)?;
+            system.stage(
+                time + half,
+                &state.plus([(half, &second)]),
+                &mut penultimate,
+            )?;
+            system.stage(time + step, &state.plus([(step, &penultimate)]), &mut last)?;
+            return Ok(state.plus([
+                (sixth, first),
+                (third, &second),
+                (third, &penultimate),
+                (sixth, &last),
+            ]));
+        }
         let mut slope = first.clone();
         let mut next = state.plus([(sixth, first)]);
         system.stage(time + half, &state.plus([(half, first)]), &mut slope)?;
