@@ -171,14 +171,19 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     ///
     /// # Errors
     /// [`Fault::InconsistentStart`] where the bodies do not stand as the joints let them, or move so that one would open within a second, by more
-    /// than four digits; smaller violations of the joints of the tree are taken away.
+    /// than four digits; smaller violations of the joints of the tree are taken away. [`Fault::StateNotFinite`] where the two axes of a joint are in line.
     pub fn joints(&self, bodies: &M::State<S>) -> Result<M::JointState<S>, Fault> {
         let mut bodies = *bodies;
         M::recount(self.bodies.constants(), &mut bodies);
         check_state::<S, M>(&bodies)?;
         let second = (S::zero(), S::one());
         check_start::<S, M>(self.bodies.constants(), second, &bodies)?;
-        Ok(M::joint_state(&self.constants, &bodies))
+        let joints = M::joint_state(&self.constants, &bodies);
+        if joints.is_finite() {
+            Ok(joints)
+        } else {
+            Err(Fault::StateNotFinite)
+        }
     }
 
     pub(crate) fn nearest(&self, bodies: &M::State<S>) -> M::JointState<S> {
