@@ -100,9 +100,11 @@ impl Writer<'_> {
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
         let (compliances, given) = (local("compliances"), local("parameters"));
         let report = self.report();
+        let documentation = self.documentation();
         let parts = &self.parts;
         quote! {
             #[automatically_derived]
+            #documentation
             impl #facade::JointCoordinates for #name {
                 type JointState<__S: #facade::Scalar> = #facade::JointState<__S, #turns, #rest, #velocities>;
                 type ClosingMultipliers<__S: #facade::Scalar> = [__S; #rows];
@@ -339,6 +341,47 @@ impl Writer<'_> {
         }
     }
 
+    /// The coordinates, what remains of the joints, and what an evaluation costs.
+    fn documentation(&self) -> TokenStream {
+        let (model, kernels) = (self.model, self.kernels);
+        let joint = |joint: usize| model.joints[joint].name.to_string();
+        let mut text = String::from("| body | joint | moves by |\n|---|---|---|\n");
+        for link in &kernels.links {
+            let by = link
+                .joint
+                .map_or("moves freely".into(), |place| format!("`{}`", joint(place)));
+            let motion = match link.meaning {
+                Meaning::Turn(_) => "a turn",
+                Meaning::Slide => "a slide",
+                Meaning::Ball => "every rotation",
+            };
+            let body = &model.bodies[link.body].name;
+            text += &format!("| `{body}` | {by} | {motion} |\n");
+        }
+        let mut closing: Vec<String> = kernels.rows.iter().map(|&row| joint(row)).collect();
+        closing.dedup();
+        if !closing.is_empty() {
+            let rows = kernels.rows.len();
+            let names: Vec<String> = closing.iter().map(|name| format!("`{name}`")).collect();
+            let names = names.join(", ");
+            text += &format!("\nEquations that remain: {rows}, of {names}.\n");
+        }
+        text += "\n| terms | operations of an evaluation | longest chain |\n|---|---|---|\n";
+        for (name, operations, depth) in self.operations() {
+            text += &format!("| {name} | {operations} | {depth} |\n");
+        }
+        quote!(#[doc = #text])
+    }
+
+    /// Terms, operations and the longest chain of each evaluation.
+    fn operations(&self) -> impl Iterator<Item = (&'static str, usize, usize)> + '_ {
+        self.kernels.evaluations.iter().map(|evaluation| {
+            let Kernel { arena, outputs } = &evaluation.kernel;
+            let counted = count(arena, outputs, Stage::State);
+            (name(evaluation.terms), counted.total(), counted.depth)
+        })
+    }
+
     fn report(&self) -> TokenStream {
         let (facade, kernels) = (self.facade, self.kernels);
         let joint = |joint: Option<usize>| {
@@ -358,12 +401,8 @@ impl Writer<'_> {
             }
         });
         let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
-        let operations = kernels.evaluations.iter().map(|evaluation| {
-            let Kernel { arena, outputs } = &evaluation.kernel;
-            let counted = count(arena, outputs, Stage::State);
-            let (name, total, depth) = (name(evaluation.terms), counted.total(), counted.depth);
-            quote!((#name, #total, #depth))
-        });
+        let operations = self.operations();
+        let operations = operations.map(|(name, total, depth)| quote!((#name, #total, #depth)));
         let balls = &kernels.balls;
         let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
         quote! {
