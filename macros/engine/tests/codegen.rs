@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{FAULTY, PENDULUM, SCENES, generated, model, tokens};
+use common::{FAULTY, PENDULUM, SCENES, chain, generated, model, tokens};
 use holonom_engine::emit::report::{counts, describe};
 use holonom_engine::plan::candidates::choose;
 use holonom_engine::plan::kernels::{Kernels, evaluation};
@@ -64,27 +64,6 @@ fn plans_and_counts() {
     insta::assert_snapshot!("counts", text);
 }
 
-/// Rods of 1 m and 1 kg one behind the other, with joints along their axes 1.
-fn chain(joint: &str, rods: usize) -> String {
-    let mut text = String::from("#[mechanism(gravity = [0.0, 0.0, -9.81])] struct Chain {");
-    for rod in 0..rods {
-        let (head, centre) = (rod as f64, rod as f64 + 0.5);
-        let before = match rod.checked_sub(1) {
-            Some(before) => format!("rod_{before}"),
-            None => "ground".into(),
-        };
-        let axis = match joint {
-            "Revolute" => ", axis = [1.0, 0.0, 0.0]",
-            _ => "",
-        };
-        text += &format!(
-            "#[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, {centre:?}, 0.0])] rod_{rod}: Body,
-            #[joint(between = [{before}, rod_{rod}], point = [0.0, {head:?}, 0.0]{axis})] joint_{rod}: {joint},"
-        );
-    }
-    text + "}"
-}
-
 /// Three rods on four hinges; one of the equations' sets that follow from the others is left out.
 const FOUR_BAR: &str = "#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = \"drop\")] struct FourBar {
     #[body(mass = 1.0, inertia = [0.0833, 0.0833, 0.001], position = [0.0, 0.0, 0.5])] left: Body,
@@ -99,10 +78,10 @@ const FOUR_BAR: &str = "#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = \"d
 #[test]
 fn chains_and_a_loop() {
     let scenes = [
-        ("2 rods on ball joints", chain("Spherical", 2)),
-        ("8 rods on ball joints", chain("Spherical", 8)),
-        ("2 rods on hinges", chain("Revolute", 2)),
-        ("8 rods on hinges", chain("Revolute", 8)),
+        ("2 rods on ball joints", chain("Spherical", 2, false)),
+        ("8 rods on ball joints", chain("Spherical", 8, false)),
+        ("2 rods on hinges", chain("Revolute", 2, false)),
+        ("8 rods on hinges", chain("Revolute", 8, false)),
         ("four-bar", FOUR_BAR.into()),
     ];
     let mut text = String::new();

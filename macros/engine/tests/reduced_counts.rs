@@ -1,40 +1,18 @@
-//! Operations of the accelerations in joint coordinates, by the way that takes the fewest. The rates of the coordinates are not among them: two for each pair of
-//! cosine and sine.
+//! Operations of the accelerations in joint coordinates, by the way that takes the fewest. The slope of a pair is the rate of its angle and costs nothing; those of Euler
+//! parameters are not among them.
 
 mod common;
 #[allow(dead_code, reason = "other tests need all of it")]
 #[path = "mechanisms/library.rs"]
 mod library;
 
-use common::{delivered, tokens};
+use common::{chain, delivered, tokens};
 use holonom_engine::coordinates::candidates::Strategy;
 use holonom_engine::coordinates::system::Reduced;
 use holonom_engine::model::Model;
 use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::arena::Stage;
 use holonom_engine::symbolic::count::{Count, count};
-
-/// Rods of 1 m and 1 kg one behind the other.
-fn chain(joint: &str, rods: usize, alternating: bool) -> String {
-    let mut text = String::from("#[mechanism(gravity = [0.0, 0.0, -9.81])] struct Chain {");
-    for rod in 0..rods {
-        let (head, centre) = (rod as f64, rod as f64 + 0.5);
-        let before = match rod.checked_sub(1) {
-            Some(before) => format!("rod_{before}"),
-            None => "ground".into(),
-        };
-        let axis = match joint {
-            "Revolute" if alternating && rod % 2 == 1 => ", axis = [0.0, 0.0, 1.0]",
-            "Revolute" => ", axis = [1.0, 0.0, 0.0]",
-            _ => "",
-        };
-        text += &format!(
-            "#[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, {centre:?}, 0.0])] rod_{rod}: Body,
-            #[joint(between = [{before}, rod_{rod}], point = [0.0, {head:?}, 0.0]{axis})] joint_{rod}: {joint},"
-        );
-    }
-    text + "}"
-}
 
 /// Four-bars side by side: a row of rods on the ground, each joined to the next at the top.
 fn windows(count: usize) -> String {

@@ -170,3 +170,25 @@ pub(crate) fn checked(
 pub(crate) fn generated(item: &TokenStream) -> syn::File {
     syn::parse2(holonom_engine::assemble(delivery(item))).expect("items")
 }
+
+/// Rods of 1 m and 1 kg one behind the other along y; hinges about x, or about x and z in turn.
+pub(crate) fn chain(joint: &str, rods: usize, alternating: bool) -> String {
+    let mut text = String::from("#[mechanism(gravity = [0.0, 0.0, -9.81])] struct Chain {");
+    for rod in 0..rods {
+        let (head, centre) = (rod as f64, rod as f64 + 0.5);
+        let before = match rod.checked_sub(1) {
+            Some(before) => format!("rod_{before}"),
+            None => "ground".into(),
+        };
+        let axis = match joint {
+            "Revolute" if alternating && rod % 2 == 1 => ", axis = [0.0, 0.0, 1.0]",
+            "Revolute" => ", axis = [1.0, 0.0, 0.0]",
+            _ => "",
+        };
+        text += &format!(
+            "#[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, {centre:?}, 0.0])] rod_{rod}: Body,
+            #[joint(between = [{before}, rod_{rod}], point = [0.0, {head:?}, 0.0]{axis})] joint_{rod}: {joint},"
+        );
+    }
+    text + "}"
+}
