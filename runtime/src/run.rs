@@ -127,15 +127,15 @@ where
                 state = self.corrected(projection, time, state)?;
                 course.replace(self.moving.of(&state));
             }
-            *last_good = (time, state);
             if let Some(watch) = &mut self.watch {
-                self.moving.watch(watch, time, &last_good.1);
+                self.moving.watch(watch, time, &state);
                 let excused = self.moving.dynamics().iterations().excused;
                 watch.excuse_evaluations(excused, time);
             }
+            *last_good = (time, state);
             self.log.unseen += 1;
             if self.schedule.at(time, self.log.unseen) {
-                self.show(time, &last_good.1);
+                self.show(time, &state);
                 if self.log.flow.is_break() {
                     break;
                 }
