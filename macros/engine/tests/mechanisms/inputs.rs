@@ -19,7 +19,7 @@ pub(crate) struct Coefficients {
 
 /// Everything that a kernel may ask for.
 pub(crate) struct Inputs {
-    symbols: Vec<f64>,
+    pub(crate) symbols: Vec<f64>,
     time: f64,
     pub(crate) coordinates: Vec<f64>,
     pub(crate) velocities: Vec<f64>,

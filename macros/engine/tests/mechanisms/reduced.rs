@@ -176,21 +176,25 @@ impl Comparison<'_> {
         let Some(equations) = Equations::new(self.described, &exact) else {
             return Ok(());
         };
-        // Joints of the tree hold by themselves.
-        let mut dropped = Vec::new();
-        for (joint, left_out) in model.joints.iter().zip(&reduced.dropped) {
-            let rows = model.definition(joint).equations();
-            dropped.extend((0..rows).map(|row| left_out.contains(&row)));
+        // Joints of the tree hold by themselves, rigidly.
+        let remains = |joint: usize| {
+            let mut constraints = reduced.scene.constraints.iter();
+            constraints.any(|constrained| constrained.joint == joint)
+        };
+        let (mut dropped, mut is_closing) = (Vec::new(), Vec::new());
+        for (joint, left_out) in reduced.dropped.iter().enumerate() {
+            let rows = model.definition(&model.joints[joint]).equations();
+            let is_kept = |row: &usize| !left_out.contains(row);
+            dropped.extend((0..rows).map(|row| !is_kept(&row)));
+            is_closing.extend((0..rows).filter(is_kept).map(|_| remains(joint)));
         }
         let equations = equations.without(&dropped);
-        let Some(system) = System::new(
-            &equations,
-            if terms == Terms::Compliant {
-                coefficients.compliance
-            } else {
-                0.0
-            },
-        ) else {
+        let compliances = is_closing.iter().map(|&closes| match terms {
+            Terms::Compliant if closes => coefficients.compliance,
+            _ => 0.0,
+        });
+        let matrix = equations.saddle_by_row(&compliances.collect::<Vec<f64>>());
+        let Some(system) = System::of(&equations, matrix) else {
             return Ok(());
         };
         let (gain, square) = if terms == Terms::Plain {
@@ -206,8 +210,8 @@ impl Comparison<'_> {
         let (wanted, round_off) = system.solve(&right);
         let Solution {
             accelerations,
+            multipliers,
             checks,
-            ..
         } = reduced.solve(terms);
         let arena = &reduced.scene.space.arena;
         let pairs: Vec<Expr> = checks
@@ -241,6 +245,7 @@ impl Comparison<'_> {
             match input {
                 Input::Coordinate(k) => at(&inputs.coordinates, &moving, k),
                 Input::Velocity(k) => at(&inputs.velocities, &second, k),
+                Input::Symbol(k) => Some((*inputs.symbols.get(k as usize)?, 0.0)),
                 _ => None,
             }
         };
@@ -251,17 +256,22 @@ impl Comparison<'_> {
                 found.extend(rates(arena, &chart.spin, input).iter().map(|x| x.1));
             }
         }
-        if model.symbols.is_empty() {
-            let own = in_axes(model, &found, false);
-            let relative = difference(&own, &wanted[..own.len()]) / round_off;
-            if relative > TOLERANCE || relative.is_nan() {
-                return Err(format!(
-                    "joint coordinates, {strategy:?}, {terms:?}: {own:?}\nwanted: {wanted:?}\ndifference over condition {relative:e}, {round_off:e}\nin {coordinates:?} {rates_of_joints:?}"
-                ));
-            }
-            self.statistics.worst = self.statistics.worst.max(relative);
-            self.statistics.solutions += 1;
+        let mut own = in_axes(model, &found, false);
+        let (accelerations, forces) = wanted.split_at(own.len());
+        let forces = forces.iter().zip(&is_closing);
+        let forces = forces
+            .filter(|(_, closes)| **closes)
+            .map(|(force, _)| *force);
+        let wanted: Vec<f64> = accelerations.iter().copied().chain(forces).collect();
+        own.extend(inputs.values(arena, &multipliers));
+        let relative = difference(&own, &wanted) / round_off;
+        if relative > TOLERANCE || relative.is_nan() {
+            return Err(format!(
+                "joint coordinates, {strategy:?}, {terms:?}: {own:?}\nwanted: {wanted:?}\ndifference over condition {relative:e}, {round_off:e}\nin {coordinates:?} {rates_of_joints:?}"
+            ));
         }
+        self.statistics.worst = self.statistics.worst.max(relative);
+        self.statistics.solutions += 1;
         Ok(())
     }
 }

@@ -322,6 +322,11 @@ impl Equations {
 
     /// `[M D^T; D -e]`.
     pub(crate) fn saddle(&self, compliance: f64) -> Vec<Vec<f64>> {
+        self.saddle_by_row(&vec![compliance; self.phi.len()])
+    }
+
+    /// With a compliance for each row.
+    pub(crate) fn saddle_by_row(&self, compliances: &[f64]) -> Vec<Vec<f64>> {
         let (velocities, rows) = (self.forces.len(), self.phi.len());
         let mut matrix = vec![vec![0.0; velocities + rows]; velocities + rows];
         for (line, mass) in matrix.iter_mut().zip(&self.mass) {
@@ -332,7 +337,7 @@ impl Equations {
             for (line, entry) in matrix.iter_mut().zip(gradient) {
                 line[velocities + k] = *entry;
             }
-            matrix[velocities + k][velocities + k] = -compliance;
+            matrix[velocities + k][velocities + k] = -compliances[k];
         }
         matrix
     }

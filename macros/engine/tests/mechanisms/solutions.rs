@@ -29,7 +29,11 @@ pub(crate) struct System {
 impl System {
     /// `None` where it is nearly singular.
     pub(crate) fn new(equations: &Equations, compliance: f64) -> Option<Self> {
-        let matrix = equations.saddle(compliance);
+        Self::of(equations, equations.saddle(compliance))
+    }
+
+    /// The system of a given matrix.
+    pub(crate) fn of(equations: &Equations, matrix: Vec<Vec<f64>>) -> Option<Self> {
         let norm = size(&matrix);
         let factors = Factors::new(matrix)?;
         let inverse = factors.size_of_inverse();
