@@ -66,20 +66,8 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        let mut bodies = Dynamics::new(mechanism, *self.bodies.formulation())?;
-        core::mem::swap(&mut bodies, &mut self.bodies);
-        let former = bodies;
-        match prepared::<S, M, F>(mechanism, self.bodies.formulation()) {
-            Ok((constants, coefficients)) => {
-                self.constants = constants;
-                self.coefficients = coefficients;
-                Ok(())
-            }
-            Err(fault) => {
-                self.bodies = former;
-                Err(fault)
-            }
-        }
+        *self = Self::new(mechanism, *self.bodies.formulation())?;
+        Ok(())
     }
 
     /// The state that the attributes of the bodies describe.
@@ -91,37 +79,23 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     }
 }
 
-/// Constants and coefficients of a mechanism.
-#[expect(
-    clippy::type_complexity,
-    reason = "two arrays of the mechanism's own sizes"
-)]
-fn prepared<S: Real, M: JointCoordinates, F: Formulation<S>>(
-    mechanism: &M,
-    formulation: &F,
-) -> Result<(M::JointConstants<S>, M::JointCoefficients<S>), Fault> {
-    if F::ITERATED {
-        return Err(Fault::Iterated);
-    }
-    let stabilisation = formulation.stabilisation()?;
-    let constants = M::prepare_joints(&mechanism.parameters()?);
-    let mut compliances = M::ClosingMultipliers::<S>::zeros();
-    compliances.as_mut_slice().fill(stabilisation.compliance);
-    let coefficients = M::joint_coefficients(&constants, &stabilisation, &compliances);
-    Ok((constants, coefficients))
-}
-
 impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, A> {
     /// The same system by its joints.
     pub(crate) fn with(
         mechanism: &M,
         bodies: Dynamics<S, M, F, Normalised, A>,
     ) -> Result<Self, Fault> {
-        let (constants, coefficients) = prepared::<S, M, F>(mechanism, bodies.formulation())?;
+        if F::ITERATED {
+            return Err(Fault::Iterated);
+        }
+        let stabilisation = bodies.formulation().stabilisation()?;
+        let constants = M::prepare_joints(&mechanism.parameters()?);
+        let mut compliances = M::ClosingMultipliers::<S>::zeros();
+        compliances.as_mut_slice().fill(stabilisation.compliance);
         Ok(Self {
             bodies,
+            coefficients: M::joint_coefficients(&constants, &stabilisation, &compliances),
             constants,
-            coefficients,
             pivot: S::one(),
         })
     }
