@@ -38,7 +38,7 @@ impl<S: Scalar, const N: usize> Array<S> for [S; N] {
 /// [`crate::JointState`], replaces what adds to it and what measures an increment.
 pub trait Vector<S: Scalar>: Clone {
     /// Whether [`Vector::plus`] costs more than to keep a slope: a method then adds its slopes at once.
-    const IS_COSTLY: bool = false;
+    const PLUS_IS_COSTLY: bool = false;
 
     /// `f(self[k], other[k])` for every element.
     #[must_use]

@@ -144,7 +144,7 @@ fn turned<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], angles: &[S; T]) -> [[
 impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vector<S>
     for JointState<S, TURNS, REST, RATES>
 {
-    const IS_COSTLY: bool = TURNS > 0;
+    const PLUS_IS_COSTLY: bool = TURNS > 0;
 
     #[inline(always)]
     fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {

@@ -50,7 +50,7 @@ impl<S: Real> Scheme<S> for Rk4 {
         let half = S::constant(0.5) * step;
         let sixth = S::constant(1.0 / 6.0) * step;
         let third = sixth + sixth;
-        if Y::State::IS_COSTLY {
+        if Y::State::PLUS_IS_COSTLY {
             let [mut second, mut penultimate, mut last] =
                 [first.clone(), first.clone(), first.clone()];
             system.stage(time + half, &state.plus([(half, first)]), &mut second)?;
