@@ -1,7 +1,5 @@
 //! A spanning tree of the bodies: which joint carries which body by the motions that it leaves free, and which joints stay as equations.
 
-use std::cmp::Reverse;
-
 use crate::model::number::literals;
 use crate::model::{
     Binding, BodyKind, Direction, JointUse, Model, Motion, Number, ParameterKind, Rank,
@@ -83,15 +81,8 @@ impl Spanning {
                 carried.push(found);
                 continue;
             }
-            let joints = |body: usize| {
-                let joints = model.joints.iter();
-                joints
-                    .filter(|joint| joint.bodies.contains(&Some(body)))
-                    .count()
-            };
             let left = (0..model.bodies.len()).filter(|&body| depth[body].is_none());
-            let root = left
-                .min_by_key(|&body| (Reverse(joints(body)), model.bodies[body].name.to_string()));
+            let root = model.most_jointed(left);
             let Some(body) = root else { break };
             depth[body] = Some(1);
             carried.push(free(model, body));

@@ -1,5 +1,7 @@
 //! A mechanism: bodies, joints, gravity.
 
+use std::cmp::Reverse;
+
 use proc_macro2::{Ident, TokenStream};
 
 use super::joint::{Extent, Function, JointDef, Turn};
@@ -186,6 +188,17 @@ impl Model {
     #[must_use]
     pub fn definition(&self, joint: &JointUse) -> &JointDef {
         &self.definitions[joint.definition]
+    }
+
+    /// The body with the most joints of some bodies; names decide among equals.
+    pub fn most_jointed(&self, bodies: impl Iterator<Item = usize>) -> Option<usize> {
+        let joints = |body: usize| {
+            let joints = self.joints.iter();
+            joints
+                .filter(|joint| joint.bodies.contains(&Some(body)))
+                .count()
+        };
+        bodies.min_by_key(|&body| (Reverse(joints(body)), self.bodies[body].name.to_string()))
     }
 
     /// Joints, then forces.

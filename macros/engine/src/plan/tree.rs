@@ -62,15 +62,8 @@ pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
             continue;
         }
         // Bodies without a way to the ground: the one with most joints is a root.
-        let joints = |body: usize| {
-            let joints = model.joints.iter();
-            joints
-                .filter(|joint| joint.bodies.contains(&Some(body)))
-                .count()
-        };
         let rest = (0..model.bodies.len()).filter(|&body| depth[body].is_none());
-        let root =
-            rest.min_by_key(|&body| (Reverse(joints(body)), model.bodies[body].name.to_string()));
+        let root = model.most_jointed(rest);
         let Some(root) = root else { break };
         depth[root] = Some(0);
     }
