@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use crate::array::{Array, Vector};
 use crate::joint_state::JointState;
 use crate::mechanism::{Mechanism, Pivot, Stabilisation, Terms};
+use crate::report::Kernel;
 use crate::scalar::Scalar;
 
 /// A mechanism with `#[mechanism(coordinates = "joints")]`: besides the kernels of [`Mechanism`] it has those of its equations of motion in joint
@@ -124,8 +125,8 @@ pub struct JointReport {
     pub motions: &'static [JointMotion],
     /// The joint of each equation that remains.
     pub closing: &'static [&'static str],
-    /// Name of the terms, operations and longest chain of operations of each evaluation; one alone where no equation remains.
-    pub operations: &'static [(&'static str, usize, usize)],
+    /// What the evaluations cost; one alone where no equation remains.
+    pub kernels: &'static [Kernel],
     /// The places of Euler parameters among the further coordinates.
     pub euler_parameters: &'static [usize],
     /// How many of the further coordinates are auxiliary variables; they are the last.

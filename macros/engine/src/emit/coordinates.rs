@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::local;
 use super::parts::{Frame, write_in_parts};
+use super::report::{evaluation_name, kernel};
 use super::solution::{inline, name, verdict};
 use super::store::{Store, load_input};
 use super::straight_line::{Environment, Given, StraightLine};
@@ -13,7 +14,8 @@ use crate::model::Model;
 use crate::plan::kernels::Kernel;
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
-use crate::symbolic::count::count;
+use crate::symbolic::count::{Count, count};
+use crate::symbolic::scene::Reading;
 
 /// The environment of a kernel that reads a state in joint coordinates.
 struct Arguments<'a> {
@@ -366,19 +368,19 @@ impl Writer<'_> {
             let names = names.join(", ");
             text += &format!("\nEquations that remain: {rows}, of {names}.\n");
         }
-        text += "\n| terms | operations of an evaluation | longest chain |\n|---|---|---|\n";
-        for (name, operations, depth) in self.operations() {
-            text += &format!("| {name} | {operations} | {depth} |\n");
+        text += "\n| kernel | operations | longest chain |\n|---|---|---|\n";
+        for (name, count) in self.counts() {
+            text += &format!("| {name} | {} | {} |\n", count.total(), count.depth);
         }
         quote!(#[doc = #text])
     }
 
-    /// Terms, operations and the longest chain of each evaluation.
-    fn operations(&self) -> impl Iterator<Item = (&'static str, usize, usize)> + '_ {
+    /// Name and cost of each evaluation.
+    fn counts(&self) -> impl Iterator<Item = (String, Count)> + '_ {
         self.kernels.evaluations.iter().map(|evaluation| {
             let Kernel { arena, outputs } = &evaluation.kernel;
-            let counted = count(arena, outputs, Stage::State);
-            (name(evaluation.terms), counted.total(), counted.depth)
+            let name = evaluation_name(evaluation.terms, Reading::Raw);
+            (name, count(arena, outputs, Stage::State))
         })
     }
 
@@ -401,15 +403,16 @@ impl Writer<'_> {
             }
         });
         let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
-        let operations = self.operations();
-        let operations = operations.map(|(name, total, depth)| quote!((#name, #total, #depth)));
+        let counts = self
+            .counts()
+            .map(|(name, count)| kernel(&name, count, facade));
         let balls = &kernels.balls;
         let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
         quote! {
             #facade::JointReport {
                 motions: &[#(#links),*],
                 closing: &[#(#closing),*],
-                operations: &[#(#operations),*],
+                kernels: &[#(#counts),*],
                 euler_parameters: &[#(#balls),*],
                 auxiliaries: #auxiliaries,
                 recounts: #recounts,

@@ -122,6 +122,12 @@ fn places(element: &JointUse) -> impl Iterator<Item = TokenStream> {
     })
 }
 
+/// A kernel by its name and what it costs.
+pub(super) fn kernel(name: &str, count: Count, facade: &TokenStream) -> TokenStream {
+    let operations = operations(count, facade);
+    quote!(#facade::Kernel { name: #name, operations: #operations })
+}
+
 fn operations(count: Count, facade: &TokenStream) -> TokenStream {
     let Count {
         additions,
@@ -215,10 +221,8 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             }
         }
     });
-    let counts = counts(kernels).into_iter().map(|(name, count)| {
-        let operations = operations(count, facade);
-        quote!(#facade::Kernel { name: #name, operations: #operations })
-    });
+    let counts = counts(kernels).into_iter();
+    let counts = counts.map(|(name, count)| kernel(&name, count, facade));
     let Layout {
         coordinates,
         auxiliaries,
