@@ -9,8 +9,8 @@
 
 use std::collections::BTreeMap;
 
+use super::index::Index;
 pub use super::node::{Expr, Input, Node, Stage};
-use super::table::Table;
 
 /// A place in the history of an arena, to come back to.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +23,10 @@ pub struct Arena {
     stages: Vec<Stage>,
     /// Whether the nodes are made of an operation on numbers that has none.
     without_number: Vec<bool>,
-    index: Table<Node, u32>,
-    identities: Table<Node, Expr>,
+    index: Index,
+    /// Nodes that are other expressions, and these.
+    identified: Index,
+    identities: Vec<Expr>,
     labels: BTreeMap<u32, String>,
 }
 
@@ -47,8 +49,9 @@ impl Arena {
             nodes: Vec::new(),
             stages: Vec::new(),
             without_number: Vec::new(),
-            index: Table::default(),
-            identities: Table::default(),
+            index: Index::default(),
+            identified: Index::default(),
+            identities: Vec::new(),
             labels: BTreeMap::new(),
         };
         arena.intern(Node::Constant(0.0_f64.to_bits()));
@@ -113,9 +116,8 @@ impl Arena {
 
     /// Forgets every node made since the mark.
     pub fn rollback(&mut self, mark: Mark) {
-        for node in self.nodes.drain(mark.0..) {
-            self.index.remove(&node);
-        }
+        self.index.truncate(mark.0);
+        self.nodes.truncate(mark.0);
         self.labels.split_off(&(mark.0 as u32));
         self.stages.truncate(mark.0);
         self.without_number.truncate(mark.0);
@@ -133,45 +135,54 @@ impl Arena {
     pub fn identify(&mut self, expr: Expr, with: Expr) {
         let node = self.get(expr);
         if node.is_operation() && expr.node() != with.node() {
-            self.identities
-                .insert(node, with.with_sign_of(expr.is_negative()));
+            let with = with.with_sign_of(expr.is_negative());
+            match self.identified.find(node) {
+                Some(known) => self.identities[known as usize] = with,
+                None => {
+                    self.identified.push(node);
+                    self.identities.push(with);
+                }
+            }
         }
     }
 
     fn intern(&mut self, node: Node) -> Expr {
-        if !self.identities.is_empty()
-            && let Some(&known) = self.identities.get(&node)
-        {
-            return known;
+        if let Some(known) = self.identified.find(node) {
+            return self.identities[known as usize];
         }
-        if let Some(&place) = self.index.get(&node) {
+        if let Some(place) = self.index.find(node) {
             return Expr::new(place, false);
         }
         let place = u32::try_from(self.nodes.len()).expect("fewer than 2^31 nodes");
-        let stage = match node {
-            Node::Constant(_) => Stage::Literal,
-            Node::Input(input) => input.stage(),
-            // An operation on literals that did not fold is left to the kernels, whose results show it.
-            _ => match node.operands().map(|operand| self.stage(operand)).max() {
-                None | Some(Stage::Literal) => Stage::State,
-                Some(stage) => stage,
-            },
-        };
-        let is_literal = |operand: Expr| self.stage(operand) == Stage::Literal;
-        let without_number = match node {
-            Node::Constant(_) | Node::Input(_) => false,
-            _ => {
-                node.operands().all(is_literal)
-                    || node
-                        .operands()
-                        .any(|operand| self.is_without_number(operand))
-            }
+        let (stage, without_number) = match node {
+            Node::Constant(_) => (Stage::Literal, false),
+            Node::Input(input) => (input.stage(), false),
+            _ => self.of_operation(node),
         };
         self.nodes.push(node);
         self.stages.push(stage);
         self.without_number.push(without_number);
-        self.index.insert(node, place);
+        self.index.push(node);
         Expr::new(place, false)
+    }
+
+    /// The stage of an operation, and whether it is made of one on numbers that has none.
+    fn of_operation(&self, node: Node) -> (Stage, bool) {
+        let (mut latest, mut without_number) = (Stage::Literal, false);
+        let mut see = |operand: Option<Expr>| {
+            if let Some(operand) = operand {
+                latest = latest.max(self.stage(operand));
+                without_number |= self.is_without_number(operand);
+            }
+        };
+        let (first, second) = node.pair();
+        see(first);
+        see(second);
+        match latest {
+            // An operation on literals that did not fold is left to the kernels, whose results show it.
+            Stage::Literal => (Stage::State, true),
+            stage => (stage, without_number),
+        }
     }
 
     fn is_without_number(&self, expr: Expr) -> bool {
@@ -405,6 +416,25 @@ impl Arena {
             .fold(Self::ZERO, |sum, term| self.add(sum, term))
     }
 
+    /// The operation of a node of another arena, on operands of this one.
+    pub(crate) fn again(&mut self, node: Node, operand: impl Fn(Expr) -> Expr) -> Expr {
+        match node {
+            Node::Constant(bits) => self.constant(f64::from_bits(bits)),
+            Node::Input(input) => self.input(input),
+            Node::Add(a, b) => self.add(operand(a), operand(b)),
+            Node::Multiply(a, b) => self.mul(operand(a), operand(b)),
+            Node::Reciprocal(a) => self.reciprocal(operand(a)),
+            Node::SquareRoot(a) => self.sqrt(operand(a)),
+            Node::Sign(a) => self.sign(operand(a)),
+            Node::Clamp(a) => self.clamp(operand(a)),
+            Node::Round(a) => self.round(operand(a)),
+            Node::Sine(a) => self.sin(operand(a)),
+            Node::Cosine(a) => self.cos(operand(a)),
+            Node::Exponential(a) => self.exp(operand(a)),
+            Node::Angle(a, b) => self.atan2(operand(a), operand(b)),
+        }
+    }
+
     /// The nodes that the outputs need and that are known no earlier than `from`, in order of computation.
     #[must_use]
     pub fn live(&self, outputs: &[Expr], from: Stage) -> Vec<usize> {
@@ -433,7 +463,11 @@ impl Arena {
         for node in (0..needed.len()).rev() {
             if needed[node] && self.stages[node] >= from && !is_given[node] {
                 live.push(node);
-                for operand in self.nodes[node].operands() {
+                let (first, second) = self.nodes[node].pair();
+                if let Some(operand) = first {
+                    needed[operand.node()] = true;
+                }
+                if let Some(operand) = second {
                     needed[operand.node()] = true;
                 }
             }

@@ -42,11 +42,9 @@ pub fn count(arena: &Arena, outputs: &[Expr], from: Stage) -> Count {
     let mut depth = vec![0_usize; arena.len()];
     for place in arena.live(outputs, from) {
         let node = arena.node(place);
-        let before = node
-            .operands()
-            .map(|operand| depth[operand.node()])
-            .max()
-            .unwrap_or(0);
+        let (first, second) = node.pair();
+        let of = |operand: Option<Expr>| operand.map_or(0, |operand| depth[operand.node()]);
+        let before = of(first).max(of(second));
         match node {
             // Free, but part of the chain.
             _ if !node.is_operation() => {

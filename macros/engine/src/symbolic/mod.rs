@@ -8,6 +8,7 @@ pub mod fixed;
 mod force;
 pub mod functions;
 mod identities;
+mod index;
 mod kept;
 mod node;
 pub(crate) mod same;

@@ -1,5 +1,7 @@
 //! What an arena holds: signed references, numbers known later, operations.
 
+use super::index::Key;
+
 /// A signed reference to a node: its value, or the value with the other sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Expr(u32);
@@ -84,6 +86,21 @@ pub enum Stage {
 }
 
 impl Input {
+    /// What tells it from all other inputs.
+    const fn key(self) -> (u64, u32) {
+        match self {
+            Self::Symbol(place) => (0, place),
+            Self::RateGain => (1, 0),
+            Self::PositionGain => (2, 0),
+            Self::Compliance(place) => (3, place),
+            Self::Time => (4, 0),
+            Self::Coordinate(place) => (5, place),
+            Self::Velocity(place) => (6, place),
+            Self::Upper(place) => (7, place),
+            Self::Lower(place) => (8, place),
+        }
+    }
+
     /// When the input is known.
     #[must_use]
     pub const fn stage(self) -> Stage {
@@ -130,7 +147,13 @@ pub enum Node {
 impl Node {
     /// The operands.
     pub fn operands(self) -> impl Iterator<Item = Expr> {
-        let (first, second) = match self {
+        let (first, second) = self.pair();
+        first.into_iter().chain(second)
+    }
+
+    /// The operands, for loops over whole arenas.
+    pub(super) const fn pair(self) -> (Option<Expr>, Option<Expr>) {
+        match self {
             Self::Constant(_) | Self::Input(_) => (None, None),
             Self::Add(a, b) | Self::Multiply(a, b) | Self::Angle(a, b) => (Some(a), Some(b)),
             Self::Reciprocal(a)
@@ -141,8 +164,32 @@ impl Node {
             | Self::Sine(a)
             | Self::Cosine(a)
             | Self::Exponential(a) => (Some(a), None),
-        };
-        first.into_iter().chain(second)
+        }
+    }
+
+    /// What tells it from all other nodes.
+    pub(super) const fn key(self) -> Key {
+        const fn two(a: Expr, b: Expr) -> u64 {
+            (a.0 as u64) << 32 | b.0 as u64
+        }
+        match self {
+            Self::Constant(bits) => Key::new(0, bits),
+            Self::Input(input) => {
+                let (kind, place) = input.key();
+                Key::new(1, kind << 32 | place as u64)
+            }
+            Self::Add(a, b) => Key::new(2, two(a, b)),
+            Self::Multiply(a, b) => Key::new(3, two(a, b)),
+            Self::Reciprocal(a) => Key::new(4, a.0 as u64),
+            Self::SquareRoot(a) => Key::new(5, a.0 as u64),
+            Self::Sign(a) => Key::new(6, a.0 as u64),
+            Self::Clamp(a) => Key::new(7, a.0 as u64),
+            Self::Round(a) => Key::new(8, a.0 as u64),
+            Self::Sine(a) => Key::new(9, a.0 as u64),
+            Self::Cosine(a) => Key::new(10, a.0 as u64),
+            Self::Exponential(a) => Key::new(11, a.0 as u64),
+            Self::Angle(a, b) => Key::new(12, two(a, b)),
+        }
     }
 
     /// The same operation on other operands.
