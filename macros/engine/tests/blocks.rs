@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use holonom_engine::emit::straight_line::{Environment, StraightLine, write};
+use holonom_engine::emit::straight_line::{Environment, StraightLine, Value, write};
 use holonom_engine::symbolic::arena::{Arena, Expr, Input, Stage};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{ToTokens, quote};
@@ -17,9 +17,9 @@ impl Environment for Arrays {
         quote!(input[#text])
     }
 
-    fn earlier(&mut self, _: &Arena, value: Expr) -> TokenStream {
+    fn earlier(&mut self, _: &Arena, value: Expr) -> Value {
         let place = value.node();
-        quote!(earlier[#place])
+        Value::Expression(quote!(earlier[#place]))
     }
 }
 

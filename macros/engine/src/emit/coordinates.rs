@@ -8,7 +8,7 @@ use super::parts::{Frame, write_in_parts};
 use super::report::{evaluation_name, kernel};
 use super::solution::{inline, name, verdict};
 use super::store::{Store, load_input};
-use super::straight_line::{Environment, Given, StraightLine};
+use super::straight_line::{Environment, Given, StraightLine, Value};
 use crate::coordinates::kernels::{Evaluation, JointKernels, Meaning};
 use crate::model::Model;
 use crate::plan::kernels::Kernel;
@@ -43,8 +43,8 @@ impl Environment for Arguments<'_> {
         }
     }
 
-    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream {
-        self.store.load(arena, value)
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> Value {
+        Value::Expression(self.store.load(arena, value))
     }
 }
 

@@ -8,6 +8,7 @@ use super::local;
 use super::parameters;
 use super::parts::{Frame, write_in_parts};
 use super::report::report;
+use super::rows;
 use super::store::{Kernel as Arguments, Store};
 use super::straight_line::{Given, StraightLine, write};
 use crate::coordinates::kernels::JointKernels;
@@ -65,7 +66,7 @@ impl Writer<'_> {
             *size = factors;
         }
         let [plain_size, compliant_size] = sizes;
-        let factor_size = plain_size.max(compliant_size);
+        let factors = rows::array(plain_size.max(compliant_size));
         let angles = self.angles();
         let points = self.points();
         let displacements = self.displacements();
@@ -118,7 +119,7 @@ impl Writer<'_> {
                     type Parameters<__S: #facade::Scalar> = [__S; #values];
                     type Constants<__S: #facade::Scalar> = [__S; #c];
                     type Coefficients<__S: #facade::Scalar> = [__S; #k];
-                    type Factors<__S: #facade::Scalar> = [__S; #factor_size];
+                    type Factors<__S: #facade::Scalar> = #factors;
                     type Handles = __Handles;
 
                     const HANDLES: __Handles = #handles;

@@ -9,6 +9,7 @@ pub mod parameters;
 mod parts;
 mod readings;
 pub mod report;
+mod rows;
 pub mod solution;
 pub mod store;
 pub mod straight_line;

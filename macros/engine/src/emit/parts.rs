@@ -1,4 +1,4 @@
-//! Long kernels in parts: functions one after the other over an array of the values that pass between them.
+//! Long kernels in parts: functions one after the other over rows of the values that pass between them.
 //!
 //! Much of what a compiler does to a function grows faster than its length. A part is short enough for that not to matter, and long enough
 //! that what it loads and stores is little beside what it computes: in one long function, most values wait in memory as well.
@@ -9,13 +9,14 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::local;
-use super::straight_line::{Environment, Given, Lines, Statement, StraightLine, lines};
+use super::rows::{Element, WIDTH, pack};
+use super::straight_line::{Environment, Given, Lines, StraightLine, Value, lines, write_all};
 use crate::symbolic::arena::{Arena, Expr, Stage};
 
 /// Kernels of up to so many statements are one function: of some more than a thousand, one that is not divided is a little faster.
-pub(super) const MANY: usize = 3000;
+pub(super) const MANY: usize = 1800;
 /// The statements of a part.
-const PART: usize = 500;
+const PART: usize = 300;
 
 /// The function that a kernel is written for.
 pub(super) struct Frame {
@@ -48,32 +49,22 @@ pub(super) fn write_in_parts(
     let functions = (0..parts).map(|part| passed.part(&lines, part, frame));
     let functions = functions.collect();
     let values = local("values");
-    let size = passed.size;
+    let (width, rows) = (WIDTH, passed.rows);
     let names = (0..parts).map(|part| name(frame, part));
     let arguments = &frame.passed;
-    let statements = quote! {
-        let mut #values = [__S::constant(0.0); #size];
-        #( #names(#arguments &mut #values); )*
-    };
-    let outputs = outputs.iter().zip(lines.outputs.iter());
-    let outputs = outputs
-        .map(
-            |(output, written)| match lines.statement_of(output.node()) {
-                None => written.clone(),
-                Some(statement) => {
-                    let value = passed.value(&lines, statement);
-                    if output.is_negative() {
-                        quote!((-#value))
-                    } else {
-                        value
-                    }
-                }
-            },
-        )
+    let needed: BTreeSet<usize> = outputs
+        .iter()
+        .filter_map(|output| lines.statement_of(output.node()))
         .collect();
+    let needed = passed.load(&lines, needed);
+    let statements = quote! {
+        let mut #values = [[__S::constant(0.0); #width]; #rows];
+        #( #names(#arguments &mut #values); )*
+        #needed
+    };
     let line = StraightLine {
         statements,
-        outputs,
+        outputs: lines.outputs,
     };
     (line, functions)
 }
@@ -85,13 +76,15 @@ fn name(frame: &Frame, part: usize) -> Ident {
 /// The values that pass between parts.
 struct Passed {
     /// The place of each statement's value in the array, if another part or an output needs it.
-    slots: Vec<Option<usize>>,
+    places: Vec<Option<Element>>,
+    /// The rows that each part writes: where, and the statements.
+    written: Vec<Vec<(usize, Vec<usize>)>>,
     /// The length of the array.
-    size: usize,
+    rows: usize,
 }
 
 impl Passed {
-    /// Places are used again for other values when nothing needs the first any more.
+    /// Rows are used again for other values when nothing needs the first any more.
     fn new(lines: &Lines, outputs: &[Expr]) -> Self {
         let count = lines.statements.len();
         // The last part that needs a value.
@@ -106,40 +99,60 @@ impl Passed {
                 last[statement] = usize::MAX;
             }
         }
-        let mut slots = vec![None; count];
+        let mut passed = Self {
+            places: vec![None; count],
+            written: Vec::new(),
+            rows: 0,
+        };
         let mut free: Vec<usize> = Vec::new();
-        let mut held: Vec<usize> = Vec::new();
-        let mut size = 0;
+        // Rows, and the last part that needs a value of theirs.
+        let mut held: Vec<(usize, usize)> = Vec::new();
         for part in 0..count.div_ceil(PART) {
             // Parts load before they store.
-            held.retain(|&statement| {
-                let is_needed = last[statement] > part;
-                if !is_needed {
-                    free.extend(slots[statement]);
+            held.retain(|&(row, last)| {
+                if last <= part {
+                    free.push(row);
                 }
-                is_needed
+                last > part
             });
-            for statement in PART * part..count.min(PART * (part + 1)) {
-                if lines.statements[statement].is_load || last[statement] <= part {
-                    continue;
+            let own = PART * part..count.min(PART * (part + 1));
+            let mut own: Vec<usize> = own
+                .filter(|&statement| !lines.statements[statement].is_load && last[statement] > part)
+                .collect();
+            own.sort_by_key(|&statement| last[statement]);
+            let mut written = Vec::new();
+            for statements in own.chunks(WIDTH) {
+                let row = free.pop().unwrap_or(passed.rows);
+                passed.rows = passed.rows.max(row + 1);
+                for (column, &statement) in statements.iter().enumerate() {
+                    passed.places[statement] = Some(Element::new("values", row, column));
                 }
-                slots[statement] = Some(free.pop().unwrap_or_else(|| {
-                    size += 1;
-                    size - 1
-                }));
-                held.push(statement);
+                held.push((row, last[statements[statements.len() - 1]]));
+                written.push((row, statements.to_vec()));
             }
+            passed.written.push(written);
         }
-        Self { slots, size }
+        passed
     }
 
-    /// The expression of a statement's value behind its part.
-    fn value(&self, lines: &Lines, statement: usize) -> TokenStream {
-        let values = local("values");
-        match self.slots[statement] {
-            Some(slot) => quote!(#values[#slot]),
-            None => lines.statements[statement].value.clone(),
-        }
+    /// Statements that load the values of others: those that were passed, and arguments.
+    fn load(&self, lines: &Lines, statements: BTreeSet<usize>) -> TokenStream {
+        let loaded: Vec<(usize, Value)> = statements
+            .into_iter()
+            .map(|statement| {
+                let value = match self.places[statement] {
+                    Some(element) => Value::Element(element),
+                    None => lines.statements[statement].value.clone(),
+                };
+                (statement, value)
+            })
+            .collect();
+        let names = |statement: usize| &lines.statements[statement].name;
+        write_all(
+            loaded
+                .iter()
+                .map(|(statement, value)| (names(*statement), value)),
+        )
     }
 
     /// The function of a part.
@@ -151,23 +164,21 @@ impl Passed {
             let is_loaded = |k: &usize| lines.statements[*k].is_load || !own.contains(k);
             loaded.extend(lines.operands(statement).filter(is_loaded));
         }
-        let mut body = TokenStream::new();
-        for statement in loaded {
-            let (name, value) = (
-                &lines.statements[statement].name,
-                self.value(lines, statement),
-            );
-            body.extend(quote!(let #name = #value;));
-        }
-        let computed = lines.statements[own.clone()].iter();
+        let mut body = self.load(lines, loaded);
+        let computed = lines.statements[own].iter();
         let computed = computed.filter(|statement| !statement.is_load);
-        body.extend(computed.map(Statement::tokens));
+        body.extend(write_all(
+            computed.map(|statement| (&statement.name, &statement.value)),
+        ));
         let values = local("values");
-        for statement in own {
-            if let Some(slot) = self.slots[statement] {
+        for (row, statements) in &self.written[part] {
+            let names = statements.iter().map(|&statement| {
                 let name = &lines.statements[statement].name;
-                body.extend(quote!(#values[#slot] = #name;));
-            }
+                quote!(#name)
+            });
+            let names: Vec<TokenStream> = names.collect();
+            let packed = pack(&names);
+            body.extend(quote!(#values[#row] = #(#packed)*;));
         }
         let Frame {
             facade,
@@ -175,10 +186,10 @@ impl Passed {
             unpack,
             ..
         } = frame;
-        let (name, size) = (name(frame, part), self.size);
+        let (name, width, rows) = (name(frame, part), WIDTH, self.rows);
         quote! {
             #[inline(never)]
-            fn #name<__S: #facade::Scalar>(#declared #values: &mut [__S; #size]) {
+            fn #name<__S: #facade::Scalar>(#declared #values: &mut [[__S; #width]; #rows]) {
                 #unpack
                 #body
             }

@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use super::local;
 use super::mechanism::Writer;
 use super::parts::{Frame, MANY, write_in_parts};
+use super::rows::{WIDTH, pack};
 use super::store::BackSubstitution;
 use super::straight_line::{Given, StraightLine};
 use crate::plan::kernels::{Evaluation, Kernel, PivotCheck, Solver};
@@ -16,6 +17,8 @@ use crate::symbolic::scene::Reading;
 
 /// Operations up to which a kernel becomes part of its caller, which saves moving the results twice.
 const INLINE: usize = 300;
+/// The entries of a rotation matrix.
+const ENTRIES: usize = 9;
 
 impl Writer<'_> {
     fn arguments(&self) -> TokenStream {
@@ -91,7 +94,7 @@ impl Writer<'_> {
     fn rotations(&mut self, evaluation: &Evaluation) -> TokenStream {
         let facade = self.facade;
         let function = rotations_function(evaluation.reading);
-        let size = evaluation.rotations.len();
+        let bodies = evaluation.rotations.len() / ENTRIES;
         let frame = Frame {
             name: function.to_string(),
             facade: facade.clone(),
@@ -112,12 +115,15 @@ impl Writer<'_> {
             outputs,
         } = self.line_of(&kernel, &Given::default(), &frame);
         let (arguments, unpack) = (self.arguments(), Self::unpack());
+        let matrices = outputs
+            .chunks(ENTRIES)
+            .map(|entries| quote!([#(#entries),*]));
         quote! {
             #[inline(never)]
-            fn #function<__S: #facade::Scalar>(#arguments) -> [__S; #size] {
+            fn #function<__S: #facade::Scalar>(#arguments) -> [[__S; #ENTRIES]; #bodies] {
                 #unpack
                 #statements
-                [#(#outputs),*]
+                [#(#matrices),*]
             }
         }
     }
@@ -147,11 +153,11 @@ impl Writer<'_> {
         let (mut arguments, mut passed) = (self.arguments(), Self::passed());
         let mut elements = Given::default();
         if let Some(rotations) = given {
-            let (array, size) = (local("rotations"), rotations.len());
+            let (array, bodies) = (local("rotations"), rotations.len() / ENTRIES);
             function = of_rotations(evaluation.terms);
-            arguments.extend(quote!(#array: &[__S; #size],));
+            arguments.extend(quote!(#array: &[[__S; #ENTRIES]; #bodies],));
             passed.extend(quote!(#array,));
-            elements = Given::elements(rotations, &array);
+            elements = Given::rows(rotations, ENTRIES, "rotations");
         }
         let frame = Frame {
             name: function.to_string(),
@@ -308,7 +314,8 @@ impl Writer<'_> {
         let (factor_statements, solve_statements) = (factor.statements, solve.statements);
         let inline_factor = inline(&solver.arena, &outputs);
         let inline_solve = inline(&solver.arena, &solver.solution);
-        let places = 0..factors.len();
+        let packed = pack(values);
+        let rows = 0..packed.len();
         let tokens = quote! {
             #inline_factor
             fn #factor_name<__S: #facade::Scalar>(
@@ -316,8 +323,8 @@ impl Writer<'_> {
             ) -> (<#name as #facade::Mechanism>::Factors<__S>, #facade::Pivot<__S>) {
                 #unpack
                 #factor_statements
-                let mut #factors_name: <#name as #facade::Mechanism>::Factors<__S> = #facade::Array::zeros();
-                #( #factors_name[#places] = #values; )*
+                let mut #factors_name: <#name as #facade::Mechanism>::Factors<__S> = [[__S::constant(0.0); #WIDTH]; _];
+                #( #factors_name[#rows] = #packed; )*
                 (#factors_name, #pivot)
             }
 

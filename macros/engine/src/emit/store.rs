@@ -6,9 +6,10 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::local;
-use super::straight_line::{Environment, StraightLine, write};
+use super::rows::Element;
+use super::straight_line::{Environment, StraightLine, Value, write};
 use crate::model::Symbol;
-use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::table::Table;
 
 /// The values that kernels take from `prepare` and from `coefficients`, gathered from all kernels.
@@ -56,22 +57,9 @@ impl Store {
             if expr.is_negative() { -copy } else { copy }
         };
         for place in needed(arena, value) {
-            let own = &mut self.arena;
-            let made = match arena.node(place) {
-                Node::Constant(bits) => own.constant(f64::from_bits(bits)),
-                Node::Input(input) => own.input(input),
-                Node::Add(a, b) => own.add(copy(&copies, a), copy(&copies, b)),
-                Node::Multiply(a, b) => own.mul(copy(&copies, a), copy(&copies, b)),
-                Node::Reciprocal(a) => own.reciprocal(copy(&copies, a)),
-                Node::SquareRoot(a) => own.sqrt(copy(&copies, a)),
-                Node::Sign(a) => own.sign(copy(&copies, a)),
-                Node::Clamp(a) => own.clamp(copy(&copies, a)),
-                Node::Round(a) => own.round(copy(&copies, a)),
-                Node::Sine(a) => own.sin(copy(&copies, a)),
-                Node::Cosine(a) => own.cos(copy(&copies, a)),
-                Node::Exponential(a) => own.exp(copy(&copies, a)),
-                Node::Angle(a, b) => own.atan2(copy(&copies, a), copy(&copies, b)),
-            };
+            let made = self
+                .arena
+                .again(arena.node(place), |operand| copy(&copies, operand));
             copies.insert(place, made);
         }
         copy(&copies, value)
@@ -136,8 +124,8 @@ impl Environment for Kernel<'_> {
         load_input(input)
     }
 
-    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream {
-        self.store.load(arena, value)
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> Value {
+        Value::Expression(self.store.load(arena, value))
     }
 }
 
@@ -186,7 +174,7 @@ impl Environment for Preparation<'_> {
         }
     }
 
-    fn earlier(&mut self, _: &Arena, _: Expr) -> TokenStream {
+    fn earlier(&mut self, _: &Arena, _: Expr) -> Value {
         unreachable!("nothing is earlier than a parameter but literals, which are written in place")
     }
 }
@@ -218,15 +206,14 @@ impl Environment for BackSubstitution<'_> {
         load_input(input)
     }
 
-    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream {
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> Value {
         if arena.stage(value) < Stage::State {
-            return self.store.load(arena, value);
+            return Value::Expression(self.store.load(arena, value));
         }
         let place = *self.places.entry(value).or_insert_with(|| {
             self.factors.push(value);
             self.factors.len() - 1
         });
-        let factors = local("factors");
-        quote!(#factors[#place])
+        Value::Element(Element::at("factors", place))
     }
 }

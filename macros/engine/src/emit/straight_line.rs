@@ -1,11 +1,13 @@
-//! An arena to statements: one `let` per node, named after its origin.
+//! An arena to statements: one `let` for every node, named after its origin; what is used once, soon and without a name of its own stands where it is used.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::local;
+use super::rows::{Element, unpack};
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
 
 /// How values of an earlier stage, and inputs, reach the code.
@@ -13,8 +15,17 @@ pub trait Environment {
     /// The expression that loads an input of the stage at hand.
     fn input(&mut self, input: Input) -> TokenStream;
 
-    /// The expression that loads a value known earlier.
-    fn earlier(&mut self, arena: &Arena, value: Expr) -> TokenStream;
+    /// What loads a value known earlier.
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> Value;
+}
+
+/// What a statement gives a name to.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// What an expression gives.
+    Expression(TokenStream),
+    /// What stands in a row of values.
+    Element(Element),
 }
 
 /// Statements, and the outputs as expressions over them.
@@ -39,17 +50,34 @@ pub(super) struct Lines {
 
 pub(super) struct Statement {
     pub(super) name: Ident,
-    pub(super) value: TokenStream,
+    pub(super) value: Value,
     operands: Range<usize>,
     /// Whether it reads an argument, so that it can be written again elsewhere.
     pub(super) is_load: bool,
 }
 
-impl Statement {
-    pub(super) fn tokens(&self) -> TokenStream {
-        let Self { name, value, .. } = self;
-        quote!(let #name = #value;)
+/// Names and what they stand for, to statements: elements first.
+pub(super) fn write_all<'a>(
+    statements: impl Iterator<Item = (&'a Ident, &'a Value)>,
+) -> TokenStream {
+    let mut elements = Vec::new();
+    let mut lets = TokenStream::new();
+    for (name, value) in statements {
+        match value {
+            Value::Expression(value) => lets.extend(quote!(let #name = #value;)),
+            Value::Element(element) => elements.push((*element, name)),
+        }
     }
+    let elements = unpack(elements);
+    quote!(#elements #lets)
+}
+
+fn in_one_block(statements: &[Statement]) -> TokenStream {
+    write_all(
+        statements
+            .iter()
+            .map(|statement| (&statement.name, &statement.value)),
+    )
 }
 
 impl Lines {
@@ -67,7 +95,7 @@ impl Lines {
     /// All statements; in blocks where they are many.
     pub(super) fn in_one_function(self, outputs: &[Expr]) -> StraightLine {
         let statements = if self.statements.len() <= LONG {
-            self.statements.iter().map(Statement::tokens).collect()
+            in_one_block(&self.statements)
         } else {
             in_blocks(&self, outputs)
         };
@@ -98,31 +126,40 @@ struct Writer<'a, E> {
     environment: &'a mut E,
     given: &'a Given,
     is_fused: Vec<bool>,
+    /// The nodes that stand where they are used.
+    is_nested: Vec<bool>,
+    /// Those of them that are written: tokens, what they refer to, and their operations.
+    nested: BTreeMap<usize, (TokenStream, Vec<usize>, usize)>,
     lines: Lines,
     /// What the statement at hand refers to.
     operands: Vec<usize>,
+    /// The operations that stand in it besides its own.
+    inner: usize,
 }
 
 /// Values that are computed elsewhere and reach a kernel as an argument.
 #[derive(Debug, Default)]
 pub(super) struct Given {
-    nodes: Vec<(usize, TokenStream)>,
+    nodes: Vec<(usize, Element)>,
 }
 
 impl Given {
-    /// The elements of an array.
-    pub(super) fn elements(values: &[Expr], array: &Ident) -> Self {
+    /// The elements of an array, row by row.
+    pub(super) fn rows(values: &[Expr], width: usize, array: &'static str) -> Self {
         let places = values.iter().enumerate();
         let mut nodes: Vec<_> = places
-            .map(|(place, value)| (value.node(), quote!(#array[#place])))
+            .map(|(place, value)| {
+                let element = Element::new(array, place / width, place % width);
+                (value.node(), element)
+            })
             .collect();
         nodes.sort_by_key(|(node, _)| *node);
         Self { nodes }
     }
 
-    fn value(&self, node: usize) -> Option<&TokenStream> {
+    fn value(&self, node: usize) -> Option<Element> {
         let place = self.nodes.binary_search_by_key(&node, |(node, _)| *node);
-        place.ok().map(|place| &self.nodes[place].1)
+        place.ok().map(|place| self.nodes[place].1)
     }
 
     fn nodes(&self) -> impl Iterator<Item = usize> + '_ {
@@ -134,9 +171,13 @@ impl Given {
 ///
 /// Every `let` opens a scope that ends with the block it stands in. The compiler walks scopes by recursion when it writes debug
 /// information and overflows its stack after some thousands of them.
-const BLOCK: usize = 100;
+const BLOCK: usize = 60;
 /// Kernels of up to so many statements are written without blocks.
-const LONG: usize = 1000;
+const LONG: usize = 600;
+/// A statement holds no more operations that are used once.
+const NESTED: usize = 6;
+/// Nor does it hold one that is so many operations away: its operands would wait for it.
+const NEAR: usize = 40;
 
 /// Writes the nodes that the outputs need and that are known no earlier than `from`.
 pub fn write(
@@ -158,12 +199,14 @@ pub(super) fn lines(
     environment: &mut impl Environment,
 ) -> Lines {
     let live = arena.live_above(outputs, from, given.nodes());
-    let is_fused = fused_products(arena, &live, outputs);
+    let uses = Uses::new(arena, &live, outputs);
     let mut writer = Writer {
         arena,
         environment,
         given,
-        is_fused,
+        is_fused: uses.fused_products(),
+        is_nested: uses.nested(),
+        nested: BTreeMap::new(),
         lines: Lines {
             statements: Vec::with_capacity(live.len()),
             operands: Vec::new(),
@@ -171,9 +214,11 @@ pub(super) fn lines(
             outputs: Vec::new(),
         },
         operands: Vec::new(),
+        inner: 0,
     };
     for &place in &live {
         writer.operands.clear();
+        writer.inner = 0;
         writer.node(place);
     }
     writer.lines.outputs = outputs
@@ -197,38 +242,82 @@ fn in_blocks(lines: &Lines, outputs: &[Expr]) -> TokenStream {
                 .filter(|(_, last)| **last >= end)
                 .map(|(statement, _)| &statement.name)
                 .collect();
-            let lets: TokenStream = block.iter().map(Statement::tokens).collect();
+            let lets = in_one_block(block);
             quote!(let (#(#used_later,)*) = { #lets (#(#used_later,)*) };)
         })
         .collect()
 }
 
-/// Products that one sum alone uses, one for each sum: they are written there, as a fused multiply-add.
-fn fused_products(arena: &Arena, live: &[usize], outputs: &[Expr]) -> Vec<bool> {
-    let mut uses = vec![0_u32; arena.len()];
-    let mut is_own = vec![false; arena.len()];
-    for &place in live {
-        is_own[place] = true;
-        for operand in arena.node(place).operands() {
-            uses[operand.node()] += 1;
+/// How often nodes are used.
+struct Uses<'a> {
+    arena: &'a Arena,
+    live: &'a [usize],
+    uses: Vec<u32>,
+    is_own: Vec<bool>,
+}
+
+impl<'a> Uses<'a> {
+    fn new(arena: &'a Arena, live: &'a [usize], outputs: &[Expr]) -> Self {
+        let mut uses = vec![0_u32; arena.len()];
+        let mut is_own = vec![false; arena.len()];
+        for &place in live {
+            is_own[place] = true;
+            let node = arena.node(place);
+            let written = if matches!(node, Node::Clamp(_)) { 3 } else { 1 };
+            for operand in node.operands() {
+                uses[operand.node()] += written;
+            }
+        }
+        // What is an output is used besides.
+        for output in outputs {
+            uses[output.node()] += 2;
+        }
+        Self {
+            arena,
+            live,
+            uses,
+            is_own,
         }
     }
-    // What is an output is used besides.
-    for output in outputs {
-        uses[output.node()] += 2;
-    }
-    let fusible = |x: Expr| {
-        matches!(arena.get(x), Node::Multiply(..)) && is_own[x.node()] && uses[x.node()] == 1
-    };
-    let mut is_fused = vec![false; arena.len()];
-    for &place in live {
-        match arena.node(place) {
-            Node::Add(_, b) if fusible(b) => is_fused[b.node()] = true,
-            Node::Add(a, _) if fusible(a) => is_fused[a.node()] = true,
-            _ => {}
+
+    /// Products that one sum alone uses, one for each sum: they are written there, as a fused multiply-add.
+    fn fused_products(&self) -> Vec<bool> {
+        let arena = self.arena;
+        let fusible = |x: Expr| {
+            let is_product = matches!(arena.get(x), Node::Multiply(..));
+            is_product && self.is_own[x.node()] && self.uses[x.node()] == 1
+        };
+        let mut is_fused = vec![false; arena.len()];
+        for &place in self.live {
+            match arena.node(place) {
+                Node::Add(_, b) if fusible(b) => is_fused[b.node()] = true,
+                Node::Add(a, _) if fusible(a) => is_fused[a.node()] = true,
+                _ => {}
+            }
         }
+        is_fused
     }
-    is_fused
+
+    /// Operations without a name of their own that one node alone uses, which is near.
+    fn nested(&self) -> Vec<bool> {
+        let arena = self.arena;
+        let mut number = vec![0; arena.len()];
+        for (k, &place) in self.live.iter().enumerate() {
+            number[place] = k;
+        }
+        let mut is_nested = vec![false; arena.len()];
+        for (k, &place) in self.live.iter().enumerate() {
+            for operand in arena.node(place).operands() {
+                let operand = operand.node();
+                is_nested[operand] = self.is_own[operand]
+                    && self.uses[operand] == 1
+                    && k - number[operand] <= NEAR
+                    && arena.node(operand).is_operation()
+                    && arena.label(operand).is_none();
+            }
+        }
+        is_nested
+    }
 }
 
 impl<E: Environment> Writer<'_, E> {
@@ -238,7 +327,7 @@ impl<E: Environment> Writer<'_, E> {
             Node::Constant(_) => return,
             Node::Input(input) => {
                 let value = self.environment.input(input);
-                return self.bind(place, value, true);
+                return self.bind(place, Value::Expression(value), true);
             }
             Node::Add(a, b) => self.sum(a, b),
             Node::Multiply(a, b) => {
@@ -271,7 +360,14 @@ impl<E: Environment> Writer<'_, E> {
                 quote!(__S::select(#a, __S::constant(0.0), __S::constant(-1.0), __S::constant(1.0)))
             }
         };
-        self.bind(place, value, false);
+        if self.is_nested[place] && self.inner < NESTED {
+            let operands = std::mem::take(&mut self.operands);
+            let operations = self.inner + 1;
+            self.nested
+                .insert(place, (quote!((#value)), operands, operations));
+            return;
+        }
+        self.bind(place, Value::Expression(value), false);
     }
 
     fn function(&mut self, name: &str, argument: Expr) -> TokenStream {
@@ -280,7 +376,7 @@ impl<E: Environment> Writer<'_, E> {
         quote!(__S::#name(#argument))
     }
 
-    fn bind(&mut self, place: usize, value: TokenStream, is_load: bool) {
+    fn bind(&mut self, place: usize, value: Value, is_load: bool) {
         let label = self
             .arena
             .label(place)
@@ -333,9 +429,18 @@ impl<E: Environment> Writer<'_, E> {
             return quote!(__S::constant(#value));
         }
         let place = expr.node();
+        if let Some((value, operands, operations)) = self.nested.remove(&place) {
+            self.operands.extend(operands);
+            self.inner += operations;
+            return if expr.is_negative() {
+                quote!((-#value))
+            } else {
+                value
+            };
+        }
         let statement = self.lines.statement_of[place].unwrap_or_else(|| {
             let value = match self.given.value(place) {
-                Some(value) => value.clone(),
+                Some(element) => Value::Element(element),
                 None => self.environment.earlier(self.arena, expr.abs()),
             };
             self.bind(place, value, true);
