@@ -88,6 +88,14 @@ const fn strategies(terms: Terms) -> &'static [Strategy] {
     }
 }
 
+/// The terms of the evaluations that go by a plan.
+const fn served(terms: Terms) -> &'static [Terms] {
+    match terms {
+        Terms::Plain | Terms::Stabilised => &[Terms::Plain, Terms::Stabilised],
+        Terms::Compliant => &[Terms::Compliant],
+    }
+}
+
 /// What all candidates begin with.
 struct Beginning<'a> {
     model: &'a Model,
@@ -136,47 +144,89 @@ pub fn all(model: &Model, terms: Terms) -> Vec<Plan> {
 #[must_use]
 pub fn choose(model: &Model) -> Plans {
     let beginning = Beginning::new(model);
-    let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| {
+    let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| beginning.choose(terms));
+    Plans { rigid, compliant }
+}
+
+/// A plan whose matrix is factorised.
+struct Candidate {
+    plan: Plan,
+    scene: Scene,
+    system: System,
+    /// What it costs without the right-hand sides.
+    at_least: usize,
+}
+
+/// The factors of a plan take no more nodes than so many times those of another, or the plan is given up.
+const FILLED: usize = 3;
+
+impl Beginning<'_> {
+    /// The cheapest plan. What a plan costs is found in two steps, of which the second takes longer: the factors and the back-substitution, then the right-hand sides.
+    fn choose(&self, terms: Terms) -> Plan {
+        let mut candidates: Vec<Candidate> = Vec::new();
+        let mut most = usize::MAX;
+        for plan in self.plans(terms) {
+            candidates.extend(self.factorised(plan, terms, &mut most));
+        }
+        candidates.sort_by_key(|candidate| candidate.at_least);
         let mut best: Option<(usize, Plan)> = None;
-        for plan in beginning.plans(terms) {
-            let least = best.as_ref().map_or(usize::MAX, |(least, _)| *least);
-            if let Some(cost) = beginning.cost(&plan, terms, least) {
+        for candidate in candidates {
+            let at_least = candidate.at_least;
+            if best.as_ref().is_some_and(|(least, _)| at_least >= *least) {
+                break;
+            }
+            let (cost, plan) = self.cost(candidate, terms);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                 best = Some((cost, plan));
             }
         }
         best.expect("there are strategies").1
-    });
-    Plans { rigid, compliant }
-}
+    }
 
-impl Beginning<'_> {
-    /// What a plan costs if that is less than a bound: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
-    /// back-substitution for a given right-hand side, which runs less often.
-    fn cost(&self, plan: &Plan, terms: Terms, bound: usize) -> Option<usize> {
+    fn factorised(&self, plan: Plan, terms: Terms, most: &mut usize) -> Option<Candidate> {
         let mut scene = self.scene.clone();
-        let system = System::new(&mut scene, &self.kinds, plan.clone(), terms);
+        let before = scene.space.arena.len();
+        let system = System::within(&mut scene, &self.kinds, plan.clone(), terms, *most)?;
+        let nodes = scene.space.arena.len() - before;
+        *most = (*most).min(FILLED * nodes);
+        let factors = count(&scene.space.arena, &system.factors(), Stage::State);
+        let back = Self::back(&mut scene.clone(), &system);
+        let evaluations = served(terms).len() * (factors.total() + back);
+        Some(Candidate {
+            plan,
+            scene,
+            system,
+            at_least: 4 * evaluations + back,
+        })
+    }
+
+    /// What the back-substitution for a given right-hand side costs.
+    fn back(scene: &mut Scene, system: &System) -> usize {
+        let solution = system.solve_given(scene);
+        let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
+        count(&scene.space.arena, &outputs, Stage::RightHandSide).weighted()
+    }
+
+    /// What a plan costs: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
+    /// back-substitution for a given right-hand side, which runs less often.
+    fn cost(&self, candidate: Candidate, terms: Terms) -> (usize, Plan) {
+        let Candidate {
+            plan,
+            mut scene,
+            system,
+            ..
+        } = candidate;
         let checks = system.checks(&scene);
         let ratio = |check: &Check| scene.space.arena.div(check.pivot, check.before);
         let pivots: Vec<Expr> = checks.iter().map(ratio).collect();
-        let served: &[Terms] = match terms {
-            Terms::Compliant => &[Terms::Compliant],
-            Terms::Plain | Terms::Stabilised => &[Terms::Plain, Terms::Stabilised],
-        };
-        // All of them need the factors.
-        let factors = count(&scene.space.arena, &system.factors(), Stage::State);
-        if 4 * factors.total() * served.len() >= bound {
-            return None;
-        }
-        let evaluations = served.iter().map(|&terms| {
+        let evaluations = served(terms).iter().map(|&terms| {
             let solution = solved(&mut scene, &self.kinds, &system, terms);
             let outputs = [&solution.accelerations[..], &solution.multipliers, &pivots].concat();
             count(&scene.space.arena, &outputs, Stage::State).weighted()
         });
         let evaluations: usize = evaluations.sum();
-        let solution = system.solve_given(&mut scene);
-        let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
-        let back = count(&scene.space.arena, &outputs, Stage::RightHandSide);
-        Some(4 * evaluations + back.weighted()).filter(|cost| *cost < bound)
+        let back = Self::back(&mut scene, &system);
+        (4 * evaluations + back, plan)
     }
 
     fn plan(&self, strategy: Strategy) -> Plan {

@@ -173,6 +173,25 @@ pub fn factorise(
     pivots: &[Pivot],
     determinants: &[f64],
 ) -> Factors {
+    factorise_within(
+        arena,
+        matrix,
+        about_centres,
+        (pivots, determinants),
+        usize::MAX,
+    )
+    .expect("there is no bound")
+}
+
+/// The same; `None` if it takes more than so many nodes.
+pub(super) fn factorise_within(
+    arena: &mut Arena,
+    matrix: Symmetric,
+    about_centres: Symmetric,
+    (pivots, determinants): (&[Pivot], &[f64]),
+    most: usize,
+) -> Option<Factors> {
+    let before = arena.len();
     let size = matrix.rows.len();
     let mut turn = vec![usize::MAX; size];
     for (place, unknown) in pivots.iter().flat_map(|p| p.unknowns()).enumerate() {
@@ -200,6 +219,9 @@ pub fn factorise(
         for pivot in elimination.sound(pivot) {
             elimination.take(arena, pivot, determinant);
         }
+        if arena.len() - before > most {
+            return None;
+        }
     }
     for row in std::mem::take(&mut elimination.waiting) {
         elimination.step(arena, Pivot::Multiplier(row), 1.0);
@@ -210,7 +232,7 @@ pub fn factorise(
         eliminated.iter().copied().eq(0..size),
         "a plan eliminates every unknown once, not {eliminated:?} of {size}"
     );
-    elimination.factors
+    Some(elimination.factors)
 }
 
 /// The state of an elimination.

@@ -1,7 +1,7 @@
 //! The saddle system of a scene in the axes of a plan, and its solution back in the axes of the state.
 
 use super::Plan;
-use super::eliminate::{Check, Factors, Symmetric, factorise};
+use super::eliminate::{Check, Factors, Symmetric, factorise_within};
 use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
@@ -148,7 +148,21 @@ fn assembled(
 
 impl System {
     /// Assembles and factorises the matrix.
+    ///
+    /// # Panics
+    /// If the plan does not eliminate every unknown once.
     pub fn new(scene: &mut Scene, kinds: &[BodyKind], plan: Plan, terms: Terms) -> Self {
+        Self::within(scene, kinds, plan, terms, usize::MAX).expect("there is no bound")
+    }
+
+    /// The same; `None` if the factors take more than so many nodes.
+    pub(super) fn within(
+        scene: &mut Scene,
+        kinds: &[BodyKind],
+        plan: Plan,
+        terms: Terms,
+        most: usize,
+    ) -> Option<Self> {
         let compliances = compliances(scene, terms);
         scene.motion.reference.fill(ZERO);
         let about_centres = assembled(scene, kinds, &plan, &compliances);
@@ -159,24 +173,24 @@ impl System {
             about_centres.clone()
         };
         let arena = &mut scene.space.arena;
-        let mut factors = factorise(
+        let mut factors = factorise_within(
             arena,
             matrix.clone(),
             about_centres.clone(),
-            &plan.pivots,
-            &plan.determinants,
-        );
+            (&plan.pivots, &plan.determinants),
+            most,
+        )?;
         if terms == Terms::Compliant {
             // Quasi-definite: every pivot is safe.
             factors.checks.clear();
         }
-        Self {
+        Some(Self {
             plan,
             kinds: kinds.to_vec(),
             matrix,
             about_centres,
             factors,
-        }
+        })
     }
 
     /// What every solution needs.
