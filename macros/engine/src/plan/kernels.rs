@@ -7,10 +7,11 @@ use super::readings::Readings;
 use super::system::{System, Terms, applied_forces};
 use super::{Plan, Plans};
 use crate::model::{BodyKind, Model};
-use crate::symbolic::arena::{Arena, Expr};
+use crate::symbolic::arena::{Arena, Expr, Stage};
 use crate::symbolic::count::Count;
 use crate::symbolic::fixed::{initial_orientation, triple};
 use crate::symbolic::scene::{Constraint, Reading, Scene};
+use crate::symbolic::table::Table;
 use crate::symbolic::vector::{Frame, Triple};
 
 /// Outputs over an arena.
@@ -120,11 +121,10 @@ impl Kernels {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let plans = choose(model);
-        let evaluations = [Reading::Raw, Reading::Normalised]
-            .into_iter()
-            .flat_map(|reading| Terms::ALL.map(|terms| (reading, terms)))
-            .map(|(reading, terms)| evaluation(model, plans.of(terms), reading, terms))
-            .collect();
+        let raw = Terms::ALL.map(|terms| raw(model, plans.of(terms), terms));
+        let normalised = Scene::for_solution(model, Reading::Normalised);
+        let normalised = raw.each_ref().map(|raw| raw.normalised(&normalised));
+        let evaluations = raw.into_iter().chain(normalised).collect();
         let solvers = [Terms::Plain, Terms::Compliant]
             .map(|terms| solver(model, plans.of(terms), terms))
             .into();
@@ -449,24 +449,84 @@ pub(crate) fn relative(scene: &mut Scene, recorded: &[Check]) -> (Vec<Expr>, Vec
 /// The fused evaluation with a plan.
 #[must_use]
 pub fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) -> Evaluation {
-    let mut scene = Scene::for_solution(model, reading);
+    let raw = raw(model, plan, terms);
+    match reading {
+        Reading::Raw => raw,
+        Reading::Normalised => raw.normalised(&Scene::for_solution(model, reading)),
+    }
+}
+
+/// The fused evaluation that reads Euler parameters as they are.
+fn raw(model: &Model, plan: &Plan, terms: Terms) -> Evaluation {
+    let mut scene = Scene::for_solution(model, Reading::Raw);
     let (solution, system) = equations_of_motion(&mut scene, model, plan.clone(), terms);
     let mut outputs = coordinate_rates(&mut scene, model);
     outputs.extend(solution.accelerations);
     outputs.extend(solution.multipliers);
     let (pivots, checks) = relative_pivots(&mut scene, &system);
     outputs.extend(pivots);
-    let bodies = 0..model.bodies.len();
-    let rotations = bodies.filter_map(|body| scene.space.rotation(body).copied());
     Evaluation {
         terms,
-        reading,
-        rotations: rotations.flatten().flatten().collect(),
+        reading: Reading::Raw,
+        rotations: rotations(&scene),
         kernel: Kernel {
             arena: scene.space.arena,
             outputs,
         },
         checks,
+    }
+}
+
+/// The entries of the rotation matrices.
+fn rotations(scene: &Scene) -> Vec<Expr> {
+    let bodies = 0..scene.mass.len();
+    let matrices = bodies.filter_map(|body| scene.space.rotation(body).copied());
+    matrices.flatten().flatten().collect()
+}
+
+impl Evaluation {
+    /// The same function of the rotation matrices of a scene that reads Euler parameters normalised. What else is made of Euler parameters, their rates, is made of
+    /// them as they are.
+    fn normalised(&self, scene: &Scene) -> Self {
+        let mut arena = scene.space.arena.clone();
+        let rotations = rotations(scene);
+        let entries = self.rotations.iter().zip(&rotations);
+        let mut known: Table<usize, Expr> = entries
+            .map(|(former, entry)| {
+                let entry = if former.is_negative() {
+                    -*entry
+                } else {
+                    *entry
+                };
+                (former.node(), entry)
+            })
+            .collect();
+        let of = |known: &Table<usize, Expr>, expr: Expr| {
+            let found = known[&expr.node()];
+            if expr.is_negative() { -found } else { found }
+        };
+        let Kernel {
+            arena: former,
+            outputs,
+        } = &self.kernel;
+        let given = self.rotations.iter().map(|entry| entry.node());
+        for place in former.live_above(outputs, Stage::Literal, given) {
+            let made = arena.again(former.node(place), |operand| of(&known, operand));
+            if let Some(label) = former.label(place) {
+                arena.name(made, || label.to_owned());
+            }
+            known.insert(place, made);
+        }
+        Self {
+            terms: self.terms,
+            reading: Reading::Normalised,
+            kernel: Kernel {
+                outputs: outputs.iter().map(|&output| of(&known, output)).collect(),
+                arena,
+            },
+            rotations,
+            checks: self.checks.clone(),
+        }
     }
 }
 
