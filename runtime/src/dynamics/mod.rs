@@ -241,21 +241,31 @@ where
         pivot
     }
 
-    /// The pivot as an evaluation computes it.
+    /// Pivot and accelerations as an evaluation computes them, by the kernels that it uses, so that no others are compiled.
     #[cold]
     #[inline(never)]
-    fn pivot_at(&self, time: S, state: &M::State<S>) -> Pivot<S> {
-        let (constants, coefficients) = (&self.constants, &self.coefficients);
-        if Self::IN_PARTS {
-            let read = &Self::read(state);
-            M::factor::<S, F::Terms>(constants, coefficients, time, read).1
-        } else {
+    fn solved_again(
+        &self,
+        time: S,
+        state: &M::State<S>,
+        applied: Option<&M::Velocities<S>>,
+    ) -> (Pivot<S>, M::Velocities<S>) {
+        if !Self::IN_PARTS {
             let mut evaluation = Evaluation::<S, M>::zeros();
             let Evaluation {
                 rates, multipliers, ..
             } = &mut evaluation;
-            self.straight(time, state, rates, multipliers)
+            let pivot = self.straight(time, state, rates, multipliers);
+            return (pivot, *rates.velocities());
         }
+        let read = &Self::read(state);
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
+        let upper = applied.map_or_else(|| M::forces(constants, time, read), |&forces| forces);
+        let lower = self.stabilised(time, read);
+        let (accelerations, _) =
+            M::solve::<S, F::Terms>(constants, coefficients, &factors, &upper, &lower);
+        (pivot, accelerations)
     }
 
     /// The state as the kernels read it.
@@ -330,26 +340,20 @@ where
         }
     }
 
-    /// Why an evaluation is not sound: solved again, in parts, so that the rates of one that is sound need not be kept.
+    /// Why an evaluation is not sound: solved again, so that the rates of one that is sound need not be kept.
     #[cold]
     #[inline(never)]
     fn fault(&self, time: S, state: &M::State<S>, applied: Option<&M::Velocities<S>>) -> Fault {
         if let Err(fault) = check_state::<S, M>(state) {
             return fault;
         }
-        let pivot = self.pivot_at(time, state);
+        let (pivot, accelerations) = self.solved_again(time, state, applied);
         if vanishes::<S, F::Terms>(pivot.relative) {
             return singular::<S, M>(&pivot);
         }
         let read = &Self::read(state);
-        let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let (factors, _) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
-        let upper = applied.map_or_else(|| M::forces(constants, time, read), |&forces| forces);
-        let lower = self.stabilised(time, read);
-        let (accelerations, _) =
-            M::solve::<S, F::Terms>(constants, coefficients, &factors, &upper, &lower);
         Fault::RatesNotFinite {
-            origin: origin::<S, M>(constants, time, read, applied, &accelerations),
+            origin: origin::<S, M>(&self.constants, time, read, applied, &accelerations),
         }
     }
 

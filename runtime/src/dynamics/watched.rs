@@ -138,7 +138,7 @@ where
             let pivot = if F::Terms::COMPLIANT {
                 self.rigid_pivot(time, &state)
             } else {
-                self.pivot_at(time, &state)
+                self.solved_again(time, &state, None).0
             };
             watch.name(pivot.joint.to_f64() as usize);
         }
