@@ -4,6 +4,7 @@
 
 mod chapter15;
 mod dependent;
+mod descriptions;
 mod faults;
 mod forces;
 mod kinematics;

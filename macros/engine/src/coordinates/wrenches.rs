@@ -93,8 +93,11 @@ impl Links {
     #[must_use]
     pub fn base(&self, link: usize) -> Option<usize> {
         let own = &self.links[link];
-        if matches!(own.freedom, Freedom::Slide { .. }) {
-            return own.carrier;
+        match own.freedom {
+            Freedom::Slide { .. } => return own.carrier,
+            // What slides on the ground has its axes, but nothing turns with it.
+            Freedom::Ball { .. } => return None,
+            Freedom::Turn { .. } => {}
         }
         let mut carrier = own.carrier;
         while let Some(place) = carrier {

@@ -1,0 +1,493 @@
+//! The same runs in both descriptions: what moves by its joints moves as what is held by them.
+
+use holonom::forces::{SpringDamper, TorsionalActuator, TorsionalSpringDamper};
+use holonom::joints::{
+    Cylindrical, Fixed, Gear, Planar, PointOnLine, Prismatic, Revolute, Spherical, Universal,
+};
+use holonom::prelude::*;
+use holonom::{
+    Array, JointCoordinates, JointDynamics, ParameterError, Quantity, Scheme, SimulationError,
+    StateParts,
+};
+use nalgebra::Vector3;
+
+/// A cart with a boom, which carries a weight by a weld and a load by a cross and a ball; numbers that are known at run time, springs, a motor.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.3, -9.81], coordinates = "joints")]
+struct Crane {
+    #[param]
+    length: f64,
+    #[param]
+    mass: f64,
+    #[input]
+    moment: f64,
+    #[body(mass = 4.0, inertia = [0.2, 0.3, 0.4], position = [0.1, 0.0, 0.1])]
+    cart: Body,
+    #[body(mass = mass, inertia = [0.1, 0.02, 0.11], position = [0.0, 0.5 * length, 0.2])]
+    boom: Body,
+    #[body(
+        mass = 0.7,
+        inertia = [[0.02, 0.001, 0.0], [0.001, 0.03, 0.002], [0.0, 0.002, 0.025]],
+        position = [0.05, -0.3, 0.25]
+    )]
+    weight: Body,
+    #[body(mass = 0.5, inertia = [0.03, 0.03, 0.002], position = [0.0, length, -0.3])]
+    rod: Body,
+    #[body(mass = 1.1, inertia = [0.04, 0.05, 0.06], position = [0.05, length, -1.0])]
+    load: Body,
+    #[joint(between = [cart, ground], point = [0.0, 0.0, 0.0], axis = [1.0, 0.2, 0.0])]
+    rail: Prismatic,
+    #[joint(between = [cart, boom], point = [0.0, 0.0, 0.2], axis = [1.0, 0.0, 0.0])]
+    elbow: Revolute,
+    #[joint(between = [boom, weight], point = [0.0, -0.2, 0.2])]
+    weld: Fixed,
+    #[joint(between = [boom, rod], point = [0.0, length, 0.2], axis_i = [1.0, 0.0, 0.0], axis_j = [0.0, 1.0, 0.0])]
+    cardan: Universal,
+    #[joint(between = [load, rod], point = [0.0, length, -0.8])]
+    hook: Spherical,
+    #[force(between = [cart, boom], axis = [1.0, 0.0, 0.0], stiffness = 60.0, damping = 0.4, free_angle = 0.2)]
+    coil: TorsionalSpringDamper,
+    #[force(between = [ground, cart], axis = [1.0, 0.0, 0.0], moment = moment - 0.1 * rate)]
+    lean: TorsionalActuator,
+    #[force(between = [boom, cart], axis = [1.0, 0.0, 0.0], moment = moment - 0.1 * rate)]
+    motor: TorsionalActuator,
+    #[force(between = [ground, rod], head = [0.4, 1.0, 0.5], tail = [0.0, length, -0.4], stiffness = 25.0, damping = 0.8, free_length = 0.5)]
+    rope: SpringDamper,
+}
+
+impl Crane {
+    fn driven() -> Result<Self, ParameterError> {
+        let mut crane = Self::new(1.2, 2.0)?;
+        crane.moment = 0.6;
+        Ok(crane)
+    }
+
+    /// With every freedom in motion.
+    fn start<S: holonom::Real>(&self) -> <Self as Mechanism>::State<S> {
+        let mut state = self.described_state().expect("described");
+        let handles = Self::HANDLES;
+        let rolls = Vector3::new(0.5, 0.1, 0.0);
+        for body in [
+            handles.cart,
+            handles.boom,
+            handles.weight,
+            handles.rod,
+            handles.load,
+        ] {
+            Self::set_velocity(&mut state, body, rolls.map(S::constant));
+        }
+        let spin = Vector3::new(0.3, -0.4, 2.0);
+        let swings = rolls + spin.cross(&Vector3::new(0.05, 0.0, -0.2));
+        Self::set_angular_velocity_global(&mut state, handles.load, spin.map(S::constant));
+        Self::set_velocity(&mut state, handles.load, swings.map(S::constant));
+        state
+    }
+}
+
+/// A box that slides and turns on a table with a bead on a wire and a rod through a sleeve; a satellite with a wheel; nothing is held but by joints.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.5, 0.0, -0.2], coordinates = "joints")]
+struct Loose {
+    #[body(mass = 1.0, inertia = [0.1, 0.2, 0.25], position = [0.3, 0.2, 0.1])]
+    puck: Body,
+    #[body(mass = 0.2, position = [0.3, 0.2, 0.4])]
+    bead: Particle,
+    #[body(mass = 0.4, inertia = [0.02, 0.001, 0.02], position = [0.6, 0.5, 0.1])]
+    piston: Body,
+    #[body(mass = 5.0, inertia = [1.0, 1.3, 1.9], position = [0.0, 5.0, 0.0])]
+    satellite: Body,
+    #[body(mass = 0.8, inertia = [0.01, 0.01, 0.02], position = [0.1, 5.0, 0.3])]
+    wheel: Body,
+    #[joint(between = [ground, puck], point = [0.3, 0.2, 0.0], normal = [0.0, 0.0, 1.0])]
+    table: Planar,
+    #[joint(between = [puck, bead], point = [0.3, 0.2, 0.4], axis = [1.0, 1.0, 0.0])]
+    wire: PointOnLine,
+    #[joint(between = [puck, piston], point = [0.6, 0.2, 0.1], axis = [0.0, 1.0, 0.0])]
+    sleeve: Cylindrical,
+    #[joint(between = [satellite, wheel], point = [0.1, 5.0, 0.3], axis = [0.0, 0.6, 0.8])]
+    bearing: Revolute,
+    #[force(between = [puck, bead], head = [0.0, -0.1, 0.4], tail = [0.3, 0.2, 0.4], stiffness = 5.0, free_length = 0.3)]
+    elastic: SpringDamper,
+    #[force(between = [puck, piston], head = [0.6, -0.4, 0.1], tail = [0.6, 0.5, 0.1], stiffness = 8.0, damping = 0.1, free_length = 0.8)]
+    bumper: SpringDamper,
+    #[force(between = [puck, piston], axis = [0.0, 1.0, 0.0], stiffness = 0.01)]
+    twist: TorsionalSpringDamper,
+}
+
+impl Loose {
+    /// Corrected onto the constraints, so that every freedom is in motion.
+    fn start(&self) -> <Self as Mechanism>::State<f64> {
+        let mut state = self.described_state().expect("described");
+        let handles = Self::HANDLES;
+        let bodies = [
+            handles.puck,
+            handles.piston,
+            handles.satellite,
+            handles.wheel,
+        ];
+        for (place, body) in (0..).map(f64::from).zip(bodies) {
+            let spin = Vector3::new(0.3 - 0.2 * place, 0.5 * place, 1.0 + place);
+            Self::set_angular_velocity_global(&mut state, body, spin);
+            Self::set_velocity(&mut state, body, Vector3::new(0.2, 0.1 * place, 0.05));
+        }
+        self.assemble(0.0, &mut state).expect("solvable");
+        state
+    }
+}
+
+/// A four-bar in the plane, whose joints are more than enough, with a gear on its crank; and a spatial pendulum on its coupler.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", redundant = "drop")]
+struct FourBar {
+    #[body(mass = 0.5, inertia = [0.02, 0.0005, 0.02], position = [0.0, 0.0, 0.2])]
+    crank: Body,
+    #[body(mass = 1.5, inertia = [0.1, 0.1, 0.002], position = [0.0, 0.5, 0.5])]
+    coupler: Body,
+    #[body(mass = 1.0, inertia = [0.06, 0.002, 0.06], position = [0.0, 1.0, 0.3])]
+    rocker: Body,
+    #[body(mass = 0.3, inertia = [0.01, 0.01, 0.001], position = [0.0, -0.3, 0.0])]
+    pinion: Body,
+    #[body(mass = 0.4, inertia = [0.005, 0.004, 0.003], position = [0.1, 0.5, 0.2])]
+    bob: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    first: Revolute,
+    #[joint(between = [crank, coupler], point = [0.0, 0.0, 0.4], axis = [1.0, 0.0, 0.0])]
+    second: Revolute,
+    #[joint(between = [coupler, rocker], point = [0.0, 1.0, 0.6], axis = [1.0, 0.0, 0.0])]
+    third: Revolute,
+    #[joint(between = [rocker, ground], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    fourth: Revolute,
+    #[joint(between = [ground, pinion], point = [0.0, -0.3, 0.0], axis = [1.0, 0.0, 0.0])]
+    shaft: Revolute,
+    #[joint(between = [crank, pinion, ground], axis_i = [1.0, 0.0, 0.0], axis_j = [1.0, 0.0, 0.0], ratio = -2.0)]
+    mesh: Gear,
+    #[joint(between = [coupler, bob], point = [0.0, 0.5, 0.5])]
+    ball: Spherical,
+    #[force(between = [ground, crank], axis = [1.0, 0.0, 0.0], moment = 2.0 - 0.1 * rate)]
+    motor: TorsionalActuator,
+}
+
+fn tight() -> DormandPrince<f64> {
+    DormandPrince::new(Tolerance {
+        relative: 1e-11,
+        absolute: 1e-12,
+    })
+}
+
+/// Coordinates and velocities. Euler parameters of either sign are one orientation: those of one state are given the sign of the other.
+fn compare<M: Mechanism>(left: &M::State<f64>, right: &M::State<f64>) -> f64 {
+    let mut worst = 0.0_f64;
+    let (a, b) = (
+        left.coordinates().as_slice(),
+        right.coordinates().as_slice(),
+    );
+    for body in M::REPORT.bodies {
+        let range =
+            |of: &[f64], places: core::ops::Range<usize>| of.get(places).map(<[f64]>::to_vec);
+        let place = body.coordinate;
+        let positions = [a, b].map(|of| range(of, place..place + 3).expect("a position"));
+        let [r, s] = positions;
+        worst = r
+            .iter()
+            .zip(&s)
+            .fold(worst, |worst, (r, s)| worst.max((r - s).abs()));
+        if body.kind == holonom::BodyKind::Rigid {
+            let [p, q] = [a, b].map(|of| range(of, place + 3..place + 7).expect("an orientation"));
+            let same: f64 = p.iter().zip(&q).map(|(p, q)| p * q).sum();
+            let differences = p.iter().zip(&q).map(|(p, q)| (p - same.signum() * q).abs());
+            worst = differences.fold(worst, f64::max);
+        }
+    }
+    let behind = |of: &'_ [f64]| of.get(M::REPORT.coordinates..).map(<[f64]>::to_vec);
+    let velocities = [left, right].map(|state| state.velocities().as_slice().to_vec());
+    let angles = [a, b].map(|of| behind(of).expect("auxiliary variables"));
+    for [left, right] in [velocities, angles] {
+        let pairs = left.iter().zip(&right);
+        worst = pairs.fold(worst, |worst, (l, r)| worst.max((l - r).abs()));
+    }
+    worst
+}
+
+/// Runs in both descriptions, compares the states at all reports, and what is read there.
+fn both<M: JointCoordinates, F: Formulation<f64>>(
+    mechanism: &M,
+    method: F,
+    start: M::State<f64>,
+    tolerance: f64,
+    read: impl Fn(&Sample<'_, f64, M>) -> Vec<f64>,
+) {
+    let mut seen = Vec::new();
+    let simulation = || Simulation::new(mechanism, method, tight()).initial_state(start);
+    let by_bodies = simulation()
+        .run(0.0..=1.0, every(0.1), |sample| {
+            seen.push((*sample.state(), sample.energy(), read(sample)));
+            ControlFlow::Continue(())
+        })
+        .expect("solvable");
+    let mut place = 0;
+    let by_joints = simulation()
+        .joint_coordinates()
+        .run(0.0..=1.0, every(0.1), |sample| {
+            let (state, energy, readings) = seen.get(place).expect("a report");
+            place += 1;
+            let (time, worst) = (sample.time(), compare::<M>(state, sample.state()));
+            assert!(worst < tolerance, "{method:?}, {time} s: {worst:e}");
+            let change = (energy - sample.energy()).abs();
+            assert!(
+                change < 10.0 * tolerance,
+                "{method:?}, {time} s: {change:e} J"
+            );
+            let here = read(sample);
+            assert_eq!(here.len(), readings.len());
+            for (number, (a, b)) in here.iter().zip(readings).enumerate() {
+                let difference = (a - b).abs() / (1.0 + b.abs());
+                assert!(
+                    difference < 100.0 * tolerance,
+                    "{method:?}, {time} s, reading {number}: {a} and {b}"
+                );
+            }
+            ControlFlow::Continue(())
+        })
+        .expect("solvable");
+    assert_eq!(place, seen.len());
+    let moved = compare::<M>(&start, &by_joints.state);
+    println!(
+        "{}, {method:?}: {} and {} evaluations, moved by {moved}, violations {:e} and {:e}",
+        M::REPORT.name,
+        by_bodies.evaluations,
+        by_joints.evaluations,
+        by_bodies.worst_violation,
+        by_joints.worst_violation
+    );
+    assert!(moved > 0.1, "nothing is compared");
+}
+
+/// Forces and moments of a joint on its last body.
+fn reaction<M: Mechanism, J>(
+    sample: &Sample<'_, f64, M>,
+    joint: holonom::JointHandle<M, J>,
+    body: holonom::BodyHandle<M>,
+) -> [f64; 6] {
+    let reaction = sample.reaction(joint, body).expect("between these bodies");
+    let (f, m) = (reaction.force, reaction.moment);
+    [f.x, f.y, f.z, m.x, m.y, m.z]
+}
+
+#[test]
+fn a_crane_with_parameters_inputs_and_springs() {
+    let crane = Crane::driven().expect("acceptable");
+    assert!(Crane::JOINT_REPORT.closing.is_empty());
+    let handles = Crane::HANDLES;
+    let read = |sample: &Sample<'_, f64, Crane>| {
+        let mut values = vec![
+            sample.angle(handles.elbow),
+            sample.angle_rate(handles.elbow),
+            sample.displacement(handles.rail),
+            sample.displacement_rate(handles.rail),
+            sample.power(),
+            sample.kinetic_energy(),
+        ];
+        values.extend(reaction(sample, handles.rail, handles.cart));
+        values.extend(reaction(sample, handles.elbow, handles.boom));
+        values.extend(reaction(sample, handles.weld, handles.weight));
+        values.extend(reaction(sample, handles.cardan, handles.rod));
+        values.extend(reaction(sample, handles.hook, handles.load));
+        values
+    };
+    let start = crane.start();
+    both(&crane, StandardLagrange, start, 1e-7, read);
+    both(&crane, Baumgarte::default(), start, 1e-7, read);
+}
+
+#[test]
+fn planes_wires_sleeves_and_free_bodies() {
+    let loose = Loose::default();
+    assert!(Loose::JOINT_REPORT.closing.is_empty());
+    let handles = Loose::HANDLES;
+    let start = loose.start();
+    both(&loose, StandardLagrange, start, 1e-7, |sample| {
+        let mut values = vec![
+            sample.angle(handles.sleeve),
+            sample.displacement(handles.sleeve),
+            sample.displacement(handles.wire),
+            sample.angle(handles.bearing),
+            sample.angle_rate(handles.bearing),
+        ];
+        values.extend(reaction(sample, handles.table, handles.puck));
+        values.extend(reaction(sample, handles.bearing, handles.wheel));
+        values
+    });
+}
+
+#[test]
+fn loops_with_equations_too_many() {
+    let bars = FourBar::default();
+    assert!(!FourBar::JOINT_REPORT.closing.is_empty());
+    let handles = FourBar::HANDLES;
+    let read = |sample: &Sample<'_, f64, FourBar>| {
+        let angles = [handles.first, handles.second, handles.third, handles.fourth];
+        let mut values: Vec<f64> = angles.map(|joint| sample.angle(joint)).into();
+        values.extend(angles.map(|joint| sample.angle_rate(joint)));
+        // In the plane of the motion, where all that is determined.
+        let [_, y, z, ..] = reaction(sample, handles.first, handles.crank);
+        values.extend([y, z]);
+        values.extend(reaction(sample, handles.ball, handles.bob));
+        values
+    };
+    let start = bars.described_state().expect("described");
+    both(&bars, StandardLagrange, start, 1e-7, read);
+    both(&bars, Baumgarte::default(), start, 1e-7, read);
+    // Joints of the tree do not yield: what is compared is the limit of a stiff penalty.
+    both(&bars, Penalty::new(1e9, 10.0, 1.0), start, 1e-4, read);
+}
+
+#[test]
+fn single_precision_in_both_descriptions() {
+    let crane = Crane::driven().expect("acceptable");
+    let start = crane.start::<f32>();
+    let simulation =
+        || Simulation::new(&crane, StandardLagrange, Rk4::every(2e-3_f32)).initial_state(start);
+    let ignore = |_: &Sample<'_, f32, Crane>| ControlFlow::Continue(());
+    let by_bodies = simulation().run(0.0..=1.0, every(1.0), ignore);
+    let by_joints = simulation()
+        .joint_coordinates()
+        .run(0.0..=1.0, every(1.0), ignore);
+    let [by_bodies, by_joints] =
+        [by_bodies, by_joints].map(|report| report.expect("solvable").state);
+    let handles = Crane::HANDLES;
+    for body in [handles.cart, handles.boom, handles.rod, handles.load] {
+        let [a, b] = [by_bodies, by_joints].map(|state| {
+            let pose = Crane::pose(&state, body);
+            (pose.position, Crane::velocity(&state, body))
+        });
+        let (position, velocity) = ((a.0 - b.0).norm(), (a.1 - b.1).norm());
+        println!("{}: {position:e} m, {velocity:e} m/s", body.name());
+        // Round-off of 500 steps, which the motion of a double pendulum magnifies.
+        assert!(position < 1e-3 && velocity < 1e-2);
+    }
+}
+
+/// Both descriptions step on from where the other one is.
+#[test]
+fn descriptions_take_turns() {
+    let loose = Loose::default();
+    let start = loose.start();
+    let mut joints = JointDynamics::<f64, _, _>::new(&loose, StandardLagrange).expect("acceptable");
+    let mut bodies =
+        holonom::Dynamics::<f64, _, _>::new(&loose, StandardLagrange).expect("acceptable");
+    let mut alone = joints.joints(&start).expect("consistent");
+    let mut state = start;
+    let step = 1e-3;
+    for turn in 0..10 {
+        for number in 0..50 {
+            let time = step * f64::from(100 * turn + number);
+            Rk4.step(&mut bodies, time, &mut state, step)
+                .expect("solvable");
+        }
+        let mut other = joints.joints(&state).expect("consistent");
+        for number in 50..100 {
+            let time = step * f64::from(100 * turn + number);
+            Rk4.step(&mut joints, time, &mut other, step)
+                .expect("solvable");
+        }
+        state = joints.bodies(&other);
+        for number in 0..100 {
+            let time = step * f64::from(100 * turn + number);
+            Rk4.step(&mut joints, time, &mut alone, step)
+                .expect("solvable");
+        }
+    }
+    let worst = compare::<Loose>(&joints.bodies(&alone), &state);
+    println!("{worst:e}");
+    assert!(worst < 1e-7, "{worst:e}");
+}
+
+fn refused<M: JointCoordinates>(
+    mechanism: &M,
+    start: M::State<f64>,
+) -> SimulationError<M::State<f64>> {
+    Simulation::new(mechanism, StandardLagrange, tight())
+        .initial_state(start)
+        .joint_coordinates()
+        .inconsistent_start()
+        .run(0.0..=0.1, every(0.1), |_| ControlFlow::Continue(()))
+        .err()
+        .expect("inconsistent")
+}
+
+/// Whatever is asked for: a joint of the tree cannot be open, and of one that closes a loop nobody would know.
+#[test]
+fn open_joints_are_refused() {
+    let crane = Crane::driven().expect("acceptable");
+    let dynamics = JointDynamics::<f64, _, _>::new(&crane, StandardLagrange).expect("acceptable");
+    let handles = Crane::HANDLES;
+    let mut open = crane.start::<f64>();
+    let mut pose = Crane::pose(&open, handles.load);
+    pose.position.z -= 0.01;
+    Crane::set_pose(&mut open, handles.load, pose);
+    let fault = dynamics.joints(&open).expect_err("the hook is open");
+    assert_eq!(refused(&crane, open).fault, fault);
+    let Fault::InconsistentStart {
+        joint,
+        quantity,
+        violation,
+    } = fault
+    else {
+        panic!("{fault}");
+    };
+    assert_eq!((joint, quantity), ("hook", Quantity::Length));
+    assert!((violation - 0.01).abs() < 1e-9);
+
+    let mut moving = crane.start::<f64>();
+    let spin = Crane::angular_velocity_global(&moving, handles.boom) + Vector3::new(0.0, 0.5, 0.0);
+    Crane::set_angular_velocity_global(&mut moving, handles.boom, spin);
+    let fault = dynamics
+        .joints(&moving)
+        .expect_err("the boom turns out of its plane");
+    assert_eq!(refused(&crane, moving).fault, fault);
+    assert!(
+        matches!(
+            fault,
+            Fault::InconsistentStart {
+                joint: "elbow",
+                quantity: Quantity::AngularVelocity,
+                ..
+            }
+        ),
+        "{fault}"
+    );
+
+    // Corrected, it runs.
+    for start in [open, moving] {
+        let report = Simulation::new(&crane, StandardLagrange, tight())
+            .initial_state(start)
+            .assembled()
+            .joint_coordinates()
+            .run(0.0..=0.1, every(0.1), |_| ControlFlow::Continue(()))
+            .expect("corrected");
+        assert!(
+            report.worst_violation < 1e-24,
+            "{:e}",
+            report.worst_violation
+        );
+    }
+
+    // A joint that closes a loop as well.
+    let bars = FourBar::default();
+    let mut open = bars.described_state::<f64>().expect("described");
+    let handles = FourBar::HANDLES;
+    let mut pose = FourBar::pose(&open, handles.rocker);
+    pose.position.y += 0.02;
+    FourBar::set_pose(&mut open, handles.rocker, pose);
+    let fault = refused(&bars, open).fault;
+    assert!(
+        matches!(
+            fault,
+            Fault::InconsistentStart {
+                quantity: Quantity::Length,
+                ..
+            }
+        ),
+        "{fault}"
+    );
+}
