@@ -112,6 +112,8 @@ pub enum Fault {
         quantity: Quantity,
         /// By how much, in the unit of the quantity.
         violation: f64,
+        /// Whether it is refused whatever was asked for, because joint coordinates describe no such state.
+        is_final: bool,
     },
     /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer than velocities.
     NotDriven {
@@ -130,8 +132,6 @@ pub enum Fault {
         /// Its value.
         value: f64,
     },
-    /// A formulation that iterates, in joint coordinates, which take those that solve their system once.
-    Iterated,
     /// An interval of time whose ends are not finite or not in order.
     Interval {
         /// Where it begins (s).

@@ -38,6 +38,11 @@ pub trait JointCoordinates: Mechanism {
     /// velocity in principal axes; behind them the auxiliary variables.
     type BodyMotions<S: Scalar>: Array<S>;
 
+    /// What [`JointCoordinates::solve_joints`] takes from a state.
+    type JointFactors<S: Scalar>: Copy + Debug;
+    /// One number per velocity.
+    type JointVelocities<S: Scalar>: Array<S>;
+
     /// What the coordinates are, and what an evaluation costs.
     const JOINT_REPORT: JointReport;
 
@@ -61,6 +66,31 @@ pub trait JointCoordinates: Mechanism {
         rates: &mut Self::JointState<S>,
         multipliers: &mut Self::ClosingMultipliers<S>,
     ) -> Pivot<S>;
+
+    /// Factorises the matrix of the equations of motion; with compliance where `T::COMPLIANT`. Its pivots are those of the evaluation of the same `T`.
+    fn factor_joints<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        time: S,
+        state: &Self::JointState<S>,
+    ) -> Self::JointFactors<S>;
+
+    /// Solves the equations of motion for forces and moments on the bodies alone (N, global, at the centre of mass; N m, principal body axes; as
+    /// [`Mechanism::forces`]), with factors of the same `T`:
+    ///
+    /// ```text
+    /// [ M(q)  D^T ] [ u'     ]   [ upper, along the velocities ]
+    /// [ D     -E  ] [ lambda ] = [ lower                       ]
+    /// ```
+    ///
+    /// To be added to what an evaluation gives: the equations are linear in their right-hand sides.
+    fn solve_joints<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        factors: &Self::JointFactors<S>,
+        upper: &Self::Velocities<S>,
+        lower: &Self::ClosingMultipliers<S>,
+    ) -> (Self::JointVelocities<S>, Self::ClosingMultipliers<S>);
 
     /// How the bodies stand and move.
     fn body_motions<S: Scalar>(
@@ -93,6 +123,12 @@ pub trait JointParts<S: Scalar>: Vector<S> + Copy + Debug + PartialEq {
 
     /// The further coordinates, to be written.
     fn rest_slice_mut(&mut self) -> &mut [S];
+
+    /// The velocities; of a slope, their rates.
+    fn rates_slice(&self) -> &[S];
+
+    /// The velocities, to be written.
+    fn rates_slice_mut(&mut self) -> &mut [S];
 }
 
 impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> JointParts<S>
@@ -115,6 +151,16 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Joint
     #[inline(always)]
     fn rest_slice_mut(&mut self) -> &mut [S] {
         self.rest_mut()
+    }
+
+    #[inline(always)]
+    fn rates_slice(&self) -> &[S] {
+        self.rates()
+    }
+
+    #[inline(always)]
+    fn rates_slice_mut(&mut self) -> &mut [S] {
+        self.rates_mut()
     }
 }
 

@@ -1,13 +1,15 @@
 //! A mechanism in joint coordinates as a system of differential equations.
 
 use crate::array::{Array, StateParts, Vector};
-use crate::dynamics::{Dynamics, singular, vanishes};
+use core::marker::PhantomData;
+
+use crate::dynamics::{Dynamics, Iterations, singular, vanishes};
 use crate::error::{Fault, NotFinite};
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, JointSaddle, JointSolution};
 use crate::integrate::System;
 use crate::joint_coordinates::{JointCoordinates, JointEvaluation, JointParts};
-use crate::load::{AppliedForces, NoForces};
-use crate::mechanism::{Normalised, Pivot};
+use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::mechanism::{Normalised, Pivot, Stabilisation};
 use crate::report::BodyKind;
 use crate::rotation::{check_state, from_matrix, normalised_or_zero, read, write};
 use crate::scalar::Real;
@@ -47,6 +49,9 @@ pub struct JointDynamics<S: Real, M: JointCoordinates, F: Formulation<S>, A = No
     bodies: Dynamics<S, M, F, Normalised, A>,
     constants: M::JointConstants<S>,
     coefficients: M::JointCoefficients<S>,
+    stabilisation: Stabilisation<S>,
+    compliances: M::ClosingMultipliers<S>,
+    iterations: Iterations,
     /// The smallest relative pivot of the last evaluation.
     pivot: S,
 }
@@ -55,10 +60,28 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     /// Prepares the kernels.
     ///
     /// # Errors
-    /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable; [`Fault::Iterated`] for an
-    /// [`AugmentedLagrangian`](crate::AugmentedLagrangian).
+    /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
         Self::with(mechanism, Dynamics::new(mechanism, formulation)?)
+    }
+}
+
+impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, A> {
+    /// The same with forces from a closure, which is shown the state of the bodies.
+    #[must_use]
+    pub fn forces<G>(self, law: G) -> JointDynamics<S, M, F, ForceLaw<G>>
+    where
+        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+    {
+        JointDynamics {
+            bodies: self.bodies.forces(law),
+            constants: self.constants,
+            coefficients: self.coefficients,
+            stabilisation: self.stabilisation,
+            compliances: self.compliances,
+            iterations: self.iterations,
+            pivot: self.pivot,
+        }
     }
 
     /// Takes the present parameters and inputs of the mechanism.
@@ -66,8 +89,18 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        *self = Self::new(mechanism, *self.bodies.formulation())?;
+        let constants = M::prepare_joints(&mechanism.parameters()?);
+        self.bodies.update(mechanism)?;
+        self.coefficients =
+            M::joint_coefficients(&constants, &self.stabilisation, &self.compliances);
+        self.constants = constants;
         Ok(())
+    }
+
+    /// How often the augmented Lagrangian solved its system in [`System::rates`]; zero for other formulations, and where no equation remains.
+    #[must_use]
+    pub fn iterations(&self) -> Iterations {
+        self.iterations
     }
 
     /// The state that the attributes of the bodies describe.
@@ -77,17 +110,12 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     pub fn initial_state(&self) -> Result<M::JointState<S>, Fault> {
         self.joints(&M::initial_state(self.bodies.constants()))
     }
-}
 
-impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, A> {
     /// The same system by its joints.
     pub(crate) fn with(
         mechanism: &M,
         bodies: Dynamics<S, M, F, Normalised, A>,
     ) -> Result<Self, Fault> {
-        if F::ITERATED {
-            return Err(Fault::Iterated);
-        }
         let stabilisation = bodies.formulation().stabilisation()?;
         let constants = M::prepare_joints(&mechanism.parameters()?);
         let mut compliances = M::ClosingMultipliers::<S>::zeros();
@@ -96,6 +124,9 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
             bodies,
             coefficients: M::joint_coefficients(&constants, &stabilisation, &compliances),
             constants,
+            stabilisation,
+            compliances,
+            iterations: Iterations::default(),
             pivot: S::one(),
         })
     }
@@ -151,7 +182,7 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
         M::recount(self.bodies.constants(), &mut bodies);
         check_state::<S, M>(&bodies)?;
         let second = (S::zero(), S::one());
-        check_start::<S, M>(self.bodies.constants(), second, &bodies)?;
+        check_start::<S, M>(self.bodies.constants(), second, &bodies, true)?;
         let joints = M::joint_state(&self.constants, &bodies);
         if joints.is_finite() {
             Ok(joints)
@@ -191,6 +222,54 @@ where
     F: Formulation<S>,
     A: AppliedForces<S, M>,
 {
+    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation may iterate.
+    const IN_PARTS: bool = A::PRESENT || F::ITERATED;
+
+    /// Adds applied forces to what an evaluation gives, and lets the formulation iterate; returns how often the system was solved.
+    #[inline(never)]
+    fn completed(
+        &self,
+        time: S,
+        state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+        multipliers: &mut M::ClosingMultipliers<S>,
+    ) -> Result<usize, Fault> {
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        let factors = &M::factor_joints::<S, F::Terms>(constants, coefficients, time, state);
+        let mut first = JointSolution::<S, M> {
+            accelerations: Array::zeros(),
+            multipliers: *multipliers,
+            iterations: 1,
+        };
+        add(first.accelerations.as_mut_slice(), rates.rates_slice());
+        if A::PRESENT {
+            let forces = self.bodies.applied(time, &self.bodies(state));
+            let (further, loads) = M::solve_joints::<S, F::Terms>(
+                constants,
+                coefficients,
+                factors,
+                &forces,
+                &Array::zeros(),
+            );
+            add(first.accelerations.as_mut_slice(), further.as_slice());
+            add(first.multipliers.as_mut_slice(), loads.as_slice());
+        }
+        let solution = self.bodies.formulation().solve_joints(&JointSaddle {
+            constants,
+            coefficients,
+            factors,
+            compliances: &self.compliances,
+            first,
+            terms: PhantomData,
+        })?;
+        let places = rates.rates_slice_mut().iter_mut();
+        for (place, &rate) in places.zip(solution.accelerations.as_slice()) {
+            *place = rate;
+        }
+        *multipliers = solution.multipliers;
+        Ok(solution.iterations)
+    }
+
     /// Shows the end of a step to the watch, which wants to know of all joints: pivots and multipliers of one evaluation of the bodies. Where that has none,
     /// its pivot says why. What the velocities that rows determine lose counts as well.
     pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
@@ -211,6 +290,13 @@ where
         let mut rates = M::JointState::<S>::zeros();
         let mut multipliers = M::ClosingMultipliers::<S>::zeros();
         let pivot = self.straight(time, state, &mut rates, &mut multipliers);
+        if Self::IN_PARTS && rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative) {
+            let solved = self.completed(time, state, &mut rates, &mut multipliers);
+            match solved {
+                Err(Fault::RatesNotFinite { .. }) => return Err(self.fault(time, state, &pivot)),
+                other => other?,
+            };
+        }
         if rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative) {
             Ok(JointEvaluation { rates, multipliers })
         } else {
@@ -246,8 +332,13 @@ where
 
     #[inline(always)]
     fn rates(&mut self, time: S, state: &M::JointState<S>) -> Result<M::JointState<S>, Fault> {
-        self.evaluate(time, state)
-            .map(|evaluation| evaluation.rates)
+        let mut rates = M::JointState::<S>::zeros();
+        match self.stage(time, state, &mut rates) {
+            Ok(()) if rates.is_finite() => Ok(rates),
+            _ => self
+                .evaluate(time, state)
+                .map(|evaluation| evaluation.rates),
+        }
     }
 
     #[inline(always)]
@@ -264,6 +355,13 @@ where
             return Err(Fault::StateNotFinite);
         }
         self.pivot = pivot.relative;
+        if Self::IN_PARTS {
+            let solved = self.completed(time, state, rates, &mut multipliers)?;
+            if F::ITERATED && solved > 1 {
+                self.iterations.total = self.iterations.total.saturating_add(solved);
+                self.iterations.largest = self.iterations.largest.max(solved);
+            }
+        }
         Ok(())
     }
 
@@ -299,4 +397,9 @@ where
             }
         }
     }
+}
+
+/// `x = x + y`.
+fn add<S: Real>(x: &mut [S], y: &[S]) {
+    x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x + y);
 }

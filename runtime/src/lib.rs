@@ -178,7 +178,8 @@ pub use array::{Array, State, StateParts, Vector};
 pub use dynamics::{Dynamics, Iterations};
 pub use error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
 pub use formulation::{
-    AugmentedLagrangian, Baumgarte, Formulation, Penalty, Saddle, Solution, StandardLagrange,
+    AugmentedLagrangian, Baumgarte, Formulation, JointSaddle, JointSolution, Penalty, Saddle,
+    Solution, StandardLagrange,
 };
 pub use handle::{
     BodyHandle, CountsTurns, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,

@@ -148,6 +148,7 @@ impl fmt::Display for Fault {
                 joint,
                 quantity,
                 violation,
+                is_final,
             } => {
                 let (violation, unit) = (Measured(violation), quantity.unit());
                 match quantity {
@@ -162,10 +163,17 @@ impl fmt::Display for Fault {
                         "the bodies of joint `{joint}` move against it at {violation} {unit} at the start"
                     )?,
                 }
-                write!(
-                    f,
-                    ": `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
-                )
+                if is_final {
+                    write!(
+                        f,
+                        ", and joint coordinates describe no such state: `.assembled()` or `assemble` corrects it"
+                    )
+                } else {
+                    write!(
+                        f,
+                        ": `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
+                    )
+                }
             }
             Self::StepTooShort { step, time } => write!(
                 f,
@@ -195,10 +203,6 @@ impl fmt::Display for Fault {
                     Given(value)
                 )
             }
-            Self::Iterated => write!(
-                f,
-                "the augmented Lagrangian iterates; joint coordinates take formulations that solve their system once"
-            ),
             Self::Interval { start, end } => {
                 let (from, to) = (Given(start), Given(end));
                 write!(f, "the interval from {from} s to {to} s ")?;

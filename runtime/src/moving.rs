@@ -1,6 +1,6 @@
 //! What a run moves: the bodies of a mechanism, or its joints.
 
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Iterations};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::System;
@@ -52,6 +52,9 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// What reads the mechanism.
     fn dynamics(&self) -> &Dynamics<S, M, Self::Formulation, Self::Orientation, Self::Forces>;
 
+    /// How often the augmented Lagrangian solved its system.
+    fn iterations(&self) -> Iterations;
+
     /// Shows the end of a step to the watch.
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>);
 }
@@ -99,6 +102,10 @@ where
         self
     }
 
+    fn iterations(&self) -> Iterations {
+        Dynamics::iterations(self)
+    }
+
     #[inline(always)]
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
         Dynamics::watch(self, watch, time, bodies);
@@ -144,6 +151,10 @@ where
 
     fn dynamics(&self) -> &Dynamics<S, M, F, Normalised, A> {
         self.of_bodies()
+    }
+
+    fn iterations(&self) -> Iterations {
+        Self::iterations(self)
     }
 
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {

@@ -129,7 +129,7 @@ where
             }
             if let Some(watch) = &mut self.watch {
                 self.moving.watch(watch, time, &state);
-                let excused = self.moving.dynamics().iterations().excused;
+                let excused = self.moving.iterations().excused;
                 watch.excuse_evaluations(excused, time);
             }
             *last_good = (time, state);
@@ -187,7 +187,7 @@ where
             accepted: self.counts.accepted,
             rejected: self.counts.rejected,
             worst_violation: self.log.worst_violation,
-            iterations: self.moving.dynamics().iterations(),
+            iterations: self.moving.iterations(),
             time,
             state,
             stopped: self.log.flow.is_break(),

@@ -147,12 +147,21 @@ where
     pub fn orientation<P2: Orientation>(self) -> Simulation<'a, S, M, F, I, P2, A> {
         self.exchange(|forces| forces)
     }
+}
 
+impl<'a, S, M, F, I, P, A, C> Simulation<'a, S, M, F, I, P, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Integrator<S>,
+    P: Orientation,
+{
     /// Applies forces as a function of time and state, `|time, state, loads| loads.force(body, ...)`.
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, P, ForceLaw<G>>
+    pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, P, ForceLaw<G>, C>
     where
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
@@ -160,7 +169,7 @@ where
     }
 }
 
-impl<'a, S, M, F, I> Simulation<'a, S, M, F, I>
+impl<'a, S, M, F, I, A> Simulation<'a, S, M, F, I, Normalised, A>
 where
     S: Real,
     M: JointCoordinates,
@@ -175,7 +184,7 @@ where
     /// States go in and come out as those of the bodies; reports, reactions, projection (of the joints that close loops) and watch are the same. The watch
     /// evaluates the equations of the bodies once a step, which takes more time than the step itself: see [`Simulation::unwatched`].
     #[must_use]
-    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, NoForces, Joints> {
+    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, A, Joints> {
         self.exchange(|forces| forces)
     }
 }
@@ -246,7 +255,8 @@ where
         }
         last_good.1 = state;
         if !self.accepts_any_start || C::HAS_EXACT_JOINTS {
-            check_start::<S, M>(&constants, (start, end - start), &state)?;
+            let interval = (start, end - start);
+            check_start::<S, M>(&constants, interval, &state, C::HAS_EXACT_JOINTS)?;
         }
         let watch = self
             .is_watched

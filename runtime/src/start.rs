@@ -11,12 +11,20 @@ use crate::watch::{Meanings, extent};
 /// the mechanism: four digits.
 const INEXACT: f64 = 1e-4;
 
-/// Refuses a start at which a joint is open, or its bodies move against it so fast that it would open over the run.
+/// Refuses a start at which a joint is open, or its bodies move against it so fast that it would open over the run; `is_final` says that no run could
+/// accept it.
 pub(crate) fn check_start<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     (time, duration): (S, S),
     state: &M::State<S>,
+    is_final: bool,
 ) -> Result<(), Fault> {
+    let fault = |row: usize, quantity: Quantity, violation: S| Fault::InconsistentStart {
+        joint: M::REPORT.joint_of(row).unwrap_or_default(),
+        quantity,
+        violation: violation.to_f64(),
+        is_final,
+    };
     let rows = Meanings::<S, M>::at(constants, time, state);
     let length = extent::<S, M>(constants, state);
     let inexact = S::constant(INEXACT);
@@ -32,7 +40,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
             } else {
                 Quantity::Angle
             };
-            return Err(fault::<S, M>(row, quantity, violation));
+            return Err(fault(row, quantity, violation));
         }
     }
     let phi_rate = M::constraint_rates(constants, time, state);
@@ -48,7 +56,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
             } else {
                 Quantity::AngularVelocity
             };
-            return Err(fault::<S, M>(row, quantity, violation));
+            return Err(fault(row, quantity, violation));
         }
     }
     Ok(())
@@ -56,14 +64,6 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
 
 fn largest<S: Real>(elements: &[S]) -> S {
     elements.iter().fold(S::zero(), |most, x| most.max(x.abs()))
-}
-
-fn fault<S: Real, M: Mechanism>(row: usize, quantity: Quantity, violation: S) -> Fault {
-    Fault::InconsistentStart {
-        joint: M::REPORT.joint_of(row).unwrap_or_default(),
-        quantity,
-        violation: violation.to_f64(),
-    }
 }
 
 /// What the digits of positions resolve (m): `EPSILON` of the largest.

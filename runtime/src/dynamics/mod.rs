@@ -278,6 +278,14 @@ where
         }
     }
 
+    /// Forces and moments of the closure alone, as [`Mechanism::forces`] has them, in a state whose Euler parameters have length 1.
+    pub(crate) fn applied(&self, time: S, state: &M::State<S>) -> M::Velocities<S> {
+        let mut forces = M::Velocities::<S>::zeros();
+        self.forces
+            .apply(time, state, &mut Loads::new(state, &mut forces));
+        forces
+    }
+
     /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
     fn evaluate_in_parts(&self, time: S, state: &M::State<S>) -> Result<Parts<S, M>, Fault> {
         let read = &Self::read(state);

@@ -1,9 +1,12 @@
 //! The augmented Lagrangian formulation.
 
-use super::{Formulation, Saddle, Solution, difference, faster_decay, penalty};
+use super::{
+    Formulation, JointSaddle, JointSolution, Saddle, Solution, difference, faster_decay, penalty,
+};
 use crate::array::Array;
 use crate::error::{Fault, NotFinite};
 use crate::integrate::positive;
+use crate::joint_coordinates::JointCoordinates;
 use crate::mechanism::{Compliant, Mechanism, Stabilisation};
 use crate::scalar::{Real, Scalar};
 use crate::view::square;
@@ -26,6 +29,9 @@ use crate::view::square;
 /// conjugate gradients, which take about one solution for each such `s`, up to `max_iterations` more. [`Iterations::excused`](crate::Iterations::excused) counts
 /// evaluations that end before their tolerance. Where the loads do not cancel,
 /// slow convergence is [`Fault::NotConverged`]: `alpha` is too small for the masses.
+///
+/// In joint coordinates it iterates on the equations that remain, by the rates of their velocities, and goes on by conjugate gradients wherever
+/// `max_iterations` do not do; no evaluation is excused.
 ///
 /// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other lengths would, which need not
 /// be the way of the perfect one: it may leave that where `Phi`, in lengths of the mechanism, is not small against this
@@ -132,6 +138,13 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
             alpha: Some(self.alpha.to_f64()),
         })
     }
+
+    fn solve_joints<M: JointCoordinates>(
+        &self,
+        saddle: &JointSaddle<'_, S, M, Compliant>,
+    ) -> Result<JointSolution<S, M>, Fault> {
+        self.iterate(saddle)
+    }
 }
 
 impl<S: Real> AugmentedLagrangian<S> {
@@ -227,14 +240,14 @@ fn weighted<S: Real>(vector: &[S], weights: &[S]) -> S {
 }
 
 /// `x = factor x + y`.
-fn combine<S: Real>(x: &mut [S], factor: S, y: &[S]) {
+pub(super) fn combine<S: Real>(x: &mut [S], factor: S, y: &[S]) {
     x.iter_mut()
         .zip(y)
         .for_each(|(x, &y)| *x = x.fused(factor, y));
 }
 
 /// `x = x + factor y`.
-fn add<S: Real>(x: &mut [S], factor: S, y: &[S]) {
+pub(super) fn add<S: Scalar>(x: &mut [S], factor: S, y: &[S]) {
     x.iter_mut()
         .zip(y)
         .for_each(|(x, &y)| *x = factor.fused(y, *x));

@@ -25,6 +25,7 @@
 mod augmented_lagrangian;
 mod baumgarte;
 mod consistency;
+mod joints;
 mod penalty;
 mod standard;
 
@@ -32,6 +33,7 @@ pub(crate) use consistency::inconsistency;
 
 pub use augmented_lagrangian::AugmentedLagrangian;
 pub use baumgarte::Baumgarte;
+pub use joints::{JointSaddle, JointSolution};
 pub use penalty::Penalty;
 pub use standard::StandardLagrange;
 
@@ -40,6 +42,7 @@ use core::marker::PhantomData;
 
 use crate::array::Array;
 use crate::error::Fault;
+use crate::joint_coordinates::JointCoordinates;
 use crate::mechanism::{Mechanism, Stabilisation, Terms};
 use crate::scalar::{Real, Scalar};
 use crate::self_stress::{passing, self_stressed};
@@ -77,6 +80,17 @@ pub trait Formulation<S: Real>: Copy + Debug {
         &self,
         saddle: &Saddle<'_, S, M, Self::Terms>,
     ) -> Result<Solution<S, M>, Fault> {
+        Ok(saddle.solve())
+    }
+
+    /// The same in joint coordinates, where the system has been solved once, with `lambda_previous = 0`: takes that solution.
+    ///
+    /// # Errors
+    /// [`Fault::NotConverged`] for a formulation that iterates.
+    fn solve_joints<M: JointCoordinates>(
+        &self,
+        saddle: &JointSaddle<'_, S, M, Self::Terms>,
+    ) -> Result<JointSolution<S, M>, Fault> {
         Ok(saddle.solve())
     }
 }

@@ -56,6 +56,24 @@ fn a_step_size_that_vanishes_names_a_cause() {
 }
 
 #[test]
+fn a_start_is_refused_with_what_helps() {
+    let open = |is_final| Fault::InconsistentStart {
+        joint: "hook",
+        quantity: Quantity::Length,
+        violation: 0.01,
+        is_final,
+    };
+    assert_eq!(
+        open(false).to_string(),
+        "joint `hook` is open by 0.01 m at the start: `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
+    );
+    assert_eq!(
+        open(true).to_string(),
+        "joint `hook` is open by 0.01 m at the start, and joint coordinates describe no such state: `.assembled()` or `assemble` corrects it"
+    );
+}
+
+#[test]
 fn one_is_singular_and_more_are_plural() {
     let not_driven = |degrees_of_freedom| Fault::NotDriven { degrees_of_freedom };
     for (fault, message) in [

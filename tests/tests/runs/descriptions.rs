@@ -208,7 +208,57 @@ fn compare<M: Mechanism>(left: &M::State<f64>, right: &M::State<f64>) -> f64 {
     worst
 }
 
-/// Runs in both descriptions, compares the states at all reports, and what is read there.
+type Observer<'a, M> = &'a mut dyn FnMut(&Sample<'_, f64, M>) -> ControlFlow<()>;
+
+/// Compares the states of two runs at all reports, and what is read there.
+fn compared<M: Mechanism>(
+    (start, tolerance): (M::State<f64>, f64),
+    read: impl Fn(&Sample<'_, f64, M>) -> Vec<f64>,
+    by_bodies: impl FnOnce(Observer<'_, M>) -> RunResult<f64, M>,
+    by_joints: impl FnOnce(Observer<'_, M>) -> RunResult<f64, M>,
+) {
+    let mut seen = Vec::new();
+    let by_bodies = by_bodies(&mut |sample| {
+        seen.push((*sample.state(), sample.energy(), read(sample)));
+        ControlFlow::Continue(())
+    });
+    let by_bodies = by_bodies.expect("solvable");
+    let mut place = 0;
+    let by_joints = by_joints(&mut |sample| {
+        let (state, energy, readings) = seen.get(place).expect("a report");
+        place += 1;
+        let (time, worst) = (sample.time(), compare::<M>(state, sample.state()));
+        assert!(worst < tolerance, "{time} s: {worst:e}");
+        let change = (energy - sample.energy()).abs();
+        assert!(change < 10.0 * tolerance, "{time} s: {change:e} J");
+        let here = read(sample);
+        assert_eq!(here.len(), readings.len());
+        for (number, (a, b)) in here.iter().zip(readings).enumerate() {
+            let difference = (a - b).abs() / (1.0 + b.abs());
+            assert!(
+                difference < 100.0 * tolerance,
+                "{time} s, reading {number}: {a} and {b}"
+            );
+        }
+        ControlFlow::Continue(())
+    });
+    let by_joints = by_joints.expect("solvable");
+    assert_eq!(place, seen.len());
+    let moved = compare::<M>(&start, &by_joints.state);
+    println!(
+        "{}: {} and {} evaluations, {:?} and {:?}, moved by {moved}, violations {:e} and {:e}",
+        M::REPORT.name,
+        by_bodies.evaluations,
+        by_joints.evaluations,
+        by_bodies.iterations,
+        by_joints.iterations,
+        by_bodies.worst_violation,
+        by_joints.worst_violation
+    );
+    assert!(moved > 0.1, "nothing is compared");
+}
+
+/// Runs in both descriptions and compares them.
 fn both<M: JointCoordinates, F: Formulation<f64>>(
     mechanism: &M,
     method: F,
@@ -216,50 +266,51 @@ fn both<M: JointCoordinates, F: Formulation<f64>>(
     tolerance: f64,
     read: impl Fn(&Sample<'_, f64, M>) -> Vec<f64>,
 ) {
-    let mut seen = Vec::new();
+    println!("{method:?}");
     let simulation = || Simulation::new(mechanism, method, tight()).initial_state(start);
-    let by_bodies = simulation()
-        .run(0.0..=1.0, every(0.1), |sample| {
-            seen.push((*sample.state(), sample.energy(), read(sample)));
-            ControlFlow::Continue(())
-        })
-        .expect("solvable");
-    let mut place = 0;
-    let by_joints = simulation()
-        .joint_coordinates()
-        .run(0.0..=1.0, every(0.1), |sample| {
-            let (state, energy, readings) = seen.get(place).expect("a report");
-            place += 1;
-            let (time, worst) = (sample.time(), compare::<M>(state, sample.state()));
-            assert!(worst < tolerance, "{method:?}, {time} s: {worst:e}");
-            let change = (energy - sample.energy()).abs();
-            assert!(
-                change < 10.0 * tolerance,
-                "{method:?}, {time} s: {change:e} J"
-            );
-            let here = read(sample);
-            assert_eq!(here.len(), readings.len());
-            for (number, (a, b)) in here.iter().zip(readings).enumerate() {
-                let difference = (a - b).abs() / (1.0 + b.abs());
-                assert!(
-                    difference < 100.0 * tolerance,
-                    "{method:?}, {time} s, reading {number}: {a} and {b}"
-                );
-            }
-            ControlFlow::Continue(())
-        })
-        .expect("solvable");
-    assert_eq!(place, seen.len());
-    let moved = compare::<M>(&start, &by_joints.state);
-    println!(
-        "{}, {method:?}: {} and {} evaluations, moved by {moved}, violations {:e} and {:e}",
-        M::REPORT.name,
-        by_bodies.evaluations,
-        by_joints.evaluations,
-        by_bodies.worst_violation,
-        by_joints.worst_violation
+    compared(
+        (start, tolerance),
+        read,
+        |observe| simulation().run(0.0..=1.0, every(0.1), observe),
+        |observe| {
+            let by_joints = simulation().joint_coordinates();
+            by_joints.run(0.0..=1.0, every(0.1), observe)
+        },
     );
-    assert!(moved > 0.1, "nothing is compared");
+}
+
+/// The same under forces of a closure.
+fn both_under<M: JointCoordinates, F: Formulation<f64>>(
+    mechanism: &M,
+    method: F,
+    start: M::State<f64>,
+    law: impl Fn(f64, &M::State<f64>, &mut Loads<'_, f64, M>),
+    read: impl Fn(&Sample<'_, f64, M>) -> Vec<f64>,
+) {
+    println!("{method:?}, with forces");
+    let simulation = || Simulation::new(mechanism, method, tight()).initial_state(start);
+    let free = simulation().run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
+    let free = free.expect("solvable").state;
+    compared(
+        (start, 1e-7),
+        read,
+        |observe| {
+            let report = simulation()
+                .forces(&law)
+                .run(0.0..=1.0, every(0.1), observe)?;
+            assert!(compare::<M>(&free, &report.state) > 0.1, "they do nothing");
+            Ok(report)
+        },
+        |observe| {
+            // In either order.
+            let before = simulation().forces(&law).joint_coordinates();
+            let report = before.run(0.0..=1.0, every(0.1), observe)?;
+            let behind = simulation().joint_coordinates().forces(&law);
+            let again = behind.run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))?;
+            assert_eq!(report.state, again.state);
+            Ok(report)
+        },
+    );
 }
 
 /// Forces and moments of a joint on its last body.
@@ -297,6 +348,17 @@ fn a_crane_with_parameters_inputs_and_springs() {
     let start = crane.start();
     both(&crane, StandardLagrange, start, 1e-7, read);
     both(&crane, Baumgarte::default(), start, 1e-7, read);
+    // Nothing is left to iterate on.
+    both(&crane, AugmentedLagrangian::default(), start, 1e-6, read);
+    let law = |time: f64, state: &_, loads: &mut Loads<'_, f64, Crane>| {
+        let drag: Vector3<f64> = Crane::velocity(state, handles.load) * -3.0;
+        loads.force(handles.load, drag.into());
+        loads.force_at(handles.boom, [0.0, 0.6, 0.1], [0.0, 2.0, 20.0 * time]);
+        loads.moment(handles.rod, [0.3, -0.2, 0.1]);
+        loads.moment_in_body_axes(handles.weight, [0.5, 0.2, -0.1]);
+        loads.force(handles.cart, [4.0, 1.0, 0.0]);
+    };
+    both_under(&crane, StandardLagrange, start, law, read);
 }
 
 #[test]
@@ -305,7 +367,7 @@ fn planes_wires_sleeves_and_free_bodies() {
     assert!(Loose::JOINT_REPORT.closing.is_empty());
     let handles = Loose::HANDLES;
     let start = loose.start();
-    both(&loose, StandardLagrange, start, 1e-7, |sample| {
+    let read = |sample: &Sample<'_, f64, Loose>| {
         let mut values = vec![
             sample.angle(handles.sleeve),
             sample.displacement(handles.sleeve),
@@ -316,7 +378,17 @@ fn planes_wires_sleeves_and_free_bodies() {
         values.extend(reaction(sample, handles.table, handles.puck));
         values.extend(reaction(sample, handles.bearing, handles.wheel));
         values
-    });
+    };
+    both(&loose, StandardLagrange, start, 1e-7, read);
+    let law = |_: f64, state: &_, loads: &mut Loads<'_, f64, Loose>| {
+        let drag: Vector3<f64> = Loose::velocity(state, handles.bead) * -0.3;
+        loads.force(handles.bead, drag.into());
+        loads.force_at(handles.puck, [0.1, 0.0, 0.0], [0.0, 1.0, 0.2]);
+        loads.moment(handles.wheel, [0.0, 0.1, 0.3]);
+        loads.force_at(handles.satellite, [0.5, 0.0, 0.1], [1.0, 2.0, -1.0]);
+        loads.moment_in_body_axes(handles.piston, [0.0, 0.004, 0.0]);
+    };
+    both_under(&loose, Baumgarte::default(), start, law, read);
 }
 
 #[test]
@@ -337,6 +409,17 @@ fn loops_with_equations_too_many() {
     let start = bars.described_state().expect("described");
     both(&bars, StandardLagrange, start, 1e-7, read);
     both(&bars, Baumgarte::default(), start, 1e-7, read);
+    let augmented = AugmentedLagrangian::default();
+    both(&bars, augmented, start, 1e-6, read);
+    let law = |time: f64, state: &_, loads: &mut Loads<'_, f64, FourBar>| {
+        let drag: Vector3<f64> = FourBar::velocity(state, handles.bob) * -0.5;
+        loads.force(handles.bob, drag.into());
+        loads.force_at(handles.coupler, [0.0, 0.2, 0.1], [0.5, 3.0, 6.0 * time]);
+        loads.moment(handles.pinion, [0.4, 0.0, 0.0]);
+    };
+    both_under(&bars, StandardLagrange, start, law, read);
+    both_under(&bars, Baumgarte::default(), start, law, read);
+    both_under(&bars, augmented, start, law, read);
     // Joints of the tree do not yield: what is compared is the limit of a stiff penalty.
     both(&bars, Penalty::new(1e9, 10.0, 1.0), start, 1e-4, read);
 }
@@ -431,6 +514,7 @@ fn open_joints_are_refused() {
         joint,
         quantity,
         violation,
+        is_final: true,
     } = fault
     else {
         panic!("{fault}");

@@ -55,6 +55,7 @@ fn a_rod_that_flies_off_its_hinge_is_refused() {
         joint: "hinge",
         quantity: Quantity::Speed,
         violation,
+        is_final: false,
     } = error.fault
     else {
         panic!("{error}");

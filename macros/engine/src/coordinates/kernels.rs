@@ -21,6 +21,15 @@ pub struct Evaluation {
     pub checks: Vec<PivotCheck>,
 }
 
+/// What forces and moments on the bodies, and right-hand sides of the rows, make of rates and multipliers: factorisation and back-substitution over one arena.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    /// The terms of the formulation: plain or compliant.
+    pub terms: Terms,
+    /// Rates of the velocities, then multipliers.
+    pub solution: Kernel,
+}
+
 /// What a coordinate or a velocity of the reduced system is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
@@ -66,6 +75,8 @@ pub struct JointKernels {
     pub links: Vec<Described>,
     /// One for each set of terms; one alone where no row remains.
     pub evaluations: Vec<Evaluation>,
+    /// Without a compliance, and with one where rows remain.
+    pub solvers: Vec<Solver>,
     /// The bodies: position, velocity, and of a rigid one rotation matrix row by row and angular velocity in principal axes; auxiliary variables.
     pub bodies: Kernel,
     /// Pairs, further coordinates, auxiliary variables and velocities, from the state of the bodies.
@@ -92,6 +103,12 @@ impl JointKernels {
         let evaluations = terms
             .iter()
             .map(|&terms| evaluation(reduced.clone(), terms));
+        let solvers: &[Terms] = if rows.is_empty() {
+            &[Terms::Plain]
+        } else {
+            &[Terms::Plain, Terms::Compliant]
+        };
+        let solvers = solvers.iter().map(|&terms| solver(reduced.clone(), terms));
         let links = &reduced.links;
         let auxiliaries = reduced.scene.counters.len();
         let balls = links.links.iter().filter_map(|link| match link.freedom {
@@ -125,6 +142,7 @@ impl JointKernels {
                 })
                 .collect(),
             evaluations: evaluations.collect(),
+            solvers: solvers.collect(),
             bodies: bodies(&reduced, model),
             joints: {
                 let mut arena = reduced.scene.space.arena.clone();
@@ -152,6 +170,17 @@ fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {
             outputs,
         },
         checks,
+    }
+}
+
+fn solver(mut reduced: Reduced, terms: Terms) -> Solver {
+    let solution = reduced.solve_given(terms);
+    Solver {
+        terms,
+        solution: Kernel {
+            arena: reduced.scene.space.arena,
+            outputs: [solution.accelerations, solution.multipliers].concat(),
+        },
     }
 }
 

@@ -15,7 +15,7 @@ use crate::plan::system::Terms;
 use crate::rank::closing;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::{clean, size, transpose};
-use crate::symbolic::scene::{Chart, Scene};
+use crate::symbolic::scene::{Chart, Constrained, Scene};
 use crate::symbolic::twist::Gradient;
 use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
 
@@ -249,22 +249,75 @@ impl Reduced {
     /// Rates of the velocities, and multipliers.
     pub fn solve(&mut self, terms: Terms) -> Solution {
         let (wrenches, efforts) = self.forces();
+        self.solve_for(terms, wrenches, &efforts, None)
+    }
+
+    /// What forces and moments on the bodies and right-hand sides of the rows, both given when the system is solved, make of rates and multipliers.
+    pub fn solve_given(&mut self, terms: Terms) -> Solution {
+        let wrenches = self.given();
+        let efforts = vec![Arena::ZERO; self.links.velocities];
+        let arena = &mut self.scene.space.arena;
+        let rows = self.scene.constraints.iter().map(Constrained::equations);
+        let lower = (0..rows.sum()).map(|row: usize| arena.input(Input::Lower(row as u32)));
+        let lower = lower.collect();
+        self.solve_for(terms, wrenches, &efforts, Some(lower))
+    }
+
+    /// The wrenches on the links of given forces (global axes) and moments about centres of mass (principal axes), which stand as the velocities of the bodies
+    /// do.
+    fn given(&mut self) -> Vec<Wrench> {
+        let Self { links, scene, .. } = self;
+        let mut wrenches = vec![Wrench::NONE; links.links.len()];
+        for (body, standing) in links.bodies.iter().enumerate() {
+            let Some(link) = standing.link else { continue };
+            let is_rigid = scene.space.rotation(body).is_some();
+            let first = scene.layout.velocity[body];
+            let arena = &mut scene.space.arena;
+            let mut at = |k: usize| arena.input(Input::Upper((first + k) as u32));
+            let force = [0, 1, 2].map(&mut at);
+            let moment = if is_rigid {
+                [3, 4, 5].map(&mut at)
+            } else {
+                ZERO
+            };
+            let force = links
+                .frames
+                .turn(arena, force, Frames::GROUND, links.axes(Some(link)));
+            let moment = apply(arena, standing.axes, moment);
+            let moment = links.in_axes(arena, moment, Some(link));
+            let centre = links.in_axes(arena, standing.centre, Some(link));
+            let by_arm = cross(arena, centre, force);
+            let moment = add(arena, moment, by_arm);
+            wrenches[link] = wrenches[link].plus(arena, Wrench { force, moment });
+        }
+        wrenches
+    }
+
+    /// Rates of the velocities, and multipliers, for wrenches on the links and efforts along the velocities; rows have the right-hand sides that are given, or
+    /// else their own.
+    fn solve_for(
+        &mut self,
+        terms: Terms,
+        wrenches: Vec<Wrench>,
+        efforts: &[Expr],
+        lower: Option<Vec<Expr>>,
+    ) -> Solution {
         let Self { links, scene, .. } = self;
         let arena = &mut scene.space.arena;
         if self.strategy.method == Method::Articulated && scene.constraints.is_empty() {
             return Solution {
-                accelerations: links.articulated(arena, &wrenches, &efforts),
+                accelerations: links.articulated(arena, &wrenches, efforts),
                 multipliers: Vec::new(),
                 checks: Vec::new(),
             };
         }
         let mut right = links.project(arena, wrenches);
-        for (force, effort) in right.iter_mut().zip(efforts) {
+        for (force, &effort) in right.iter_mut().zip(efforts) {
             *force = arena.add(*force, effort);
         }
         let mass = links.mass_matrix(arena);
         let (rows, gamma) = self.rows(terms);
-        right.extend(gamma);
+        right.extend(lower.unwrap_or(gamma));
         let velocities = self.links.velocities;
         let mut matrix = Symmetric::new(velocities + rows.len());
         for k in 0..velocities {

@@ -7,9 +7,10 @@ use super::local;
 use super::parts::{Frame, write_in_parts};
 use super::report::{evaluation_name, kernel};
 use super::solution::{inline, name, verdict};
-use super::store::{Store, load_input};
+use super::rows::{WIDTH, array, pack};
+use super::store::{BackSubstitution, Store, load_input};
 use super::straight_line::{Environment, Given, StraightLine, Value};
-use crate::coordinates::kernels::{Evaluation, JointKernels, Meaning};
+use crate::coordinates::kernels::{Evaluation, JointKernels, Meaning, Solver};
 use crate::model::Model;
 use crate::plan::kernels::Kernel;
 use crate::plan::system::Terms;
@@ -91,6 +92,15 @@ impl Writer<'_> {
             .map(|evaluation| self.evaluation(evaluation))
             .collect();
         let dispatch = self.dispatch();
+        let mut factors = 0;
+        let mut solvers = TokenStream::new();
+        for solver in &kernels.solvers {
+            let (tokens, size) = self.solver(solver);
+            solvers.extend(tokens);
+            factors = factors.max(size);
+        }
+        let factors = array(factors);
+        let solving = self.solving();
         let bodies = self.bodies();
         let joints = self.joints();
         let coefficients = self.store.write_coefficients();
@@ -113,6 +123,8 @@ impl Writer<'_> {
                 type JointConstants<__S: #facade::Scalar> = [__S; #c];
                 type JointCoefficients<__S: #facade::Scalar> = [__S; #k];
                 type BodyMotions<__S: #facade::Scalar> = [__S; #read];
+                type JointFactors<__S: #facade::Scalar> = #factors;
+                type JointVelocities<__S: #facade::Scalar> = [__S; #velocities];
 
                 const JOINT_REPORT: #facade::JointReport = #report;
 
@@ -133,11 +145,13 @@ impl Writer<'_> {
                 }
 
                 #dispatch
+                #solving
                 #bodies
                 #joints
             }
 
             #evaluations
+            #solvers
             #parts
         }
     }
@@ -260,6 +274,135 @@ impl Writer<'_> {
                 #multipliers: &mut Self::ClosingMultipliers<__S>,
             ) -> #facade::Pivot<__S> {
                 #body
+            }
+        }
+    }
+
+    /// The arguments of a back-substitution.
+    fn given(&self) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let names = ["constants", "coefficients", "factors", "upper", "lower"];
+        let [constants, coefficients, factors, upper, lower] = names.map(local);
+        quote! {
+            #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
+            #coefficients: &<#name as #facade::JointCoordinates>::JointCoefficients<__S>,
+            #factors: &<#name as #facade::JointCoordinates>::JointFactors<__S>,
+            #upper: &<#name as #facade::Mechanism>::Velocities<__S>,
+            #lower: &<#name as #facade::JointCoordinates>::ClosingMultipliers<__S>,
+        }
+    }
+
+    /// Factorisation and back-substitution, and the number of values that pass between them.
+    fn solver(&mut self, solver: &Solver) -> (TokenStream, usize) {
+        let (name, facade) = (&self.model.name, self.facade);
+        let (factor_name, solve_name) = (factor(solver.terms), solve(solver.terms));
+        let Kernel { arena, outputs } = &solver.solution;
+        let passed = ["constants", "coefficients", "factors", "upper", "lower"].map(local);
+        let given = self.given();
+        let mut back = BackSubstitution::new(&mut self.store);
+        let (line, parts) = write_in_parts(
+            (arena, outputs),
+            Stage::RightHandSide,
+            &Given::default(),
+            &mut back,
+            &Frame {
+                name: solve_name.to_string(),
+                facade: facade.clone(),
+                declared: given.clone(),
+                passed: quote!(#(#passed,)*),
+                unpack: TokenStream::new(),
+            },
+        );
+        let factors = Kernel {
+            arena: arena.clone(),
+            outputs: back.factors,
+        };
+        self.parts.extend(parts);
+        let arguments = self.arguments();
+        let names = ["constants", "coefficients", "time", "state"].map(local);
+        let unpack = Self::unpack();
+        let frame = Frame {
+            name: factor_name.to_string(),
+            facade: facade.clone(),
+            declared: arguments.clone(),
+            passed: quote!(#(#names,)*),
+            unpack: unpack.clone(),
+        };
+        let factored = self.line(&factors, &frame);
+        let packed = pack(&factored.outputs);
+        let rows = 0..packed.len();
+        let (factor_statements, solve_statements) = (factored.statements, line.statements);
+        let (accelerations, multipliers) = line.outputs.split_at(self.kernels.velocities);
+        let factors_name = local("factors");
+        let tokens = quote! {
+            #[inline(never)]
+            fn #factor_name<__S: #facade::Scalar>(
+                #arguments
+            ) -> <#name as #facade::JointCoordinates>::JointFactors<__S> {
+                #unpack
+                #factor_statements
+                let mut #factors_name: <#name as #facade::JointCoordinates>::JointFactors<__S> = [[__S::constant(0.0); #WIDTH]; _];
+                #( #factors_name[#rows] = #packed; )*
+                #factors_name
+            }
+
+            #[inline(never)]
+            fn #solve_name<__S: #facade::Scalar>(
+                #given
+            ) -> (
+                <#name as #facade::JointCoordinates>::JointVelocities<__S>,
+                <#name as #facade::JointCoordinates>::ClosingMultipliers<__S>,
+            ) {
+                #solve_statements
+                ([#(#accelerations),*], [#(#multipliers),*])
+            }
+        };
+        (tokens, factors.outputs.len())
+    }
+
+    /// The choice among factorisations and back-substitutions.
+    fn solving(&self) -> TokenStream {
+        let facade = self.facade;
+        let names = ["constants", "coefficients", "time", "state"];
+        let [constants, coefficients, time, state] = names.map(local);
+        let [factors, upper, lower] = ["factors", "upper", "lower"].map(local);
+        let choose = |function: fn(Terms) -> Ident, passed: &TokenStream| {
+            let [plain, compliant] = [Terms::Plain, Terms::Compliant].map(function);
+            if self.kernels.rows.is_empty() {
+                quote!(#plain(#passed))
+            } else {
+                quote! {
+                    if __T::COMPLIANT {
+                        #compliant(#passed)
+                    } else {
+                        #plain(#passed)
+                    }
+                }
+            }
+        };
+        let factored = choose(factor, &quote!(#constants, #coefficients, #time, #state));
+        let passed = quote!(#constants, #coefficients, #factors, #upper, #lower);
+        let solved = choose(solve, &passed);
+        quote! {
+            #[inline(always)]
+            fn factor_joints<__S: #facade::Scalar, __T: #facade::Terms>(
+                #constants: &Self::JointConstants<__S>,
+                #coefficients: &Self::JointCoefficients<__S>,
+                #time: __S,
+                #state: &Self::JointState<__S>,
+            ) -> Self::JointFactors<__S> {
+                #factored
+            }
+
+            #[inline(always)]
+            fn solve_joints<__S: #facade::Scalar, __T: #facade::Terms>(
+                #constants: &Self::JointConstants<__S>,
+                #coefficients: &Self::JointCoefficients<__S>,
+                #factors: &Self::JointFactors<__S>,
+                #upper: &Self::Velocities<__S>,
+                #lower: &Self::ClosingMultipliers<__S>,
+            ) -> (Self::JointVelocities<__S>, Self::ClosingMultipliers<__S>) {
+                #solved
             }
         }
     }
@@ -423,4 +566,12 @@ impl Writer<'_> {
 
 fn function(terms: Terms) -> Ident {
     format_ident!("__evaluate_joints_{}", name(terms))
+}
+
+fn factor(terms: Terms) -> Ident {
+    format_ident!("__factor_joints_{}", name(terms))
+}
+
+fn solve(terms: Terms) -> Ident {
+    format_ident!("__solve_joints_{}", name(terms))
 }
