@@ -4,8 +4,9 @@ use nalgebra::{Quaternion, Vector3};
 
 use crate::array::{Array, StateParts};
 use crate::error::{Fault, ParameterError};
-use crate::handle::{BodyHandle, CountsTurns};
+use crate::handle::{BodyHandle, CountsTurns, HasAngle, HasDisplacement, Joint, JointHandle};
 use crate::mechanism::Mechanism;
+use crate::placing::Carrying;
 use crate::project::{Correction, Projection};
 use crate::rotation::{
     conjugate, cross, normalised, normalised_or_zero, product, read, rotate, rotate_back, write,
@@ -130,6 +131,96 @@ pub trait MechanismExt: Mechanism {
         for (place, &angle) in places.iter_mut().zip(angles) {
             *place = angle;
         }
+        Ok(())
+    }
+
+    /// Sets the angle of a joint (rad), as [`View::angle`](crate::View::angle) reads it: what the joint carries in the spanning tree
+    /// ([`Report::carriers`](crate::Report::carriers)), and all that hangs on that, turns about the joint's axis as one body.
+    ///
+    /// No other joint of the tree is opened, the velocities of all joints stay what they were, and so angles may be set in any order. A joint that closes a loop is opened: see
+    /// [`MechanismExt::assemble`]. Angles that count turns go along: by the whole way where the joint, or an element between the same two bodies, counts turns of this
+    /// angle, else by the nearest one.
+    ///
+    /// # Errors
+    /// [`Fault::CarriesNothing`] for a joint that carries no body: it closes a loop, or drives what another one carries. [`Fault::NotFree`] for one whose angle is not that
+    /// of its motion. [`Fault::StateNotFinite`], a parameter that is not acceptable. The state is then as before.
+    fn set_angle<S: Real, J: HasAngle>(
+        &self,
+        state: &mut Self::State<S>,
+        joint: JointHandle<Self, J>,
+        angle: S,
+    ) -> Result<(), Fault> {
+        let constants = self.constants::<S>()?;
+        *state = Carrying::<S, Self>::of(&constants, state, joint.index())?.set_angle(angle)?;
+        Ok(())
+    }
+
+    /// Sets the rate of the angle of a joint (rad/s), as [`View::angle_rate`](crate::View::angle_rate) reads it, in the present configuration: what hangs on the joint
+    /// goes along as one body. Rates of other joints stay what they were.
+    ///
+    /// # Errors
+    /// As [`MechanismExt::set_angle`].
+    fn set_angle_rate<S: Real, J: HasAngle>(
+        &self,
+        state: &mut Self::State<S>,
+        joint: JointHandle<Self, J>,
+        rate: S,
+    ) -> Result<(), Fault> {
+        let constants = self.constants::<S>()?;
+        *state = Carrying::<S, Self>::of(&constants, state, joint.index())?.set_angle_rate(rate)?;
+        Ok(())
+    }
+
+    /// Sets the displacement of a joint (m), as [`View::displacement`](crate::View::displacement) reads it: what hangs on the joint is moved along its direction as one
+    /// body, see [`MechanismExt::set_angle`].
+    ///
+    /// # Errors
+    /// As [`MechanismExt::set_angle`].
+    fn set_displacement<S: Real, J: HasDisplacement>(
+        &self,
+        state: &mut Self::State<S>,
+        joint: JointHandle<Self, J>,
+        displacement: S,
+    ) -> Result<(), Fault> {
+        let constants = self.constants::<S>()?;
+        let carrying = Carrying::<S, Self>::of(&constants, state, joint.index())?;
+        *state = carrying.set_displacement(displacement)?;
+        Ok(())
+    }
+
+    /// Sets the rate of the displacement of a joint (m/s), as [`View::displacement_rate`](crate::View::displacement_rate) reads it, in the present configuration.
+    ///
+    /// # Errors
+    /// As [`MechanismExt::set_angle`].
+    fn set_displacement_rate<S: Real, J: HasDisplacement>(
+        &self,
+        state: &mut Self::State<S>,
+        joint: JointHandle<Self, J>,
+        rate: S,
+    ) -> Result<(), Fault> {
+        let constants = self.constants::<S>()?;
+        let carrying = Carrying::<S, Self>::of(&constants, state, joint.index())?;
+        *state = carrying.set_displacement_rate(rate)?;
+        Ok(())
+    }
+
+    /// Sets how the second body of a ball joint is turned against the first, from the described configuration on: 1 is the described one, and where the first body stands
+    /// as described, the second is turned by this rotation, global axes. What hangs on the joint turns about its point as one body, see [`MechanismExt::set_angle`].
+    ///
+    /// The quaternion may have any length but zero, which is refused with [`Fault::StateNotFinite`].
+    ///
+    /// # Errors
+    /// As [`MechanismExt::set_angle`]; [`Fault::NotFree`] for a joint that does not leave all rotations free.
+    fn set_relative_orientation<S: Real, J: Joint>(
+        &self,
+        state: &mut Self::State<S>,
+        joint: JointHandle<Self, J>,
+        orientation: Quaternion<S>,
+    ) -> Result<(), Fault> {
+        let constants = self.constants::<S>()?;
+        let [x, y, z, w] = orientation.coords.into();
+        let carrying = Carrying::<S, Self>::of(&constants, state, joint.index())?;
+        *state = carrying.set_orientation(&[w, x, y, z])?;
         Ok(())
     }
 

@@ -160,6 +160,19 @@ pub enum Fault {
         /// The driver's field.
         joint: &'static str,
     },
+    /// An angle, a displacement or an orientation was to be set of a joint that carries no body in the spanning tree, see
+    /// [`Report::carriers`](crate::Report::carriers).
+    CarriesNothing {
+        /// The joint's field.
+        joint: &'static str,
+        /// The joint that carries the last of its bodies that one carries.
+        instead: Option<&'static str>,
+    },
+    /// What was to be set of a joint is no motion that its equations leave free.
+    NotFree {
+        /// The joint's field.
+        joint: &'static str,
+    },
     /// Angles that count turns were set, and their number is not that of the joint or force.
     CountedAngles {
         /// The field of the joint or force.

@@ -55,6 +55,7 @@ mod message;
 mod moving;
 mod newton;
 mod origin;
+mod placing;
 mod project;
 mod reaction;
 mod readable;
@@ -209,8 +210,8 @@ pub use readout::{AngleParts, DisplacementParts, ForceParts};
 #[cfg(feature = "recorder")]
 pub use recorder::{RecordError, Recorder};
 pub use report::{
-    Block, BodyInfo, BodyKind, ExplicitTime, ForceInfo, JointInfo, Kernel, Operations, Rank,
-    RedundantRow, Report,
+    Block, BodyInfo, BodyKind, Carrier, ExplicitTime, ForceInfo, JointInfo, Kernel, Operations,
+    Rank, RedundantRow, Report,
 };
 pub use reporting::{Reporting, every, every_step};
 pub use run_report::{RunReport, RunResult};

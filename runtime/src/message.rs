@@ -231,6 +231,20 @@ impl fmt::Display for Fault {
                 f,
                 "the equation of driver `{joint}` was left out as redundant: other joints carry its effort"
             ),
+            Self::CarriesNothing { joint, instead } => {
+                write!(f, "joint `{joint}` carries no body in the spanning tree")?;
+                if let Some(instead) = instead {
+                    write!(
+                        f,
+                        ": set `{instead}`, which carries one of its bodies, and let `assemble` close `{joint}`"
+                    )?;
+                }
+                Ok(())
+            }
+            Self::NotFree { joint } => write!(
+                f,
+                "what is to be set of joint `{joint}` is no motion that its equations leave free"
+            ),
             Self::CountedAngles {
                 element,
                 counted,

@@ -232,6 +232,7 @@ macro_rules! __stub_mechanism {
                     bodies: &[],
                     joints: &[],
                     forces: &[],
+                    carriers: &[],
                     blocks: &[],
                     coordinates: 0,
                     auxiliaries: 0,

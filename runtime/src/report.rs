@@ -11,6 +11,8 @@ pub struct Report {
     pub joints: &'static [JointInfo],
     /// The forces in the order of the fields.
     pub forces: &'static [ForceInfo],
+    /// What carries each body in the spanning tree.
+    pub carriers: &'static [Carrier],
     /// The blocks of the Jacobian, in the order of [`crate::Mechanism::jacobian`].
     pub blocks: &'static [Block],
     /// Coordinates `q` of the bodies: seven a body, three a particle.
@@ -133,6 +135,19 @@ pub struct BodyInfo {
     pub coordinate: usize,
     /// The place of `v` in the velocities; `w` stands three places further.
     pub velocity: usize,
+}
+
+/// What carries a body in the spanning tree of a mechanism, which is grown from the ground along joints that say how they move (`motion ..`): the joint with the
+/// fewest motions first.
+///
+/// It is the tree of [`JointCoordinates`](crate::JointCoordinates), where a mechanism has these; a joint's angle or displacement is set by moving what it carries
+/// ([`MechanismExt::set_angle`](crate::MechanismExt::set_angle)).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Carrier {
+    /// The body that carries it; `None` for the ground.
+    pub body: Option<usize>,
+    /// The joint; `None` for a body that no joint carries, which moves freely.
+    pub joint: Option<usize>,
 }
 
 /// Whether a body has an orientation.

@@ -74,6 +74,30 @@ fn a_start_is_refused_with_what_helps() {
 }
 
 #[test]
+fn what_cannot_be_set_is_told_with_what_can() {
+    let carries_nothing = |instead| Fault::CarriesNothing {
+        joint: "pin",
+        instead,
+    };
+    for (fault, message) in [
+        (
+            carries_nothing(Some("hinge")),
+            "joint `pin` carries no body in the spanning tree: set `hinge`, which carries one of its bodies, and let `assemble` close `pin`",
+        ),
+        (
+            carries_nothing(None),
+            "joint `pin` carries no body in the spanning tree",
+        ),
+        (
+            Fault::NotFree { joint: "pin" },
+            "what is to be set of joint `pin` is no motion that its equations leave free",
+        ),
+    ] {
+        assert_eq!(fault.to_string(), message);
+    }
+}
+
+#[test]
 fn one_is_singular_and_more_are_plural() {
     let not_driven = |degrees_of_freedom| Fault::NotDriven { degrees_of_freedom };
     for (fault, message) in [

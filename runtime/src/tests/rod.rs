@@ -87,6 +87,10 @@ impl Mechanism for Rod {
             operations: Operations::NONE,
         }],
         forces: &[],
+        carriers: &[Carrier {
+            body: None,
+            joint: Some(0),
+        }],
         blocks: &[Block {
             joint: 0,
             body: 0,

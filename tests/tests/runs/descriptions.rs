@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 /// A cart with a boom, which carries a weight by a weld and a load by a cross and a ball; numbers that are known at run time, springs, a motor.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.3, -9.81], coordinates = "joints")]
-struct Crane {
+pub(crate) struct Crane {
     #[param]
     length: f64,
     #[param]
@@ -56,14 +56,14 @@ struct Crane {
 }
 
 impl Crane {
-    fn driven() -> Result<Self, ParameterError> {
+    pub(crate) fn driven() -> Result<Self, ParameterError> {
         let mut crane = Self::new(1.2, 2.0)?;
         crane.moment = 0.6;
         Ok(crane)
     }
 
     /// With every freedom in motion.
-    fn start<S: holonom::Real>(&self) -> <Self as Mechanism>::State<S> {
+    pub(crate) fn start<S: holonom::Real>(&self) -> <Self as Mechanism>::State<S> {
         let mut state = self.described_state().expect("described");
         let handles = Self::HANDLES;
         let rolls = Vector3::new(0.5, 0.1, 0.0);
@@ -87,7 +87,7 @@ impl Crane {
 /// A box that slides and turns on a table with a bead on a wire and a rod through a sleeve; a satellite with a wheel; nothing is held but by joints.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.5, 0.0, -0.2], coordinates = "joints")]
-struct Loose {
+pub(crate) struct Loose {
     #[body(mass = 1.0, inertia = [0.1, 0.2, 0.25], position = [0.3, 0.2, 0.1])]
     puck: Body,
     #[body(mass = 0.2, position = [0.3, 0.2, 0.4])]
@@ -116,7 +116,7 @@ struct Loose {
 
 impl Loose {
     /// Corrected onto the constraints, so that every freedom is in motion.
-    fn start(&self) -> <Self as Mechanism>::State<f64> {
+    pub(crate) fn start(&self) -> <Self as Mechanism>::State<f64> {
         let mut state = self.described_state().expect("described");
         let handles = Self::HANDLES;
         let bodies = [
@@ -138,7 +138,7 @@ impl Loose {
 /// A four-bar in the plane, whose joints are more than enough, with a gear on its crank; and a spatial pendulum on its coupler.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", redundant = "drop")]
-struct FourBar {
+pub(crate) struct FourBar {
     #[body(mass = 0.5, inertia = [0.02, 0.0005, 0.02], position = [0.0, 0.0, 0.2])]
     crank: Body,
     #[body(mass = 1.5, inertia = [0.1, 0.1, 0.002], position = [0.0, 0.5, 0.5])]

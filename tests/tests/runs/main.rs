@@ -11,6 +11,7 @@ mod kinematics;
 mod observer;
 mod order;
 mod pendulum;
+mod placing;
 mod reactions;
 mod redundant;
 mod references;

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::joint::kind;
+use crate::coordinates::spanning::Spanning;
 use crate::model::mechanism::Layout;
 use crate::model::{JointUse, Model, Rank};
 use crate::plan::Plan;
@@ -116,10 +117,14 @@ pub fn describe(model: &Model, plan: &Plan, layout: &Layout) -> String {
 
 /// The bodies of a joint or force, `None` for the ground.
 fn places(element: &JointUse) -> impl Iterator<Item = TokenStream> {
-    element.bodies.iter().map(|body| match body {
-        Some(body) => quote!(::core::option::Option::Some(#body)),
+    element.bodies.iter().copied().map(option)
+}
+
+fn option(place: Option<usize>) -> TokenStream {
+    match place {
+        Some(place) => quote!(::core::option::Option::Some(#place)),
         None => quote!(::core::option::Option::None),
-    })
+    }
 }
 
 /// A kernel by its name and what it costs.
@@ -211,6 +216,11 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             }
         }
     });
+    let mut carriers = vec![TokenStream::new(); model.bodies.len()];
+    for carried in Spanning::new(model).carried {
+        let [body, joint] = [carried.by, carried.joint].map(option);
+        carriers[carried.body] = quote!(#facade::Carrier { body: #body, joint: #joint });
+    }
     let blocks = kernels.blocks.iter().map(|block| {
         let crate::plan::kernels::Block { joint, body, offset } = *block;
         let (row, rows) = (layout.row[joint], model.equations(&model.joints[joint]));
@@ -252,6 +262,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             bodies: &[#(#bodies),*],
             joints: &[#(#joints),*],
             forces: &[#(#forces),*],
+            carriers: &[#(#carriers),*],
             blocks: &[#(#blocks),*],
             coordinates: #coordinates,
             auxiliaries: #auxiliaries,
