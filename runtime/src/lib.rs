@@ -154,7 +154,7 @@ pub use bodies::{Body, Particle};
 /// axes are given once, **in global axes at the described configuration**, and the macro makes the copies that are fixed on the bodies;
 /// so the described configuration satisfies the joint. Or one for each body in its own axes, points from its centre of mass:
 /// `point = local([..], [..])` (the ground's axes are the global ones); the joint may then be violated at the start,
-/// which [`MechanismExt::assemble`] mends.
+/// which [`MechanismExt::assemble`] mends. `cut` keeps it equations in joint coordinates, see [`guide::coordinates`].
 ///
 /// `#[force(between = [i, j], ..)]` on a field whose type is a force, likewise, see [`forces`] and [`force!`].
 ///

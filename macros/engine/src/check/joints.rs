@@ -12,7 +12,7 @@ use super::pairs::Pairs;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, ElementKind, Extent, JointDef, JointUse, Number,
+    Action, Binding, Body, BodyKind, Coordinates, ElementKind, Extent, JointDef, JointUse, Number,
     ParameterKind, Term,
 };
 use crate::syntax::mechanism::{Field, carrier_path};
@@ -35,6 +35,8 @@ pub(super) struct JointChecker<'a> {
     pub(super) names: &'a [&'a Ident],
     pub(super) bodies: &'a [Option<Body>],
     pub(super) definitions: &'a [JointDef],
+    /// Which kernels the mechanism has.
+    pub(super) coordinates: Coordinates,
 }
 
 impl JointChecker<'_> {
@@ -119,6 +121,7 @@ impl JointChecker<'_> {
                 format!("a {word} of the `ground` alone does nothing; name a body"),
             );
         }
+        let is_cut = self.cut(joint, &mut pairs, faults);
         let mut bindings = Vec::new();
         for parameter in &joint.parameters {
             let key = parameter.name.to_string();
@@ -181,7 +184,36 @@ impl JointChecker<'_> {
             bodies,
             bindings,
             dropped: Vec::new(),
+            is_cut,
         })
+    }
+
+    /// Whether the joint is to carry no body in joint coordinates: `cut`, unless that is a parameter of its own.
+    fn cut(&self, joint: &JointDef, pairs: &mut Pairs<'_>, faults: &mut Faults) -> bool {
+        let key = "cut";
+        let is_own = joint.parameters.iter().any(|own| own.name == key);
+        if self.kind == ElementKind::Force || is_own || !pairs.has(key) {
+            return false;
+        }
+        let written = self.field.list.pairs.iter().find(|pair| pair.key == key);
+        let is_cut = pairs.flag(key, faults);
+        let Some(written) = written else {
+            return is_cut;
+        };
+        if self.coordinates != Coordinates::Joints {
+            faults.at(
+                &written.key,
+                "`cut` says which joint stays equations in joint coordinates, which this mechanism has not; write \
+                 `#[mechanism(coordinates = \"joints\")]`, or leave it out",
+            );
+        } else if joint.motions.is_none() {
+            let name = &joint.name;
+            faults.at(
+                &written.key,
+                format!("`{name}` does not say how it moves (`motion ..`): it stays equations without `cut`"),
+            );
+        }
+        is_cut
     }
 
     fn between(

@@ -93,6 +93,7 @@ pub fn check(
             names: &names,
             bodies: &bodies,
             definitions: &definitions,
+            coordinates,
         };
         let element = checker.check(types, &mut mentioned, &mut numbers, faults);
         match kind {

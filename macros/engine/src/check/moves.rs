@@ -195,6 +195,7 @@ fn model(joint: &JointDef, choice: Choice) -> Model {
         bodies: vec![Some(0), Some(1)],
         bindings,
         dropped: Vec::new(),
+        is_cut: false,
     };
     Model {
         name: joint.name.clone(),

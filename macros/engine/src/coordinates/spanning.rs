@@ -34,7 +34,8 @@ pub struct Spanning {
 type Merit = (usize, usize, String, String);
 
 impl Spanning {
-    /// The tree of a mechanism, whatever the order of its fields: the joint with the fewest motions first, then the one nearest to the ground.
+    /// The tree of a mechanism, whatever the order of its fields: the joint with the fewest motions first, then the one nearest to the ground. Those that the user cuts
+    /// stay equations.
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let mut depth: Vec<Option<usize>> = vec![None; model.bodies.len()];
@@ -48,7 +49,7 @@ impl Spanning {
                 let [first, second] = joint.bodies[..] else {
                     continue;
                 };
-                if !able[place] {
+                if !able[place] || joint.is_cut {
                     continue;
                 }
                 for (by, body, is_reversed) in [(first, second, false), (second, first, true)] {

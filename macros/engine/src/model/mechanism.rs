@@ -123,6 +123,8 @@ pub struct JointUse {
     pub bindings: Vec<Binding>,
     /// Equations of its definition that are left out, in order.
     pub dropped: Vec<usize>,
+    /// Whether it carries no body in joint coordinates, because the user says so.
+    pub is_cut: bool,
 }
 
 /// A field that holds a number for run time.
