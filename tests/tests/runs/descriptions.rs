@@ -495,8 +495,7 @@ fn refused<M: JointCoordinates>(
         .joint_coordinates()
         .inconsistent_start()
         .run(0.0..=0.1, every(0.1), |_| ControlFlow::Continue(()))
-        .err()
-        .expect("inconsistent")
+        .expect_err("inconsistent")
 }
 
 /// Whatever is asked for: a joint of the tree cannot be open, and of one that closes a loop nobody would know.

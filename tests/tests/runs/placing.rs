@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use holonom::prelude::*;
 use holonom::{Array, BodyHandle, View};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::descriptions::{Crane, FourBar, Loose};
 
@@ -142,7 +142,7 @@ fn a_ball_is_turned() {
         .expect("free");
     let before = relative::<Crane>(&state, [handles.boom, handles.rod]);
     let wanted = UnitQuaternion::from_scaled_axis(Vector3::new(0.7, -1.1, 2.0));
-    let given = Quaternion::from(*wanted.quaternion()) * 3.0;
+    let given = *wanted.quaternion() * 3.0;
     crane
         .set_relative_orientation(&mut state, handles.hook, given)
         .expect("free");
