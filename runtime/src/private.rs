@@ -191,15 +191,17 @@ macro_rules! __stub_mechanism {
     (@value body) => { $crate::BodyHandle::new(0) };
     (@value force $($path:path)?) => { $crate::ForceHandle::new(0) };
     (@value joint $($path:path)?) => { $crate::JointHandle::new(0) };
+    (@handle [$length:expr] $kind:ident $($path:path)?) => { [$crate::__stub_mechanism!(@handle $kind $($path)?); $length] };
+    (@value [$length:expr] $kind:ident $($path:path)?) => { [$crate::__stub_mechanism!(@value $kind $($path)?); $length] };
     (
         [$($declared:tt)*] [$mechanism:ty] [$($bounds:tt)*]
-        $($field:ident: $kind:ident $($path:path)?,)*
+        $($field:ident: $([$length:expr])? $kind:ident $($path:path)?,)*
     ) => {
         #[allow(warnings, clippy::all, clippy::pedantic)]
         const _: () = {
             use ::core::primitive::{f64, usize};
             pub struct __Handles<__M> {
-                $(pub $field: $crate::__stub_mechanism!(@handle $kind $($path)?),)*
+                $(pub $field: $crate::__stub_mechanism!(@handle $([$length])? $kind $($path)?),)*
                 __mechanism: ::core::marker::PhantomData<fn() -> __M>,
             }
             impl<__M> ::core::clone::Clone for __Handles<__M> {
@@ -224,7 +226,7 @@ macro_rules! __stub_mechanism {
                 type Factors<__S: $crate::Scalar> = [__S; 0];
                 type Handles = __Handles<Self>;
                 const HANDLES: __Handles<Self> = __Handles {
-                    $($field: $crate::__stub_mechanism!(@value $kind $($path)?),)*
+                    $($field: $crate::__stub_mechanism!(@value $([$length])? $kind $($path)?),)*
                     __mechanism: ::core::marker::PhantomData,
                 };
                 const REPORT: $crate::Report = $crate::Report {

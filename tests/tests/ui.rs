@@ -4,6 +4,7 @@
 fn refusals() {
     let cases = trybuild::TestCases::new();
     for feature in [
+        "array",
         "body",
         "definition",
         "force",

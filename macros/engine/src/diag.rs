@@ -5,11 +5,42 @@ use std::fmt::Display;
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
 
+use crate::model::Name;
+
 /// Collects faults. Dropping it unread is a mistake of ours and panics in a test.
 #[derive(Debug, Default)]
 pub struct Faults {
-    errors: Vec<syn::Error>,
+    faults: Vec<Fault>,
+    /// The element of an array that is being read.
+    element: Option<usize>,
     read: bool,
+}
+
+/// A fault, and the element of an array that it was found in.
+#[derive(Debug)]
+struct Fault {
+    error: syn::Error,
+    element: Option<usize>,
+}
+
+impl Fault {
+    /// Whether two faults, of two elements of an array, say the same at the same place, but for numbers.
+    fn is_repeated_by(&self, other: &Self) -> bool {
+        let place = |fault: &Self| {
+            let span = fault.error.span();
+            let (start, end) = (span.start(), span.end());
+            (start.line, start.column, end.line, end.column)
+        };
+        let words = |fault: &Self| {
+            let mut text = fault.error.to_string();
+            text.retain(|c| !c.is_ascii_digit() && !matches!(c, '.' | '-'));
+            text
+        };
+        let elements = [self.element, other.element];
+        matches!(elements, [Some(a), Some(b)] if a != b)
+            && place(self) == place(other)
+            && words(self) == words(other)
+    }
 }
 
 impl Faults {
@@ -21,17 +52,35 @@ impl Faults {
 
     /// A fault at some tokens.
     pub fn at(&mut self, tokens: impl ToTokens, message: impl Display) {
-        self.errors.push(syn::Error::new_spanned(tokens, message));
+        self.add(syn::Error::new_spanned(tokens, message));
     }
 
     /// A fault at a span.
     pub fn at_span(&mut self, span: Span, message: impl Display) {
-        self.errors.push(syn::Error::new(span, message));
+        self.add(syn::Error::new(span, message));
+    }
+
+    /// A fault at the name of a field or of an element.
+    pub fn at_name(&mut self, name: &Name, message: impl Display) {
+        self.within(name, |faults| faults.at(name, message));
     }
 
     /// A fault found by the parser.
     pub fn add(&mut self, error: syn::Error) {
-        self.errors.push(error);
+        let element = self.element;
+        let fault = Fault { error, element };
+        // Only the first element says what is wrong with all of them.
+        if !self.faults.iter().any(|known| known.is_repeated_by(&fault)) {
+            self.faults.push(fault);
+        }
+    }
+
+    /// Collects the faults of a field, or of an element of one: what several elements have in common is reported once.
+    pub fn within<T>(&mut self, name: &Name, read: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.element, name.index());
+        let result = read(self);
+        self.element = outer;
+        result
     }
 
     /// The value of a result, or the fault.
@@ -42,25 +91,25 @@ impl Faults {
     /// Whether there is a fault.
     #[must_use]
     pub fn any(&self) -> bool {
-        !self.errors.is_empty()
+        !self.faults.is_empty()
     }
 
     /// Takes the faults of another collector over.
     pub fn append(&mut self, mut other: Self) {
         other.read = true;
-        self.errors.append(&mut other.errors);
+        self.faults.append(&mut other.faults);
     }
 
     /// The faults as items that the compiler reports, in the order of the source; nothing without faults.
     pub fn into_tokens(mut self) -> TokenStream {
         self.read = true;
-        self.errors.sort_by_key(|error| {
-            let start = error.span().start();
+        self.faults.sort_by_key(|fault| {
+            let start = fault.error.span().start();
             (start.line, start.column)
         });
-        self.errors
+        self.faults
             .drain(..)
-            .map(syn::Error::into_compile_error)
+            .map(|fault| fault.error.into_compile_error())
             .collect()
     }
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{FAULTY, HOIST, PENDULUM, SCENES, definition, delivery, delivery_of, tokens};
+use common::{FAULTY, HOIST, PENDULUM, ROW, SCENES, definition, delivery, delivery_of, tokens};
 use holonom_engine::model::ElementKind;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use quote::quote;
@@ -117,6 +117,11 @@ fn spoil(list: &mut Vec<TokenTree>, at: usize, dice: &mut Dice) {
                 "i",
                 "j",
                 "(i.point)",
+                "k",
+                "[k - 1]",
+                "% 2",
+                "links[k]",
+                "if k == 0 { 1.0 } else { ground }",
             ];
             let word = tokens(words[dice.below(words.len())]);
             list.splice(at..=at, word);
@@ -268,10 +273,8 @@ fn what_is_not_refused_can_be_used() {
 fn annotated_structs() {
     // The compiler itself refuses what is no struct.
     let is_item = |item: &TokenStream| syn::parse2::<DeriveInput>(item.clone()).is_ok();
-    for (seed, (item, rounds)) in [(PENDULUM, 100), (FAULTY, 500), (HOIST, 200)]
-        .into_iter()
-        .enumerate()
-    {
+    let items = [(PENDULUM, 100), (FAULTY, 500), (HOIST, 200), (ROW, 150)];
+    for (seed, (item, rounds)) in items.into_iter().enumerate() {
         let item = tokens(item);
         assert_survives_soup(holonom_engine::derive, &item, 1000, seed as u64, is_item);
         assert_survives_soup(assemble, &item, rounds, seed as u64, is_item);
@@ -280,7 +283,7 @@ fn annotated_structs() {
 
 #[test]
 fn deliveries_that_break_the_protocol() {
-    for (item, rounds) in [(FAULTY, 500), (PENDULUM, 100), (HOIST, 100)] {
+    for (item, rounds) in [(FAULTY, 500), (PENDULUM, 100), (HOIST, 100), (ROW, 50)] {
         let sound = delivery(&tokens(item));
         assert_survives_soup(holonom_engine::assemble, &sound, rounds, 3, |_| false);
     }

@@ -1,6 +1,6 @@
 //! Bodies: mass, inertia, where they stand and how they move at the start.
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::Span;
 use syn::Expr;
 
 use super::number::{Numbers, elements};
@@ -8,12 +8,12 @@ use super::pairs::Pairs;
 use crate::diag::Faults;
 use crate::model::inertia::{IDENTITY, principal};
 use crate::model::number::literals;
-use crate::model::{Body, BodyKind, Number};
+use crate::model::{Body, BodyKind, Name, Number};
 use crate::syntax::{List, ungroup};
 
 /// Checks the attribute of a body.
 pub fn check(
-    name: &Ident,
+    name: &Name,
     kind: BodyKind,
     owner: Span,
     written: &List,
@@ -77,14 +77,14 @@ pub fn check(
 }
 
 struct Reader<'a, 'b> {
-    name: &'a Ident,
+    name: &'a Name,
     numbers: &'a mut Numbers<'b>,
     faults: &'a mut Faults,
 }
 
 impl Reader<'_, '_> {
     fn at(&mut self, attribute: &str) {
-        self.numbers.field = self.name.to_string();
+        self.numbers.field = self.name.clone();
         self.numbers.attribute = attribute.into();
     }
 

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Span};
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::elements::{Found, Reference, bare, known};
 use super::expression::too_large;
 use super::laws::LawReader;
 use super::mechanism::{Definition, Definitions, definition};
@@ -12,9 +13,10 @@ use super::pairs::Pairs;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, Coordinates, ElementKind, Extent, JointDef, JointUse, Number,
-    ParameterKind, Term,
+    Action, Binding, Body, BodyKind, Coordinates, ElementKind, Extent, JointDef, JointUse, Name,
+    Number, ParameterKind, Term,
 };
+use crate::syntax::array::is_index;
 use crate::syntax::mechanism::{Field, carrier_path};
 use crate::syntax::{Value, ungroup};
 
@@ -32,8 +34,10 @@ pub(super) struct JointChecker<'a> {
     /// The word of its attribute.
     pub(super) word: Span,
     /// The fields that joints may name, and the bodies that they are.
-    pub(super) names: &'a [&'a Ident],
+    pub(super) names: &'a [&'a Name],
     pub(super) bodies: &'a [Option<Body>],
+    /// Arrays whose length was refused.
+    pub(super) unmeasured: &'a [Ident],
     pub(super) definitions: &'a [JointDef],
     /// Which kernels the mechanism has.
     pub(super) coordinates: Coordinates,
@@ -125,7 +129,7 @@ impl JointChecker<'_> {
         let mut bindings = Vec::new();
         for parameter in &joint.parameters {
             let key = parameter.name.to_string();
-            numbers.field = name.to_string();
+            numbers.field = name.clone();
             numbers.attribute.clone_from(&key);
             if parameter.default.is_some() && !pairs.has(&key) {
                 pairs.optional(&key, faults);
@@ -148,6 +152,7 @@ impl JointChecker<'_> {
             bindings.push(expr.and_then(|expr| {
                 if parameter.kind == ParameterKind::Law {
                     let arguments = &parameter.arguments;
+                    self.refuse_index(arguments, expr, faults);
                     let words = arguments.iter().map(ToString::to_string);
                     numbers.words = std::iter::once("time".to_string()).chain(words).collect();
                     let law = LawReader { arguments, numbers }.read(expr, faults);
@@ -216,6 +221,17 @@ impl JointChecker<'_> {
         is_cut
     }
 
+    /// Refuses a law of an array with an argument of the index's name: nobody could tell which of them is meant.
+    fn refuse_index(&self, arguments: &[Ident], expr: &Expr, faults: &mut Faults) {
+        if self.field.name.index().is_some() && arguments.iter().any(is_index) {
+            faults.at(
+                expr,
+                "this law has an argument `k`, which is the number of an element where the field is an array; take single fields, or another \
+                 name in the definition",
+            );
+        }
+    }
+
     fn between(
         &self,
         expr: &Expr,
@@ -239,7 +255,10 @@ impl JointChecker<'_> {
                 None => mentioned.is_certain = false,
             }
             if place.is_some() && bodies.contains(&place) {
-                let twice = code(element);
+                let twice = match place {
+                    Some(Some(place)) => self.names[place].to_string(),
+                    _ => "ground".into(),
+                };
                 faults.at(
                     element,
                     format!(
@@ -253,39 +272,42 @@ impl JointChecker<'_> {
         bodies.into_iter().collect()
     }
 
-    /// The names that may stand in `between`, each once.
-    fn known(&self) -> Vec<String> {
-        let names = self.names.iter().map(ToString::to_string);
-        let mut names: Vec<String> = names.filter(|name| name != "ground").collect();
-        names.push("ground".into());
-        names
-    }
-
     fn body(&self, expr: &Expr, faults: &mut Faults) -> Option<Option<usize>> {
-        if let Expr::Path(path) = ungroup(expr)
-            && let Some(found) = path.path.get_ident()
-        {
-            if let Some(place) = self.names.iter().position(|name| *name == found) {
-                return Some(Some(place));
-            }
-            if found == "ground" {
-                return Some(None);
-            }
-            let known = self.known();
-            let near = did_you_mean(&found.to_string(), known.iter().map(String::as_str));
+        let names = self.names.iter().copied();
+        let known = || {
+            let fields = names.clone().filter(|name| name.field() != "ground");
+            let mut known = known(fields);
+            known.push("ground".into());
+            known
+        };
+        let Some(reference) = Reference::of(expr) else {
+            let known = list(known());
             faults.at(
-                found,
-                format!(
-                    "no body `{found}` in this mechanism; it has {}{near}",
-                    list(known.iter())
-                ),
+                expr,
+                format!("expected the name of a body; there are {known}"),
             );
             return None;
+        };
+        let by = self.field.name.index();
+        match reference.find(names.clone(), self.unmeasured, by, faults) {
+            Found::At(place) => return Some(Some(place)),
+            Found::Refused => return None,
+            Found::Nothing => {}
         }
-        let known = list(self.known());
+        let ground = Name::from(Ident::new("ground", reference.field.span()));
+        match reference.find([&ground], &[], by, faults) {
+            Found::At(_) => return Some(None),
+            Found::Refused => return None,
+            Found::Nothing => {}
+        }
+        let (found, known) = (reference.field, known());
+        let near = did_you_mean(&found.to_string(), known.iter().map(|name| bare(name)));
         faults.at(
-            expr,
-            format!("expected the name of a body; there are {known}"),
+            found,
+            format!(
+                "no body `{found}` in this mechanism; it has {}{near}",
+                list(known.iter())
+            ),
         );
         None
     }

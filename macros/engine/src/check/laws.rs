@@ -19,7 +19,12 @@ impl LawReader<'_, '_, '_> {
     pub(super) fn read(&mut self, expr: &Expr, faults: &mut Faults) -> Option<LawTerm> {
         let is_number = matches!(
             ungroup(expr),
-            Expr::Lit(_) | Expr::Unary(_) | Expr::Binary(_) | Expr::Call(_) | Expr::Path(_)
+            Expr::Lit(_)
+                | Expr::Unary(_)
+                | Expr::Binary(_)
+                | Expr::Call(_)
+                | Expr::Path(_)
+                | Expr::Index(_)
         );
         if is_number && !self.varies(expr) {
             return self.numbers.scalar(expr, faults).map(LawTerm::Number);
@@ -28,7 +33,12 @@ impl LawReader<'_, '_, '_> {
             Expr::Path(path) => {
                 let name = path.path.get_ident()?;
                 let place = self.arguments.iter().position(|argument| argument == name);
-                if self.numbers.values.iter().any(|value| value.name == *name) {
+                if self
+                    .numbers
+                    .values
+                    .iter()
+                    .any(|value| value.name.field() == name)
+                {
                     faults.at(
                         name,
                         format!(

@@ -2,7 +2,6 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::Ident;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Expr, ExprLit, Lit};
@@ -14,8 +13,9 @@ use super::pairs::Pairs;
 use super::{kinds, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::{
-    BodyKind, Coordinates, ElementKind, Independence, JointDef, Model, Number, Redundant,
+    BodyKind, Coordinates, ElementKind, Independence, JointDef, Model, Name, Number, Redundant,
 };
+use crate::syntax::array::is_index;
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
 use crate::syntax::ungroup;
 
@@ -41,25 +41,28 @@ pub fn check(
     facade: &proc_macro2::TokenStream,
     faults: &mut Faults,
 ) -> Option<Model> {
-    let mut numbers = Numbers::new(facade);
+    let owner = Name::from(syntax.name.clone());
+    let mut numbers = Numbers::new(owner, &syntax.unmeasured, facade);
     numbers.values = super::values::values(syntax, faults);
+    refuse_index(syntax, faults);
     let Attributes {
         gravity,
         wish,
         coordinates,
     } = attributes(syntax, &mut numbers, faults);
-    let mut names: Vec<&Ident> = Vec::new();
+    let mut names: Vec<&Name> = Vec::new();
     let mut bodies = Vec::new();
     for field in &syntax.fields {
         if may_be_body(field, types) {
-            if field.name == "ground" {
-                faults.at(
+            if field.name.field() == "ground" {
+                faults.at_name(
                     &field.name,
                     "`ground` is the body that does not move; take another name",
                 );
             }
             names.push(&field.name);
-            bodies.push(body(field, types, &mut numbers, faults));
+            let body = |faults: &mut Faults| body(field, types, &mut numbers, faults);
+            bodies.push(faults.within(&field.name, body));
         }
     }
     let mut joints = Vec::new();
@@ -71,12 +74,12 @@ pub fn check(
     for field in &syntax.fields {
         let Some((role, word)) = &field.role else {
             mentioned.is_certain = false;
-            faults.at(
+            faults.at_name(
                 &field.name,
                 format!(
                     "field `{}` is not described; write `#[body(..)]`, `#[joint(..)]`, `#[force(..)]`, `#[param]` or \
                      `#[input]` above it",
-                    field.name
+                    field.name.field()
                 ),
             );
             continue;
@@ -92,10 +95,13 @@ pub fn check(
             word: word.span(),
             names: &names,
             bodies: &bodies,
+            unmeasured: &syntax.unmeasured,
             definitions: &definitions,
             coordinates,
         };
-        let element = checker.check(types, &mut mentioned, &mut numbers, faults);
+        let element = faults.within(&field.name, |faults| {
+            checker.check(types, &mut mentioned, &mut numbers, faults)
+        });
         match kind {
             ElementKind::Joint => joints.push(element),
             ElementKind::Force => forces.push(element),
@@ -113,7 +119,7 @@ pub fn check(
     for (place, name) in names.iter().enumerate() {
         let free = bodies[place].as_ref().is_none_or(|body| body.free);
         if mentioned.is_certain && !mentioned.bodies[place] && !free {
-            faults.at(
+            faults.at_name(
                 name,
                 format!(
                     "no joint names the body `{name}`; connect it, or mark it free: `#[body(free, ..)]`"
@@ -158,7 +164,6 @@ fn attributes<'a>(
         syntax.name.span(),
         &syntax.list,
     );
-    numbers.field = syntax.name.to_string();
     numbers.attribute = "gravity".into();
     let gravity = match pairs.optional("gravity", faults) {
         Some(expr) => numbers.vector(expr, faults),
@@ -225,8 +230,24 @@ pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Defin
 #[must_use]
 pub fn is_ambiguous(syntax: &MechanismSyntax) -> bool {
     let mut before = HashSet::new();
-    let mut names = syntax.fields.iter().map(|field| field.name.unraw());
-    names.any(|name| !before.insert(name))
+    let fields = syntax.fields.iter().map(|field| &field.name);
+    let mut names = fields.filter(|name| name.is_first());
+    names.any(|name| !before.insert(name.field().unraw()))
+}
+
+/// Refuses a field of the index's name beside an array: in its attributes nobody could tell them apart.
+fn refuse_index(syntax: &MechanismSyntax, faults: &mut Faults) {
+    let has_arrays = syntax
+        .fields
+        .iter()
+        .any(|field| field.name.index().is_some());
+    let names = syntax.fields.iter().map(|field| &field.name);
+    for name in names.filter(|name| has_arrays && is_index(name.field())) {
+        faults.at_name(
+            name,
+            "`k` is the number of an element, in the attributes of a field that is an array; take another name for this field",
+        );
+    }
 }
 
 /// Whether joints may name the field, even if something is wrong with its description.

@@ -1,6 +1,7 @@
 //! Refusals: from what was written to what it means. The only pass that says no.
 
 pub mod bodies;
+mod elements;
 mod expression;
 mod functions;
 pub mod joint;

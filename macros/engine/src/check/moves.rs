@@ -189,7 +189,7 @@ fn model(joint: &JointDef, choice: Choice) -> Model {
         )
     });
     let used = JointUse {
-        name: joint.name.clone(),
+        name: joint.name.clone().into(),
         path: TokenStream::new(),
         definition: 0,
         bodies: vec![Some(0), Some(1)],
@@ -213,7 +213,7 @@ fn model(joint: &JointDef, choice: Choice) -> Model {
 
 fn body(name: &Ident, position: [f64; 3], orientation: [f64; 4]) -> Body {
     Body {
-        name: name.clone(),
+        name: name.clone().into(),
         kind: BodyKind::Rigid,
         mass: Number::ONE,
         inertia: [Number::ONE; 3],

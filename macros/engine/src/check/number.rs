@@ -2,14 +2,17 @@
 
 use std::ops::RangeInclusive;
 
-use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
+use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{BinOp, Expr, Lit, UnOp};
 
+use super::elements::{Found, Reference, bare, known};
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::emit::local;
-use crate::model::{Number, RunTimeValue, Symbol};
+use crate::model::{Name, Number, RunTimeValue, Symbol};
+use crate::syntax::array::is_index;
+use crate::syntax::integer::integer;
 use crate::syntax::ungroup;
 
 /// The size of numbers: beyond it products and reciprocals leave the range of `f64`.
@@ -40,8 +43,10 @@ pub struct Numbers<'a> {
     pub no_inputs: Option<&'static str>,
     /// Symbols met so far.
     pub symbols: Vec<Symbol>,
+    /// Arrays among the values whose length was refused.
+    pub unmeasured: &'a [Ident],
     /// The field that is being read.
-    pub field: String,
+    pub field: Name,
     /// The attribute that is being read.
     pub attribute: String,
 }
@@ -96,16 +101,17 @@ impl Value {
 }
 
 impl<'a> Numbers<'a> {
-    /// No symbols so far.
+    /// No symbols so far; what is read first describes the owner.
     #[must_use]
-    pub fn new(facade: &'a TokenStream) -> Self {
+    pub fn new(owner: Name, unmeasured: &'a [Ident], facade: &'a TokenStream) -> Self {
         Self {
             facade,
             values: Vec::new(),
             words: Vec::new(),
             no_inputs: None,
             symbols: Vec::new(),
-            field: String::new(),
+            unmeasured,
+            field: owner,
             attribute: String::new(),
         }
     }
@@ -268,16 +274,45 @@ impl<'a> Numbers<'a> {
             Expr::Path(path) if path.path.is_ident("TAU") => {
                 Some(Value::Literal(std::f64::consts::TAU))
             }
-            Expr::Path(path) => match path.path.get_ident().and_then(|name| self.place(name)) {
-                Some(place) => self.run_time_value(place, expr, faults).map(Value::Later),
-                None if self.is_unknown(path, faults) => None,
-                None => Some(Value::Later(Later {
-                    expression: path.to_token_stream(),
-                    scalar: None,
-                    is_const: true,
-                })),
+            Expr::Path(_) | Expr::Index(_) => match self.place(expr, faults) {
+                Found::At(place) => self.run_time_value(place, expr, faults).map(Value::Later),
+                Found::Nothing => self.constant(expr, faults).map(|expression| {
+                    Value::Later(Later {
+                        expression,
+                        scalar: None,
+                        is_const: true,
+                    })
+                }),
+                Found::Refused => None,
             },
             _ => self.refuse(expr, faults),
+        }
+    }
+
+    /// A constant by its path, or an entry of one that is an array.
+    fn constant(&self, expr: &Expr, faults: &mut Faults) -> Option<TokenStream> {
+        match ungroup(expr) {
+            Expr::Path(path) => (!self.is_unknown(path, faults)).then(|| path.to_token_stream()),
+            Expr::Index(entry) => {
+                let array = self.constant(&entry.expr, faults);
+                let index = faults.accept(integer(&entry.index));
+                let (array, index) = (array?, index?);
+                let Ok(index) = usize::try_from(index) else {
+                    let found = code(&entry.expr);
+                    faults.at(
+                        expr,
+                        format!("the entries of `{found}` are counted from 0; this is `{found}[{index}]`"),
+                    );
+                    return None;
+                };
+                // Whether there is such an entry is found by the compiler, and not when the program runs.
+                let at = expr.span();
+                Some(quote_spanned!(at=> const { #array[#index] }))
+            }
+            _ => {
+                self.refuse(expr, faults);
+                None
+            }
         }
     }
 
@@ -288,12 +323,14 @@ impl<'a> Numbers<'a> {
         };
         let is_small = !name.starts_with("r#") && name.starts_with(char::is_lowercase);
         if is_small {
-            let values = self.values.iter().map(|value| value.name.to_string());
+            let values = known(self.values.iter().map(|value| &value.name));
             let words = self.words.iter().cloned();
             let constants = ["PI", "TAU"].map(ToString::to_string);
-            let known: Vec<String> = words.chain(values).chain(constants).collect();
-            let near = did_you_mean(&name, known.iter().map(String::as_str));
-            let advice = if self.values.is_empty() {
+            let all: Vec<String> = words.chain(values).chain(constants).collect();
+            let near = did_you_mean(&name, all.iter().map(|name| bare(name)));
+            let advice = if path.path.get_ident().is_some_and(is_index) {
+                "; `k` is the number of an element, in the attribute of a field that is an array"
+            } else if self.values.is_empty() {
                 "; a number for run time is a field with `#[param]`"
             } else {
                 ""
@@ -303,7 +340,7 @@ impl<'a> Numbers<'a> {
                 path,
                 format!(
                     "no number `{name}`; there are {} and constants such as `crate::LENGTH`{advice}",
-                    list(&known).replace(" and ", ", ")
+                    list(&all).replace(" and ", ", ")
                 ),
             );
         }
@@ -311,8 +348,11 @@ impl<'a> Numbers<'a> {
     }
 
     /// The place of a run-time value by its name.
-    fn place(&self, name: &syn::Ident) -> Option<usize> {
-        self.values.iter().position(|value| value.name == *name)
+    fn place(&self, expr: &Expr, faults: &mut Faults) -> Found {
+        let names = self.values.iter().map(|value| &value.name);
+        Reference::of(expr).map_or(Found::Nothing, |reference| {
+            reference.find(names, self.unmeasured, self.field.index(), faults)
+        })
     }
 
     fn run_time_value(&self, place: usize, at: &Expr, faults: &mut Faults) -> Option<Later> {
@@ -402,9 +442,14 @@ fn must_be_positive(attribute: &str) -> bool {
 
 /// The local variable that holds a run-time value as `f64`.
 #[must_use]
-pub fn value_name(field: &syn::Ident) -> syn::Ident {
-    let name = field.to_string();
-    local(&format!("value_of_{}", name.trim_start_matches("r#")))
+pub fn value_name(name: &Name) -> Ident {
+    // An element must not meet a field whose name is like its own in one word.
+    let kind = if name.index().is_some() {
+        "element"
+    } else {
+        "value"
+    };
+    local(&format!("{kind}_of_{}", name.word()))
 }
 
 /// A number that is finite, and of a size that products and reciprocals bear.

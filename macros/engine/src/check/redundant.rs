@@ -1,10 +1,9 @@
 //! Equations that follow from others: refused, left out or kept, as the user says.
 
-use proc_macro2::Ident;
 use syn::Expr;
 
 use crate::diag::{Faults, list};
-use crate::model::{Binding, Contradiction, Model, Rank, Redundant, RedundantRow};
+use crate::model::{Binding, Contradiction, Model, Name, Rank, Redundant, RedundantRow};
 use crate::rank::judge;
 
 /// Finds the rank of a model that is sound otherwise, and does with redundant equations what the user wishes, which was written as `expr`.
@@ -76,14 +75,14 @@ fn once_a_joint(
     model: &Model,
     rows: &[(usize, usize)],
     faults: &mut Faults,
-    message: impl Fn(&Ident, usize) -> String,
+    message: impl Fn(&Name, usize) -> String,
 ) {
     let mut named: Vec<usize> = Vec::new();
     for &(joint, row) in rows {
         if !named.contains(&joint) {
             named.push(joint);
             let name = &model.joints[joint].name;
-            faults.at(name, message(name, row));
+            faults.at_name(name, message(name, row));
         }
     }
 }
@@ -147,7 +146,7 @@ fn contradictions(model: &Model, faults: &mut Faults) {
                 )
             }
         };
-        faults.at(
+        faults.at_name(
             name,
             format!(
                 "`{name}[{row}]` contradicts {equations}: {what}; {cure} (`redundant` is no cure)"
@@ -175,14 +174,14 @@ fn undecided(model: &Model) -> String {
                 an axis that contradicts the others"
             .into();
     }
-    let is_joint = |name: &str| model.joints.iter().any(|joint| joint.name == name);
+    let is_joint = |name: &Name| model.joints.iter().any(|joint| joint.name == *name);
     let mut places: Vec<String> = model
         .symbols
         .iter()
         .filter(|s| {
             is_joint(&s.field) || matches!(s.attribute.as_str(), "position" | "orientation")
         })
-        .map(|s| format!("`{}` of `{}`", s.attribute, s.field))
+        .map(|s| format!("`{}` of `{}`", s.attribute, s.field.field()))
         .collect();
     places.dedup();
     let among = if places.is_empty() {
@@ -258,7 +257,7 @@ fn refuse(model: &Model, faults: &mut Faults) {
                  compliance (penalty, augmented Lagrangian)"
             )
         };
-        faults.at(
+        faults.at_name(
             name,
             format!("{what} of `{name}` {are} redundant: {rows} {from}, so that multipliers are not unique{cure}"),
         );

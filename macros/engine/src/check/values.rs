@@ -19,18 +19,23 @@ pub(super) fn values(syntax: &MechanismSyntax, faults: &mut Faults) -> Vec<RunTi
             _ => continue,
         };
         let name = &field.name;
-        if TAKEN.contains(&name.to_string().as_str()) {
-            faults.at(
+        if TAKEN.iter().any(|word| name.field() == word) {
+            faults.at_name(
                 name,
-                format!("`{name}` is a word of the language; take another name"),
+                format!(
+                    "`{}` is a word of the language; take another name",
+                    name.field()
+                ),
             );
         }
         let found = code(&field.ty);
         if field.ty.to_token_stream().to_string() != "f64" {
-            faults.at(
-                &field.ty,
-                format!("`{name}` is of type `{found}`; a run-time value is an `f64`"),
-            );
+            faults.within(name, |faults| {
+                faults.at(
+                    &field.ty,
+                    format!("`{name}` is of type `{found}`; a run-time value is an `f64`"),
+                );
+            });
         }
         values.push(RunTimeValue {
             name: name.clone(),

@@ -2,7 +2,7 @@
 
 use crate::model::number::literals;
 use crate::model::{
-    Binding, BodyKind, Direction, JointUse, Model, Motion, Number, ParameterKind, Rank,
+    Binding, BodyKind, Direction, JointUse, Model, Motion, Name, Number, ParameterKind, Rank,
 };
 use crate::rank::moves::{Comparison, compare};
 
@@ -31,7 +31,7 @@ pub struct Spanning {
 }
 
 /// A way to carry a body: freedoms, depth, names decide in this order.
-type Merit = (usize, usize, String, String);
+type Merit<'a> = (usize, usize, &'a Name, &'a Name);
 
 impl Spanning {
     /// The tree of a mechanism, whatever the order of its fields: the joint with the fewest motions first, then the one nearest to the ground. Those that the user cuts
@@ -43,7 +43,7 @@ impl Spanning {
         let mut carries = vec![false; model.joints.len()];
         let able = able(model);
         loop {
-            let mut best: Option<(Merit, Carried)> = None;
+            let mut best: Option<(Merit<'_>, Carried)> = None;
             for (place, joint) in model.joints.iter().enumerate() {
                 let depth_of = |body: Option<usize>| body.map_or(Some(0), |body| depth[body]);
                 let [first, second] = joint.bodies[..] else {
@@ -62,7 +62,7 @@ impl Spanning {
                     let Some(motions) = motions(model, joint, by, body, is_reversed) else {
                         continue;
                     };
-                    let names = (joint.name.to_string(), model.bodies[body].name.to_string());
+                    let names = (&joint.name, &model.bodies[body].name);
                     let merit = (freedoms(&motions), from, names.0, names.1);
                     if best.as_ref().is_none_or(|(known, _)| merit < *known) {
                         let found = Carried {
@@ -89,7 +89,7 @@ impl Spanning {
             carried.push(free(model, body));
         }
         let mut closing: Vec<usize> = (0..model.joints.len()).filter(|&k| !carries[k]).collect();
-        closing.sort_by_key(|&joint| model.joints[joint].name.to_string());
+        closing.sort_by_key(|&joint| &model.joints[joint].name);
         Self { carried, closing }
     }
 

@@ -1,10 +1,13 @@
 //! A stub implementation beside the errors, so that the user sees those and no others.
 
+use std::collections::HashSet;
+
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::ext::IdentExt;
 
 use crate::check::mechanism::{Definition, Definitions, definition};
+use crate::syntax::array::array;
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
 
 /// Writes the stub of a faulty mechanism.
@@ -14,29 +17,40 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     let (declared, arguments, clause) = syntax.generics.split_for_impl();
     let bounds = clause.map(|clause| &clause.predicates);
     // The compiler itself reports fields of one name.
-    let is_first = |(place, field): &(usize, &Field)| {
-        let before = &syntax.fields[..*place];
-        let name = field.name.unraw();
-        before.iter().all(|other| other.name.unraw() != name)
-    };
-    let fields = syntax.fields.iter().enumerate().filter(is_first);
-    let fields: Vec<&Field> = fields.map(|(_, field)| field).collect();
+    let mut before = HashSet::new();
+    let is_first = |field: &&Field| before.insert(field.name.field().unraw());
+    let fields: Vec<&Field> = syntax.fields.iter().filter(is_first).collect();
     let is_part = |field: &&&Field| field.role.as_ref().is_none_or(|(role, _)| role.is_part());
     let handles = fields.iter().filter(is_part).map(|field| {
         let (name, handle) = (&field.name, handle(field, types));
-        quote!(#name: #handle,)
+        match array(&field.written) {
+            Some(array) => {
+                let length = &array.len;
+                quote!(#name: [#length] #handle,)
+            }
+            None => quote!(#name: #handle,),
+        }
     });
     let parameters = fields
         .iter()
         .filter(|field| matches!(field.role, Some((Role::Param, _))))
-        .map(|field| &field.name)
+        .map(|field| match array(&field.written) {
+            Some(array) => {
+                let (name, length) = (&field.name, &array.len);
+                quote!(#name: [::core::primitive::f64; #length])
+            }
+            None => {
+                let name = &field.name;
+                quote!(#name: ::core::primitive::f64)
+            }
+        })
         .collect::<Vec<_>>();
     let construction = (!parameters.is_empty()).then(|| {
         quote! {
             impl #declared #name #arguments #clause {
                 #[allow(warnings, missing_docs)]
                 pub fn new(
-                    #(#parameters: ::core::primitive::f64),*
+                    #(#parameters),*
                 ) -> ::core::result::Result<Self, #facade::ParameterError> {
                     loop {}
                 }

@@ -12,7 +12,8 @@ use super::rows;
 use super::store::{Kernel as Arguments, Store};
 use super::straight_line::{Given, StraightLine, write};
 use crate::coordinates::kernels::JointKernels;
-use crate::model::{Coordinates, Model};
+use crate::model::name::fields;
+use crate::model::{Coordinates, Model, Name};
 use crate::plan::kernels::{Kernel, Kernels};
 use crate::symbolic::arena::Stage;
 
@@ -353,21 +354,38 @@ impl Writer<'_> {
         let (name, facade) = (&self.model.name, self.facade);
         let mut declared = TokenStream::new();
         let mut values = TokenStream::new();
-        for (place, body) in self.model.bodies.iter().enumerate() {
-            let field = &body.name;
-            declared.extend(quote!(pub #field: #facade::BodyHandle<#name>,));
-            values.extend(quote!(#field: #facade::BodyHandle::new(#place),));
-        }
-        for (place, joint) in self.model.joints.iter().enumerate() {
-            let (field, path) = (&joint.name, &joint.path);
-            declared.extend(quote!(pub #field: #facade::JointHandle<#name, #path>,));
-            values.extend(quote!(#field: #facade::JointHandle::new(#place),));
-        }
-        for (place, force) in self.model.forces.iter().enumerate() {
-            let (field, path) = (&force.name, &force.path);
-            declared.extend(quote!(pub #field: #facade::ForceHandle<#name, #path>,));
-            values.extend(quote!(#field: #facade::ForceHandle::new(#place),));
-        }
+        let mut declare = |handles: Vec<(&Name, TokenStream, TokenStream)>| {
+            let names = handles.iter().map(|(name, ..)| *name);
+            let mut rest = handles.iter();
+            for (field, length) in fields(names) {
+                let (_, kind, value) = rest.next().expect("a handle of every field");
+                let Some(length) = length else {
+                    declared.extend(quote!(pub #field: #kind,));
+                    values.extend(quote!(#field: #value,));
+                    continue;
+                };
+                let others = rest.by_ref().take(length - 1).map(|(.., value)| value);
+                declared.extend(quote!(pub #field: [#kind; #length],));
+                values.extend(quote!(#field: [#value, #(#others),*],));
+            }
+        };
+        let bodies = self.model.bodies.iter().enumerate().map(|(place, body)| {
+            let kind = quote!(#facade::BodyHandle<#name>);
+            (&body.name, kind, quote!(#facade::BodyHandle::new(#place)))
+        });
+        declare(bodies.collect());
+        let joints = self.model.joints.iter().enumerate().map(|(place, joint)| {
+            let path = &joint.path;
+            let kind = quote!(#facade::JointHandle<#name, #path>);
+            (&joint.name, kind, quote!(#facade::JointHandle::new(#place)))
+        });
+        declare(joints.collect());
+        let forces = self.model.forces.iter().enumerate().map(|(place, force)| {
+            let path = &force.path;
+            let kind = quote!(#facade::ForceHandle<#name, #path>);
+            (&force.name, kind, quote!(#facade::ForceHandle::new(#place)))
+        });
+        declare(forces.collect());
         let documentation = format!("The handles of [`{name}`], one per field.");
         let declared = quote! {
             #[doc = #documentation]

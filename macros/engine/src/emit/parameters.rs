@@ -1,19 +1,30 @@
 //! The numbers that the macro cannot see: checked by the compiler where it can evaluate them, else in `parameters`.
 
-use proc_macro2::{Literal, TokenStream};
+use std::collections::HashSet;
+
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::local;
 use crate::check::number::value_name;
-use crate::model::{ElementKind, Model, Number, Symbol};
+use crate::model::name::fields;
+use crate::model::{ElementKind, Model, Name, Number, Symbol};
 
 /// Numbers that the macro could not see are checked by the compiler where it can evaluate them.
 pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
     let mut tokens = TokenStream::new();
+    let mut said = HashSet::new();
     for symbol in positive_symbols(model) {
         let Some((constant, value)) = &symbol.constant else {
             continue;
         };
+        tokens.extend(quote!(const #constant: f64 = #value;));
+        // What the elements of an array have in common is refused once.
+        let field = &symbol.field;
+        let common = format!("{}.{}: {value}", field.field(), symbol.attribute);
+        if field.index().is_some() && !said.insert(common) {
+            continue;
+        }
         let message = format!(
             "`{}` of `{}` must be positive",
             symbol.attribute, symbol.field
@@ -22,10 +33,13 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
         tokens.extend(quote::quote_spanned! {symbol.span=>
             const _: () = __holonom_assert!(#constant > 0.0_f64, #message);
         });
-        tokens.extend(quote!(const #constant: f64 = #value;));
     }
+    let mut known = HashSet::new();
     for element in model.elements() {
         let path = &element.path;
+        if !known.insert(path.to_string()) {
+            continue;
+        }
         let definition = model.definition(element);
         let fingerprint = Literal::u64_suffixed(definition.fingerprint);
         let kind = match definition.kind {
@@ -56,16 +70,17 @@ fn positive_symbols(model: &Model) -> impl Iterator<Item = &Symbol> {
 
 /// The function `parameters`: run-time values, checked.
 pub fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
-    let parts = parts(model);
+    let parts = parts(model).into_iter().map(|(field, _)| field);
     let checks = checks(model, facade);
-    let fields: Vec<_> = model.values.iter().map(|value| &value.name).collect();
-    let values: Vec<_> = fields.iter().map(|field| value_name(field)).collect();
+    let names = model.values.iter().map(|value| &value.name);
+    let places = names.clone().map(Name::place);
+    let values: Vec<_> = names.map(value_name).collect();
     quote! {
         fn parameters<__S: #facade::Scalar>(
             &self,
         ) -> ::core::result::Result<Self::Parameters<__S>, #facade::ParameterError> {
             #( let _ = &self.#parts; )*
-            #( let #values: f64 = self.#fields; )*
+            #( let #values: f64 = self.#places; )*
             #checks
             ::core::result::Result::Ok([#(__S::constant(#values)),*])
         }
@@ -75,13 +90,27 @@ pub fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
 /// `Default` without parameters, else `new` with one argument for each.
 pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
     let name = &model.name;
-    let parts = parts(model);
+    let parts = parts(model).into_iter().map(|(part, length)| match length {
+        // The standard library has a default of short arrays only.
+        Some(_) => quote!(#part: ::core::array::from_fn(|_| ::core::default::Default::default()),),
+        None => quote!(#part: ::core::default::Default::default(),),
+    });
     let of = |wanted: bool| {
         let values = model.values.iter();
         let values = values.filter(move |value| value.is_input == wanted);
-        values.map(|value| &value.name).collect::<Vec<_>>()
+        fields(values.map(|value| &value.name))
     };
     let (inputs, given) = (of(true), of(false));
+    let has_inputs = !inputs.is_empty();
+    let inputs = inputs.into_iter().map(|(input, length)| match length {
+        Some(length) => quote!(#input: [0.0; #length],),
+        None => quote!(#input: 0.0,),
+    });
+    let arguments = given.iter().map(|(argument, length)| match length {
+        Some(length) => quote!(#argument: [f64; #length]),
+        None => quote!(#argument: f64),
+    });
+    let given: Vec<_> = given.iter().map(|(argument, _)| argument).collect();
     let mechanism = local("mechanism");
     if given.is_empty() {
         return quote! {
@@ -89,8 +118,8 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
             impl ::core::default::Default for #name {
                 fn default() -> Self {
                     Self {
-                        #( #parts: ::core::default::Default::default(), )*
-                        #( #inputs: 0.0, )*
+                        #(#parts)*
+                        #(#inputs)*
                     }
                 }
             }
@@ -98,11 +127,7 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
     }
     let documentation = format!(
         " The mechanism with these parameters, in the order of its fields{}.",
-        if inputs.is_empty() {
-            ""
-        } else {
-            "; inputs are zero"
-        }
+        if has_inputs { "; inputs are zero" } else { "" }
     );
     quote! {
         #[automatically_derived]
@@ -111,11 +136,11 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
             ///
             /// # Errors
             /// A number that is not finite, or a mass, inertia, axis or orientation made of it that is not acceptable.
-            pub fn new(#(#given: f64),*) -> ::core::result::Result<Self, #facade::ParameterError> {
+            pub fn new(#(#arguments),*) -> ::core::result::Result<Self, #facade::ParameterError> {
                 let #mechanism = Self {
-                    #( #parts: ::core::default::Default::default(), )*
+                    #(#parts)*
                     #( #given, )*
-                    #( #inputs: 0.0, )*
+                    #(#inputs)*
                 };
                 <Self as #facade::Mechanism>::parameters::<f64>(&#mechanism)?;
                 ::core::result::Result::Ok(#mechanism)
@@ -124,11 +149,11 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
     }
 }
 
-/// The fields that are bodies, joints and forces.
-fn parts(model: &Model) -> Vec<&proc_macro2::Ident> {
+/// The fields that are bodies, joints and forces, and the lengths of those that are arrays.
+fn parts(model: &Model) -> Vec<(&Ident, Option<usize>)> {
     let elements = model.elements().map(|element| &element.name);
     let bodies = model.bodies.iter().map(|body| &body.name);
-    bodies.chain(elements).collect()
+    fields(bodies.chain(elements))
 }
 
 /// The checks of `parameters`.
@@ -160,7 +185,7 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
         let condition = quote!(!f64::is_finite(#expression));
         refuse(
             condition,
-            &symbol.field,
+            &symbol.field.to_string(),
             &symbol.attribute,
             quote!(NotFinite),
         );
@@ -170,7 +195,7 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
         let condition = quote!((#expression) <= 0.0_f64);
         refuse(
             condition,
-            &symbol.field,
+            &symbol.field.to_string(),
             &symbol.attribute,
             quote!(NotPositive),
         );

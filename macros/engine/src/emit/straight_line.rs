@@ -377,11 +377,8 @@ impl<E: Environment> Writer<'_, E> {
     }
 
     fn bind(&mut self, place: usize, value: Value, is_load: bool) {
-        let label = self
-            .arena
-            .label(place)
-            .map(|label| label.trim_start_matches("r#"));
-        let name = local(&format!("{}_{place}", label.unwrap_or("n")));
+        let label = self.arena.label(place).unwrap_or("n");
+        let name = local(&format!("{label}_{place}"));
         let lines = &mut self.lines;
         let first = lines.operands.len();
         if !is_load {

@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 use proc_macro2::{Ident, TokenStream};
 
 use super::joint::{Extent, Function, JointDef, Turn};
+use super::name::Name;
 use super::number::{Number, Symbol};
 use super::rank::Independence;
 
@@ -40,8 +41,8 @@ impl BodyKind {
 /// A body. Its axes here are the principal axes.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// The field.
-    pub name: Ident,
+    /// The field, or its element.
+    pub name: Name,
     /// Body or particle.
     pub kind: BodyKind,
     /// Mass (kg).
@@ -111,8 +112,8 @@ impl LawTerm {
 /// A joint or a force of a mechanism.
 #[derive(Clone, Debug)]
 pub struct JointUse {
-    /// The field.
-    pub name: Ident,
+    /// The field, or its element.
+    pub name: Name,
     /// The type as it was written, without generic arguments.
     pub path: TokenStream,
     /// The place of its definition.
@@ -127,11 +128,11 @@ pub struct JointUse {
     pub is_cut: bool,
 }
 
-/// A field that holds a number for run time.
+/// A field, or an element of one, that holds a number for run time.
 #[derive(Clone, Debug)]
 pub struct RunTimeValue {
-    /// The field.
-    pub name: Ident,
+    /// The field, or its element.
+    pub name: Name,
     /// Whether it may change at every step; if not, it is set on construction.
     pub is_input: bool,
 }
@@ -200,7 +201,7 @@ impl Model {
                 .filter(|joint| joint.bodies.contains(&Some(body)))
                 .count()
         };
-        bodies.min_by_key(|&body| (Reverse(joints(body)), self.bodies[body].name.to_string()))
+        bodies.min_by_key(|&body| (Reverse(joints(body)), &self.bodies[body].name))
     }
 
     /// Joints, then forces.

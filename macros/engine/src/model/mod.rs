@@ -3,6 +3,7 @@
 pub mod inertia;
 pub mod joint;
 pub mod mechanism;
+pub mod name;
 pub mod number;
 pub mod rank;
 
@@ -11,5 +12,6 @@ pub use joint::{
     Row, Term, Turn,
 };
 pub use mechanism::{Binding, Body, BodyKind, Coordinates, JointUse, LawTerm, Model, RunTimeValue};
+pub use name::Name;
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};

@@ -2,6 +2,8 @@
 
 use proc_macro2::{Ident, Span, TokenStream};
 
+use super::name::Name;
+
 /// A number as the model knows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
@@ -49,8 +51,8 @@ pub struct Symbol {
     pub constant: Option<(Ident, TokenStream)>,
     /// Where it was written.
     pub span: Span,
-    /// The field that it describes.
-    pub field: String,
+    /// The field that it describes, or the mechanism.
+    pub field: Name,
     /// The attribute that it belongs to.
     pub attribute: String,
 }

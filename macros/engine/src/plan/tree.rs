@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 
 use super::reach::Reach;
-use crate::model::Model;
+use crate::model::{Model, Name};
 
 /// Bodies from the leaves to the ground with the joint towards the ground, and the joints left over.
 pub(super) struct Tree {
@@ -18,7 +18,7 @@ pub(super) struct Tree {
 }
 
 /// What speaks for a joint to carry a body, most important first.
-type Merit = (Reverse<usize>, usize, String, String);
+type Merit<'a> = (Reverse<usize>, usize, &'a Name, &'a Name);
 
 /// A spanning tree of the bodies, grown from the ground.
 ///
@@ -31,7 +31,7 @@ pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
     // How many joints each body is away from the ground, or from the root of its tree.
     let mut depth: Vec<Option<usize>> = vec![None; model.bodies.len()];
     loop {
-        let mut best: Option<(Merit, usize, usize)> = None;
+        let mut best: Option<(Merit<'_>, usize, usize)> = None;
         for (place, joint) in model.joints.iter().enumerate() {
             let known = joint.bodies.iter().filter_map(|body| match body {
                 Some(body) => depth[*body],
@@ -46,9 +46,7 @@ pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
                 };
                 // Equations that are left out follow from others: the joint forbids what it was defined to.
                 let weight = Reverse(weight + joint.dropped.len());
-                let names = [&joint.name, &model.bodies[body].name].map(ToString::to_string);
-                let [name, body_name] = names;
-                let merit = (weight, from, name, body_name);
+                let merit = (weight, from, &joint.name, &model.bodies[body].name);
                 let is_better = best.as_ref().is_none_or(|(known, ..)| merit < *known);
                 if depth[body].is_none() && is_better {
                     best = Some((merit, place, body));
@@ -70,14 +68,14 @@ pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
     let mut order: Vec<usize> = (0..model.bodies.len()).collect();
     order.sort_by_key(|&body| {
         let weight = parent[body].and_then(|joint| reach.weight(joint, body));
-        let joint = parent[body].map(|joint| model.joints[joint].name.to_string());
-        let name = model.bodies[body].name.to_string();
+        let joint = parent[body].map(|joint| &model.joints[joint].name);
+        let name = &model.bodies[body].name;
         (Reverse(depth[body]), Reverse(weight), joint, name)
     });
     let mut closing: Vec<usize> = (0..model.joints.len())
         .filter(|&joint| child[joint].is_none())
         .collect();
-    closing.sort_by_key(|&joint| model.joints[joint].name.to_string());
+    closing.sort_by_key(|&joint| &model.joints[joint].name);
     let mut depths = vec![0; model.joints.len()];
     let mut heights = vec![0; model.joints.len()];
     for &body in &order {

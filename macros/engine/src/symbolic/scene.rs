@@ -229,7 +229,9 @@ impl Scene {
                 };
                 for (k, row) in matrix.iter().enumerate() {
                     for (l, entry) in row.iter().enumerate() {
-                        arena.name(*entry, || format!("{}_a{}{}", body.name, k + 1, l + 1));
+                        arena.name(*entry, || {
+                            format!("{}_a{}{}", body.name.word(), k + 1, l + 1)
+                        });
                     }
                 }
                 chart.spin = [3, 4, 5].map(|k| arena.input(rate(k)));

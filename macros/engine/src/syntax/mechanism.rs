@@ -4,8 +4,9 @@ use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
 use syn::{Attribute, Data, DeriveInput, Fields, Type};
 
-use super::List;
+use super::{List, array};
 use crate::diag::Faults;
+use crate::model::Name;
 
 /// What a field is described as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,12 +39,14 @@ impl Role {
     }
 }
 
-/// A field of the struct.
+/// A field of the struct, or an element of a field that is an array.
 #[derive(Clone, Debug)]
 pub struct Field {
     /// Its name.
-    pub name: Ident,
-    /// Its type as written.
+    pub name: Name,
+    /// The type as it stands in the struct.
+    pub written: Type,
+    /// The type, of an element if it is one.
     pub ty: Type,
     /// What it is described as, and the attribute's word.
     pub role: Option<(Role, syn::Path)>,
@@ -60,8 +63,10 @@ pub struct MechanismSyntax {
     pub generics: syn::Generics,
     /// The list of `#[mechanism(..)]`.
     pub list: List,
-    /// Its fields.
+    /// Its fields, and the elements of those that are arrays.
     pub fields: Vec<Field>,
+    /// Arrays of a length that was refused: only the first element is there, and nobody knows which others are meant.
+    pub unmeasured: Vec<Ident>,
     /// Whether it is a struct with named fields and without parameters; if not, that was reported.
     pub is_plain: bool,
 }
@@ -73,6 +78,7 @@ pub fn parse(input: &DeriveInput, faults: &mut Faults) -> MechanismSyntax {
         generics: input.generics.clone(),
         list: List::default(),
         fields: Vec::new(),
+        unmeasured: Vec::new(),
         is_plain: true,
     };
     if let Some((tokens, message)) = shape(input) {
@@ -109,7 +115,12 @@ pub fn parse(input: &DeriveInput, faults: &mut Faults) -> MechanismSyntax {
     }
     for field in named_fields(input) {
         if let Some(name) = field.ident.clone() {
-            result.fields.push(parse_field(name, field, faults));
+            let written = parse_field(name.clone(), field, faults);
+            let (elements, is_measured) = array::elements(written, faults);
+            result.fields.extend(elements);
+            if !is_measured {
+                result.unmeasured.push(name);
+            }
         }
     }
     result
@@ -160,8 +171,9 @@ fn role(attribute: &Attribute) -> Option<Role> {
 
 fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
     let mut result = Field {
-        name,
-        ty: field.ty.clone(),
+        name: name.into(),
+        written: field.ty.clone(),
+        ty: array::element_type(&field.ty).clone(),
         role: None,
         list: List::default(),
     };
@@ -216,10 +228,11 @@ pub fn carrier_paths(input: &DeriveInput) -> Vec<TokenStream> {
     };
     for wanted in [Role::Body, Role::Joint, Role::Force] {
         for field in &data.fields {
-            if field.attrs.iter().find_map(role) != Some(wanted) || is_parameter(&field.ty, input) {
+            let ty = array::element_type(&field.ty);
+            if field.attrs.iter().find_map(role) != Some(wanted) || is_parameter(ty, input) {
                 continue;
             }
-            if let Some(path) = carrier_path(&field.ty) {
+            if let Some(path) = carrier_path(ty) {
                 let text = path.to_string();
                 if paths.iter().all(|known| known.to_string() != text) {
                     paths.push(path);

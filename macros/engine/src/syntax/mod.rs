@@ -1,6 +1,8 @@
 //! What was written: tokens with their spans, no meaning yet.
 
+pub mod array;
 pub mod depth;
+pub mod integer;
 pub mod joint;
 pub mod mechanism;
 pub mod motion;

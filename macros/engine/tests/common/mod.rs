@@ -68,6 +68,9 @@ pub(crate) const PENDULUM: &str = SCENES[0].1;
 /// A driven mechanism with forces and run-time values.
 pub(crate) const HOIST: &str = include_str!("../data/hoist.rs");
 
+/// Arrays of bodies, joints, forces and values.
+pub(crate) const ROW: &str = include_str!("../data/row.rs");
+
 /// A struct with several faults.
 pub(crate) const FAULTY: &str = include_str!("../data/faulty.rs");
 

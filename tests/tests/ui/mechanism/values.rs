@@ -13,7 +13,7 @@ struct Types {
     #[param = 3.0]
     given: f64,
     #[param]
-    vector: [f64; 3],
+    vector: (f64, f64, f64),
     #[input]
     torque: Option<f64>,
     #[param]

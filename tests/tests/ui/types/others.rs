@@ -16,7 +16,7 @@ struct Others {
     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0])]
     pair: (Spherical, Spherical),
     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0])]
-    several: [Spherical; 2],
+    several: &'static [Spherical],
 }
 
 #[derive(Mechanism)]

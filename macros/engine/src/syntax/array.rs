@@ -1,0 +1,220 @@
+//! Fields that are arrays, `links: [Body; 16]`: each element becomes a field of its own, with its number in the place of `k`.
+//!
+//! Behind this there are bodies, joints, forces and values with names such as `links[3]`, and nothing else. `if` is decided here, and so
+//! is `%`; what names an element of another array, `links[k - 1]`, keeps its place until all names are known.
+
+use proc_macro2::{Literal, Span, TokenStream};
+use quote::{ToTokens, quote_spanned};
+use syn::spanned::Spanned;
+use syn::{BinOp, Expr, ExprIf, Ident, Stmt, Type, TypeArray};
+
+use super::integer::{condition, integer};
+use super::mechanism::Field;
+use super::{KeyValue, List, Value, ungroup};
+use crate::diag::{Faults, code};
+use crate::model::Name;
+
+/// The word for the number of an element.
+pub const INDEX: &str = "k";
+/// The most elements of an array: a mistyped length is not worth the memory of the machine.
+const LONGEST: usize = 1000;
+
+/// The array that a type is.
+#[must_use]
+pub fn array(ty: &Type) -> Option<&TypeArray> {
+    match ty {
+        Type::Group(group) => array(&group.elem),
+        Type::Paren(paren) => array(&paren.elem),
+        Type::Array(array) => Some(array),
+        _ => None,
+    }
+}
+
+/// The type of a field, or of its elements.
+#[must_use]
+pub fn element_type(ty: &Type) -> &Type {
+    array(ty).map_or(ty, |array| element_type(&array.elem))
+}
+
+/// The elements of a field as fields, and whether their number is known; where it was refused, the first stands for all.
+pub(super) fn elements(field: Field, faults: &mut Faults) -> (Vec<Field>, bool) {
+    let Some(written) = array(&field.written) else {
+        return (vec![field], true);
+    };
+    let length = length(&field, written, faults);
+    let elements = (0..length.unwrap_or(1)).map(|index| {
+        let name = Name::element(field.name.field().clone(), index);
+        let list = faults.within(&name, |faults| placed_list(&field.list, index, faults));
+        Field {
+            name,
+            list,
+            written: field.written.clone(),
+            ty: field.ty.clone(),
+            role: field.role.clone(),
+        }
+    });
+    (elements.collect(), length.is_some())
+}
+
+fn length(field: &Field, array: &TypeArray, faults: &mut Faults) -> Option<usize> {
+    let name = &field.name;
+    if let Some(inner) = self::array(&array.elem) {
+        let (outer, inner) = (code(&array.len), code(&inner.len));
+        faults.at(
+            &field.written,
+            format!(
+                "`{name}` is an array of arrays; write one of `{outer} * {inner}` elements, in figures, and take rows and columns from `{INDEX}` \
+                 by `/` and `%`"
+            ),
+        );
+        return None;
+    }
+    let literal = match ungroup(&array.len) {
+        Expr::Lit(syn::ExprLit {
+            lit: syn::Lit::Int(literal),
+            ..
+        }) => literal,
+        other => {
+            let found = code(other);
+            faults.at(
+                &array.len,
+                format!("the macro cannot see how many elements `{found}` are; write the length of `{name}` in figures, as in `[{}; 16]`", code(&field.ty)),
+            );
+            return None;
+        }
+    };
+    match literal.base10_parse::<usize>() {
+        Ok(length) if (1..=LONGEST).contains(&length) => Some(length),
+        _ => {
+            faults.at(
+                &array.len,
+                format!("`{name}` has {literal} elements; an array has from 1 to {LONGEST}"),
+            );
+            None
+        }
+    }
+}
+
+fn placed_list(list: &List, index: usize, faults: &mut Faults) -> List {
+    let pairs = list.pairs.iter().map(|KeyValue { key, value }| {
+        let value = match value {
+            Value::Expr(expr) => placed(expr, index, faults)
+                .map_or(Value::Faulty, |placed| Value::Expr(Box::new(placed))),
+            other => other.clone(),
+        };
+        let key = key.clone();
+        KeyValue { key, value }
+    });
+    List {
+        pairs: pairs.collect(),
+        unreadable: list.unreadable,
+    }
+}
+
+/// An expression for one element. What is no expression of the language is left as it is; it is refused where it is read.
+fn placed(expr: &Expr, index: usize, faults: &mut Faults) -> Option<Expr> {
+    let mut result = expr.clone();
+    let mut inner = |expr: &mut Expr| -> Option<()> {
+        *expr = placed(expr, index, faults)?;
+        Some(())
+    };
+    match &mut result {
+        Expr::Path(path) if path.path.is_ident(INDEX) => {
+            return Some(literal(index, path.span()));
+        }
+        Expr::Group(group) => inner(&mut group.expr)?,
+        Expr::Paren(paren) => inner(&mut paren.expr)?,
+        Expr::Unary(unary) => inner(&mut unary.expr)?,
+        Expr::Binary(binary) => {
+            let operands = [&mut binary.left, &mut binary.right].into_iter();
+            every(operands.map(|operand| inner(operand)))?;
+            if let BinOp::Rem(_) = binary.op {
+                return remainder(&result, faults);
+            }
+        }
+        Expr::Array(array) => every(array.elems.iter_mut().map(inner))?,
+        Expr::Call(call) => every(call.args.iter_mut().map(inner))?,
+        Expr::Index(found) => {
+            // A table of tables.
+            if let Expr::Index(_) = ungroup(&found.expr) {
+                inner(&mut found.expr)?;
+            }
+            inner(&mut found.index)?;
+        }
+        Expr::If(choice) => {
+            let chosen = chosen(choice, index, faults)?;
+            return placed(chosen, index, faults);
+        }
+        Expr::Cast(cast) => {
+            let number = code(&cast.expr);
+            let message = format!(
+                "numbers are not converted here, and integers are numbers; write `{number}`"
+            );
+            faults.at(expr, message);
+            return None;
+        }
+        _ => {}
+    }
+    Some(result)
+}
+
+/// Goes on behind the first fault, so that all are found.
+fn every(results: impl Iterator<Item = Option<()>>) -> Option<()> {
+    results.fold(Some(()), Option::and)
+}
+
+fn literal(value: usize, span: Span) -> Expr {
+    let mut literal = Literal::usize_unsuffixed(value);
+    literal.set_span(span);
+    Expr::Lit(syn::ExprLit {
+        attrs: Vec::new(),
+        lit: syn::Lit::new(literal),
+    })
+}
+
+/// A remainder is one of integers, and then a number like any other.
+fn remainder(expr: &Expr, faults: &mut Faults) -> Option<Expr> {
+    let value = faults.accept(integer(expr))?;
+    let (size, span) = (value.unsigned_abs(), expr.span());
+    let size = literal(usize::try_from(size).ok()?, span);
+    let tokens: TokenStream = match value {
+        0.. => size.into_token_stream(),
+        _ => quote_spanned!(span=> (-#size)),
+    };
+    faults.accept(syn::parse2(tokens))
+}
+
+/// What an `if` leaves for one element.
+fn chosen<'a>(choice: &'a ExprIf, index: usize, faults: &mut Faults) -> Option<&'a Expr> {
+    let condition =
+        placed(&choice.cond, index, faults).and_then(|expr| faults.accept(condition(&expr)));
+    let then = only(&choice.then_branch, faults);
+    let Some((_, otherwise)) = &choice.else_branch else {
+        faults.at(
+            choice.if_token,
+            "an `if` needs an `else` here: every element has a value",
+        );
+        return None;
+    };
+    let otherwise = match &**otherwise {
+        Expr::Block(block) => only(&block.block, faults),
+        other => Some(other),
+    };
+    let (then, otherwise) = (then?, otherwise?);
+    Some(if condition? { then } else { otherwise })
+}
+
+/// What stands in braces.
+fn only<'a>(block: &'a syn::Block, faults: &mut Faults) -> Option<&'a Expr> {
+    if let [Stmt::Expr(expr, None)] = &block.stmts[..] {
+        return Some(expr);
+    }
+    faults.at(block, "expected one expression in these braces");
+    None
+}
+
+/// Whether a field, or an argument of a law, has the name of the index.
+#[must_use]
+pub fn is_index(name: &Ident) -> bool {
+    name == INDEX
+}
