@@ -69,6 +69,7 @@ impl<M: Scene> Call<M> {
             "kinetic energy" => counted(|| M::kinetic_energy(constants, state)),
             "potential energy" => counted(|| M::potential_energy(constants, time, state)),
             "coordinate rates" => counted(|| M::coordinate_rates(constants, state)),
+            "power" => counted(|| M::power(constants, time, state)),
             "solve" => self.back_substitution::<Plain>(),
             "solve, compliant" => self.back_substitution::<Compliant>(),
             other => panic!("the report names a kernel that is not known here: {other}"),
@@ -76,7 +77,7 @@ impl<M: Scene> Call<M> {
     }
 }
 
-/// The kernels that a report has at least.
+/// The kernels that a report has at least; where there are forces, their power besides.
 const KERNELS: [&str; 16] = [
     "evaluate standard",
     "evaluate baumgarte",
@@ -103,8 +104,10 @@ fn reported<M: Mechanism>(kernel: &str) -> Operations {
 
 fn the_report_is_what_is_done<M: Scene>() {
     let call = Call::<M>::new();
-    assert_eq!(M::REPORT.kernels.len(), KERNELS.len());
-    for kernel in KERNELS {
+    let power = (!M::REPORT.forces.is_empty()).then_some("power");
+    let kernels = KERNELS.into_iter().chain(power);
+    assert_eq!(M::REPORT.kernels.len(), kernels.clone().count());
+    for kernel in kernels {
         let (done, reported) = (call.operations(kernel), reported::<M>(kernel));
         println!("{kernel}: {}, depth {}", done.total(), done.depth);
         assert_eq!(done, reported, "{kernel} of {}", M::REPORT.name);

@@ -24,6 +24,7 @@ macro_rules! every_independent_mechanism {
             heavy_top holonom_models::HeavyTop,
             double_pendulum crate::mechanisms::DoublePendulum,
             oblique_chain crate::mechanisms::ObliqueChain,
+            alternating_chain crate::mechanisms::AlternatingChain,
             four_bar crate::mechanisms::FourBar,
             full_tensors crate::mechanisms::FullTensors,
             tethered crate::mechanisms::Tethered,
@@ -42,6 +43,7 @@ macro_rules! every_redundant_mechanism {
 }
 
 mod agreement;
+mod arrays;
 mod comparison;
 mod counting;
 mod derivatives;

@@ -17,7 +17,7 @@ use holonom_tests::joints::{Joint, normals};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 pub(crate) use loops::FourBar;
-pub(crate) use open::{DoublePendulum, ObliqueChain};
+pub(crate) use open::{AlternatingChain, DoublePendulum, ObliqueChain};
 pub(crate) use redundant::{Door, PlanarFourBar};
 pub(crate) use tensors::{FullTensors, TILTED, UPRIGHT};
 pub(crate) use users_joints::Tethered;

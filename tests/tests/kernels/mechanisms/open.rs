@@ -1,9 +1,11 @@
 //! Open chains.
 
+use holonom::forces::SpringDamper;
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
 use holonom_tests::assembler::Assembler;
 use holonom_tests::bodies::{self, GROUND};
+use holonom_tests::forces::Force;
 
 use super::{add_revolute, turned};
 use crate::scene::Scene;
@@ -116,6 +118,81 @@ impl Scene for ObliqueChain {
             [1.1, 1.0, 0.0],
             [-0.7, 0.1, 0.4],
         );
+        scene
+    }
+}
+
+/// Four links with axes in turn and springs between neighbours, all by their numbers.
+#[derive(Debug, Mechanism)]
+#[mechanism(gravity = [0.0, 0.4, -9.81])]
+pub(crate) struct AlternatingChain {
+    #[body(
+        mass = 2.0 - 0.25 * k,
+        inertia = [0.1, 0.02 + 0.01 * k, 0.11],
+        position = [0.1 * (k % 2), 0.5 + k, 0.0],
+        angular_velocity = if k == 2 { [0.0, 0.3, 0.0] } else { [0.2 * k, 0.0, -0.1] }
+    )]
+    links: [Body; 4],
+    #[joint(
+        between = [if k == 0 { ground } else { links[k - 1] }, links[k]],
+        point = [0.0, k, 0.0],
+        axis = if k % 2 == 0 { [1.0, 0.0, 0.0] } else { [0.0, 0.2, 1.0] }
+    )]
+    pins: [Revolute; 4],
+    #[force(
+        between = [links[k], links[k + 1]],
+        head = [0.0, 0.5 + k, 0.3],
+        tail = [0.0, 1.5 + k, 0.2 * k],
+        stiffness = 20.0 * (k + 1),
+        damping = 0.5 * k,
+        free_length = 0.8
+    )]
+    springs: [SpringDamper; 3],
+}
+
+impl Scene for AlternatingChain {
+    fn assembler() -> Assembler {
+        let mut scene = Assembler::new([0.0, 0.4, -9.81]);
+        let spins = [
+            [0.0, 0.0, -0.1],
+            [0.2, 0.0, -0.1],
+            [0.0, 0.3, 0.0],
+            [0.6, 0.0, -0.1],
+        ];
+        let links = [
+            (2.0, 0.02, [0.0, 0.5, 0.0]),
+            (1.75, 0.03, [0.1, 1.5, 0.0]),
+            (1.5, 0.04, [0.0, 2.5, 0.0]),
+            (1.25, 0.05, [0.1, 3.5, 0.0]),
+        ];
+        let mut before = GROUND;
+        let mut bodies = Vec::new();
+        for (k, (mass, moment, position)) in links.into_iter().enumerate() {
+            let body = bodies::Body::rigid(mass, [0.1, moment, 0.11], position)
+                .with_velocity([0.0; 3], spins[k]);
+            let body = scene.add_body(body);
+            let axis = [[1.0, 0.0, 0.0], [0.0, 0.2, 1.0]][k % 2];
+            add_revolute(&mut scene, [before, body], [0.0, k as f64, 0.0], axis);
+            bodies.push(body);
+            before = body;
+        }
+        for (k, (stiffness, damping, lift)) in
+            [(20.0, 0.0, 0.0), (40.0, 0.5, 0.2), (60.0, 1.0, 0.4)]
+                .into_iter()
+                .enumerate()
+        {
+            let height = k as f64;
+            let force = Force::spring_damper(
+                &scene,
+                [bodies[k], bodies[k + 1]],
+                [0.0, 0.5 + height, 0.3],
+                [0.0, 1.5 + height, lift],
+                stiffness,
+                damping,
+                0.8,
+            );
+            scene.add_force(force);
+        }
         scene
     }
 }
