@@ -24,64 +24,24 @@ use holonom::prelude::*;
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "joints")]
 pub struct HeavyChain {
-    #[body(mass = 1e-3, position = [0.25 * sin(deg(60.0)), -0.25 * cos(deg(60.0)), 0.0])]
-    first: Particle,
-    #[body(mass = 1e-3, position = [0.5 * sin(deg(60.0)), -0.5 * cos(deg(60.0)), 0.0])]
-    second: Particle,
-    #[body(mass = 1e-3, position = [0.75 * sin(deg(60.0)), -0.75 * cos(deg(60.0)), 0.0])]
-    third: Particle,
+    #[body(
+        mass = 1e-3,
+        position = [0.25 * (k + 1) * sin(deg(60.0)), -0.25 * (k + 1) * cos(deg(60.0)), 0.0]
+    )]
+    masses: [Particle; 3],
     #[body(mass = 1000.0, position = [1.0 * sin(deg(60.0)), -1.0 * cos(deg(60.0)), 0.0])]
     bob: Particle,
     #[joint(
-        between = [ground, first],
-        head = [0.0, 0.0, 0.0],
-        tail = [0.25 * sin(deg(60.0)), -0.25 * cos(deg(60.0)), 0.0],
+        between = [if k == 0 { ground } else { masses[k - 1] }, if k == 3 { bob } else { masses[k] }],
+        head = [0.25 * k * sin(deg(60.0)), -0.25 * k * cos(deg(60.0)), 0.0],
+        tail = [0.25 * (k + 1) * sin(deg(60.0)), -0.25 * (k + 1) * cos(deg(60.0)), 0.0],
         length = 0.25
     )]
-    link_1: Distance,
+    links: [Distance; 4],
     #[joint(
-        between = [first, second],
-        head = [0.25 * sin(deg(60.0)), -0.25 * cos(deg(60.0)), 0.0],
-        tail = [0.5 * sin(deg(60.0)), -0.5 * cos(deg(60.0)), 0.0],
-        length = 0.25
-    )]
-    link_2: Distance,
-    #[joint(
-        between = [second, third],
-        head = [0.5 * sin(deg(60.0)), -0.5 * cos(deg(60.0)), 0.0],
-        tail = [0.75 * sin(deg(60.0)), -0.75 * cos(deg(60.0)), 0.0],
-        length = 0.25
-    )]
-    link_3: Distance,
-    #[joint(
-        between = [third, bob],
-        head = [0.75 * sin(deg(60.0)), -0.75 * cos(deg(60.0)), 0.0],
-        tail = [1.0 * sin(deg(60.0)), -1.0 * cos(deg(60.0)), 0.0],
-        length = 0.25
-    )]
-    link_4: Distance,
-    #[joint(
-        between = [ground, first],
-        point = [0.25 * sin(deg(60.0)), -0.25 * cos(deg(60.0)), 0.0],
+        between = [ground, if k == 3 { bob } else { masses[k] }],
+        point = [0.25 * (k + 1) * sin(deg(60.0)), -0.25 * (k + 1) * cos(deg(60.0)), 0.0],
         normal = [0.0, 0.0, 1.0]
     )]
-    plane_1: PointOnPlane,
-    #[joint(
-        between = [ground, second],
-        point = [0.5 * sin(deg(60.0)), -0.5 * cos(deg(60.0)), 0.0],
-        normal = [0.0, 0.0, 1.0]
-    )]
-    plane_2: PointOnPlane,
-    #[joint(
-        between = [ground, third],
-        point = [0.75 * sin(deg(60.0)), -0.75 * cos(deg(60.0)), 0.0],
-        normal = [0.0, 0.0, 1.0]
-    )]
-    plane_3: PointOnPlane,
-    #[joint(
-        between = [ground, bob],
-        point = [1.0 * sin(deg(60.0)), -1.0 * cos(deg(60.0)), 0.0],
-        normal = [0.0, 0.0, 1.0]
-    )]
-    plane_4: PointOnPlane,
+    planes: [PointOnPlane; 4],
 }
