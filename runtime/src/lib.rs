@@ -161,15 +161,18 @@ pub use bodies::{Body, Particle};
 /// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a number may, by the name of the field.
 /// `#[input]`: one that may change at every step, in forces and gravity only.
 ///
+/// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of the element, and `links[k - 1]` names an element of another array, see
+/// [`guide::mechanism`](mod@crate::guide::mechanism#many-bodies-arrays).
+///
 /// # Numbers
 ///
 /// Literals, `+ - * /`, `sqrt(..)`, `sin(..)`, `cos(..)`, `tan(..)`, `exp(..)`, `deg(..)` (degrees to radians), `PI`, `TAU`, paths of
-/// constants of type `f64`, parameters and inputs. The macro evaluates what it can see; a path is a value that it cannot see: it is checked
+/// constants of type `f64`, entries of constants that are arrays of it, parameters and inputs. The macro evaluates what it can see; a path is a value that it cannot see: it is checked
 /// by the compiler or in [`Mechanism::parameters`](trait@Mechanism), and does not fold. Laws are expressions of `time`, too.
 ///
 /// # What is generated
 ///
-/// An implementation of [`trait@Mechanism`], and `Default`, or, where there are parameters, `T::new(..)`, which checks them. `T::HANDLES` is a struct with a handle for every field, under the field's name;
+/// An implementation of [`trait@Mechanism`], and `Default`, or, where there are parameters, `T::new(..)`, which checks them. `T::HANDLES` is a struct with a handle for every field, under the field's name, or with an array of them where the field is one;
 /// `T::REPORT` holds sizes, names, the plan of the solution and the operations of every kernel, which the documentation of
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;

@@ -48,7 +48,7 @@ pub trait Mechanism: Sized + 'static {
     type Coefficients<S: Scalar>: Copy + Debug;
     /// The factorised saddle system, to be used by [`Mechanism::solve`].
     type Factors<S: Scalar>: Copy + Debug;
-    /// A struct with one handle per field of the mechanism, under the field's name.
+    /// A struct with one handle per field of the mechanism, under the field's name; an array of handles where the field is an array.
     type Handles: Copy + Debug;
 
     /// One handle per field of the mechanism, under the field's name.
