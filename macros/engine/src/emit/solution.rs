@@ -66,7 +66,9 @@ impl Writer<'_> {
                     let Kernel { arena, outputs } = &evaluation.kernel;
                     arena.live(outputs, Stage::State).len()
                 };
-                operations(evaluation) > MANY && above(evaluation).is_same(above(other))
+                // Of both alike, or one would call what the other does not write.
+                let is_long = operations(evaluation).max(operations(other)) > MANY;
+                is_long && above(evaluation).is_same(above(other))
             });
             if other.is_none() {
                 tokens.extend(self.evaluation(evaluation, None));
