@@ -6,6 +6,8 @@
 //! | time per evaluation of several contestants in turn | [`timing`], [`statistics`] |
 //! | the closed form of a rigid pendulum | [`pendulum`], [`elliptic`] |
 //! | results as tables and charts, as a page and as files | [`document`], [`chart`], [`page`], [`files`] |
+//! | what an evaluation costs, in both descriptions, all formulations and both number types | [`compare`] |
+//! | operations of a computation | [`counted`] |
 //! | chapter 15 of Flores (2015): four formulations on one pendulum | [`chapter15`] |
 //!
 //! Units are SI, angles are in radians.
@@ -14,6 +16,8 @@
 
 pub mod chapter15;
 pub mod chart;
+pub mod compare;
+pub mod counted;
 pub mod document;
 pub mod elliptic;
 mod error;

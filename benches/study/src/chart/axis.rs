@@ -13,7 +13,12 @@ pub(super) struct Range {
     pub(super) ticks: Vec<f64>,
     scale: Scale,
     step: f64,
+    /// Whether ticks stand within decades.
+    is_fine: bool,
 }
+
+/// A tight logarithmic axis of less than so many decades has ticks within them.
+const FINE: f64 = 2.0;
 
 /// The place of a value on an axis; `None` where it has none.
 pub(super) fn place(value: f64, scale: Scale) -> Option<f64> {
@@ -50,6 +55,20 @@ impl Range {
             };
             (low, high) = (low - margin, high + margin);
         }
+        if tight && scale == Scale::Logarithmic && high - low < FINE {
+            let within = |&tick: &f64| (low - 1e-9..=high + 1e-9).contains(&tick);
+            let decades = low.floor() as i32..=high.ceil() as i32;
+            let ticks = decades
+                .flat_map(|decade| [1.0, 2.0, 5.0].map(|x: f64| f64::from(decade) + x.log10()));
+            return Some(Self {
+                low,
+                high,
+                ticks: ticks.filter(within).collect(),
+                scale,
+                step: 1.0,
+                is_fine: true,
+            });
+        }
         let step = step((high - low) / most.max(1) as f64, scale);
         let (first, last) = ((low / step).floor(), (high / step).ceil());
         let ticks = (0..=(last - first) as usize).map(|k| (first + k as f64) * step);
@@ -61,6 +80,7 @@ impl Range {
                 ticks: ticks.filter(|x| (from..=to).contains(x)).collect(),
                 scale,
                 step,
+                is_fine: false,
             });
         }
         Some(Self {
@@ -69,12 +89,17 @@ impl Range {
             ticks: ticks.collect(),
             scale,
             step,
+            is_fine: false,
         })
     }
 
     /// The text beside a tick.
     pub(super) fn label(&self, tick: f64) -> String {
         match self.scale {
+            Scale::Logarithmic if self.is_fine => {
+                let digits = (-tick.floor()).max(0.0) as usize;
+                fixed(10.0_f64.powf(tick), digits)
+            }
             Scale::Logarithmic => power_of_ten(tick.round() as i32),
             Scale::Linear => {
                 let largest = self.low.abs().max(self.high.abs());
@@ -188,6 +213,16 @@ mod tests {
         let range = Range::around(places, Logarithmic, 8, false).unwrap();
         assert_eq!((range.low, range.high), (-26.0, -10.0));
         assert_eq!(labels(&range)[..2], ["10⁻²⁶", "10⁻²⁴"]);
+    }
+
+    #[test]
+    fn few_decades_have_ticks_within_them() {
+        let places = [1.0, 40.0].map(|x| place(x, Logarithmic).unwrap());
+        let range = Range::around(places, Logarithmic, 10, true).unwrap();
+        assert_eq!(labels(&range), ["1", "2", "5", "10", "20"]);
+        let places = [0.03, 0.4].map(|x| place(x, Logarithmic).unwrap());
+        let range = Range::around(places, Logarithmic, 10, true).unwrap();
+        assert_eq!(labels(&range), ["0.05", "0.1", "0.2"]);
     }
 
     #[test]

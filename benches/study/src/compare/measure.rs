@@ -1,0 +1,509 @@
+//! A mechanism in both descriptions, all formulations and both number types, as contestants of a race.
+
+use std::cell::RefCell;
+use std::hint::black_box;
+use std::rc::Rc;
+use std::time::Instant;
+
+use holonom::{
+    Array as _, AugmentedLagrangian, Baumgarte, Dynamics, Evaluation, Fault, Formulation,
+    JointCoordinates, JointDynamics, JointEvaluation, Kernel, Mechanism, Normalised, Operations,
+    Penalty, Real, Rk4, Scalar as _, Scheme as _, StandardLagrange, StateParts as _, System,
+    Vector as _,
+};
+
+use super::{Coordinates, Precision};
+use crate::chapter15::Method;
+use crate::counted::{Counted, counted};
+use crate::error::StudyError;
+use crate::timing::Contestant;
+
+/// The most states that are evaluated in turn.
+const STATES: usize = 64;
+/// What these may take (bytes), so that they stay near the processor.
+const MEMORY: usize = 1 << 14;
+/// How long a contestant works between two looks at the clock (s).
+const UNINTERRUPTED: f64 = 2e-5;
+
+/// A right-hand side as it is called through the public interface, and what runs below it. Times are taken at time zero.
+pub trait Subject<S: Real> {
+    /// What integrators move.
+    type System: System<S>;
+    /// What an evaluation returns: rates and multipliers.
+    type Evaluation;
+
+    /// Whether one kernel is the whole right-hand side.
+    const IS_ONE_KERNEL: bool = true;
+
+    /// The system.
+    fn system(&mut self) -> &mut Self::System;
+
+    /// The evaluation that users call.
+    ///
+    /// # Errors
+    /// Those of the evaluation.
+    fn evaluate(&self, state: &StateOf<S, Self>) -> Result<Self::Evaluation, Fault>;
+
+    /// The rates of an evaluation.
+    fn rates(evaluation: &Self::Evaluation) -> &StateOf<S, Self>;
+
+    /// The kernel alone.
+    fn kernel(&mut self, state: &StateOf<S, Self>, rates: &mut StateOf<S, Self>);
+}
+
+/// The state of a subject.
+pub type StateOf<S, Y> = <<Y as Subject<S>>::System as System<S>>::State;
+
+/// A mechanism by its bodies.
+struct Bodies<S: Real, M: Mechanism, F: Formulation<S>> {
+    dynamics: Dynamics<S, M, F>,
+    coefficients: M::Coefficients<S>,
+    multipliers: M::Multipliers<S>,
+}
+
+impl<S: Real, M: Mechanism + Default, F: Formulation<S>> Bodies<S, M, F> {
+    fn new(formulation: F) -> Result<Self, Fault> {
+        let dynamics = Dynamics::new(&M::default(), formulation)?;
+        Ok(Self {
+            coefficients: M::coefficients(dynamics.constants(), &formulation.stabilisation()?),
+            dynamics,
+            multipliers: holonom::Array::zeros(),
+        })
+    }
+}
+
+impl<S: Real, M: Mechanism, F: Formulation<S>> Subject<S> for Bodies<S, M, F> {
+    type System = Dynamics<S, M, F>;
+    type Evaluation = (Evaluation<S, M>, usize);
+
+    const IS_ONE_KERNEL: bool = !F::ITERATED;
+
+    #[inline(always)]
+    fn system(&mut self) -> &mut Self::System {
+        &mut self.dynamics
+    }
+
+    #[inline(always)]
+    fn evaluate(&self, state: &M::State<S>) -> Result<Self::Evaluation, Fault> {
+        self.dynamics.evaluate(S::zero(), state)
+    }
+
+    #[inline(always)]
+    fn rates((evaluation, _): &Self::Evaluation) -> &M::State<S> {
+        &evaluation.rates
+    }
+
+    #[inline(always)]
+    fn kernel(&mut self, state: &M::State<S>, rates: &mut M::State<S>) {
+        let pivot = M::evaluate_into::<S, F::Terms, Normalised>(
+            self.dynamics.constants(),
+            &self.coefficients,
+            S::zero(),
+            state,
+            rates,
+            &mut self.multipliers,
+        );
+        black_box((&pivot, &self.multipliers));
+    }
+}
+
+/// A mechanism by its joints.
+struct Joints<S: Real, M: JointCoordinates, F: Formulation<S>> {
+    dynamics: JointDynamics<S, M, F>,
+    constants: M::JointConstants<S>,
+    coefficients: M::JointCoefficients<S>,
+    multipliers: M::ClosingMultipliers<S>,
+}
+
+impl<S: Real, M: JointCoordinates + Default, F: Formulation<S>> Joints<S, M, F> {
+    fn new(formulation: F) -> Result<Self, Fault> {
+        let mechanism = M::default();
+        let dynamics = JointDynamics::new(&mechanism, formulation)?;
+        let constants = M::prepare_joints(&mechanism.parameters()?);
+        let stabilisation = formulation.stabilisation()?;
+        let mut compliances: M::ClosingMultipliers<S> = holonom::Array::zeros();
+        compliances.as_mut_slice().fill(stabilisation.compliance);
+        Ok(Self {
+            coefficients: M::joint_coefficients(&constants, &stabilisation, &compliances),
+            dynamics,
+            constants,
+            multipliers: holonom::Array::zeros(),
+        })
+    }
+}
+
+impl<S: Real, M: JointCoordinates, F: Formulation<S>> Subject<S> for Joints<S, M, F> {
+    type System = JointDynamics<S, M, F>;
+    type Evaluation = JointEvaluation<S, M>;
+
+    const IS_ONE_KERNEL: bool = !F::ITERATED;
+
+    #[inline(always)]
+    fn system(&mut self) -> &mut Self::System {
+        &mut self.dynamics
+    }
+
+    #[inline(always)]
+    fn evaluate(&self, state: &M::JointState<S>) -> Result<JointEvaluation<S, M>, Fault> {
+        self.dynamics.evaluate(S::zero(), state)
+    }
+
+    #[inline(always)]
+    fn rates(evaluation: &JointEvaluation<S, M>) -> &M::JointState<S> {
+        &evaluation.rates
+    }
+
+    #[inline(always)]
+    fn kernel(&mut self, state: &M::JointState<S>, rates: &mut M::JointState<S>) {
+        let pivot = M::evaluate_joints_into::<S, F::Terms>(
+            &self.constants,
+            &self.coefficients,
+            S::zero(),
+            state,
+            rates,
+            &mut self.multipliers,
+        );
+        black_box((&pivot, &self.multipliers));
+    }
+}
+
+/// One right-hand side: which it is, what it computes, and what can be timed of it.
+#[derive(Debug)]
+pub struct Case {
+    /// The mechanism.
+    pub scene: &'static str,
+    /// Links of a chain or windows of a row; 1 for all others.
+    pub n: usize,
+    /// The description.
+    pub coordinates: Coordinates,
+    /// The formulation.
+    pub method: Method,
+    /// The numbers.
+    pub precision: Precision,
+    /// The operations of a whole evaluation, multipliers of the remaining equations included; their `depth` is the longest path.
+    pub operations: Operations,
+    /// What can be timed.
+    pub contestants: Contestants,
+}
+
+/// What can be timed of one right-hand side.
+#[derive(Debug)]
+pub struct Contestants {
+    /// Evaluations that do not depend on each other.
+    pub throughput: Contestant<'static>,
+    /// Evaluations at states that the one before has a part in.
+    pub dependent: Contestant<'static>,
+    /// Steps of Runge-Kutta from states that do not depend on each other.
+    pub step: Contestant<'static>,
+    /// The kernel alone, at states that do not depend on each other, where one kernel is the whole right-hand side.
+    pub kernel: Option<Contestant<'static>>,
+}
+
+/// The cases of one mechanism.
+#[derive(Debug, Default)]
+pub struct Scene {
+    /// What can be timed.
+    pub cases: Vec<Case>,
+    /// What was refused, and why.
+    pub refused: Vec<Refused>,
+    /// The states that bodies are timed at, in `f64`: all coordinates, then all velocities.
+    pub states: Vec<Vec<f64>>,
+    /// Their rates with standard multipliers.
+    pub rates: Vec<Vec<f64>>,
+}
+
+/// A case that cannot be timed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refused {
+    /// The mechanism.
+    pub scene: &'static str,
+    /// As in [`Case`].
+    pub n: usize,
+    /// The description.
+    pub coordinates: Coordinates,
+    /// The formulation.
+    pub method: Method,
+    /// The numbers.
+    pub precision: Precision,
+    /// What the run time said.
+    pub fault: Fault,
+}
+
+impl Scene {
+    /// All cases of a mechanism: its name and its `n` as in [`Case`], and the step (s) of Runge-Kutta, which also lies between the states.
+    ///
+    /// # Errors
+    /// A fault of the mechanism by its bodies with standard multipliers: nothing can be said of it then.
+    pub fn of<M: JointCoordinates + Default>(
+        name: &'static str,
+        n: usize,
+        step: f64,
+    ) -> Result<Self, Fault> {
+        let mut dynamics = Dynamics::<f64, M, _>::new(&M::default(), StandardLagrange)?;
+        let start = M::initial_state(dynamics.constants());
+        let states = states(&mut dynamics, start, step)?;
+        let rates = states.iter().map(|state| dynamics.rates(0.0, state));
+        let rates: Result<Vec<_>, Fault> = rates.collect();
+        let mut scene = Self {
+            rates: rates?.iter().map(flat::<M>).collect(),
+            states: states.iter().map(flat::<M>).collect(),
+            ..Self::default()
+        };
+        scene.formulations::<f64, M>((name, n, Precision::Double), step);
+        scene.formulations::<f32, M>((name, n, Precision::Single), step);
+        Ok(scene)
+    }
+
+    fn formulations<S: Real, M: JointCoordinates + Default>(
+        &mut self,
+        which: (&'static str, usize, Precision),
+        step: f64,
+    ) {
+        self.both::<S, M, _>(which, Method::Standard, StandardLagrange, step);
+        self.both::<S, M, _>(which, Method::Baumgarte, Baumgarte::default(), step);
+        self.both::<S, M, _>(which, Method::Penalty, Penalty::default(), step);
+        let iterated = AugmentedLagrangian::default();
+        self.both::<S, M, _>(which, Method::AugmentedLagrangian, iterated, step);
+    }
+
+    fn both<S: Real, M: JointCoordinates + Default, F: Formulation<S> + 'static>(
+        &mut self,
+        which: (&'static str, usize, Precision),
+        method: Method,
+        formulation: F,
+        step: f64,
+    ) {
+        let bodies = Bodies::<S, M, F>::new(formulation).and_then(|bodies| {
+            let start = M::initial_state(bodies.dynamics.constants());
+            let operations = match reported(M::REPORT.kernels, method) {
+                Some(operations) => operations,
+                None => iterated_by_bodies::<M>(&self.states)?,
+            };
+            Ok((operations, contestants(bodies, start, step)?))
+        });
+        self.take(which, Coordinates::Bodies, method, bodies);
+        let joints = Joints::<S, M, F>::new(formulation).and_then(|joints| {
+            let start = joints.dynamics.initial_state()?;
+            let operations = match reported(M::JOINT_REPORT.kernels, method) {
+                Some(operations) => operations,
+                None => iterated_by_joints::<M>(&self.states)?,
+            };
+            Ok((operations, contestants(joints, start, step)?))
+        });
+        self.take(which, Coordinates::Joints, method, joints);
+    }
+
+    fn take(
+        &mut self,
+        (scene, n, precision): (&'static str, usize, Precision),
+        coordinates: Coordinates,
+        method: Method,
+        outcome: Result<(Operations, Contestants), Fault>,
+    ) {
+        match outcome {
+            Ok((operations, contestants)) => self.cases.push(Case {
+                scene,
+                n,
+                coordinates,
+                method,
+                precision,
+                operations,
+                contestants,
+            }),
+            Err(fault) => self.refused.push(Refused {
+                scene,
+                n,
+                coordinates,
+                method,
+                precision,
+                fault,
+            }),
+        }
+    }
+}
+
+/// What a report says of the evaluation with Euler parameters normalised inside, which runs use by default. Without equations all formulations are one.
+///
+/// Nothing of a formulation that iterates: the report knows the pieces only.
+fn reported(kernels: &[Kernel], method: Method) -> Option<Operations> {
+    if method == Method::AugmentedLagrangian {
+        return None;
+    }
+    let plain = format!("evaluate {}", method.key());
+    let normalised = format!("{plain}, normalised");
+    let named = |name: &str| kernels.iter().find(|kernel| kernel.name == name);
+    let found = named(&normalised).or_else(|| named(&plain));
+    let only = match kernels {
+        [only] => Some(only),
+        _ => None,
+    };
+    found.or(only).map(|kernel| kernel.operations)
+}
+
+/// The operations of an evaluation that iterates, counted at the last of some states.
+fn iterated_by_bodies<M: Mechanism + Default>(states: &[Vec<f64>]) -> Result<Operations, Fault> {
+    let formulation = AugmentedLagrangian::<Counted>::default();
+    let dynamics = Dynamics::<Counted, M, _>::new(&M::default(), formulation)?;
+    let state = counted_state::<M>(dynamics.constants(), states);
+    let (operations, outcome) = counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));
+    outcome.map(|()| operations)
+}
+
+/// The same in joint coordinates.
+fn iterated_by_joints<M: JointCoordinates + Default>(
+    states: &[Vec<f64>],
+) -> Result<Operations, Fault> {
+    let formulation = AugmentedLagrangian::<Counted>::default();
+    let dynamics = JointDynamics::<Counted, M, _>::new(&M::default(), formulation)?;
+    let state = counted_state::<M>(dynamics.of_bodies().constants(), states);
+    let state = dynamics.joints(&state)?;
+    let (operations, outcome) = counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));
+    outcome.map(|()| operations)
+}
+
+fn counted_state<M: Mechanism>(
+    constants: &M::Constants<Counted>,
+    states: &[Vec<f64>],
+) -> M::State<Counted> {
+    let mut state = M::initial_state(constants);
+    let mut values = states.last().into_iter().flatten();
+    let mut fill = |elements: &mut [Counted]| {
+        for (element, &value) in elements.iter_mut().zip(&mut values) {
+            *element = Counted::constant(value);
+        }
+    };
+    fill(state.coordinates_mut().as_mut_slice());
+    fill(state.velocities_mut().as_mut_slice());
+    state
+}
+
+/// A state as all coordinates, then all velocities.
+fn flat<M: Mechanism>(state: &M::State<f64>) -> Vec<f64> {
+    let parts = [
+        state.coordinates().as_slice(),
+        state.velocities().as_slice(),
+    ];
+    parts.concat()
+}
+
+/// States along a motion from a start, the start not among them: as many as a case is evaluated at.
+fn states<S: Real, Y: System<S>>(
+    system: &mut Y,
+    mut state: Y::State,
+    step: f64,
+) -> Result<Vec<Y::State>, Fault> {
+    let count = (MEMORY / size_of::<Y::State>()).clamp(4, STATES);
+    let mut states = Vec::with_capacity(count);
+    for _ in 0..count {
+        advance(system, &mut state, S::constant(step))?;
+        states.push(state.clone());
+    }
+    Ok(states)
+}
+
+/// A step of Runge-Kutta, in one place, because it is compiled for every right-hand side.
+#[inline(never)]
+fn advance<S: Real, Y: System<S>>(
+    system: &mut Y,
+    state: &mut Y::State,
+    step: S,
+) -> Result<(), Fault> {
+    Rk4.step(system, S::zero(), state, step)
+}
+
+/// What can be timed of a right-hand side: along its motion from a start, in steps of Runge-Kutta (s).
+///
+/// # Errors
+/// A fault on this way, or of an evaluation.
+pub fn contestants<S: Real, Y: Subject<S> + 'static>(
+    mut subject: Y,
+    start: StateOf<S, Y>,
+    step: f64,
+) -> Result<Contestants, Fault> {
+    let states: Rc<[StateOf<S, Y>]> = states(subject.system(), start, step)?.into();
+    let count = states.len() as u64;
+    let step = S::constant(step);
+    let subject = Rc::new(RefCell::new(subject));
+
+    let (shared, places) = (subject.clone(), states.clone());
+    let throughput = contestant(count, move || {
+        let subject = shared.borrow();
+        for state in &*places {
+            match subject.evaluate(black_box(state)) {
+                Ok(ref evaluation) => {
+                    black_box(evaluation);
+                }
+                Err(fault) => return Err(fault),
+            }
+        }
+        Ok(())
+    })?;
+
+    let (shared, places) = (subject.clone(), states.clone());
+    let dependent = contestant(count, move || {
+        let subject = shared.borrow();
+        // Nothing is added, but the next evaluation waits for this one.
+        let nothing = black_box(S::zero());
+        let mut last = places[0].clone();
+        for state in &*places {
+            let at = state.zip(&last, |x, rate| rate.fused(nothing, x));
+            last = Y::rates(&subject.evaluate(&at)?).clone();
+        }
+        black_box(&last);
+        Ok(())
+    })?;
+
+    let (shared, places) = (subject.clone(), states.clone());
+    let steps = contestant(count, move || {
+        let mut subject = shared.borrow_mut();
+        let system = subject.system();
+        for state in &*places {
+            let mut place = black_box(state).clone();
+            advance(system, &mut place, step)?;
+            black_box(&place);
+        }
+        Ok(())
+    })?;
+
+    let kernel = Y::IS_ONE_KERNEL.then(|| {
+        let mut rates = states[0].clone();
+        contestant(count, move || {
+            let mut subject = subject.borrow_mut();
+            for state in &*states {
+                subject.kernel(black_box(state), &mut rates);
+                black_box(&rates);
+            }
+            Ok(())
+        })
+    });
+    Ok(Contestants {
+        throughput,
+        dependent,
+        step: steps,
+        kernel: kernel.transpose()?,
+    })
+}
+
+/// Work of `count` evaluations, repeated so often that looking at the clock takes no time beside it.
+///
+/// # Errors
+/// A fault of the work, which is done twice.
+pub fn contestant(
+    count: u64,
+    mut work: impl FnMut() -> Result<(), Fault> + 'static,
+) -> Result<Contestant<'static>, Fault> {
+    work()?;
+    let start = Instant::now();
+    work()?;
+    let once = start.elapsed().as_secs_f64().max(1e-9);
+    let repetitions = (UNINTERRUPTED / once).ceil().clamp(1.0, 1e4) as u64;
+    Ok(Contestant::new("evaluation", move || {
+        for _ in 0..repetitions {
+            work().map_err(|fault| StudyError::Run {
+                name: "evaluation".into(),
+                reason: fault.to_string(),
+            })?;
+        }
+        Ok(repetitions * count)
+    }))
+}
