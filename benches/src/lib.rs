@@ -2,5 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod compare;
 pub mod opponents;
 pub mod terminal;
+pub mod yardstick;

@@ -51,22 +51,7 @@ impl Textbook {
     /// The pendulum with a formulation of chapter 15.
     #[must_use]
     pub fn of(method: Method, settings: &Settings) -> Self {
-        let (alpha, omega, mu) = settings.penalty;
-        Self::new(match method {
-            Method::Standard => Formulation::Standard,
-            Method::Baumgarte => {
-                let (alpha, beta) = settings.baumgarte;
-                Formulation::Baumgarte { alpha, beta }
-            }
-            Method::Penalty => Formulation::Penalty { alpha, omega, mu },
-            Method::AugmentedLagrangian => Formulation::AugmentedLagrangian {
-                alpha,
-                omega,
-                mu,
-                tolerance: TEXTBOOK_TOLERANCE,
-                max_iterations: settings.iteration_cap,
-            },
-        })
+        Self::new(formulation(method, settings))
     }
 
     /// The pendulum with a formulation.
@@ -74,6 +59,26 @@ impl Textbook {
     pub fn new(formulation: Formulation) -> Self {
         let scene = scenes::pendulum().with_orientation(Orientation::Raw);
         Self(Evaluator::new(scene, formulation))
+    }
+}
+
+/// A formulation of chapter 15 as the assembler knows it.
+pub(crate) fn formulation(method: Method, settings: &Settings) -> Formulation {
+    let (alpha, omega, mu) = settings.penalty;
+    match method {
+        Method::Standard => Formulation::Standard,
+        Method::Baumgarte => {
+            let (alpha, beta) = settings.baumgarte;
+            Formulation::Baumgarte { alpha, beta }
+        }
+        Method::Penalty => Formulation::Penalty { alpha, omega, mu },
+        Method::AugmentedLagrangian => Formulation::AugmentedLagrangian {
+            alpha,
+            omega,
+            mu,
+            tolerance: TEXTBOOK_TOLERANCE,
+            max_iterations: settings.iteration_cap,
+        },
     }
 }
 

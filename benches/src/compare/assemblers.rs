@@ -1,0 +1,328 @@
+//! The scenes for the run-time assembler.
+
+#![cfg_attr(
+    not(feature = "large"),
+    allow(dead_code, reason = "most scenes stand behind the feature")
+)]
+
+use std::hint::black_box;
+
+use holonom::{Array as _, Fault, Mechanism, MechanismExt as _, NotFinite, StateParts as _};
+use holonom_models::{
+    CartPole, HeavyTop, Panda, RodPendulum, SliderCrank, SqueezingMechanism, Ur5,
+};
+use holonom_study::chapter15::{Method, Settings};
+use holonom_study::compare::measure::contestant;
+use holonom_study::compare::run::Opponent;
+use holonom_study::timing::Contestant;
+use holonom_tests::assembler::Assembler;
+use holonom_tests::bodies::{Body, BodyId, GROUND};
+use holonom_tests::forces::Force;
+use holonom_tests::formulation::{Evaluator, SolveError};
+use holonom_tests::joints::Joint;
+use holonom_tests::schur::SchurEvaluator;
+
+use crate::opponents::formulation;
+
+/// What joins two bodies of a scene: a point and an axis where it has one, global at the described configuration.
+#[derive(Clone, Copy, Debug)]
+enum Join {
+    Hinge([f64; 3], [f64; 3]),
+    Ball([f64; 3]),
+    Slider([f64; 3], [f64; 3]),
+    OnLine([f64; 3], [f64; 3]),
+}
+
+/// The bodies of a mechanism as it describes them, with joints: what they are between, places among the fields for bodies, `None` for the ground.
+fn scene<M: Mechanism + Default>(
+    gravity: [f64; 3],
+    joints: impl IntoIterator<Item = ([Option<usize>; 2], Join)>,
+) -> Assembler {
+    let mut scene = Assembler::new(gravity);
+    let bodies = add_bodies::<M>(&mut scene);
+    join(&mut scene, &bodies, joints);
+    scene
+}
+
+/// Adds joints between bodies by their places.
+fn join(
+    scene: &mut Assembler,
+    bodies: &[BodyId],
+    joints: impl IntoIterator<Item = ([Option<usize>; 2], Join)>,
+) {
+    for (between, join) in joints {
+        let between = between.map(|body| body.map_or(GROUND, |body| bodies[body]));
+        let joint = match join {
+            Join::Hinge(point, axis) => Joint::revolute(scene, between, point, axis),
+            Join::Ball(point) => Joint::spherical(scene, between, point),
+            Join::Slider(point, axis) => Joint::prismatic(scene, between, point, axis),
+            Join::OnLine(point, axis) => Joint::point_on_line(scene, between, point, axis),
+        };
+        scene.add_joint(joint);
+    }
+}
+
+/// Adds the bodies of a mechanism, all rigid, in the order of the fields. Mass and moments of inertia are twice the kinetic energies at unit velocities.
+fn add_bodies<M: Mechanism + Default>(scene: &mut Assembler) -> Vec<BodyId> {
+    let mechanism = M::default();
+    let constants = mechanism.constants::<f64>().expect("the data are sound");
+    let described = M::initial_state(&constants);
+    let body = |body: &holonom::BodyInfo| {
+        let moment = |place: usize| {
+            let mut state = described;
+            let velocities = state.velocities_mut().as_mut_slice();
+            velocities.fill(0.0);
+            velocities[body.velocity + place] = 1.0;
+            2.0 * M::kinetic_energy(&constants, &state)
+        };
+        let q = &described.coordinates().as_slice()[body.coordinate..];
+        let u = &described.velocities().as_slice()[body.velocity..];
+        let body = Body::rigid(moment(0), [3, 4, 5].map(moment), [q[0], q[1], q[2]]);
+        body.with_euler([q[3], q[4], q[5], q[6]])
+            .with_velocity([u[0], u[1], u[2]], [u[3], u[4], u[5]])
+    };
+    let bodies = M::REPORT.bodies.iter();
+    bodies.map(|info| scene.add_body(body(info))).collect()
+}
+
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// `links` bodies one behind the other, the joint in front of each from its place.
+fn in_a_row(
+    links: usize,
+    join: impl Fn(usize) -> Join,
+) -> impl Iterator<Item = ([Option<usize>; 2], Join)> {
+    (0..links).map(move |link| ([link.checked_sub(1), Some(link)], join(link)))
+}
+
+fn head(link: usize) -> [f64; 3] {
+    [0.0, link as f64, 0.0]
+}
+
+pub(super) fn revolute_chain<M: Mechanism + Default>() -> Assembler {
+    let joint = |link| Join::Hinge(head(link), X);
+    scene::<M>([0.0, 0.0, -9.81], in_a_row(M::REPORT.bodies.len(), joint))
+}
+
+pub(super) fn alternating_chain<M: Mechanism + Default>() -> Assembler {
+    let joint = |link| Join::Hinge(head(link), if link % 2 == 0 { X } else { Z });
+    scene::<M>([0.0, 0.0, -9.81], in_a_row(M::REPORT.bodies.len(), joint))
+}
+
+pub(super) fn spherical_chain<M: Mechanism + Default>() -> Assembler {
+    let joint = |link| Join::Ball(head(link));
+    scene::<M>([0.0, 0.0, -9.81], in_a_row(M::REPORT.bodies.len(), joint))
+}
+
+/// Rows of windows: the joints of `M` between its bodies, with what follows from others left out: one hinge of every loop keeps its two equations in the plane.
+pub(super) fn windows<M: Mechanism + Default>() -> Assembler {
+    let constants = M::default().constants::<f64>().expect("the data are sound");
+    let described = M::initial_state(&constants);
+    let centre = |body: usize| {
+        let at = M::REPORT.bodies[body].coordinate;
+        let q = described.coordinates().as_slice();
+        [q[at], q[at + 1]]
+    };
+    let joints = M::REPORT.joints.iter().map(|joint| {
+        let between = [joint.bodies[0], joint.bodies[1]];
+        // A foot is half a metre below its rod; a pin is where an upright rod ends, beside the middle of the top.
+        let point = match between {
+            [None, Some(rod)] | [Some(rod), None] => [centre(rod)[0], 0.0, 0.0],
+            [Some(a), Some(b)] => {
+                let is_rod = |body: &usize| centre(*body)[1] < 0.75;
+                let rod = [a, b].into_iter().find(is_rod).unwrap_or(a);
+                [centre(rod)[0], 1.0, 0.0]
+            }
+            [None, None] => [0.0; 3],
+        };
+        (between, point)
+    });
+    // The pin at the right end of a top closes a loop.
+    let closes = |[a, b]: [Option<usize>; 2], point: [f64; 3]| {
+        let beside =
+            |body: Option<usize>| body.is_some_and(|body| centre(body)[0] < point[0] - 0.25);
+        beside(a) || beside(b)
+    };
+    let joints: Vec<_> = joints
+        .map(|(between, point)| {
+            let join = if closes(between, point) {
+                Join::OnLine(point, Z)
+            } else {
+                Join::Hinge(point, Z)
+            };
+            (between, join)
+        })
+        .collect();
+    scene::<M>([0.0, -9.81, 0.0], joints)
+}
+
+pub(super) fn pendulum() -> Assembler {
+    scene::<RodPendulum>([0.0, 0.0, -9.81], in_a_row(1, |_| Join::Hinge([0.0; 3], X)))
+}
+
+pub(super) fn heavy_top() -> Assembler {
+    scene::<HeavyTop>([0.0, 0.0, -9.81], in_a_row(1, |_| Join::Ball([0.0; 3])))
+}
+
+pub(super) fn slider_crank() -> Assembler {
+    let pin = [0.459, 0.0, 0.0];
+    let joints = [
+        ([None, Some(0)], Join::Hinge([0.0; 3], Z)),
+        ([Some(0), Some(1)], Join::Hinge([0.153, 0.0, 0.0], Z)),
+        ([None, Some(2)], Join::Slider(pin, X)),
+        ([Some(2), Some(1)], Join::OnLine(pin, Z)),
+    ];
+    scene::<SliderCrank>([0.0, -9.81, 0.0], joints)
+}
+
+pub(super) fn cart_pole() -> Assembler {
+    let joints = [
+        ([None, Some(0)], Join::Slider([0.0; 3], X)),
+        ([Some(0), Some(1)], Join::Hinge([0.0; 3], [0.0, 0.0, -1.0])),
+    ];
+    scene::<CartPole>([0.0, -9.81, 0.0], joints)
+}
+
+pub(super) fn ur5() -> Assembler {
+    let hinges = [
+        ([0.0, 0.0, 0.089159], Z),
+        ([0.0, 0.13585, 0.089159], Y),
+        ([0.425, 0.016149999999999998, 0.08915900000208107], Y),
+        ([0.81725, 0.016149999999999998, 0.08915900000400177], Y),
+        (
+            [0.81725, 0.10915, 0.08915900000400177],
+            [9.793277300218506e-12, 0.0, -1.0],
+        ),
+        ([0.817250000000927, 0.10915, -0.005490999995998225], Y),
+    ];
+    arm::<Ur5, 6>(hinges)
+}
+
+pub(super) fn panda() -> Assembler {
+    let hinges = [
+        ([0.0, 0.0, 0.333], Z),
+        ([0.0, 0.0, 0.333], Y),
+        ([0.0, 0.0, 0.649], Z),
+        ([0.0825, 0.0, 0.649], [0.0, -1.0, 0.0]),
+        ([0.0, 0.0, 1.033], Z),
+        ([0.0, 0.0, 1.033], [0.0, -1.0, 0.0]),
+        ([0.088, 0.0, 1.033], [0.0, 0.0, -1.0]),
+    ];
+    arm::<Panda, 7>(hinges)
+}
+
+/// Points and axes of an arm's hinges from the ground outwards; the motors are off.
+fn arm<M: Mechanism + Default, const N: usize>(hinges: [([f64; 3], [f64; 3]); N]) -> Assembler {
+    let joint = |link: usize| Join::Hinge(hinges[link].0, hinges[link].1);
+    scene::<M>([0.0, 0.0, -9.81], in_a_row(N, joint))
+}
+
+pub(super) fn squeezer() -> Assembler {
+    let [rocker, e] = [
+        [-0.06934, -0.00227, 0.0],
+        [-0.020960022346354336, 0.0012951691937066864, 0.0],
+    ];
+    let joints = [
+        ([None, Some(0)], Join::Hinge([0.0; 3], Z)),
+        (
+            [Some(0), Some(1)],
+            Join::Hinge([0.006986674115451445, -0.0004317230645688955, 0.0], Z),
+        ),
+        ([None, Some(2)], Join::Hinge([-0.03635, 0.03273, 0.0], Z)),
+        ([None, Some(4)], Join::Hinge(rocker, Z)),
+        (
+            [Some(4), Some(3)],
+            Join::Hinge([-0.03399720388583998, 0.01646197167499768, 0.0], Z),
+        ),
+        ([None, Some(6)], Join::Hinge(rocker, Z)),
+        (
+            [Some(6), Some(5)],
+            Join::Hinge([-0.03163313450740889, -0.015618868668304533, 0.0], Z),
+        ),
+        ([Some(2), Some(1)], Join::OnLine(e, Z)),
+        ([Some(2), Some(3)], Join::OnLine(e, Z)),
+        ([Some(2), Some(5)], Join::OnLine(e, Z)),
+    ];
+    let mut scene = Assembler::new([0.0; 3]);
+    let bodies = add_bodies::<SqueezingMechanism>(&mut scene);
+    join(&mut scene, &bodies, joints);
+    let motor = Force::constant_moment(&scene, [GROUND, bodies[0]], [0.0, 0.0, 0.033]);
+    scene.add_force(motor);
+    let spring = Force::spring_damper(
+        &scene,
+        [GROUND, bodies[2]],
+        [0.014, 0.072, 0.0],
+        [-0.010472393888814626, 0.025357788530275246, 0.0],
+        4530.0,
+        0.0,
+        0.07785,
+    );
+    scene.add_force(spring);
+    scene
+}
+
+/// The forms of an assembler in a formulation, timed at some states; a form that cannot be solved there is left out.
+pub(super) fn opponents(
+    (scene, n): (&'static str, usize),
+    assembler: &Assembler,
+    states: &[Vec<f64>],
+) -> Vec<Opponent> {
+    let settings = Settings::TABLE_15_2;
+    let mut opponents = Vec::new();
+    let mut enter = |method, solve: Option<_>| {
+        if let Some(contestant) = solve {
+            opponents.push(Opponent {
+                scene,
+                n,
+                method,
+                contestant,
+            });
+        }
+    };
+    for method in Method::ALL {
+        // A whole matrix of a thousand rows takes a second.
+        if assembler.coordinates() <= LARGEST {
+            let mut evaluator = Evaluator::new(assembler.clone(), formulation(method, &settings));
+            let solve = timed(states, move |x, out| evaluator.rates(0.0, x, out));
+            enter(method, solve);
+        }
+        let (alpha, beta) = settings.baumgarte;
+        let (a, b) = match method {
+            Method::Standard => (0.0, 0.0),
+            Method::Baumgarte => (alpha, beta),
+            Method::Penalty | Method::AugmentedLagrangian => continue,
+        };
+        let mut schur = SchurEvaluator::new(assembler.clone(), a, b);
+        let solve = timed(states, move |x, out| schur.rates(0.0, x, out));
+        enter(method, solve);
+    }
+    opponents
+}
+
+/// The most coordinates of a mechanism that the assembler solves as a whole.
+const LARGEST: usize = 300;
+/// The states of large mechanisms, whose evaluation takes milliseconds.
+const FEW: usize = 2;
+
+fn timed(
+    states: &[Vec<f64>],
+    mut rates: impl FnMut(&[f64], &mut [f64]) -> Result<(), SolveError> + 'static,
+) -> Option<Contestant<'static>> {
+    let size = states.first()?.len();
+    let count = if size > 100 { FEW } else { states.len() };
+    let states = states[..count.min(states.len())].to_vec();
+    let mut out = vec![0.0; size];
+    let unsolved = |_| Fault::RatesNotFinite {
+        origin: NotFinite::Unknown,
+    };
+    let work = move || {
+        for state in &states {
+            rates(black_box(state), &mut out).map_err(unsolved)?;
+            black_box(&out);
+        }
+        Ok(())
+    };
+    contestant(count as u64, work).ok()
+}
