@@ -18,12 +18,16 @@ const FUNCTION: fn(&mut Operations) -> &mut usize = |count| &mut count.functions
 ///
 /// Counts are those of [`Operations`]: a fused multiply-add is two, signs, comparisons and rounding to an integer are free. The operations are not inlined: a
 /// kernel of thousands of them would take minutes to compile.
+///
+/// Two words, which travel in registers: a kernel of thousands of larger ones would keep all of them in memory, and take minutes to compile again.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted {
     value: f64,
-    depth: usize,
-    computation: u64,
+    place: u64,
 }
+
+/// How far depths reach in a place; the number of the computation stands above.
+const DEPTHS: u32 = 32;
 
 /// The operations of a computation, and what came of it. `depth` is that of the deepest number among those it made; what was made before has depth zero.
 pub fn counted<T>(computation: impl FnOnce() -> T) -> (Operations, T) {
@@ -41,17 +45,17 @@ impl Counted {
         kind: fn(&mut Operations) -> &mut usize,
     ) -> Self {
         let computation = COMPUTATION.get();
-        let own = |operand: &&Self| operand.computation == computation;
-        let before = operands.iter().filter(own).map(|operand| operand.depth);
+        let own = |operand: &&Self| operand.place >> DEPTHS == computation;
+        let depth = |operand: &Self| operand.place & ((1 << DEPTHS) - 1);
+        let before = operands.iter().filter(own).map(depth);
         let depth = before.max().unwrap_or(0) + 1;
         let mut operations = OPERATIONS.get();
         *kind(&mut operations) += 1;
-        operations.depth = operations.depth.max(depth);
+        operations.depth = operations.depth.max(depth as usize);
         OPERATIONS.set(operations);
         Self {
             value,
-            depth,
-            computation,
+            place: computation << DEPTHS | depth,
         }
     }
 
@@ -114,11 +118,7 @@ impl Neg for Counted {
 impl Scalar for Counted {
     #[inline(never)]
     fn constant(value: f64) -> Self {
-        Self {
-            value,
-            depth: 0,
-            computation: 0,
-        }
+        Self { value, place: 0 }
     }
 
     #[inline(never)]
@@ -188,8 +188,7 @@ impl Scalar for Counted {
 impl Real for Counted {
     const EPSILON: Self = Self {
         value: f64::EPSILON,
-        depth: 0,
-        computation: 0,
+        place: 0,
     };
 
     fn to_f64(self) -> f64 {

@@ -29,9 +29,9 @@ pub fn growth(rows: &[Row]) -> Vec<Figure> {
         };
         let series = [
             ("bodies", 0, points(&bodies, |row| Some(row.nanoseconds_throughput))),
-            ("bodies, dependent", 3, points(&bodies, |row| Some(row.nanoseconds_dependent))),
+            ("bodies, waiting", 3, points(&bodies, |row| Some(row.nanoseconds_dependent))),
             ("joints", 1, points(&joints, |row| Some(row.nanoseconds_throughput))),
-            ("joints, dependent", 5, points(&joints, |row| Some(row.nanoseconds_dependent))),
+            ("joints, waiting", 5, points(&joints, |row| Some(row.nanoseconds_dependent))),
             ("assembler", 2, points(&bodies, |row| row.assembler_nanoseconds)),
         ];
         let series = series.into_iter().filter(|(.., points)| !points.is_empty());
@@ -116,7 +116,7 @@ pub fn price(rows: &[Row]) -> Figure {
         chart: Chart {
             title: "Time over operations".into(),
             x: Axis::logarithmic("operations", "1"),
-            y: Axis::logarithmic("time, independent", "ns"),
+            y: Axis::logarithmic("time", "ns"),
             series: series.chain([yardstick]).collect(),
         },
         caption: "One dot for each mechanism: standard multipliers, f64.".into(),

@@ -85,8 +85,8 @@ pub fn document(rows: &[Row], refused: &[Refused], beside: &Beside, target: &Tar
         title: "What an evaluation costs".into(),
         lead: vec![
             "Mechanisms by their bodies and by their joints, in four formulations and two number types. Everything is timed in one race: in every round each \
-             right-hand side has a turn, and a time is the median of its turns. Independent evaluations go over up to 64 states of a motion; dependent \
-             ones have the rates of the last evaluation in their state; steps of Runge-Kutta start from independent states."
+             right-hand side has a turn, and a time is the median of its turns. Evaluations go over up to 64 states of a motion, and do not depend on each other; those that wait \
+             have the rates of the last evaluation in their state. Steps of Runge-Kutta start from states that do not depend on each other."
                 .into(),
             "The yardstick is the pendulum of chapter 15 of Flores (2015) by its bodies, written by hand: masses eliminated first, five equations solved by L D Lᵀ, \
              nothing known of the mechanism beyond zeros and constants. Its time, T, is a unit that depends little on the processor."
