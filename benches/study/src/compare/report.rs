@@ -108,16 +108,14 @@ fn left_out(refused: &[Refused]) -> Option<String> {
     let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
     for case in refused {
         let reason = case.fault.to_string();
-        let which = format!("{} by {}", case.method.name(), case.coordinates.key());
-        let which = match case.fault {
-            holonom::Fault::Iterated => which,
-            _ => format!(
-                "{} {} in {}, {which}",
-                case.scene,
-                case.n,
-                case.precision.key()
-            ),
-        };
+        let which = format!(
+            "{} {} in {}, {} by {}",
+            case.scene,
+            case.n,
+            case.precision.key(),
+            case.method.name(),
+            case.coordinates.key()
+        );
         let place = reasons.iter().position(|(known, _)| *known == reason);
         let place = place.unwrap_or_else(|| {
             reasons.push((reason, Vec::new()));
