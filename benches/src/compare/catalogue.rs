@@ -10,11 +10,10 @@ use holonom_study::compare::measure::Scene;
 use holonom_tests::assembler::Assembler;
 
 use super::assemblers as by_hand;
-use super::scenes::RevoluteChain2;
 #[cfg(feature = "large")]
 use super::scenes::{
-    AlternatingChain4, AlternatingChain8, RevoluteChain4, RevoluteChain8, RevoluteChain16,
-    RevoluteChain32, SphericalChain2, SphericalChain8, Windows5, Windows10,
+    AlternatingChain4, AlternatingChain8, RevoluteChain2, RevoluteChain4, RevoluteChain8,
+    RevoluteChain16, RevoluteChain32, SphericalChain2, SphericalChain8, Windows5, Windows10,
 };
 #[cfg(feature = "huge")]
 use super::scenes::{SphericalChain32, Windows40};
@@ -57,6 +56,7 @@ impl Entry {
 }
 
 /// Links on parallel hinges.
+#[cfg(feature = "large")]
 fn revolute<M: JointCoordinates + Default>(n: usize) -> Entry {
     Entry::of::<M>("revolute-chain", n, Some(by_hand::revolute_chain::<M>))
 }
@@ -82,12 +82,13 @@ fn windows<M: JointCoordinates + Default>(n: usize) -> Entry {
     Entry::of::<M>("four-bar", n, Some(by_hand::windows::<M>))
 }
 
-/// All of them in the order of the page, three without the feature `large`: every one is compiled for two descriptions, four formulations and two number types.
+/// All of them in the order of the page, two without the feature `large`: every one is compiled for two descriptions, four formulations and two number types.
 /// The longest are there with `huge`.
 #[must_use]
 pub fn entries() -> Vec<Entry> {
     [
         Entry::of::<RodPendulum>("pendulum", 1, Some(by_hand::pendulum)),
+        #[cfg(feature = "large")]
         revolute::<RevoluteChain2>(2),
         #[cfg(feature = "large")]
         revolute::<RevoluteChain4>(4),

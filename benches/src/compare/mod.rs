@@ -3,6 +3,7 @@
 mod assemblers;
 mod catalogue;
 pub mod compile;
+#[cfg(feature = "large")]
 pub mod scenes;
 
 pub use catalogue::{Entry, entries, names};

@@ -6,7 +6,6 @@
 )]
 
 use holonom::joints::Revolute;
-#[cfg(feature = "large")]
 use holonom::joints::Spherical;
 use holonom::prelude::*;
 
@@ -27,7 +26,6 @@ macro_rules! chain {
 
 /// Four-bar windows side by side: upright rods of 1 m and 1 kg on the ground, each joined to the next by one of the same kind at the top, moving at 1 m/s along +x,
 /// gravity along -y. Problem A02 of the IFToMM library, as [`holonom_models::FourBar`].
-#[cfg(feature = "large")]
 macro_rules! windows {
     ($(#[$attribute:meta])* $name:ident: [$rods:tt] [$windows:tt]) => {
         $(#[$attribute])*
@@ -61,49 +59,41 @@ chain! {
 
 chain! {
     /// Four rods on parallel hinges.
-    #[cfg(feature = "large")]
     RevoluteChain4: [Revolute; 4], axis = [1.0, 0.0, 0.0]
 }
 
 chain! {
     /// Eight rods on parallel hinges.
-    #[cfg(feature = "large")]
     RevoluteChain8: [Revolute; 8], axis = [1.0, 0.0, 0.0]
 }
 
 chain! {
     /// Sixteen rods on parallel hinges.
-    #[cfg(feature = "large")]
     RevoluteChain16: [Revolute; 16], axis = [1.0, 0.0, 0.0]
 }
 
 chain! {
     /// Thirty-two rods on parallel hinges.
-    #[cfg(feature = "large")]
     RevoluteChain32: [Revolute; 32], axis = [1.0, 0.0, 0.0]
 }
 
 chain! {
     /// Four rods on hinges whose axes are at right angles in turn.
-    #[cfg(feature = "large")]
     AlternatingChain4: [Revolute; 4], axis = if k % 2 == 0 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] }
 }
 
 chain! {
     /// Eight rods on hinges whose axes are at right angles in turn.
-    #[cfg(feature = "large")]
     AlternatingChain8: [Revolute; 8], axis = if k % 2 == 0 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] }
 }
 
 chain! {
     /// Two rods on balls.
-    #[cfg(feature = "large")]
     SphericalChain2: [Spherical; 2]
 }
 
 chain! {
     /// Eight rods on balls.
-    #[cfg(feature = "large")]
     SphericalChain8: [Spherical; 8]
 }
 
@@ -113,13 +103,11 @@ chain! {
     SphericalChain32: [Spherical; 32]
 }
 
-#[cfg(feature = "large")]
 windows! {
     /// Five windows.
     Windows5: [6] [5]
 }
 
-#[cfg(feature = "large")]
 windows! {
     /// Ten windows.
     Windows10: [11] [10]
