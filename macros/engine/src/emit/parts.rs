@@ -14,7 +14,7 @@ use super::straight_line::{Environment, Given, Lines, StraightLine, Value, lines
 use crate::symbolic::arena::{Arena, Expr, Stage};
 
 /// Kernels of up to so many statements are one function: of some more than a thousand, one that is not divided is a little faster.
-pub(super) const MANY: usize = 1800;
+const MANY: usize = 1800;
 /// The statements of a part.
 const PART: usize = 300;
 

@@ -5,18 +5,19 @@ use quote::{format_ident, quote};
 
 use super::local;
 use super::mechanism::Writer;
-use super::parts::{Frame, MANY, write_in_parts};
+use super::parts::{Frame, write_in_parts};
 use super::rows::{WIDTH, pack};
 use super::store::BackSubstitution;
 use super::straight_line::{Given, StraightLine};
 use crate::plan::kernels::{Evaluation, Kernel, PivotCheck, Solver};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Stage};
-use crate::symbolic::same::Above;
 use crate::symbolic::scene::Reading;
 
 /// Operations up to which a kernel becomes part of its caller, which saves moving the results twice.
 const INLINE: usize = 300;
+/// Operations up to which an evaluation is written for each reading of Euler parameters: matrices need not pass through memory.
+const SHARED: usize = 3000;
 /// The entries of a rotation matrix.
 const ENTRIES: usize = 9;
 
@@ -50,44 +51,31 @@ impl Writer<'_> {
         quote!(#(#names,)*)
     }
 
-    /// The fused evaluations. Where they are long, both readings of Euler parameters are one function of the rotation matrices, if
-    /// they are the same function.
+    /// The fused evaluations. Where they are long, both readings of Euler parameters call one function of the rotation matrices: [`Evaluation::normalised`]
+    /// made the second so.
     pub(super) fn evaluations(&mut self) -> TokenStream {
-        let kernels = self.kernels;
+        let (raw, normalised) = self.kernels.evaluations.split_at(Terms::ALL.len());
+        let operations = |evaluation: &Evaluation| {
+            let Kernel { arena, outputs } = &evaluation.kernel;
+            arena.live(outputs, Stage::State).len()
+        };
         let mut tokens = TokenStream::new();
-        let mut shared: Option<&Evaluation> = None;
-        for evaluation in &kernels.evaluations {
-            let others = kernels.evaluations.iter();
-            let mut others = others.filter(|other| {
-                other.terms == evaluation.terms && other.reading != evaluation.reading
-            });
-            let other = others.next().filter(|other| {
-                let operations = |evaluation: &Evaluation| {
-                    let Kernel { arena, outputs } = &evaluation.kernel;
-                    arena.live(outputs, Stage::State).len()
-                };
-                // Of both alike, or one would call what the other does not write.
-                let is_long = operations(evaluation).max(operations(other)) > MANY;
-                is_long && above(evaluation).is_same(above(other))
-            });
-            if other.is_none() {
-                tokens.extend(self.evaluation(evaluation, None));
+        let mut matrices = None;
+        for readings in raw.iter().zip(normalised) {
+            let (raw, normalised) = readings;
+            if operations(raw) <= SHARED {
+                tokens.extend(self.evaluation(raw, None));
+                tokens.extend(self.evaluation(normalised, None));
                 continue;
-            };
-            tokens.extend(self.by_rotations(evaluation));
-            if evaluation.reading == Reading::Raw {
-                tokens.extend(self.evaluation(evaluation, Some(&evaluation.rotations)));
-                shared.get_or_insert(evaluation);
             }
+            tokens.extend(self.by_rotations(raw));
+            tokens.extend(self.by_rotations(normalised));
+            tokens.extend(self.evaluation(raw, Some(&raw.rotations)));
+            matrices.get_or_insert(readings);
         }
-        if let Some(shared) = shared {
-            let both = kernels
-                .evaluations
-                .iter()
-                .filter(|evaluation| evaluation.terms == shared.terms);
-            for evaluation in both {
-                tokens.extend(self.rotations(evaluation));
-            }
+        if let Some((raw, normalised)) = matrices {
+            tokens.extend(self.rotations(raw));
+            tokens.extend(self.rotations(normalised));
         }
         tokens
     }
@@ -342,15 +330,6 @@ impl Writer<'_> {
             }
         };
         (tokens, factors.len())
-    }
-}
-
-/// An evaluation as a function of the rotation matrices.
-fn above(evaluation: &Evaluation) -> Above<'_> {
-    Above {
-        arena: &evaluation.kernel.arena,
-        outputs: &evaluation.kernel.outputs,
-        given: &evaluation.rotations,
     }
 }
 

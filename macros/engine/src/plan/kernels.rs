@@ -108,7 +108,7 @@ pub struct Kernels {
     pub readings: Readings,
     /// What each joint costs by itself.
     pub alone: Vec<Count>,
-    /// The fused evaluations, for all terms and both readings of Euler parameters.
+    /// The fused evaluations for all terms, those that read Euler parameters as they are before those that normalise them.
     pub evaluations: Vec<Evaluation>,
     /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
@@ -487,7 +487,7 @@ fn rotations(scene: &Scene) -> Vec<Expr> {
 impl Evaluation {
     /// The same function of the rotation matrices of a scene that reads Euler parameters normalised. What else is made of Euler parameters, their rates, is made of
     /// them as they are.
-    fn normalised(&self, scene: &Scene) -> Self {
+    pub(crate) fn normalised(&self, scene: &Scene) -> Self {
         let mut arena = scene.space.arena.clone();
         let rotations = rotations(scene);
         let entries = self.rotations.iter().zip(&rotations);

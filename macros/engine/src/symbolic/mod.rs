@@ -11,7 +11,6 @@ mod identities;
 mod index;
 mod kept;
 mod node;
-pub(crate) mod same;
 pub mod scene;
 mod start;
 pub(crate) mod table;
