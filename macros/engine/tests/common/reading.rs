@@ -136,27 +136,6 @@ pub(crate) struct Element {
     pub(crate) turns: Vec<(usize, usize, String)>,
 }
 
-impl Element {
-    /// Whether its statements speak of the time, or of a law, which may.
-    pub(crate) fn depends_on_time(&self) -> bool {
-        let speaks = |expr: &Expr| {
-            let text = expr.to_token_stream().to_string();
-            let mut words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
-            words.any(|word| word == "time" || self.laws.iter().any(|law| law.name == word))
-        };
-        self.statements.iter().any(|statement| match statement {
-            Statement::Let(_, expr) | Statement::Row(expr) | Statement::Potential(expr) => {
-                speaks(expr)
-            }
-            Statement::Drive(a, b) | Statement::Along(a, b) | Statement::Force(a, b) => {
-                speaks(a) || speaks(b)
-            }
-            Statement::Moment(expr, _) => speaks(expr),
-            Statement::Reading => false,
-        })
-    }
-}
-
 /// A mechanism as it is described.
 pub(crate) struct Described {
     pub(crate) gravity: Numbers,
