@@ -1,10 +1,5 @@
 //! Mechanisms that come in lengths: chains of rods, and rows of four-bar windows.
 
-#![allow(
-    missing_docs,
-    reason = "what the derive adds to these is described once, in the macros that write them"
-)]
-
 use holonom::joints::Revolute;
 use holonom::joints::Spherical;
 use holonom::prelude::*;
