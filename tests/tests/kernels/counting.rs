@@ -6,8 +6,13 @@ use holonom::{
 };
 use holonom_models::RodPendulum;
 
-use crate::scalars::{Counted, counted};
+use crate::scalars::{self, Counted};
 use crate::scene::{Scene, constants, state};
+
+/// The operations of a computation.
+fn counted<T>(computation: impl FnOnce() -> T) -> Operations {
+    scalars::counted(computation).0
+}
 
 /// What the kernels of a mechanism are called with.
 struct Call<M: Scene> {

@@ -2,8 +2,7 @@
 //!
 //! Their operations are not inlined: a kernel of thousands of them would take minutes to compile.
 
-mod counting;
 mod dual;
 
-pub(crate) use counting::{Counted, counted};
 pub(crate) use dual::Dual;
+pub(crate) use holonom_study::counted::{Counted, counted};
