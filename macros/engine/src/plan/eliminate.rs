@@ -71,11 +71,13 @@ impl Symmetric {
     }
 }
 
-/// One step of the elimination: `x_P = P^-1 rhs_P - sum L_i^T x_i`.
+/// One step of the elimination: `x_P = P^-1 (rhs_P - sum A_iP^T x_i)`.
 #[derive(Clone, Debug)]
 pub(super) struct Step {
     pub(super) unknowns: Vec<usize>,
     pub(super) inverse: Inverse,
+    /// What an unknown that is coupled to the pivot by a column `(u; l)` needs of it: `P^-1 (u; l)`, or where rows determine their accelerations, `x = C^-1 l`
+    /// and `z = u - A x`.
     lower: Vec<(usize, Vec<Expr>)>,
 }
 
@@ -95,46 +97,73 @@ pub(super) enum Inverse {
 }
 
 impl Inverse {
-    /// `P^-1 b`.
-    fn apply(&self, arena: &mut Arena, b: &[Expr]) -> Vec<Expr> {
-        let mut dot = |x: &[Expr], y: &[Expr]| {
-            let mut sum = Arena::ZERO;
-            for (&x, &y) in x.iter().zip(y) {
-                let product = arena.mul(x, y);
-                sum = arena.add(sum, product);
-            }
-            sum
-        };
+    /// What a column, or a right-hand side, `(u; l)` becomes: `P^-1 (u; l)`, or where rows determine their accelerations, `x = C^-1 l` and `z = u - A x`. That `y =
+    /// C^-T z` are multipliers matters at the very end: until then `y . l = z . x`.
+    fn reduce(&self, arena: &mut Arena, b: &[Expr]) -> Vec<Expr> {
         match self {
-            Self::Matrix(rows) => rows.iter().map(|row| dot(row, b)).collect(),
+            Self::Matrix(rows) => rows.iter().map(|row| dot(arena, row, b)).collect(),
             Self::Dependent { reciprocal, mass } => {
                 let x = arena.mul(*reciprocal, b[1]);
                 let inertia = arena.mul(*mass, x);
-                let left = arena.sub(b[0], inertia);
-                vec![x, arena.mul(*reciprocal, left)]
+                vec![x, arena.sub(b[0], inertia)]
             }
-            Self::Forbidden {
-                inverse: [first, second],
-                mass,
-                ..
-            } => {
+            Self::Forbidden { inverse, mass, .. } => {
                 let (upper, lower) = b.split_at(2);
-                let x = [dot(first, lower), dot(second, lower)];
-                let inertia = [dot(&mass[0], &x), dot(&mass[1], &x)];
-                let left = [0, 1].map(|k| arena.sub(upper[k], inertia[k]));
-                let mut dot = |y: [Expr; 2]| {
-                    let products = [arena.mul(y[0], left[0]), arena.mul(y[1], left[1])];
-                    arena.add(products[0], products[1])
-                };
-                vec![
-                    x[0],
-                    x[1],
-                    dot([first[0], second[0]]),
-                    dot([first[1], second[1]]),
-                ]
+                let x = inverse.map(|row| dot(arena, &row, lower));
+                let inertia = mass.map(|row| dot(arena, &row, &x));
+                let [first, second] = [0, 1].map(|k| arena.sub(upper[k], inertia[k]));
+                vec![x[0], x[1], first, second]
             }
         }
     }
+
+    /// What a column that was reduced takes from a right-hand side `(u; l)`, or the other way round.
+    fn product(&self, arena: &mut Arena, column: &[Expr], b: &[Expr], reduced: &[Expr]) -> Expr {
+        if let Self::Matrix(_) = self {
+            return dot(arena, column, b);
+        }
+        let half = column.len() / 2;
+        let ((x, z), upper) = (column.split_at(half), &b[..half]);
+        let (first, second) = (dot(arena, x, upper), dot(arena, z, &reduced[..half]));
+        arena.add(first, second)
+    }
+
+    /// What a column `(u; l)` that was reduced takes from its own diagonal element.
+    fn square(&self, arena: &mut Arena, column: &[Expr], b: &[Expr]) -> Expr {
+        if let Self::Matrix(_) = self {
+            return dot(arena, column, b);
+        }
+        let (x, z) = column.split_at(column.len() / 2);
+        let both: Vec<Expr> = z.iter().zip(b).map(|(&z, &u)| arena.add(z, u)).collect();
+        dot(arena, x, &both)
+    }
+
+    /// The unknowns of the pivot, of what is left of a right-hand side that was reduced.
+    fn finish(&self, arena: &mut Arena, left: Vec<Expr>) -> Vec<Expr> {
+        match self {
+            Self::Matrix(_) => left,
+            Self::Dependent { reciprocal, .. } => {
+                vec![left[0], arena.mul(*reciprocal, left[1])]
+            }
+            Self::Forbidden {
+                inverse: [first, second],
+                ..
+            } => {
+                let columns = [0, 1].map(|row| [first[row], second[row]]);
+                let y = columns.map(|column| dot(arena, &column, &left[2..]));
+                vec![left[0], left[1], y[0], y[1]]
+            }
+        }
+    }
+}
+
+fn dot(arena: &mut Arena, x: &[Expr], y: &[Expr]) -> Expr {
+    let mut sum = Arena::ZERO;
+    for (&x, &y) in x.iter().zip(y) {
+        let product = arena.mul(x, y);
+        sum = arena.add(sum, product);
+    }
+    sum
 }
 
 /// A pivot that depends on the state, and what it is compared with.
@@ -384,22 +413,20 @@ impl Elimination {
             coupled.retain(|k| !unknowns.contains(k));
             coupled
         };
+        let column = |matrix: &Symmetric, i: usize| -> Vec<Expr> {
+            unknowns.iter().map(|&k| matrix.get(i, k)).collect()
+        };
         let lower: Vec<(usize, Vec<Expr>)> = coupled
             .iter()
-            .map(|&i| {
-                let column: Vec<Expr> = unknowns.iter().map(|&k| matrix.get(i, k)).collect();
-                (i, inverse.apply(arena, &column))
-            })
+            .map(|&i| (i, inverse.reduce(arena, &column(matrix, i))))
             .collect();
         for (place, (i, row)) in lower.iter().enumerate() {
-            for &j in &coupled[..=place] {
-                let mut update = Arena::ZERO;
-                for (p, &unknown) in unknowns.iter().enumerate() {
-                    let product = arena.mul(row[p], matrix.get(j, unknown));
-                    update = arena.add(update, product);
-                }
-                matrix.add(arena, *i, j, -update);
+            for (j, reduced) in &lower[..place] {
+                let update = inverse.product(arena, row, &column(matrix, *j), reduced);
+                matrix.add(arena, *i, *j, -update);
             }
+            let update = inverse.square(arena, row, &column(matrix, *i));
+            matrix.add(arena, *i, *i, -update);
         }
         for &unknown in &unknowns {
             matrix.remove(unknown);
@@ -464,24 +491,27 @@ impl Factors {
 
     /// Solves the system for a right-hand side.
     pub fn solve(&self, arena: &mut Arena, mut right: Vec<Expr>) -> Vec<Expr> {
+        let mut reduced = Vec::new();
         for step in &self.steps {
+            let own: Vec<Expr> = step.unknowns.iter().map(|&k| right[k]).collect();
+            let of_own = step.inverse.reduce(arena, &own);
             for (i, row) in &step.lower {
-                for (p, &unknown) in step.unknowns.iter().enumerate() {
-                    let product = arena.mul(row[p], right[unknown]);
-                    right[*i] = arena.sub(right[*i], product);
-                }
+                let product = step.inverse.product(arena, row, &own, &of_own);
+                right[*i] = arena.sub(right[*i], product);
             }
+            reduced.push(of_own);
         }
         let mut solution = vec![Arena::ZERO; right.len()];
-        for step in self.steps.iter().rev() {
-            let right: Vec<Expr> = step.unknowns.iter().map(|&k| right[k]).collect();
-            let values = step.inverse.apply(arena, &right);
-            for (p, (&unknown, mut value)) in step.unknowns.iter().zip(values).enumerate() {
+        for (step, mut left) in self.steps.iter().zip(reduced).rev() {
+            for (p, value) in left.iter_mut().enumerate() {
                 // What is known first comes first, so that the path is short.
                 for (i, row) in step.lower.iter().rev() {
                     let product = arena.mul(row[p], solution[*i]);
-                    value = arena.sub(value, product);
+                    *value = arena.sub(*value, product);
                 }
+            }
+            let values = step.inverse.finish(arena, left);
+            for (&unknown, value) in step.unknowns.iter().zip(values) {
                 solution[unknown] = value;
             }
         }
