@@ -195,7 +195,8 @@ pub struct JointMotion {
 /// What a motion is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
-    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may be measured against what carries the run.
+    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may be measured against what carries the run;
+    /// and the angle need not be zero in the reference configuration.
     Turn {
         /// Whether it counts against the joint's own angle.
         is_reversed: bool,

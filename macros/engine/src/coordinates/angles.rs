@@ -23,8 +23,8 @@ impl Links {
             let is_backwards = from > to;
             let frame = if is_backwards { &mut from } else { &mut to };
             if !self.frames.is_fixed(*frame) {
-                let (sign, velocity) = self.turn_about(arena, *frame, axis)?;
-                let (_, c, s) = self.frames.pair(*frame)?;
+                let (sign, velocity, pair) = self.turn_about(arena, *frame, axis)?;
+                let [c, s] = self.from_reference(arena, *frame, pair)?;
                 let sign = if is_backwards { -sign } else { sign };
                 angle = angle.plus(arena, velocity, c, s, sign);
             }
@@ -33,8 +33,22 @@ impl Links {
         Some(angle)
     }
 
-    /// The sense in which a frame turns about an axis against the frame that it is based on, and the velocity; `None` where it turns otherwise.
-    fn turn_about(&self, arena: &Arena, frame: FrameId, axis: Triple) -> Option<(Expr, usize)> {
+    /// Cosine and sine of the angle since the reference configuration.
+    fn from_reference(&self, arena: &mut Arena, frame: FrameId, pair: usize) -> Option<[Expr; 2]> {
+        let (_, c, s) = self.frames.pair(frame)?;
+        let [from_c, from_s] = self.angles[pair];
+        let [cc, ss, sc, cs] =
+            [(c, from_c), (s, from_s), (s, from_c), (c, from_s)].map(|(a, b)| arena.mul(a, b));
+        Some([arena.add(cc, ss), arena.sub(sc, cs)])
+    }
+
+    /// The sense in which a frame turns about an axis against the frame that it is based on, the velocity and the pair; `None` where it turns otherwise.
+    fn turn_about(
+        &self,
+        arena: &Arena,
+        frame: FrameId,
+        axis: Triple,
+    ) -> Option<(Expr, usize, usize)> {
         let (own, ..) = self.frames.pair(frame)?;
         let direction = self.rotation_into(frame)[own];
         let opposite = direction.map(|component| -component);
@@ -45,10 +59,10 @@ impl Links {
         } else {
             return None;
         };
-        let turns = |freedom| matches!(freedom, Freedom::Turn { .. });
-        let mut links = self.links.iter();
-        let link = links.find(|link| link.frame == frame && turns(link.freedom))?;
-        Some((sign, link.velocity))
+        self.links.iter().find_map(|link| match link.freedom {
+            Freedom::Turn { pair, .. } if link.frame == frame => Some((sign, link.velocity, pair)),
+            _ => None,
+        })
     }
 }
 

@@ -149,7 +149,7 @@ impl Reader<'_> {
     fn before_turn(&self, arena: &mut Arena, link: usize) -> Pose {
         let base = self.links.base(link);
         let pose = self.pose(base);
-        let between = self.links.between(arena, base, link);
+        let between = self.links.before_turn(arena, base, link);
         let rows = pose.axes.map(|row| {
             let columns = transpose(between);
             columns.map(|column| dot(arena, row, column))

@@ -1,6 +1,7 @@
 //! Links: what carries what. A joint is one link for each of its motions, the last of which carries the body; those before have no mass.
 
 use super::algebra::{Inertia, add_tensors, apply, scale, sub};
+use super::align::{NOT_TURNED, ReferenceAngle, turned_axes};
 use super::frames::{FrameId, Frames, identity};
 use super::spanning::{Carried, Spanning};
 use crate::model::{Binding, BodyKind, Direction, Model, Motion};
@@ -95,6 +96,8 @@ pub struct Links {
     pub rest: usize,
     /// All velocities.
     pub velocities: usize,
+    /// The angle of every pair in the reference configuration.
+    pub(super) angles: Vec<ReferenceAngle>,
     /// The constant rotations from global axes in the reference configuration to each frame.
     from_global: Vec<[Triple; 3]>,
     /// The origins of the links in the reference configuration, global axes.
@@ -111,11 +114,31 @@ pub enum Runs {
 }
 
 impl Links {
-    /// The links of a spanning tree.
+    /// The links of a spanning tree, with their origins and the angles that they are counted from where vectors have the most zeros.
     #[must_use]
     pub fn new(arena: &mut Arena, model: &Model, spanning: &Spanning, runs: Runs) -> Self {
+        let mut links = Self::at(arena, model, spanning, runs, None);
+        links.slide_origins(arena);
+        let angles = links.aligned(arena);
+        if angles.iter().any(|&angle| angle != NOT_TURNED) {
+            links = Self::at(arena, model, spanning, runs, Some(angles));
+            links.slide_origins(arena);
+        }
+        links
+    }
+
+    /// The links with some angles in the reference configuration, zeros where there are none.
+    fn at(
+        arena: &mut Arena,
+        model: &Model,
+        spanning: &Spanning,
+        runs: Runs,
+        angles: Option<Vec<ReferenceAngle>>,
+    ) -> Self {
         let turns = spanning.carried.iter().flat_map(|carried| &carried.motions);
-        let turns = turns.filter(|motion| matches!(motion, Motion::Turn { .. }));
+        let turns = turns
+            .filter(|motion| matches!(motion, Motion::Turn { .. }))
+            .count();
         let mut links = Self {
             frames: Frames::alone(),
             links: Vec::new(),
@@ -127,9 +150,10 @@ impl Links {
                 };
                 model.bodies.len()
             ],
-            turns: turns.count(),
+            turns,
             rest: 0,
             velocities: 0,
+            angles: angles.unwrap_or_else(|| vec![NOT_TURNED; turns]),
             from_global: vec![identity()],
             origins: Vec::new(),
         };
@@ -186,7 +210,8 @@ impl Links {
                     let [c, s] = [2 * pair, 2 * pair + 1]
                         .map(|place| arena.input(Input::Coordinate(place as u32)));
                     let frame = self.frames.turned(base, axis, c, s);
-                    self.from_global.push(self.rotation_into(base));
+                    let turned = self.turned_by(arena, base, axis, self.angles[pair]);
+                    self.from_global.push(turned);
                     let freedom = Freedom::Turn {
                         axis,
                         pair,
@@ -276,6 +301,23 @@ impl Links {
         self.links[link].inertia = self.links[link].inertia.plus(arena, inertia);
     }
 
+    /// The rotation from global axes in the reference configuration to a frame that is turned about a coordinate axis of another.
+    fn turned_by(
+        &self,
+        arena: &mut Arena,
+        base: FrameId,
+        axis: usize,
+        angle: ReferenceAngle,
+    ) -> [Triple; 3] {
+        let into = self.rotation_into(base);
+        if angle == NOT_TURNED {
+            return into;
+        }
+        let across = ((axis + 1) % 3, (axis + 2) % 3);
+        let columns = transpose(into);
+        transpose(columns.map(|column| turned_axes(arena, column, across, angle, 1.0)))
+    }
+
     /// A vector of the reference configuration in a frame, without round-off beside its size.
     fn turned_into(&self, arena: &mut Arena, v: Triple, frame: FrameId) -> Triple {
         let turned = apply(arena, self.rotation_into(frame), v);
@@ -320,11 +362,7 @@ impl Links {
         link: usize,
     ) -> [Triple; 3] {
         let own = self.rotation_into(self.links[link].frame);
-        let from = self.rotation_into(self.frame_of(from));
-        from.map(|row| {
-            let turned = apply(arena, own, row);
-            clean(arena, turned, 1.0)
-        })
+        self.rotation_between(arena, from, own)
     }
 
     /// The links of a body from the first to the last, which is given: those before have no body.
@@ -338,6 +376,30 @@ impl Links {
         }
         way.reverse();
         way
+    }
+
+    /// The rotation from a link's frame, were it not turned, to that of one further down, row by row.
+    pub(super) fn before_turn(
+        &self,
+        arena: &mut Arena,
+        from: Option<usize>,
+        link: usize,
+    ) -> [Triple; 3] {
+        let own = self.rotation_into(self.frames.base(self.links[link].frame));
+        self.rotation_between(arena, from, own)
+    }
+
+    fn rotation_between(
+        &self,
+        arena: &mut Arena,
+        from: Option<usize>,
+        own: [Triple; 3],
+    ) -> [Triple; 3] {
+        let from = self.rotation_into(self.frame_of(from));
+        from.map(|row| {
+            let turned = apply(arena, own, row);
+            clean(arena, turned, 1.0)
+        })
     }
 
     /// The axis of a link in the frame of its carrier.

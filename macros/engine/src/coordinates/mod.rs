@@ -1,6 +1,7 @@
 //! Joint coordinates: bodies move by what the joints of a spanning tree leave free, and only joints that close loops stay as equations.
 
 mod algebra;
+mod align;
 mod angles;
 mod articulated;
 pub mod candidates;

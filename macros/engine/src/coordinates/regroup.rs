@@ -7,7 +7,7 @@ use crate::symbolic::vector::{Triple, ZERO};
 
 impl Links {
     /// Moves the origins of turning links along their axes to where offsets have the most zeros.
-    pub fn slide_origins(&mut self, arena: &mut Arena) {
+    pub(super) fn slide_origins(&mut self, arena: &mut Arena) {
         for link in 0..self.links.len() {
             let Freedom::Turn { axis, .. } = self.links[link].freedom else {
                 continue;

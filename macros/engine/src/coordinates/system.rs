@@ -54,7 +54,6 @@ impl Reduced {
         let spanning = Spanning::new(model);
         let mut arena = Arena::new();
         let mut links = Links::new(&mut arena, model, &spanning, strategy.runs);
-        links.slide_origins(&mut arena);
         links.regroup(&mut arena);
         if strategy.runs == Runs::Shared {
             links.share_axes();
