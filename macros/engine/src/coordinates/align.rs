@@ -3,9 +3,11 @@
 //! What is described at an angle of 0.1 rad has sines and cosines of 0.1 in every vector, and each costs operations at every evaluation. Counted from where the vectors
 //! lie on axes, the angle is 0.1 rad at the start, and they have zeros.
 
+use super::algebra::apply;
 use super::links::{Freedom, Links};
+use crate::model::{Binding, Model, ParameterKind};
 use crate::symbolic::arena::{Arena, Expr};
-use crate::symbolic::fixed::{clean, size};
+use crate::symbolic::fixed::{clean, size, transpose};
 use crate::symbolic::vector::Triple;
 
 /// Cosine and sine of an angle in the reference configuration.
@@ -15,17 +17,45 @@ pub(super) type ReferenceAngle = [Expr; 2];
 pub(super) const NOT_TURNED: ReferenceAngle = [Arena::ONE, Arena::ZERO];
 
 impl Links {
-    /// The angles, pair by pair, that links should have in the reference configuration. The links have those that they would be described by.
-    pub(super) fn aligned(&self, arena: &mut Arena) -> Vec<ReferenceAngle> {
-        let mut angles = vec![NOT_TURNED; self.turns];
+    /// The points of closing joints, each with the link that it is fixed on and in that one's frame.
+    pub(super) fn closing_points(
+        &self,
+        arena: &mut Arena,
+        model: &Model,
+        closing: &[usize],
+    ) -> Vec<(usize, Triple)> {
+        let mut points = Vec::new();
+        for joint in closing.iter().map(|&joint| &model.joints[joint]) {
+            let parameters = &model.definition(joint).parameters;
+            for (parameter, binding) in parameters.iter().zip(&joint.bindings) {
+                let (ParameterKind::Point, Binding::Global(point)) = (parameter.kind, binding)
+                else {
+                    continue;
+                };
+                for &body in joint.bodies.iter().flatten() {
+                    if let Some(link) = self.bodies[body].link {
+                        points.push((link, self.point_on(arena, model, Some(body), *point)));
+                    }
+                }
+            }
+        }
+        points
+    }
+
+    /// What is fixed on each link, global axes in the reference configuration: some points, the first moment with what is carried, offsets and axes of what is carried.
+    pub(super) fn fixed_vectors(
+        &self,
+        arena: &mut Arena,
+        points: &[(usize, Triple)],
+    ) -> Vec<Vec<Triple>> {
         let mut regrouped = self.clone();
-        regrouped.regroup(arena);
-        for (place, link) in self.links.iter().enumerate() {
-            let Freedom::Turn { axis, pair, .. } = link.freedom else {
-                continue;
-            };
-            let across = ((axis + 1) % 3, (axis + 2) % 3);
-            let mut fixed: Vec<Triple> = vec![regrouped.links[place].inertia.first];
+        regrouped.regroup(arena, &mut []);
+        let mut vectors = Vec::new();
+        for place in 0..self.links.len() {
+            // Of equals the first counts: a mass that is handed over takes a component of the first moment with it.
+            let points = points.iter().filter(|(link, _)| *link == place);
+            let mut fixed: Vec<Triple> = points.map(|(_, point)| *point).collect();
+            fixed.push(regrouped.links[place].inertia.first);
             for child in self.children(Some(place)) {
                 fixed.push(self.links[child].offset);
                 match self.links[child].freedom {
@@ -36,20 +66,27 @@ impl Links {
                     Freedom::Ball { .. } => {}
                 }
             }
-            let mut best = (zeros(arena, &fixed, across, NOT_TURNED), NOT_TURNED);
-            for v in &fixed {
-                let Some(angle) = onto_axis(arena, v[across.0], v[across.1]) else {
-                    continue;
-                };
-                let zeros = zeros(arena, &fixed, across, angle);
-                if zeros > best.0 {
-                    best = (zeros, angle);
-                }
-            }
-            angles[pair] = best.1;
+            let into = transpose(self.rotation_into(self.links[place].frame));
+            vectors.push(fixed.iter().map(|&v| apply(arena, into, v)).collect());
         }
-        angles
+        vectors
     }
+}
+
+/// The turn about a coordinate axis by which the most components of vectors vanish; none where no other is better.
+pub(super) fn best_angle(arena: &mut Arena, vectors: &[Triple], axis: usize) -> ReferenceAngle {
+    let across = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut best = (zeros(arena, vectors, across, NOT_TURNED), NOT_TURNED);
+    for v in vectors {
+        let Some(angle) = onto_axis(arena, v[across.0], v[across.1]) else {
+            continue;
+        };
+        let zeros = zeros(arena, vectors, across, angle);
+        if zeros > best.0 {
+            best = (zeros, angle);
+        }
+    }
+    best.1
 }
 
 /// The smallest turn of the axes that brings one of them onto a vector; `None` where it is there, or unknown.

@@ -8,6 +8,8 @@ use crate::symbolic::vector::{Triple, ZERO, cross};
 /// The motion of the links, without second rates.
 #[derive(Clone, Debug)]
 pub(super) struct Kinematics {
+    /// The acceleration of the ground.
+    pub(super) ground: Triple,
     /// Angular velocities.
     pub(super) spin: Vec<Triple>,
     /// Velocities of the origins.
@@ -47,6 +49,7 @@ impl Kinematics {
     #[must_use]
     pub(super) fn new(arena: &mut Arena, links: &Links, ground: Triple) -> Self {
         let mut motion = Self {
+            ground,
             spin: Vec::new(),
             velocity: Vec::new(),
             spin_bias: Vec::new(),

@@ -1,10 +1,10 @@
 //! Links: what carries what. A joint is one link for each of its motions, the last of which carries the body; those before have no mass.
 
 use super::algebra::{Inertia, add_tensors, apply, scale, sub};
-use super::align::{NOT_TURNED, ReferenceAngle, turned_axes};
+use super::align::{NOT_TURNED, ReferenceAngle, best_angle, turned_axes};
 use super::frames::{FrameId, Frames, identity};
 use super::spanning::{Carried, Spanning};
-use crate::model::{Binding, BodyKind, Direction, Model, Motion};
+use crate::model::{Binding, BodyKind, Direction, Model, Motion, Number};
 use crate::symbolic::arena::{Arena, Input};
 use crate::symbolic::fixed::{axis_and_normals, clean, placement, size, transpose, triple};
 use crate::symbolic::vector::{Triple, ZERO};
@@ -117,23 +117,23 @@ impl Links {
     /// The links of a spanning tree, with their origins and the angles that they are counted from where vectors have the most zeros.
     #[must_use]
     pub fn new(arena: &mut Arena, model: &Model, spanning: &Spanning, runs: Runs) -> Self {
-        let mut links = Self::at(arena, model, spanning, runs, None);
-        links.slide_origins(arena);
-        let angles = links.aligned(arena);
-        if angles.iter().any(|&angle| angle != NOT_TURNED) {
-            links = Self::at(arena, model, spanning, runs, Some(angles));
-            links.slide_origins(arena);
+        let mut links = Self::about(arena, model, spanning, runs, &[]);
+        let closing = links.closing_points(arena, model, &spanning.closing);
+        let fixed = links.fixed_vectors(arena, &closing);
+        let aligned = Self::about(arena, model, spanning, runs, &fixed);
+        if aligned.angles.iter().any(|&angle| angle != NOT_TURNED) {
+            links = aligned;
         }
         links
     }
 
-    /// The links with some angles in the reference configuration, zeros where there are none.
-    fn at(
+    /// The links with origins where offsets have the most zeros, and angles counted from where vectors that are fixed on them have.
+    fn about(
         arena: &mut Arena,
         model: &Model,
         spanning: &Spanning,
         runs: Runs,
-        angles: Option<Vec<ReferenceAngle>>,
+        fixed: &[Vec<Triple>],
     ) -> Self {
         let turns = spanning.carried.iter().flat_map(|carried| &carried.motions);
         let turns = turns
@@ -153,14 +153,15 @@ impl Links {
             turns,
             rest: 0,
             velocities: 0,
-            angles: angles.unwrap_or_else(|| vec![NOT_TURNED; turns]),
+            angles: vec![NOT_TURNED; turns],
             from_global: vec![identity()],
             origins: Vec::new(),
         };
         let mut pairs = 0;
         for carried in &spanning.carried {
-            links.carry(arena, model, carried, runs, &mut pairs);
+            links.carry(arena, model, carried, (runs, fixed), &mut pairs);
         }
+        links.slide_origins(arena);
         links
     }
 
@@ -179,7 +180,7 @@ impl Links {
         arena: &mut Arena,
         model: &Model,
         carried: &Carried,
-        runs: Runs,
+        (runs, fixed): (Runs, &[Vec<Triple>]),
         pairs: &mut usize,
     ) {
         let mut carrier = carried.by.and_then(|body| self.bodies[body].link);
@@ -210,6 +211,11 @@ impl Links {
                     let [c, s] = [2 * pair, 2 * pair + 1]
                         .map(|place| arena.input(Input::Coordinate(place as u32)));
                     let frame = self.frames.turned(base, axis, c, s);
+                    if let Some(fixed) = fixed.get(self.links.len()) {
+                        let fixed = fixed.iter().map(|&v| self.turned_into(arena, v, base));
+                        let fixed: Vec<Triple> = fixed.collect();
+                        self.angles[pair] = best_angle(arena, &fixed, axis);
+                    }
                     let turned = self.turned_by(arena, base, axis, self.angles[pair]);
                     self.from_global.push(turned);
                     let freedom = Freedom::Turn {
@@ -323,6 +329,26 @@ impl Links {
         let turned = apply(arena, self.rotation_into(frame), v);
         let scale = size(arena, v);
         clean(arena, turned, scale)
+    }
+
+    /// A point of the reference configuration in the frame of the link that a body stands on, from that link's origin; of the ground, as it is.
+    pub(super) fn point_on(
+        &self,
+        arena: &mut Arena,
+        model: &Model,
+        body: Option<usize>,
+        point: [Number; 3],
+    ) -> Triple {
+        let point = triple(arena, point);
+        let Some(body) = body else { return point };
+        let Standing { link, centre, .. } = self.bodies[body];
+        let position = triple(arena, model.bodies[body].position);
+        let arm = sub(arena, point, position);
+        let scale = size(arena, point).max(size(arena, position));
+        let arm = clean(arena, arm, scale);
+        let arm = self.turned_into(arena, arm, self.frame_of(link));
+        let sum = super::algebra::add(arena, centre, arm);
+        clean(arena, sum, scale)
     }
 
     /// A frame at rest in another in which a direction is a coordinate axis; that one itself if it is one there.

@@ -8,6 +8,7 @@ pub mod candidates;
 mod dependent;
 pub mod frames;
 pub mod from_bodies;
+mod handover;
 pub mod kernels;
 mod kinematics;
 pub mod links;

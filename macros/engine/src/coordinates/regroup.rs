@@ -1,6 +1,7 @@
 //! What the motion cannot tell apart: where origins lie on the axes of turns, and which link a part of the inertia belongs to.
 
 use super::algebra::{Inertia, NOTHING, add_tensors, scale, scale_tensor, sub};
+use super::handover::Handover;
 use super::links::{Freedom, Links};
 use crate::symbolic::arena::Arena;
 use crate::symbolic::vector::{Triple, ZERO};
@@ -84,9 +85,12 @@ impl Links {
     /// turns, its mass, its first moment along the axis and an equal share of the two transverse moments of inertia; of a ball, its mass; of a slide, its
     /// inertia, for it turns with the carrier.
     ///
-    /// The equations of motion stay what they are; reactions do not.
-    pub fn regroup(&mut self, arena: &mut Arena) {
+    /// The equations of motion stay what they are; reactions do not. Masses are handed over closing joints on the way.
+    pub(super) fn regroup(&mut self, arena: &mut Arena, handovers: &mut [Handover]) {
         for link in self.leaves_first() {
+            for handover in handovers.iter_mut().filter(|given| given.giver == link) {
+                self.hand_over(arena, handover);
+            }
             let own = self.links[link].clone();
             let inertia = own.inertia;
             let mut part = Inertia {

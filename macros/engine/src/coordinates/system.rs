@@ -4,6 +4,7 @@ use super::algebra::{add, apply};
 use super::candidates::{Method, Strategy};
 use super::dependent::{dependent, tour};
 use super::frames::Frames;
+use super::handover::Handover;
 use super::kinematics::Kinematics;
 use super::links::{Links, Runs};
 use super::spanning::Spanning;
@@ -15,7 +16,7 @@ use crate::plan::system::Terms;
 use crate::rank::closing;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::{clean, size, transpose};
-use crate::symbolic::scene::{Chart, Constrained, Scene};
+use crate::symbolic::scene::{Chart, Scene};
 use crate::symbolic::twist::Gradient;
 use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
 
@@ -32,6 +33,8 @@ pub struct Reduced {
     pub dropped: Vec<Vec<usize>>,
     /// How they are solved.
     strategy: Strategy,
+    /// The links with masses handed over closing joints.
+    counted: Option<(Links, Vec<Handover>)>,
     /// Time and coordinates at the stops of a tour, if these are wanted.
     tour: Vec<(f64, Vec<f64>)>,
 }
@@ -54,10 +57,11 @@ impl Reduced {
         let spanning = Spanning::new(model);
         let mut arena = Arena::new();
         let mut links = Links::new(&mut arena, model, &spanning, strategy.runs);
-        links.regroup(&mut arena);
         if strategy.runs == Runs::Shared {
             links.share_axes();
         }
+        let mut whole = links.clone();
+        links.regroup(&mut arena, &mut []);
         let mut remaining = spanning.remaining(model);
         let mut reduced = Self::new(arena.clone(), &remaining, links.clone(), strategy);
         // Nothing can be done about these, and where they hold nothing need be.
@@ -84,6 +88,13 @@ impl Reduced {
         }
         if strategy.method == Method::Dependent && !reduced.scene.constraints.is_empty() {
             reduced.tour = tour(&reduced.scene.space.arena, model, &reduced.links);
+        }
+        if !reduced.tour.is_empty() {
+            let mut handovers = reduced.handovers(model);
+            let arena = &mut reduced.scene.space.arena;
+            whole.regroup(arena, &mut handovers);
+            handovers.retain(|handover| handover.mass != Arena::ZERO);
+            reduced.counted = (!handovers.is_empty()).then_some((whole, handovers));
         }
         for joint in spanning.closing {
             reduced.dropped[joint].clone_from(&remaining.joints[joint].dropped);
@@ -136,8 +147,16 @@ impl Reduced {
             charts,
             dropped: vec![Vec::new(); model.joints.len()],
             strategy,
+            counted: None,
             tour: Vec::new(),
         }
+    }
+
+    /// How many masses are counted on another link, where all rows that remain determine velocities.
+    #[must_use]
+    pub fn handed_over(&self) -> usize {
+        let counted = self.counted.as_ref();
+        counted.map_or(0, |(_, handovers)| handovers.len())
     }
 
     /// The wrenches on the links of forces and moments on the bodies.
@@ -169,14 +188,12 @@ impl Reduced {
         wrenches
     }
 
-    /// Gravity, forces of the language and what the motion takes, as wrenches on the links, and efforts along the velocities.
-    fn forces(&mut self) -> (Vec<Wrench>, Vec<Expr>) {
+    /// Gravity, forces of the language and what the motion of links takes, as wrenches on the links, and efforts along the velocities.
+    fn forces(&mut self, links: &Links) -> (Vec<Wrench>, Vec<Expr>) {
         let applied = self.scene.applied();
         let wrenches = self.wrenches(&applied);
-        let Self { links, scene, .. } = self;
-        let gravity = scene.gravity;
-        let arena = &mut scene.space.arena;
-        let motion = Kinematics::new(arena, links, gravity.map(|component| -component));
+        let motion = self.falling();
+        let arena = &mut self.scene.space.arena;
         let taken: Vec<Wrench> = (0..links.links.len())
             .map(|link| {
                 let taken = inertial(arena, links, &motion, link).opposite();
@@ -188,8 +205,15 @@ impl Reduced {
         (taken, efforts)
     }
 
+    /// The motion on a ground that accelerates against gravity.
+    fn falling(&mut self) -> Kinematics {
+        let gravity = self.scene.gravity;
+        let arena = &mut self.scene.space.arena;
+        Kinematics::new(arena, &self.links, gravity.map(|component| -component))
+    }
+
     /// The rows that remain: `D` along the velocities, and `gamma*`.
-    fn rows(&mut self, terms: Terms) -> (Vec<Vec<Expr>>, Vec<Expr>) {
+    pub(super) fn rows(&mut self, terms: Terms) -> (Vec<Vec<Expr>>, Vec<Expr>) {
         let arena = &mut self.scene.space.arena;
         let factors = terms.factors(arena);
         let motion = Kinematics::new(arena, &self.links, ZERO);
@@ -247,19 +271,85 @@ impl Reduced {
 
     /// Rates of the velocities, and multipliers.
     pub fn solve(&mut self, terms: Terms) -> Solution {
-        let (wrenches, efforts) = self.forces();
-        self.solve_for(terms, wrenches, &efforts, None)
+        let (rows, gamma) = self.rows(terms);
+        let elimination = self.elimination(terms, &rows);
+        let (links, handovers) = self.counted(&elimination);
+        let (wrenches, efforts) = self.forces(&links);
+        let arena = &mut self.scene.space.arena;
+        if self.strategy.method == Method::Articulated && rows.is_empty() {
+            return Solution {
+                accelerations: links.articulated(arena, &wrenches, &efforts),
+                multipliers: Vec::new(),
+                checks: Vec::new(),
+            };
+        }
+        let mut forces = links.project(arena, wrenches);
+        for (force, &effort) in forces.iter_mut().zip(&efforts) {
+            *force = arena.add(*force, effort);
+        }
+        let extra = self.stabilisation(terms);
+        let arena = &mut self.scene.space.arena;
+        for handover in &handovers {
+            handover.correct(arena, &links, &extra, &mut forces);
+        }
+        let mut solution = elimination.solve(arena, &links, &rows, forces, gamma);
+        if !handovers.is_empty() {
+            let motion = self.falling();
+            let arena = &mut self.scene.space.arena;
+            for handover in &handovers {
+                handover.multipliers(arena, &links, Some(&motion), &extra, &mut solution);
+            }
+        }
+        solution
     }
 
     /// What forces and moments on the bodies and right-hand sides of the rows, both given when the system is solved, make of rates and multipliers.
     pub fn solve_given(&mut self, terms: Terms) -> Solution {
+        let (rows, _) = self.rows(terms);
+        let elimination = self.elimination(terms, &rows);
+        let (links, handovers) = self.counted(&elimination);
         let wrenches = self.given();
-        let efforts = vec![Arena::ZERO; self.links.velocities];
         let arena = &mut self.scene.space.arena;
-        let rows = self.scene.constraints.iter().map(Constrained::equations);
-        let lower = (0..rows.sum()).map(|row: usize| arena.input(Input::Lower(row as u32)));
-        let lower = lower.collect();
-        self.solve_for(terms, wrenches, &efforts, Some(lower))
+        let lower = (0..rows.len()).map(|row| arena.input(Input::Lower(row as u32)));
+        let lower: Vec<Expr> = lower.collect();
+        if self.strategy.method == Method::Articulated && rows.is_empty() {
+            let efforts = vec![Arena::ZERO; links.velocities];
+            return Solution {
+                accelerations: links.articulated(arena, &wrenches, &efforts),
+                multipliers: Vec::new(),
+                checks: Vec::new(),
+            };
+        }
+        let mut forces = links.project(arena, wrenches);
+        for handover in &handovers {
+            handover.correct(arena, &links, &lower, &mut forces);
+        }
+        let mut solution = elimination.solve(arena, &links, &rows, forces, lower.clone());
+        for handover in &handovers {
+            handover.multipliers(arena, &links, None, &lower, &mut solution);
+        }
+        solution
+    }
+
+    /// The links as their masses are counted, and the masses that are handed over: where all rows determine velocities.
+    fn counted(&self, elimination: &Elimination) -> (Links, Vec<Handover>) {
+        match &self.counted {
+            Some((links, handovers)) if elimination.is_determined => {
+                (links.clone(), handovers.clone())
+            }
+            _ => (self.links.clone(), Vec::new()),
+        }
+    }
+
+    /// What is wanted of the rows beside that they hold: terms of stabilisation.
+    fn stabilisation(&mut self, terms: Terms) -> Vec<Expr> {
+        let [value, rate, _] = terms.factors(&mut self.scene.space.arena);
+        let mut wanted = Vec::new();
+        for place in 0..self.scene.constraints.len() {
+            let factors = [value, rate, Arena::ZERO];
+            wanted.extend(self.scene.combination(place, Frame::Global, factors));
+        }
+        wanted
     }
 
     /// The wrenches on the links of given forces (global axes) and moments about centres of mass (principal axes), which stand as the velocities of the bodies
@@ -292,48 +382,10 @@ impl Reduced {
         wrenches
     }
 
-    /// Rates of the velocities, and multipliers, for wrenches on the links and efforts along the velocities; rows have the right-hand sides that are given, or
-    /// else their own.
-    fn solve_for(
-        &mut self,
-        terms: Terms,
-        wrenches: Vec<Wrench>,
-        efforts: &[Expr],
-        lower: Option<Vec<Expr>>,
-    ) -> Solution {
-        let Self { links, scene, .. } = self;
-        let arena = &mut scene.space.arena;
-        if self.strategy.method == Method::Articulated && scene.constraints.is_empty() {
-            return Solution {
-                accelerations: links.articulated(arena, &wrenches, efforts),
-                multipliers: Vec::new(),
-                checks: Vec::new(),
-            };
-        }
-        let mut right = links.project(arena, wrenches);
-        for (force, &effort) in right.iter_mut().zip(efforts) {
-            *force = arena.add(*force, effort);
-        }
-        let mass = links.mass_matrix(arena);
-        let (rows, gamma) = self.rows(terms);
-        right.extend(lower.unwrap_or(gamma));
+    /// The order in which velocities and multipliers are eliminated.
+    fn elimination(&mut self, terms: Terms, rows: &[Vec<Expr>]) -> Elimination {
         let velocities = self.links.velocities;
-        let mut matrix = Symmetric::new(velocities + rows.len());
-        for k in 0..velocities {
-            for l in 0..=k {
-                matrix.set(k, l, mass.get(k, l));
-            }
-        }
         let arena = &mut self.scene.space.arena;
-        for (row, entries) in rows.iter().enumerate() {
-            for (k, &entry) in entries.iter().enumerate() {
-                matrix.set(velocities + row, k, entry);
-            }
-            if terms == Terms::Compliant {
-                let compliance = arena.input(Input::Compliance(row as u32));
-                matrix.set(velocities + row, velocities + row, -compliance);
-            }
-        }
         let (together, determinants) = if terms == Terms::Compliant {
             (Vec::new(), Vec::new())
         } else {
@@ -341,7 +393,7 @@ impl Reduced {
             let joints: Vec<usize> = constraints
                 .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
                 .collect();
-            dependent(arena, &rows, &joints, &self.tour)
+            dependent(arena, rows, &joints, &self.tour)
         };
         // Leaves that close no loop, then what their rows determine, then the rest.
         let closing: Vec<usize> = (0..velocities)
@@ -352,17 +404,65 @@ impl Reduced {
         let accelerations = (0..velocities).rev().filter(|k| !done.contains(k));
         let (leaves, rest): (Vec<usize>, Vec<usize>) = accelerations.partition(is_leaf);
         let behind = (velocities..velocities + rows.len()).filter(|row| !done.contains(row));
+        let behind: Vec<usize> = behind.collect();
         let leaves = leaves.into_iter().map(Pivot::Acceleration);
-        let pivots: Vec<Pivot> = leaves
-            .chain(together.iter().copied())
-            .chain(rest.into_iter().map(Pivot::Acceleration))
-            .chain(behind.map(Pivot::Multiplier))
-            .collect();
-        let factors = factorise(arena, matrix.clone(), matrix, &pivots, &determinants);
+        Elimination {
+            is_determined: behind.is_empty(),
+            pivots: leaves
+                .chain(together.iter().copied())
+                .chain(rest.into_iter().map(Pivot::Acceleration))
+                .chain(behind.into_iter().map(Pivot::Multiplier))
+                .collect(),
+            determinants,
+            is_compliant: terms == Terms::Compliant,
+        }
+    }
+}
+
+/// How `[M D^T; D -E]` is solved.
+#[derive(Clone, Debug)]
+struct Elimination {
+    pivots: Vec<Pivot>,
+    determinants: Vec<f64>,
+    /// Whether every row determines a velocity.
+    is_determined: bool,
+    is_compliant: bool,
+}
+
+impl Elimination {
+    /// Solves the system for forces along the velocities and right-hand sides of the rows.
+    fn solve(
+        &self,
+        arena: &mut Arena,
+        links: &Links,
+        rows: &[Vec<Expr>],
+        mut right: Vec<Expr>,
+        lower: Vec<Expr>,
+    ) -> Solution {
+        right.extend(lower);
+        let velocities = links.velocities;
+        let mass = links.mass_matrix(arena);
+        let mut matrix = Symmetric::new(velocities + rows.len());
+        for k in 0..velocities {
+            for l in 0..=k {
+                matrix.set(k, l, mass.get(k, l));
+            }
+        }
+        for (row, entries) in rows.iter().enumerate() {
+            for (k, &entry) in entries.iter().enumerate() {
+                matrix.set(velocities + row, k, entry);
+            }
+            if self.is_compliant {
+                let compliance = arena.input(Input::Compliance(row as u32));
+                matrix.set(velocities + row, velocities + row, -compliance);
+            }
+        }
+        let (pivots, determinants) = (&self.pivots, &self.determinants);
+        let factors = factorise(arena, matrix.clone(), matrix, pivots, determinants);
         let mut solution = factors.solve(arena, right);
         let multipliers = solution.split_off(velocities);
         // Quasi-definite with a compliance: every pivot is safe.
-        let checks = factors.checks.iter().filter(|_| terms != Terms::Compliant);
+        let checks = factors.checks.iter().filter(|_| !self.is_compliant);
         let checks = checks.map(|check| Check {
             unknown: check.unknown - velocities,
             ..*check

@@ -18,6 +18,7 @@ mod inputs;
 #[path = "../common/language.rs"]
 mod language;
 mod library;
+mod loops;
 #[path = "../common/reading.rs"]
 mod reading;
 mod reduced;
