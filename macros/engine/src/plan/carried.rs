@@ -5,16 +5,18 @@
 //! the ground the second gives multipliers by the balance of forces on the bodies, in the place of back-substitution. Both hold with and
 //! without a compliance of other rows.
 
+use super::collect::common;
 use super::eliminate::{Factors, Inverse, Step, Symmetric};
 use crate::symbolic::arena::{Arena, Expr};
 
 impl Step {
     /// The accelerations and the rows of a pivot that has both.
     fn parts(&self) -> Option<(&[usize], &[usize])> {
-        match self.unknowns.len() {
-            2 => Some(self.unknowns.split_at(1)),
-            4 => Some(self.unknowns.split_at(2)),
-            _ => None,
+        let half = self.unknowns.len() / 2;
+        match &self.inverse {
+            Inverse::Diagonal(_) => None,
+            Inverse::Matrix(rows) if rows.len() == 1 => None,
+            _ => Some(self.unknowns.split_at(half)),
         }
     }
 
@@ -29,6 +31,16 @@ impl Step {
         match &self.inverse {
             // Its own inverse.
             Inverse::Matrix(_) if block[0][0].abs() == Arena::ONE => Some(block),
+            Inverse::Carried { signs, .. } => {
+                let is_diagonal = block.iter().enumerate().all(|(k, row)| {
+                    let mut entries = row.iter().enumerate();
+                    entries.all(|(l, &entry)| {
+                        let wanted = if k == l { signs[k] } else { Arena::ZERO };
+                        entry == wanted
+                    })
+                });
+                is_diagonal.then_some(block)
+            }
             Inverse::Forbidden {
                 coupling, inverse, ..
             } if block.iter().zip(coupling).all(|(a, b)| a[..] == b[..]) => {
@@ -58,8 +70,10 @@ fn remainder(
     over: impl Fn(usize) -> bool,
 ) -> Expr {
     let mut rest = right;
-    for l in matrix.neighbours(k).filter(|&l| over(l)) {
-        let product = arena.mul(matrix.get(k, l), x[l]);
+    let others = matrix.neighbours(k).filter(|&l| over(l));
+    let terms = others.map(|l| (matrix.get(k, l), x[l])).collect();
+    for (entry, x) in common(arena, terms) {
+        let product = arena.mul(entry, x);
         rest = arena.sub(rest, product);
     }
     rest

@@ -1,8 +1,13 @@
 //! Symbolic elimination of a symmetric system with pivots of one, two or four unknowns, in a given order: `L D L^T`.
+//!
+//! Accelerations that follow each other and are not coupled are eliminated together, and so are accelerations that follow each other with the rows that
+//! carry them: what they add to an entry is summed before, so that entries share it.
 
 use std::collections::BTreeMap;
 
 use super::Pivot;
+use super::augmented::Share;
+use super::collect::{common, shortest_dot, sum_of_products, through};
 use crate::symbolic::arena::{Arena, Expr};
 
 /// A sparse symmetric matrix.
@@ -45,15 +50,16 @@ impl Symmetric {
 
     /// `-sum_l a_kl^2 / a_ll` over some unknowns: in the system as assembled, what the diagonal element of a multiplier becomes
     /// by accelerations that do not know of each other.
-    fn schur_diagonal(&self, arena: &mut Arena, k: usize, over: &[usize]) -> Expr {
+    fn schur_diagonal(&self, arena: &mut Arena, k: usize, over: &[Vec<usize>]) -> Expr {
         let mut sum = self.get(k, k);
-        for &l in over.iter().filter(|l| **l != k) {
-            let entry = self.get(k, l);
-            if entry != Arena::ZERO {
-                let scaled = arena.div(entry, self.get(l, l));
-                let term = arena.mul(entry, scaled);
-                sum = arena.sub(sum, term);
-            }
+        for step in over {
+            let acts = |l: &usize| *l != k && self.get(k, *l) != Arena::ZERO;
+            let step: Vec<usize> = step.iter().copied().filter(acts).collect();
+            let row: Vec<Expr> = step.iter().map(|&l| self.get(k, l)).collect();
+            let inverses = step.iter().map(|&l| arena.reciprocal(self.get(l, l)));
+            let inverses: Vec<Expr> = inverses.collect();
+            let term = through(arena, &inverses, &row, &row);
+            sum = arena.sub(sum, term);
         }
         sum
     }
@@ -84,9 +90,18 @@ pub(super) struct Step {
 pub(super) enum Inverse {
     /// Entry by entry.
     Matrix(Vec<Vec<Expr>>),
-    /// Of `[A C^T; C 0]`: `C`, `C^-1` and `A`.
+    /// Of accelerations that know nothing of each other.
+    Diagonal(Vec<Expr>),
+    /// Of `[A C; C 0]` with numbers 1 and -1 on the diagonal `C`: `C` and `A`.
+    Carried {
+        signs: Vec<Expr>,
+        mass: Vec<Vec<Expr>>,
+    },
+    /// Of `[A C^T; C 0]`: `C`, its adjugate and its determinant, `C^-1`, and `A`.
     Forbidden {
         coupling: [[Expr; 2]; 2],
+        adjugate: [[Expr; 2]; 2],
+        determinant: Expr,
         inverse: [[Expr; 2]; 2],
         mass: [[Expr; 2]; 2],
     },
@@ -94,44 +109,104 @@ pub(super) enum Inverse {
     Dependent { reciprocal: Expr, mass: Expr },
 }
 
+fn dot(arena: &mut Arena, x: &[Expr], y: &[Expr]) -> Expr {
+    let mut sum = Arena::ZERO;
+    for (&x, &y) in x.iter().zip(y) {
+        let product = arena.mul(x, y);
+        sum = arena.add(sum, product);
+    }
+    sum
+}
+
+/// `a / b`, which is a number where one is the other with a sign.
+fn ratio(arena: &mut Arena, a: Expr, b: Expr) -> Expr {
+    if a == -b {
+        let ratio = arena.div(-a, b);
+        return -ratio;
+    }
+    arena.div(a, b)
+}
+
 impl Inverse {
     /// `P^-1 b`.
     fn apply(&self, arena: &mut Arena, b: &[Expr]) -> Vec<Expr> {
-        let mut dot = |x: &[Expr], y: &[Expr]| {
-            let mut sum = Arena::ZERO;
-            for (&x, &y) in x.iter().zip(y) {
-                let product = arena.mul(x, y);
-                sum = arena.add(sum, product);
-            }
-            sum
-        };
         match self {
-            Self::Matrix(rows) => rows.iter().map(|row| dot(row, b)).collect(),
+            Self::Matrix(rows) => rows.iter().map(|row| dot(arena, row, b)).collect(),
+            Self::Diagonal(inverses) => {
+                let products = inverses.iter().zip(b);
+                products.map(|(&x, &y)| arena.mul(x, y)).collect()
+            }
+            Self::Carried { .. } | Self::Dependent { .. } | Self::Forbidden { .. } => {
+                let [x, left] = self.determined(arena, b);
+                let y = self.multipliers(arena, &left);
+                [x, y].concat()
+            }
+        }
+    }
+
+    /// `C^-T y`: the multipliers of the rows of a block from what the accelerations leave of its upper part.
+    fn multipliers(&self, arena: &mut Arena, y: &[Expr]) -> Vec<Expr> {
+        match self {
+            Self::Matrix(_) | Self::Diagonal(_) => Vec::new(),
+            Self::Carried { signs, .. } => {
+                let products = signs.iter().zip(y);
+                products.map(|(&sign, &y)| arena.mul(sign, y)).collect()
+            }
+            Self::Dependent { reciprocal, .. } => vec![arena.mul(*reciprocal, y[0])],
+            Self::Forbidden {
+                inverse: [first, second],
+                ..
+            } => {
+                let columns = [0, 1].map(|k| [first[k], second[k]]);
+                columns.map(|column| dot(arena, &column, y)).into()
+            }
+        }
+    }
+
+    /// Where rows determine the accelerations, `b` being `(u, v)`: these, `x = C^-1 v`, and what they leave of the upper part, `u - A x`. For
+    /// other blocks nothing.
+    fn determined(&self, arena: &mut Arena, b: &[Expr]) -> [Vec<Expr>; 2] {
+        match self {
+            Self::Matrix(_) | Self::Diagonal(_) => [Vec::new(), Vec::new()],
+            Self::Carried { signs, mass } => {
+                let (upper, lower) = b.split_at(signs.len());
+                let x = signs.iter().zip(lower);
+                let x: Vec<Expr> = x.map(|(&sign, &v)| arena.mul(sign, v)).collect();
+                let left = upper.iter().zip(mass).map(|(&u, mass)| {
+                    let inertia = dot(arena, mass, &x);
+                    arena.sub(u, inertia)
+                });
+                let left = left.collect();
+                [x, left]
+            }
             Self::Dependent { reciprocal, mass } => {
                 let x = arena.mul(*reciprocal, b[1]);
                 let inertia = arena.mul(*mass, x);
-                let left = arena.sub(b[0], inertia);
-                vec![x, arena.mul(*reciprocal, left)]
+                [vec![x], vec![arena.sub(b[0], inertia)]]
             }
             Self::Forbidden {
-                inverse: [first, second],
+                adjugate,
+                determinant,
+                inverse,
                 mass,
                 ..
             } => {
                 let (upper, lower) = b.split_at(2);
-                let x = [dot(first, lower), dot(second, lower)];
-                let inertia = [dot(&mass[0], &x), dot(&mass[1], &x)];
-                let left = [0, 1].map(|k| arena.sub(upper[k], inertia[k]));
-                let mut dot = |y: [Expr; 2]| {
-                    let products = [arena.mul(y[0], left[0]), arena.mul(y[1], left[1])];
-                    arena.add(products[0], products[1])
+                let is_determinant = |v: &Expr| v.abs() == determinant.abs();
+                let x: Vec<Expr> = if lower.iter().any(is_determinant) {
+                    let scaled = [0, 1].map(|k| ratio(arena, lower[k], *determinant));
+                    adjugate
+                        .iter()
+                        .map(|row| dot(arena, row, &scaled))
+                        .collect()
+                } else {
+                    inverse.iter().map(|row| dot(arena, row, lower)).collect()
                 };
-                vec![
-                    x[0],
-                    x[1],
-                    dot([first[0], second[0]]),
-                    dot([first[1], second[1]]),
-                ]
+                let left = [0, 1].map(|k| {
+                    let inertia = dot(arena, &mass[k], &x);
+                    arena.sub(upper[k], inertia)
+                });
+                [x, left.to_vec()]
             }
         }
     }
@@ -155,6 +230,8 @@ pub struct Factors {
     pub(super) steps: Vec<Step>,
     /// The pivots that depend on the state and are not safe by themselves.
     pub checks: Vec<Check>,
+    /// Where the matrix is that of augmented bodies: what makes of its solutions those of the original.
+    pub(super) shares: Vec<Share>,
 }
 
 /// Factorises a matrix.
@@ -206,10 +283,31 @@ pub(super) fn factorise_within(
         factors: Factors {
             steps: Vec::new(),
             checks: Vec::new(),
+            shares: Vec::new(),
         },
     };
     let mut determinants = determinants.iter();
-    for &pivot in pivots {
+    let mut place = 0;
+    while let Some(&pivot) = pivots.get(place) {
+        let together = elimination.strangers(&pivots[place..]);
+        if together.len() > 1 {
+            place += together.len();
+            elimination.take_strangers(arena, together);
+            if arena.len() - before > most {
+                return None;
+            }
+            continue;
+        }
+        let carried = elimination.carried(&pivots[place..]);
+        if carried.len() > 1 {
+            place += carried.len();
+            elimination.take_carried(arena, &carried);
+            if arena.len() - before > most {
+                return None;
+            }
+            continue;
+        }
+        place += 1;
         let determinant = match pivot {
             Pivot::Forbidden(..) | Pivot::Dependent(..) => *determinants
                 .next()
@@ -226,7 +324,7 @@ pub(super) fn factorise_within(
     for row in std::mem::take(&mut elimination.waiting) {
         elimination.step(arena, Pivot::Multiplier(row), 1.0);
     }
-    let mut eliminated = elimination.eliminated;
+    let mut eliminated = elimination.eliminated.concat();
     eliminated.sort_unstable();
     assert!(
         eliminated.iter().copied().eq(0..size),
@@ -244,8 +342,8 @@ struct Elimination {
     /// When the plan eliminates each unknown: sums are taken in this order, so that the numbers of the unknowns, and with them the order of the fields,
     /// have no say.
     turn: Vec<usize>,
-    /// In order.
-    eliminated: Vec<usize>,
+    /// In order, step by step.
+    eliminated: Vec<Vec<usize>>,
     /// Rows whose pivot is zero so far.
     waiting: Vec<usize>,
     factors: Factors,
@@ -279,6 +377,67 @@ impl Elimination {
         }
     }
 
+    /// The first pivots, if they are accelerations that know nothing of each other.
+    fn strangers(&self, pivots: &[Pivot]) -> Vec<usize> {
+        let mut together: Vec<usize> = Vec::new();
+        for pivot in pivots {
+            let Pivot::Acceleration(k) = *pivot else {
+                break;
+            };
+            if together
+                .iter()
+                .any(|&l| self.matrix.get(k, l) != Arena::ZERO)
+            {
+                break;
+            }
+            together.push(k);
+        }
+        together
+    }
+
+    /// The first pivots, if they are accelerations with rows that carry one each and know nothing of the others.
+    fn carried(&self, pivots: &[Pivot]) -> Vec<[usize; 2]> {
+        let mut carried: Vec<[usize; 2]> = Vec::new();
+        for pivot in pivots {
+            let Pivot::Saddle(k, l) = *pivot else { break };
+            let entry = |a: usize, b: usize| self.matrix.get(a, b);
+            let is_zero = |a: usize, b: usize| entry(a, b) == Arena::ZERO;
+            let is_alone = |&[i, j]: &[usize; 2]| is_zero(i, l) && is_zero(k, j) && is_zero(j, l);
+            let is_sound = entry(k, l).abs() == Arena::ONE && is_zero(l, l);
+            if !is_sound || !carried.iter().all(is_alone) {
+                break;
+            }
+            carried.push([k, l]);
+        }
+        carried
+    }
+
+    /// Eliminates accelerations together with the rows that carry them, and rows that waited for it.
+    fn take_carried(&mut self, arena: &mut Arena, carried: &[[usize; 2]]) {
+        let signs = carried.iter().map(|&[k, l]| self.matrix.get(k, l));
+        let accelerations = carried.iter().map(|[k, _]| *k);
+        let mass = accelerations.clone().map(|k| {
+            let row = accelerations.clone().map(|l| self.matrix.get(k, l));
+            row.collect()
+        });
+        let inverse = Inverse::Carried {
+            signs: signs.collect(),
+            mass: mass.collect(),
+        };
+        let unknowns = accelerations.chain(carried.iter().map(|[_, l]| *l));
+        let unknowns = unknowns.collect();
+        self.eliminate(arena, unknowns, inverse);
+        self.take_waiting(arena);
+    }
+
+    /// Eliminates accelerations that know nothing of each other, and rows that waited for it.
+    fn take_strangers(&mut self, arena: &mut Arena, unknowns: Vec<usize>) {
+        let pivots = unknowns.iter().map(|&k| self.matrix.get(k, k));
+        let inverses = pivots.map(|pivot| arena.reciprocal(pivot)).collect();
+        self.eliminate(arena, unknowns, Inverse::Diagonal(inverses));
+        self.take_waiting(arena);
+    }
+
     /// Eliminates what can be eliminated now, and rows that waited for it.
     fn take(&mut self, arena: &mut Arena, pivot: Pivot, determinant: f64) {
         match pivot {
@@ -287,6 +446,10 @@ impl Elimination {
             }
             _ => self.step(arena, pivot, determinant),
         }
+        self.take_waiting(arena);
+    }
+
+    fn take_waiting(&mut self, arena: &mut Arena) {
         while let Some(place) = self.ready() {
             let row = self.waiting.remove(place);
             self.step(arena, Pivot::Multiplier(row), 1.0);
@@ -319,8 +482,9 @@ impl Elimination {
     /// The pivot of a multiplier if there were no other rows. The terms are summed in the order of elimination, where the elimination may have
     /// formed the same sum, or in the order of the unknowns, whatever takes fewer operations.
     fn uncoupled(&self, arena: &mut Arena, row: usize) -> Expr {
-        let mut sorted = self.eliminated.clone();
+        let mut sorted = self.eliminated.concat();
         sorted.sort_unstable();
+        let sorted: Vec<Vec<usize>> = sorted.into_iter().map(|k| vec![k]).collect();
         let [as_eliminated, as_numbered] = [&self.eliminated, &sorted].map(|over| {
             let mark = arena.mark();
             self.about_centres.schur_diagonal(arena, row, over);
@@ -373,6 +537,10 @@ impl Elimination {
                 Inverse::Matrix(invert(arena, &self.matrix, &unknowns))
             }
         };
+        self.eliminate(arena, unknowns, inverse);
+    }
+
+    fn eliminate(&mut self, arena: &mut Arena, unknowns: Vec<usize>, inverse: Inverse) {
         let matrix = &mut self.matrix;
         let coupled: Vec<usize> = {
             let mut coupled: Vec<usize> = unknowns
@@ -384,27 +552,60 @@ impl Elimination {
             coupled.retain(|k| !unknowns.contains(k));
             coupled
         };
-        let lower: Vec<(usize, Vec<Expr>)> = coupled
+        let columns: Vec<Vec<Expr>> = coupled
             .iter()
-            .map(|&i| {
-                let column: Vec<Expr> = unknowns.iter().map(|&k| matrix.get(i, k)).collect();
-                (i, inverse.apply(arena, &column))
-            })
+            .map(|&i| unknowns.iter().map(|&k| matrix.get(i, k)).collect())
             .collect();
-        for (place, (i, row)) in lower.iter().enumerate() {
-            for &j in &coupled[..=place] {
-                let mut update = Arena::ZERO;
-                for (p, &unknown) in unknowns.iter().enumerate() {
-                    let product = arena.mul(row[p], matrix.get(j, unknown));
-                    update = arena.add(update, product);
-                }
-                matrix.add(arena, *i, j, -update);
+        let determined: Vec<[Vec<Expr>; 2]> = columns
+            .iter()
+            .map(|column| inverse.determined(arena, column))
+            .collect();
+        let mut lower: Vec<(usize, Vec<Expr>)> = Vec::new();
+        for (place, &i) in coupled.iter().enumerate() {
+            let [x, left] = &determined[place];
+            let row = if x.is_empty() {
+                inverse.apply(arena, &columns[place])
+            } else {
+                [&x[..], &inverse.multipliers(arena, left)].concat()
+            };
+            for (other, &j) in coupled[..=place].iter().enumerate() {
+                let update = match &inverse {
+                    Inverse::Matrix(_) => dot(arena, &row, &columns[other]),
+                    Inverse::Diagonal(inverses) => {
+                        through(arena, inverses, &columns[place], &columns[other])
+                    }
+                    // Not by way of multipliers, which may not be asked for.
+                    _ => {
+                        let [of_other, left_of_other] = &determined[other];
+                        let half = x.len();
+                        let (upper, upper_of_other) =
+                            (&columns[place][..half], &columns[other][..half]);
+                        let products = |a: &[Expr], b: &[Expr]| {
+                            let pairs = a.iter().zip(b);
+                            pairs
+                                .filter(|&(&a, &b)| a != Arena::ZERO && b != Arena::ZERO)
+                                .count()
+                        };
+                        let forth = products(x, upper_of_other) + products(left, of_other);
+                        let back = products(of_other, upper) + products(left_of_other, x);
+                        let (first, second) = if forth <= back {
+                            ((x, upper_of_other), (left, of_other))
+                        } else {
+                            ((of_other, upper), (left_of_other, x))
+                        };
+                        let first = shortest_dot(arena, first.0, first.1);
+                        let second = shortest_dot(arena, second.0, second.1);
+                        arena.add(first, second)
+                    }
+                };
+                matrix.add(arena, i, j, -update);
             }
+            lower.push((i, row));
         }
         for &unknown in &unknowns {
             matrix.remove(unknown);
         }
-        self.eliminated.extend(&unknowns);
+        self.eliminated.push(unknowns.clone());
         self.factors.steps.push(Step {
             unknowns,
             inverse,
@@ -445,10 +646,13 @@ fn invert_forbidden(
     let determinant = arena.sub(ad, bc);
     let reciprocal = arena.reciprocal(determinant);
     // Rows are accelerations, columns are rows of C.
-    let inverse = [[d, -b], [-c, a]].map(|row| row.map(|entry| arena.mul(entry, reciprocal)));
+    let adjugate = [[d, -b], [-c, a]];
+    let inverse = adjugate.map(|row| row.map(|entry| arena.mul(entry, reciprocal)));
     let mass = accelerations.map(|k| accelerations.map(|l| matrix.get(k, l)));
     let inverse = Inverse::Forbidden {
         coupling,
+        adjugate,
+        determinant,
         inverse,
         mass,
     };
@@ -464,10 +668,21 @@ impl Factors {
 
     /// Solves the system for a right-hand side.
     pub fn solve(&self, arena: &mut Arena, mut right: Vec<Expr>) -> Vec<Expr> {
+        let rows = self.shares.iter().map(|share| right[share.row]);
+        let gamma: Vec<Expr> = rows.collect();
+        for share in &self.shares {
+            share.add_forces(arena, &mut right);
+        }
         for step in &self.steps {
             for (i, row) in &step.lower {
-                for (p, &unknown) in step.unknowns.iter().enumerate() {
-                    let product = arena.mul(row[p], right[unknown]);
+                let known: Vec<Expr> = step.unknowns.iter().map(|&k| right[k]).collect();
+                if let Inverse::Diagonal(_) = step.inverse {
+                    let term = sum_of_products(arena, row, &known);
+                    right[*i] = arena.sub(right[*i], term);
+                    continue;
+                }
+                for (&entry, &known) in row.iter().zip(&known) {
+                    let product = arena.mul(entry, known);
                     right[*i] = arena.sub(right[*i], product);
                 }
             }
@@ -478,12 +693,25 @@ impl Factors {
             let values = step.inverse.apply(arena, &right);
             for (p, (&unknown, mut value)) in step.unknowns.iter().zip(values).enumerate() {
                 // What is known first comes first, so that the path is short.
-                for (i, row) in step.lower.iter().rev() {
-                    let product = arena.mul(row[p], solution[*i]);
+                let terms = step
+                    .lower
+                    .iter()
+                    .rev()
+                    .map(|(i, row)| (row[p], solution[*i]));
+                let terms: Vec<(Expr, Expr)> = terms.collect();
+                let terms = match step.inverse {
+                    Inverse::Diagonal(_) => common(arena, terms),
+                    _ => terms,
+                };
+                for (entry, known) in terms {
+                    let product = arena.mul(entry, known);
                     value = arena.sub(value, product);
                 }
                 solution[unknown] = value;
             }
+        }
+        for (share, gamma) in self.shares.iter().zip(gamma) {
+            share.add_reaction(arena, gamma, &mut solution);
         }
         solution
     }

@@ -4,8 +4,10 @@
 //! is saved is saved by constants that fold.
 
 pub mod alone;
+mod augmented;
 pub mod candidates;
 mod carried;
+mod collect;
 pub mod eliminate;
 pub mod kernels;
 mod order;

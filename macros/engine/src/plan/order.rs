@@ -176,6 +176,11 @@ impl<'a> Order<'a> {
             let first = scene.layout.velocity[body];
             self.enter(body);
             if let Some(joint) = joint {
+                if self.is_filled(body) {
+                    for k in self.free(joint, body) {
+                        self.take(&mut pivots, Pivot::Acceleration(k));
+                    }
+                }
                 for row in self.carried_rows(joint, first) {
                     let rows = [row, row + 1, row + 2];
                     let is_free = |row: &usize| self.is_first_on(*row, body);
@@ -216,6 +221,26 @@ impl<'a> Order<'a> {
             self.take(&mut pivots, Pivot::Multiplier(velocities + row));
         }
         (pivots, determinants)
+    }
+
+    /// Whether a row that acts on a body is eliminated, so that its block of masses is not made of numbers any more.
+    fn is_filled(&self, body: usize) -> bool {
+        let velocities = self.scene.layout.velocities;
+        let mut rows = self.reach.rows.iter().enumerate();
+        rows.any(|(row, bodies)| self.done[velocities + row] && bodies.contains(&Some(body)))
+    }
+
+    /// The accelerations of a body that no row of the joint acts on which carries it. Before the others they know of their own body only, so that little
+    /// is coupled with them.
+    fn free(&self, joint: usize, body: usize) -> Vec<usize> {
+        let first = self.scene.layout.velocity[body];
+        let own = first..first + self.kinds[body].velocities();
+        let rows = rows_of(self.scene, joint);
+        let acts = |k: usize| {
+            let mut entries = rows.iter().flat_map(|&row| &self.coupling[row]);
+            entries.any(|(unknown, _)| *unknown == k)
+        };
+        own.filter(|&k| !acts(k)).collect()
     }
 
     /// Whether a row acts on more than one body.

@@ -197,6 +197,44 @@ fn with_diagonal(
     ]
 }
 
+/// Whether a body has an axis of symmetry.
+fn has_equal_moments([a, b, c]: &Triple) -> bool {
+    a == b || b == c || c == a
+}
+
+/// The columns of a rotation matrix `a` complete each other: declares that `a1 a1^T + a2 a2^T` is `I - a3 a3^T`.
+fn complete(arena: &mut Arena, a: &[Triple; 3]) {
+    for i in 0..3 {
+        for j in 0..=i {
+            let products = [0, 1, 2].map(|k| arena.mul(a[i][k], a[j][k]));
+            let whole = if i == j { Arena::ONE } else { Arena::ZERO };
+            for k in 0..3 {
+                let sum = arena.add(products[(k + 1) % 3], products[(k + 2) % 3]);
+                let rest = arena.sub(whole, products[k]);
+                arena.identify(sum, rest);
+            }
+        }
+    }
+}
+
+/// `m (c.c I - c c^T)`: the tensor of inertia of a mass on a point.
+fn huygens(arena: &mut Arena, m: Expr, c: Triple) -> [Triple; 3] {
+    let mut tensor = [super::vector::ZERO; 3];
+    for k in 0..3 {
+        for l in 0..3 {
+            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+            let arms = if k == l {
+                let (first, second) = (arena.square(c[a]), arena.square(c[b]));
+                arena.add(first, second)
+            } else {
+                -arena.mul(c[k], c[l])
+            };
+            tensor[k][l] = arena.mul(m, arms);
+        }
+    }
+    tensor
+}
+
 impl Scene {
     /// The scene of a model with Euler parameters as they are, exact for any length of them.
     #[must_use]
@@ -389,6 +427,9 @@ impl Scene {
                     arena.identify(cofactor, a[k][l]);
                 }
             }
+            if has_equal_moments(&scene.inertia[body]) {
+                complete(&mut scene.space.arena, &a);
+            }
         }
         scene
     }
@@ -504,27 +545,66 @@ impl Scene {
         self.motion.reference[body].map(|component| -component)
     }
 
+    /// What a constraint between vectors holds a point of a body to, if it is one point of another body or of the ground: the other body and the point there, from
+    /// its centre of mass.
+    #[must_use]
+    pub fn joins(&self, constraint: usize, body: usize) -> Option<Option<(usize, Triple)>> {
+        let Constraint::Vector(VectorExpr::Sum(terms)) = &self.constraints[constraint].constraint
+        else {
+            return None;
+        };
+        let (mut own, mut others) = (Vec::new(), Vec::new());
+        for (factor, term) in terms {
+            match term {
+                VectorExpr::Point(Some(on), _) if *on == body => own.push(*factor),
+                VectorExpr::Point(Some(on), point) => others.push((*factor, *on, *point)),
+                VectorExpr::Point(None, _) | VectorExpr::Fixed(None, _) => {}
+                _ => return None,
+            }
+        }
+        match (&own[..], &others[..]) {
+            ([factor], []) if factor.abs() == Arena::ONE => Some(None),
+            ([factor], [(other, on, point)])
+                if factor.abs() == Arena::ONE && *other == -*factor =>
+            {
+                Some(Some((*on, *point)))
+            }
+            _ => None,
+        }
+    }
+
+    /// The first moment of mass and the tensor of inertia of a body about the point of reference, principal axes, with masses on points of
+    /// it, from the centre of mass.
+    pub fn moments_about_reference(
+        &mut self,
+        body: usize,
+        points: &[(Expr, Triple)],
+    ) -> (Triple, [Triple; 3]) {
+        let mut inertia = self.inertia_about_reference(body);
+        let (centre, mass) = (self.centre(body), self.mass[body]);
+        let arena = &mut self.space.arena;
+        let mut moment = centre.map(|c| arena.mul(mass, c));
+        for &(mass, point) in points {
+            let arm = [0, 1, 2].map(|k| arena.add(point[k], centre[k]));
+            let steiner = huygens(arena, mass, arm);
+            for k in 0..3 {
+                let first = arena.mul(mass, arm[k]);
+                moment[k] = arena.add(moment[k], first);
+                for l in 0..3 {
+                    inertia[k][l] = arena.add(inertia[k][l], steiner[k][l]);
+                }
+            }
+        }
+        (moment, inertia)
+    }
+
     /// The tensor of inertia of a body about the point of reference, principal axes: `J + m (c.c I - c c^T)` (Huygens, Steiner).
     pub fn inertia_about_reference(&mut self, body: usize) -> [Triple; 3] {
         let (c, m, j) = (self.centre(body), self.mass[body], self.inertia[body]);
         let arena = &mut self.space.arena;
-        let mut tensor = [super::vector::ZERO; 3];
+        let mut tensor = huygens(arena, m, c);
         for k in 0..3 {
-            for l in 0..3 {
-                let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-                let arms = if k == l {
-                    let (first, second) = (arena.square(c[a]), arena.square(c[b]));
-                    arena.add(first, second)
-                } else {
-                    -arena.mul(c[k], c[l])
-                };
-                let moved = arena.mul(m, arms);
-                tensor[k][l] = if k == l {
-                    arena.add(j[k], moved)
-                } else {
-                    moved
-                };
-            }
+            tensor[k][k] = arena.add(j[k], tensor[k][k]);
         }
         tensor
     }

@@ -127,6 +127,38 @@ impl Space {
         self.rotations[body].as_ref()
     }
 
+    /// Declares that the entries of the rotation between two bodies are their own cofactors, as far as they are known.
+    pub fn relate(&mut self, one: usize, other: usize) {
+        let (Some(a), Some(b)) = (self.rotations[one], self.rotations[other]) else {
+            return;
+        };
+        let arena = &mut self.arena;
+        let column = |rows: &[Triple; 3], k: usize| [rows[0][k], rows[1][k], rows[2][k]];
+        let known = [0, 1, 2].map(|k| {
+            [0, 1, 2].map(|l| {
+                let (mark, nodes) = (arena.mark(), arena.len());
+                let entry = dot(arena, column(&a, k), column(&b, l));
+                let is_known = arena.len() == nodes;
+                arena.rollback(mark);
+                is_known.then_some(entry)
+            })
+        });
+        for k in 0..3 {
+            for l in 0..3 {
+                let (k1, k2, l1, l2) = ((k + 1) % 3, (k + 2) % 3, (l + 1) % 3, (l + 2) % 3);
+                let parts = [(k, l), (k1, l1), (k2, l2), (k1, l2), (k2, l1)];
+                let [Some(entry), Some(p), Some(q), Some(r), Some(s)] =
+                    parts.map(|(k, l)| known[k][l])
+                else {
+                    continue;
+                };
+                let (forth, back) = (arena.mul(p, q), arena.mul(r, s));
+                let cofactor = arena.sub(forth, back);
+                arena.identify(cofactor, entry);
+            }
+        }
+    }
+
     /// The present place, for [`Space::rollback`].
     #[must_use]
     pub fn mark(&self) -> SpaceMark {
@@ -261,6 +293,7 @@ impl Space {
         if fixed == ZERO {
             return self.native(Frame::Global, ZERO);
         }
+        let (factor, fixed) = self.direction(fixed);
         let frame = Frame::Body(body);
         let spun = Spun {
             body,
@@ -269,7 +302,22 @@ impl Space {
             vector: self.native(frame, fixed),
             fixed,
         };
-        self.intern(Vector::Spun(spun))
+        let spun = self.intern(Vector::Spun(spun));
+        self.scale(factor, spun)
+    }
+
+    /// A vector as a multiple of one that parallel vectors have in common.
+    fn direction(&mut self, vector: Triple) -> (Expr, Triple) {
+        let mut components = vector.into_iter().filter(|&c| c != Arena::ZERO);
+        let (first, other) = (components.next(), components.next());
+        let Some(first) = first.filter(|_| !self.identities && !self.exact) else {
+            return (Arena::ONE, vector);
+        };
+        let is_known = |c: &Expr| self.arena.literal(*c).is_some();
+        if other.is_some() && !vector.iter().all(is_known) {
+            return (Arena::ONE, vector);
+        }
+        (first, vector.map(|c| self.arena.div(c, first)))
     }
 
     /// The frame in which a vector is defined.
