@@ -6,7 +6,8 @@
 //! without a compliance of other rows.
 
 use super::collect::common;
-use super::eliminate::{Factors, Inverse, Step, Symmetric};
+use super::eliminate::{Factors, Step, Symmetric};
+use super::inverse::Inverse;
 use crate::symbolic::arena::{Arena, Expr};
 
 impl Step {
@@ -149,18 +150,23 @@ impl Factors {
         for (_, rows) in self.steps.iter().filter_map(Step::parts) {
             rows.iter().for_each(|&row| open[row] = true);
         }
-        for step in &self.steps {
+        let mut pending: Vec<&Step> = self.steps.iter().filter(|s| s.parts().is_some()).collect();
+        while !pending.is_empty() {
+            let is_final = |step: &&Step, open: &[bool]| {
+                step.parts().is_some_and(|(accelerations, rows)| {
+                    let mut others = accelerations.iter().flat_map(|&k| matrix.neighbours(k));
+                    others.all(|l| !open[l] || rows.contains(&l))
+                })
+            };
+            let ready = pending.iter().position(|step| is_final(step, &open));
+            let step = pending.remove(ready.unwrap_or(0));
             let Some((accelerations, rows)) = step.parts() else {
                 continue;
             };
             rows.iter().for_each(|&row| open[row] = false);
-            let is_final = |&k: &usize| matrix.neighbours(k).all(|l| !open[l]);
-            let Some(inverse) = step.inverse_coupling(matrix) else {
+            let Some(inverse) = step.inverse_coupling(matrix).filter(|_| ready.is_some()) else {
                 continue;
             };
-            if !accelerations.iter().all(is_final) {
-                continue;
-            }
             let rests: Vec<Expr> = accelerations
                 .iter()
                 .map(|&k| {

@@ -84,7 +84,8 @@ fn groups(arena: &Arena, inverses: &[Expr], a: &[Expr], b: &[Expr]) -> Option<Ve
             None => groups.push((factor.abs(), vec![(a, b)])),
         }
     }
-    let is_sum = |(_, products): &Group| products.len() > 1;
+    // By 1 nothing is multiplied.
+    let is_sum = |(factor, products): &Group| *factor != 1.0 && products.len() > 1;
     groups.iter().any(is_sum).then_some(groups)
 }
 

@@ -3,79 +3,12 @@
 //! Accelerations that follow each other and are not coupled are eliminated together, and so are accelerations that follow each other with the rows that
 //! carry them: what they add to an entry is summed before, so that entries share it.
 
-use std::collections::BTreeMap;
-
 use super::Pivot;
 use super::augmented::Share;
-use super::collect::{common, shortest_dot, sum_of_products, through};
+use super::collect::{common, sum_of_products, through};
+use super::inverse::{Inverse, by_determined, dot, invert, invert_forbidden};
+pub use super::symmetric::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};
-
-/// A sparse symmetric matrix.
-#[derive(Clone, Debug, Default)]
-pub struct Symmetric {
-    rows: Vec<BTreeMap<usize, Expr>>,
-}
-
-impl Symmetric {
-    /// The zero matrix.
-    #[must_use]
-    pub fn new(size: usize) -> Self {
-        Self {
-            rows: vec![BTreeMap::new(); size],
-        }
-    }
-
-    /// An entry.
-    #[must_use]
-    pub fn get(&self, k: usize, l: usize) -> Expr {
-        self.rows[k].get(&l).copied().unwrap_or(Arena::ZERO)
-    }
-
-    /// Sets an entry and its mirror image.
-    pub fn set(&mut self, k: usize, l: usize, value: Expr) {
-        for (k, l) in [(k, l), (l, k)] {
-            if value == Arena::ZERO {
-                self.rows[k].remove(&l);
-            } else {
-                self.rows[k].insert(l, value);
-            }
-        }
-    }
-
-    /// Adds to an entry and its mirror image.
-    pub fn add(&mut self, arena: &mut Arena, k: usize, l: usize, value: Expr) {
-        let sum = arena.add(self.get(k, l), value);
-        self.set(k, l, sum);
-    }
-
-    /// `-sum_l a_kl^2 / a_ll` over some unknowns: in the system as assembled, what the diagonal element of a multiplier becomes
-    /// by accelerations that do not know of each other.
-    fn schur_diagonal(&self, arena: &mut Arena, k: usize, over: &[Vec<usize>]) -> Expr {
-        let mut sum = self.get(k, k);
-        for step in over {
-            let acts = |l: &usize| *l != k && self.get(k, *l) != Arena::ZERO;
-            let step: Vec<usize> = step.iter().copied().filter(acts).collect();
-            let row: Vec<Expr> = step.iter().map(|&l| self.get(k, l)).collect();
-            let inverses = step.iter().map(|&l| arena.reciprocal(self.get(l, l)));
-            let inverses: Vec<Expr> = inverses.collect();
-            let term = through(arena, &inverses, &row, &row);
-            sum = arena.sub(sum, term);
-        }
-        sum
-    }
-
-    pub(super) fn neighbours(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
-        self.rows[k].keys().copied()
-    }
-
-    fn remove(&mut self, k: usize) {
-        for (l, _) in std::mem::take(&mut self.rows[k]) {
-            if l != k {
-                self.rows[l].remove(&k);
-            }
-        }
-    }
-}
 
 /// One step of the elimination: `x_P = P^-1 rhs_P - sum L_i^T x_i`.
 #[derive(Clone, Debug)]
@@ -83,133 +16,6 @@ pub(super) struct Step {
     pub(super) unknowns: Vec<usize>,
     pub(super) inverse: Inverse,
     lower: Vec<(usize, Vec<Expr>)>,
-}
-
-/// The inverse of a pivot.
-#[derive(Clone, Debug)]
-pub(super) enum Inverse {
-    /// Entry by entry.
-    Matrix(Vec<Vec<Expr>>),
-    /// Of accelerations that know nothing of each other.
-    Diagonal(Vec<Expr>),
-    /// Of `[A C; C 0]` with numbers 1 and -1 on the diagonal `C`: `C` and `A`.
-    Carried {
-        signs: Vec<Expr>,
-        mass: Vec<Vec<Expr>>,
-    },
-    /// Of `[A C^T; C 0]`: `C`, its adjugate and its determinant, `C^-1`, and `A`.
-    Forbidden {
-        coupling: [[Expr; 2]; 2],
-        adjugate: [[Expr; 2]; 2],
-        determinant: Expr,
-        inverse: [[Expr; 2]; 2],
-        mass: [[Expr; 2]; 2],
-    },
-    /// Of `[a c; c 0]`: `1 / c` and `a`.
-    Dependent { reciprocal: Expr, mass: Expr },
-}
-
-fn dot(arena: &mut Arena, x: &[Expr], y: &[Expr]) -> Expr {
-    let mut sum = Arena::ZERO;
-    for (&x, &y) in x.iter().zip(y) {
-        let product = arena.mul(x, y);
-        sum = arena.add(sum, product);
-    }
-    sum
-}
-
-/// `a / b`, which is a number where one is the other with a sign.
-fn ratio(arena: &mut Arena, a: Expr, b: Expr) -> Expr {
-    if a == -b {
-        let ratio = arena.div(-a, b);
-        return -ratio;
-    }
-    arena.div(a, b)
-}
-
-impl Inverse {
-    /// `P^-1 b`.
-    fn apply(&self, arena: &mut Arena, b: &[Expr]) -> Vec<Expr> {
-        match self {
-            Self::Matrix(rows) => rows.iter().map(|row| dot(arena, row, b)).collect(),
-            Self::Diagonal(inverses) => {
-                let products = inverses.iter().zip(b);
-                products.map(|(&x, &y)| arena.mul(x, y)).collect()
-            }
-            Self::Carried { .. } | Self::Dependent { .. } | Self::Forbidden { .. } => {
-                let [x, left] = self.determined(arena, b);
-                let y = self.multipliers(arena, &left);
-                [x, y].concat()
-            }
-        }
-    }
-
-    /// `C^-T y`: the multipliers of the rows of a block from what the accelerations leave of its upper part.
-    fn multipliers(&self, arena: &mut Arena, y: &[Expr]) -> Vec<Expr> {
-        match self {
-            Self::Matrix(_) | Self::Diagonal(_) => Vec::new(),
-            Self::Carried { signs, .. } => {
-                let products = signs.iter().zip(y);
-                products.map(|(&sign, &y)| arena.mul(sign, y)).collect()
-            }
-            Self::Dependent { reciprocal, .. } => vec![arena.mul(*reciprocal, y[0])],
-            Self::Forbidden {
-                inverse: [first, second],
-                ..
-            } => {
-                let columns = [0, 1].map(|k| [first[k], second[k]]);
-                columns.map(|column| dot(arena, &column, y)).into()
-            }
-        }
-    }
-
-    /// Where rows determine the accelerations, `b` being `(u, v)`: these, `x = C^-1 v`, and what they leave of the upper part, `u - A x`. For
-    /// other blocks nothing.
-    fn determined(&self, arena: &mut Arena, b: &[Expr]) -> [Vec<Expr>; 2] {
-        match self {
-            Self::Matrix(_) | Self::Diagonal(_) => [Vec::new(), Vec::new()],
-            Self::Carried { signs, mass } => {
-                let (upper, lower) = b.split_at(signs.len());
-                let x = signs.iter().zip(lower);
-                let x: Vec<Expr> = x.map(|(&sign, &v)| arena.mul(sign, v)).collect();
-                let left = upper.iter().zip(mass).map(|(&u, mass)| {
-                    let inertia = dot(arena, mass, &x);
-                    arena.sub(u, inertia)
-                });
-                let left = left.collect();
-                [x, left]
-            }
-            Self::Dependent { reciprocal, mass } => {
-                let x = arena.mul(*reciprocal, b[1]);
-                let inertia = arena.mul(*mass, x);
-                [vec![x], vec![arena.sub(b[0], inertia)]]
-            }
-            Self::Forbidden {
-                adjugate,
-                determinant,
-                inverse,
-                mass,
-                ..
-            } => {
-                let (upper, lower) = b.split_at(2);
-                let is_determinant = |v: &Expr| v.abs() == determinant.abs();
-                let x: Vec<Expr> = if lower.iter().any(is_determinant) {
-                    let scaled = [0, 1].map(|k| ratio(arena, lower[k], *determinant));
-                    adjugate
-                        .iter()
-                        .map(|row| dot(arena, row, &scaled))
-                        .collect()
-                } else {
-                    inverse.iter().map(|row| dot(arena, row, lower)).collect()
-                };
-                let left = [0, 1].map(|k| {
-                    let inertia = dot(arena, &mass[k], &x);
-                    arena.sub(upper[k], inertia)
-                });
-                [x, left.to_vec()]
-            }
-        }
-    }
 }
 
 /// A pivot that depends on the state, and what it is compared with.
@@ -269,7 +75,7 @@ pub(super) fn factorise_within(
     most: usize,
 ) -> Option<Factors> {
     let before = arena.len();
-    let size = matrix.rows.len();
+    let size = matrix.size();
     let mut turn = vec![usize::MAX; size];
     for (place, unknown) in pivots.iter().flat_map(|p| p.unknowns()).enumerate() {
         turn[unknown] = place;
@@ -480,23 +286,21 @@ impl Elimination {
     }
 
     /// The pivot of a multiplier if there were no other rows. The terms are summed in the order of elimination, where the elimination may have
-    /// formed the same sum, or in the order of the unknowns, whatever takes fewer operations.
+    /// formed the same sum, in the order of the unknowns, or at once, whatever takes fewest operations.
     fn uncoupled(&self, arena: &mut Arena, row: usize) -> Expr {
         let mut sorted = self.eliminated.concat();
         sorted.sort_unstable();
-        let sorted: Vec<Vec<usize>> = sorted.into_iter().map(|k| vec![k]).collect();
-        let [as_eliminated, as_numbered] = [&self.eliminated, &sorted].map(|over| {
+        let one_by_one: Vec<Vec<usize>> = sorted.iter().map(|&k| vec![k]).collect();
+        let ways = [self.eliminated.clone(), one_by_one, vec![sorted]];
+        let operations = |over: &&Vec<Vec<usize>>| {
             let mark = arena.mark();
             self.about_centres.schur_diagonal(arena, row, over);
             let operations = arena.operations_since(mark);
             arena.rollback(mark);
             operations
-        });
-        let over = if as_eliminated < as_numbered {
-            &self.eliminated
-        } else {
-            &sorted
         };
+        let over = ways.iter().min_by_key(operations);
+        let over = over.expect("there are three ways");
         self.about_centres.schur_diagonal(arena, row, over)
     }
 
@@ -576,26 +380,8 @@ impl Elimination {
                     }
                     // Not by way of multipliers, which may not be asked for.
                     _ => {
-                        let [of_other, left_of_other] = &determined[other];
-                        let half = x.len();
-                        let (upper, upper_of_other) =
-                            (&columns[place][..half], &columns[other][..half]);
-                        let products = |a: &[Expr], b: &[Expr]| {
-                            let pairs = a.iter().zip(b);
-                            pairs
-                                .filter(|&(&a, &b)| a != Arena::ZERO && b != Arena::ZERO)
-                                .count()
-                        };
-                        let forth = products(x, upper_of_other) + products(left, of_other);
-                        let back = products(of_other, upper) + products(left_of_other, x);
-                        let (first, second) = if forth <= back {
-                            ((x, upper_of_other), (left, of_other))
-                        } else {
-                            ((of_other, upper), (left_of_other, x))
-                        };
-                        let first = shortest_dot(arena, first.0, first.1);
-                        let second = shortest_dot(arena, second.0, second.1);
-                        arena.add(first, second)
+                        let pair = [place, other];
+                        by_determined(arena, pair.map(|k| (&columns[k][..], &determined[k])))
                     }
                 };
                 matrix.add(arena, i, j, -update);
@@ -612,51 +398,6 @@ impl Elimination {
             lower,
         });
     }
-}
-
-fn invert(arena: &mut Arena, matrix: &Symmetric, unknowns: &[usize]) -> Vec<Vec<Expr>> {
-    match *unknowns {
-        [k] => vec![vec![arena.reciprocal(matrix.get(k, k))]],
-        [k, l] => {
-            let (a, b, c) = (matrix.get(k, k), matrix.get(k, l), matrix.get(l, l));
-            let (ac, bb) = (arena.mul(a, c), arena.square(b));
-            let determinant = arena.sub(ac, bb);
-            let inverse = arena.reciprocal(determinant);
-            let (a, b, c) = (
-                arena.mul(a, inverse),
-                arena.mul(b, inverse),
-                arena.mul(c, inverse),
-            );
-            vec![vec![c, -b], vec![-b, a]]
-        }
-        _ => unreachable!("a pivot that is inverted entry by entry has one or two unknowns"),
-    }
-}
-
-/// The inverse of `[A C^T; C 0]`, and the determinant of `C`.
-fn invert_forbidden(
-    arena: &mut Arena,
-    matrix: &Symmetric,
-    accelerations: [usize; 2],
-    rows: [usize; 2],
-) -> (Inverse, Expr) {
-    let coupling = rows.map(|row| accelerations.map(|k| matrix.get(row, k)));
-    let [[a, b], [c, d]] = coupling;
-    let (ad, bc) = (arena.mul(a, d), arena.mul(b, c));
-    let determinant = arena.sub(ad, bc);
-    let reciprocal = arena.reciprocal(determinant);
-    // Rows are accelerations, columns are rows of C.
-    let adjugate = [[d, -b], [-c, a]];
-    let inverse = adjugate.map(|row| row.map(|entry| arena.mul(entry, reciprocal)));
-    let mass = accelerations.map(|k| accelerations.map(|l| matrix.get(k, l)));
-    let inverse = Inverse::Forbidden {
-        coupling,
-        adjugate,
-        determinant,
-        inverse,
-        mass,
-    };
-    (inverse, determinant)
 }
 
 impl Factors {

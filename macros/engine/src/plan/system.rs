@@ -6,6 +6,7 @@ use super::{Pivot, Plan};
 use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
+use crate::symbolic::rotation;
 use crate::symbolic::scene::{Constraint, Scene};
 use crate::symbolic::vector::{Frame, Triple, VectorId, ZERO, cross};
 
@@ -162,7 +163,7 @@ fn relate(scene: &mut Scene, kinds: &[BodyKind], plan: &Plan, matrix: &Symmetric
     pairs.dedup();
     for (other, own) in pairs {
         if other != own && kinds[other] == BodyKind::Rigid {
-            scene.space.relate(other, own);
+            rotation::relate(&mut scene.space, other, own);
         }
     }
 }
@@ -335,18 +336,30 @@ impl System {
         known: VectorId,
     ) -> Triple {
         let first = scene.layout.velocity[body];
-        let [a, w] = [first, first + 3].map(|first| [0, 1, 2].map(|k| accelerations[first + k]));
-        let frame = Frame::Body(body);
-        let centre = scene.centre(body);
+        let a = [0, 1, 2].map(|k| accelerations[first + k]);
+        let a = scene.space.native(self.plan.translation[body], a);
+        let turning = self.turning(scene, body, accelerations);
         let space = &mut scene.space;
-        let (a, w) = (
-            space.native(self.plan.translation[body], a),
-            space.native(frame, w),
-        );
-        let centre = space.native(frame, centre);
-        let turning = space.cross(frame, w, centre);
         let sum = space.sum([a, turning, known].map(|term| (Arena::ONE, term)));
         space.components(sum, Frame::Global)
+    }
+
+    /// What the angular acceleration of a body adds to the acceleration of its centre of mass, beyond that of the point of reference.
+    fn turning(&self, scene: &mut Scene, body: usize, accelerations: &[Expr]) -> VectorId {
+        let centre = scene.centre(body);
+        let first = scene.layout.velocity[body] + 3;
+        if centre == ZERO {
+            return scene.space.native(Frame::Global, ZERO);
+        }
+        let frame = Frame::Body(body);
+        let space = &mut scene.space;
+        let w = space.native(frame, [0, 1, 2].map(|k| accelerations[first + k]));
+        let (factor, along) = space.direction(centre);
+        let along = space.native(frame, along);
+        let turning = space.cross(frame, w, along);
+        // In global axes at once, where it is asked for: otherwise plans of nearly equal cost are told apart by the order of the fields.
+        space.components(turning, Frame::Global);
+        space.scale(factor, turning)
     }
 
     /// Solves for a right-hand side, with as few operations of a stage or later as possible.

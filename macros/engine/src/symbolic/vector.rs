@@ -127,38 +127,6 @@ impl Space {
         self.rotations[body].as_ref()
     }
 
-    /// Declares that the entries of the rotation between two bodies are their own cofactors, as far as they are known.
-    pub fn relate(&mut self, one: usize, other: usize) {
-        let (Some(a), Some(b)) = (self.rotations[one], self.rotations[other]) else {
-            return;
-        };
-        let arena = &mut self.arena;
-        let column = |rows: &[Triple; 3], k: usize| [rows[0][k], rows[1][k], rows[2][k]];
-        let known = [0, 1, 2].map(|k| {
-            [0, 1, 2].map(|l| {
-                let (mark, nodes) = (arena.mark(), arena.len());
-                let entry = dot(arena, column(&a, k), column(&b, l));
-                let is_known = arena.len() == nodes;
-                arena.rollback(mark);
-                is_known.then_some(entry)
-            })
-        });
-        for k in 0..3 {
-            for l in 0..3 {
-                let (k1, k2, l1, l2) = ((k + 1) % 3, (k + 2) % 3, (l + 1) % 3, (l + 2) % 3);
-                let parts = [(k, l), (k1, l1), (k2, l2), (k1, l2), (k2, l1)];
-                let [Some(entry), Some(p), Some(q), Some(r), Some(s)] =
-                    parts.map(|(k, l)| known[k][l])
-                else {
-                    continue;
-                };
-                let (forth, back) = (arena.mul(p, q), arena.mul(r, s));
-                let cofactor = arena.sub(forth, back);
-                arena.identify(cofactor, entry);
-            }
-        }
-    }
-
     /// The present place, for [`Space::rollback`].
     #[must_use]
     pub fn mark(&self) -> SpaceMark {
@@ -307,7 +275,7 @@ impl Space {
     }
 
     /// A vector as a multiple of one that parallel vectors have in common.
-    fn direction(&mut self, vector: Triple) -> (Expr, Triple) {
+    pub fn direction(&mut self, vector: Triple) -> (Expr, Triple) {
         let mut components = vector.into_iter().filter(|&c| c != Arena::ZERO);
         let (first, other) = (components.next(), components.next());
         let Some(first) = first.filter(|_| !self.identities && !self.exact) else {
