@@ -189,9 +189,8 @@ impl Beginning<'_> {
         let system = System::within(&mut scene, &self.kinds, plan.clone(), terms, *most)?;
         let nodes = scene.space.arena.len() - before;
         *most = (*most).min(FILLED * nodes);
-        let factors = count(&scene.space.arena, &system.factors(), Stage::State);
-        let back = Self::back(&mut scene.clone(), &system);
-        let evaluations = served(terms).len() * (factors.total() + back);
+        let (factors, back) = Self::given(&mut scene.clone(), &system);
+        let evaluations = served(terms).len() * factors;
         Some(Candidate {
             plan,
             scene,
@@ -200,11 +199,13 @@ impl Beginning<'_> {
         })
     }
 
-    /// What the back-substitution for a given right-hand side costs.
-    fn back(scene: &mut Scene, system: &System) -> usize {
+    /// What a given right-hand side costs: with the factors that it needs, and by itself.
+    fn given(scene: &mut Scene, system: &System) -> (usize, usize) {
         let solution = system.solve_given(scene);
         let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
-        count(&scene.space.arena, &outputs, Stage::RightHandSide).weighted()
+        let [all, back] = [Stage::State, Stage::RightHandSide]
+            .map(|stage| count(&scene.space.arena, &outputs, stage));
+        (all.total(), back.weighted())
     }
 
     /// What a plan costs: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
@@ -225,7 +226,7 @@ impl Beginning<'_> {
             count(&scene.space.arena, &outputs, Stage::State).weighted()
         });
         let evaluations: usize = evaluations.sum();
-        let back = Self::back(&mut scene, &system);
+        let (_, back) = Self::given(&mut scene, &system);
         (4 * evaluations + back, plan)
     }
 

@@ -5,16 +5,19 @@
 //! the ground the second gives multipliers by the balance of forces on the bodies, in the place of back-substitution. Both hold with and
 //! without a compliance of other rows.
 
-use super::eliminate::{Factors, Inverse, Step, Symmetric};
+use super::collect::common;
+use super::eliminate::{Factors, Step, Symmetric};
+use super::inverse::Inverse;
 use crate::symbolic::arena::{Arena, Expr};
 
 impl Step {
     /// The accelerations and the rows of a pivot that has both.
     fn parts(&self) -> Option<(&[usize], &[usize])> {
-        match self.unknowns.len() {
-            2 => Some(self.unknowns.split_at(1)),
-            4 => Some(self.unknowns.split_at(2)),
-            _ => None,
+        let half = self.unknowns.len() / 2;
+        match &self.inverse {
+            Inverse::Diagonal(_) => None,
+            Inverse::Matrix(rows) if rows.len() == 1 => None,
+            _ => Some(self.unknowns.split_at(half)),
         }
     }
 
@@ -29,6 +32,16 @@ impl Step {
         match &self.inverse {
             // Its own inverse.
             Inverse::Matrix(_) if block[0][0].abs() == Arena::ONE => Some(block),
+            Inverse::Carried { signs, .. } => {
+                let is_diagonal = block.iter().enumerate().all(|(k, row)| {
+                    let mut entries = row.iter().enumerate();
+                    entries.all(|(l, &entry)| {
+                        let wanted = if k == l { signs[k] } else { Arena::ZERO };
+                        entry == wanted
+                    })
+                });
+                is_diagonal.then_some(block)
+            }
             Inverse::Forbidden {
                 coupling, inverse, ..
             } if block.iter().zip(coupling).all(|(a, b)| a[..] == b[..]) => {
@@ -58,8 +71,10 @@ fn remainder(
     over: impl Fn(usize) -> bool,
 ) -> Expr {
     let mut rest = right;
-    for l in matrix.neighbours(k).filter(|&l| over(l)) {
-        let product = arena.mul(matrix.get(k, l), x[l]);
+    let others = matrix.neighbours(k).filter(|&l| over(l));
+    let terms = others.map(|l| (matrix.get(k, l), x[l])).collect();
+    for (entry, x) in common(arena, terms) {
+        let product = arena.mul(entry, x);
         rest = arena.sub(rest, product);
     }
     rest
@@ -135,18 +150,23 @@ impl Factors {
         for (_, rows) in self.steps.iter().filter_map(Step::parts) {
             rows.iter().for_each(|&row| open[row] = true);
         }
-        for step in &self.steps {
+        let mut pending: Vec<&Step> = self.steps.iter().filter(|s| s.parts().is_some()).collect();
+        while !pending.is_empty() {
+            let is_final = |step: &&Step, open: &[bool]| {
+                step.parts().is_some_and(|(accelerations, rows)| {
+                    let mut others = accelerations.iter().flat_map(|&k| matrix.neighbours(k));
+                    others.all(|l| !open[l] || rows.contains(&l))
+                })
+            };
+            let ready = pending.iter().position(|step| is_final(step, &open));
+            let step = pending.remove(ready.unwrap_or(0));
             let Some((accelerations, rows)) = step.parts() else {
                 continue;
             };
             rows.iter().for_each(|&row| open[row] = false);
-            let is_final = |&k: &usize| matrix.neighbours(k).all(|l| !open[l]);
-            let Some(inverse) = step.inverse_coupling(matrix) else {
+            let Some(inverse) = step.inverse_coupling(matrix).filter(|_| ready.is_some()) else {
                 continue;
             };
-            if !accelerations.iter().all(is_final) {
-                continue;
-            }
             let rests: Vec<Expr> = accelerations
                 .iter()
                 .map(|&k| {

@@ -1,169 +1,23 @@
 //! Symbolic elimination of a symmetric system with pivots of one, two or four unknowns, in a given order: `L D L^T`.
-
-use std::collections::BTreeMap;
+//!
+//! Accelerations that follow each other and are not coupled are eliminated together, and so are accelerations that follow each other with the rows that
+//! carry them: what they add to an entry is summed before, so that entries share it.
 
 use super::Pivot;
+use super::augmented::Share;
+use super::collect::{common, sum_of_products, through};
+use super::inverse::{Inverse, by_determined, dot, invert, invert_forbidden};
+pub use super::symmetric::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};
-
-/// A sparse symmetric matrix.
-#[derive(Clone, Debug, Default)]
-pub struct Symmetric {
-    rows: Vec<BTreeMap<usize, Expr>>,
-}
-
-impl Symmetric {
-    /// The zero matrix.
-    #[must_use]
-    pub fn new(size: usize) -> Self {
-        Self {
-            rows: vec![BTreeMap::new(); size],
-        }
-    }
-
-    /// An entry.
-    #[must_use]
-    pub fn get(&self, k: usize, l: usize) -> Expr {
-        self.rows[k].get(&l).copied().unwrap_or(Arena::ZERO)
-    }
-
-    /// Sets an entry and its mirror image.
-    pub fn set(&mut self, k: usize, l: usize, value: Expr) {
-        for (k, l) in [(k, l), (l, k)] {
-            if value == Arena::ZERO {
-                self.rows[k].remove(&l);
-            } else {
-                self.rows[k].insert(l, value);
-            }
-        }
-    }
-
-    /// Adds to an entry and its mirror image.
-    pub fn add(&mut self, arena: &mut Arena, k: usize, l: usize, value: Expr) {
-        let sum = arena.add(self.get(k, l), value);
-        self.set(k, l, sum);
-    }
-
-    /// `-sum_l a_kl^2 / a_ll` over some unknowns: in the system as assembled, what the diagonal element of a multiplier becomes
-    /// by accelerations that do not know of each other.
-    fn schur_diagonal(&self, arena: &mut Arena, k: usize, over: &[usize]) -> Expr {
-        let mut sum = self.get(k, k);
-        for &l in over.iter().filter(|l| **l != k) {
-            let entry = self.get(k, l);
-            if entry != Arena::ZERO {
-                let scaled = arena.div(entry, self.get(l, l));
-                let term = arena.mul(entry, scaled);
-                sum = arena.sub(sum, term);
-            }
-        }
-        sum
-    }
-
-    pub(super) fn neighbours(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
-        self.rows[k].keys().copied()
-    }
-
-    fn remove(&mut self, k: usize) {
-        for (l, _) in std::mem::take(&mut self.rows[k]) {
-            if l != k {
-                self.rows[l].remove(&k);
-            }
-        }
-    }
-}
 
 /// One step of the elimination: `x_P = P^-1 (rhs_P - sum A_iP^T x_i)`.
 #[derive(Clone, Debug)]
 pub(super) struct Step {
     pub(super) unknowns: Vec<usize>,
     pub(super) inverse: Inverse,
-    /// What an unknown that is coupled to the pivot by a column `(u; l)` needs of it: `P^-1 (u; l)`, or where rows determine their accelerations, `x = C^-1 l`
-    /// and `z = u - A x`.
+    /// What an unknown that is coupled to the pivot by a column `(u; v)` needs of it: `P^-1 (u; v)`, or where rows determine their accelerations, `x = C^-1 v`
+    /// and what they leave, `z = u - A x`. That `C^-T z` are multipliers matters at the very end: until then `C^-T z . v' = z . x'`.
     lower: Vec<(usize, Vec<Expr>)>,
-}
-
-/// The inverse of a pivot.
-#[derive(Clone, Debug)]
-pub(super) enum Inverse {
-    /// Entry by entry.
-    Matrix(Vec<Vec<Expr>>),
-    /// Of `[A C^T; C 0]`: `C`, `C^-1` and `A`.
-    Forbidden {
-        coupling: [[Expr; 2]; 2],
-        inverse: [[Expr; 2]; 2],
-        mass: [[Expr; 2]; 2],
-    },
-    /// Of `[a c; c 0]`: `1 / c` and `a`.
-    Dependent { reciprocal: Expr, mass: Expr },
-}
-
-impl Inverse {
-    /// What a column, or a right-hand side, `(u; l)` becomes: `P^-1 (u; l)`, or where rows determine their accelerations, `x = C^-1 l` and `z = u - A x`. That `y =
-    /// C^-T z` are multipliers matters at the very end: until then `y . l = z . x`.
-    fn reduce(&self, arena: &mut Arena, b: &[Expr]) -> Vec<Expr> {
-        match self {
-            Self::Matrix(rows) => rows.iter().map(|row| dot(arena, row, b)).collect(),
-            Self::Dependent { reciprocal, mass } => {
-                let x = arena.mul(*reciprocal, b[1]);
-                let inertia = arena.mul(*mass, x);
-                vec![x, arena.sub(b[0], inertia)]
-            }
-            Self::Forbidden { inverse, mass, .. } => {
-                let (upper, lower) = b.split_at(2);
-                let x = inverse.map(|row| dot(arena, &row, lower));
-                let inertia = mass.map(|row| dot(arena, &row, &x));
-                let [first, second] = [0, 1].map(|k| arena.sub(upper[k], inertia[k]));
-                vec![x[0], x[1], first, second]
-            }
-        }
-    }
-
-    /// What a column that was reduced takes from a right-hand side `(u; l)`, or the other way round.
-    fn product(&self, arena: &mut Arena, column: &[Expr], b: &[Expr], reduced: &[Expr]) -> Expr {
-        if let Self::Matrix(_) = self {
-            return dot(arena, column, b);
-        }
-        let half = column.len() / 2;
-        let ((x, z), upper) = (column.split_at(half), &b[..half]);
-        let (first, second) = (dot(arena, x, upper), dot(arena, z, &reduced[..half]));
-        arena.add(first, second)
-    }
-
-    /// What a column `(u; l)` that was reduced takes from its own diagonal element.
-    fn square(&self, arena: &mut Arena, column: &[Expr], b: &[Expr]) -> Expr {
-        if let Self::Matrix(_) = self {
-            return dot(arena, column, b);
-        }
-        let (x, z) = column.split_at(column.len() / 2);
-        let both: Vec<Expr> = z.iter().zip(b).map(|(&z, &u)| arena.add(z, u)).collect();
-        dot(arena, x, &both)
-    }
-
-    /// The unknowns of the pivot, of what is left of a right-hand side that was reduced.
-    fn finish(&self, arena: &mut Arena, left: Vec<Expr>) -> Vec<Expr> {
-        match self {
-            Self::Matrix(_) => left,
-            Self::Dependent { reciprocal, .. } => {
-                vec![left[0], arena.mul(*reciprocal, left[1])]
-            }
-            Self::Forbidden {
-                inverse: [first, second],
-                ..
-            } => {
-                let columns = [0, 1].map(|row| [first[row], second[row]]);
-                let y = columns.map(|column| dot(arena, &column, &left[2..]));
-                vec![left[0], left[1], y[0], y[1]]
-            }
-        }
-    }
-}
-
-fn dot(arena: &mut Arena, x: &[Expr], y: &[Expr]) -> Expr {
-    let mut sum = Arena::ZERO;
-    for (&x, &y) in x.iter().zip(y) {
-        let product = arena.mul(x, y);
-        sum = arena.add(sum, product);
-    }
-    sum
 }
 
 /// A pivot that depends on the state, and what it is compared with.
@@ -184,6 +38,8 @@ pub struct Factors {
     pub(super) steps: Vec<Step>,
     /// The pivots that depend on the state and are not safe by themselves.
     pub checks: Vec<Check>,
+    /// Where the matrix is that of augmented bodies: what makes of its solutions those of the original.
+    pub(super) shares: Vec<Share>,
 }
 
 /// Factorises a matrix.
@@ -221,7 +77,7 @@ pub(super) fn factorise_within(
     most: usize,
 ) -> Option<Factors> {
     let before = arena.len();
-    let size = matrix.rows.len();
+    let size = matrix.size();
     let mut turn = vec![usize::MAX; size];
     for (place, unknown) in pivots.iter().flat_map(|p| p.unknowns()).enumerate() {
         turn[unknown] = place;
@@ -235,10 +91,31 @@ pub(super) fn factorise_within(
         factors: Factors {
             steps: Vec::new(),
             checks: Vec::new(),
+            shares: Vec::new(),
         },
     };
     let mut determinants = determinants.iter();
-    for &pivot in pivots {
+    let mut place = 0;
+    while let Some(&pivot) = pivots.get(place) {
+        let together = elimination.strangers(&pivots[place..]);
+        if together.len() > 1 {
+            place += together.len();
+            elimination.take_strangers(arena, together);
+            if arena.len() - before > most {
+                return None;
+            }
+            continue;
+        }
+        let carried = elimination.carried(&pivots[place..]);
+        if carried.len() > 1 {
+            place += carried.len();
+            elimination.take_carried(arena, &carried);
+            if arena.len() - before > most {
+                return None;
+            }
+            continue;
+        }
+        place += 1;
         let determinant = match pivot {
             Pivot::Forbidden(..) | Pivot::Dependent(..) => *determinants
                 .next()
@@ -255,7 +132,7 @@ pub(super) fn factorise_within(
     for row in std::mem::take(&mut elimination.waiting) {
         elimination.step(arena, Pivot::Multiplier(row), 1.0);
     }
-    let mut eliminated = elimination.eliminated;
+    let mut eliminated = elimination.eliminated.concat();
     eliminated.sort_unstable();
     assert!(
         eliminated.iter().copied().eq(0..size),
@@ -273,8 +150,8 @@ struct Elimination {
     /// When the plan eliminates each unknown: sums are taken in this order, so that the numbers of the unknowns, and with them the order of the fields,
     /// have no say.
     turn: Vec<usize>,
-    /// In order.
-    eliminated: Vec<usize>,
+    /// In order, step by step.
+    eliminated: Vec<Vec<usize>>,
     /// Rows whose pivot is zero so far.
     waiting: Vec<usize>,
     factors: Factors,
@@ -308,6 +185,67 @@ impl Elimination {
         }
     }
 
+    /// The first pivots, if they are accelerations that know nothing of each other.
+    fn strangers(&self, pivots: &[Pivot]) -> Vec<usize> {
+        let mut together: Vec<usize> = Vec::new();
+        for pivot in pivots {
+            let Pivot::Acceleration(k) = *pivot else {
+                break;
+            };
+            if together
+                .iter()
+                .any(|&l| self.matrix.get(k, l) != Arena::ZERO)
+            {
+                break;
+            }
+            together.push(k);
+        }
+        together
+    }
+
+    /// The first pivots, if they are accelerations with rows that carry one each and know nothing of the others.
+    fn carried(&self, pivots: &[Pivot]) -> Vec<[usize; 2]> {
+        let mut carried: Vec<[usize; 2]> = Vec::new();
+        for pivot in pivots {
+            let Pivot::Saddle(k, l) = *pivot else { break };
+            let entry = |a: usize, b: usize| self.matrix.get(a, b);
+            let is_zero = |a: usize, b: usize| entry(a, b) == Arena::ZERO;
+            let is_alone = |&[i, j]: &[usize; 2]| is_zero(i, l) && is_zero(k, j) && is_zero(j, l);
+            let is_sound = entry(k, l).abs() == Arena::ONE && is_zero(l, l);
+            if !is_sound || !carried.iter().all(is_alone) {
+                break;
+            }
+            carried.push([k, l]);
+        }
+        carried
+    }
+
+    /// Eliminates accelerations together with the rows that carry them, and rows that waited for it.
+    fn take_carried(&mut self, arena: &mut Arena, carried: &[[usize; 2]]) {
+        let signs = carried.iter().map(|&[k, l]| self.matrix.get(k, l));
+        let accelerations = carried.iter().map(|[k, _]| *k);
+        let mass = accelerations.clone().map(|k| {
+            let row = accelerations.clone().map(|l| self.matrix.get(k, l));
+            row.collect()
+        });
+        let inverse = Inverse::Carried {
+            signs: signs.collect(),
+            mass: mass.collect(),
+        };
+        let unknowns = accelerations.chain(carried.iter().map(|[_, l]| *l));
+        let unknowns = unknowns.collect();
+        self.eliminate(arena, unknowns, inverse);
+        self.take_waiting(arena);
+    }
+
+    /// Eliminates accelerations that know nothing of each other, and rows that waited for it.
+    fn take_strangers(&mut self, arena: &mut Arena, unknowns: Vec<usize>) {
+        let pivots = unknowns.iter().map(|&k| self.matrix.get(k, k));
+        let inverses = pivots.map(|pivot| arena.reciprocal(pivot)).collect();
+        self.eliminate(arena, unknowns, Inverse::Diagonal(inverses));
+        self.take_waiting(arena);
+    }
+
     /// Eliminates what can be eliminated now, and rows that waited for it.
     fn take(&mut self, arena: &mut Arena, pivot: Pivot, determinant: f64) {
         match pivot {
@@ -316,6 +254,10 @@ impl Elimination {
             }
             _ => self.step(arena, pivot, determinant),
         }
+        self.take_waiting(arena);
+    }
+
+    fn take_waiting(&mut self, arena: &mut Arena) {
         while let Some(place) = self.ready() {
             let row = self.waiting.remove(place);
             self.step(arena, Pivot::Multiplier(row), 1.0);
@@ -346,22 +288,21 @@ impl Elimination {
     }
 
     /// The pivot of a multiplier if there were no other rows. The terms are summed in the order of elimination, where the elimination may have
-    /// formed the same sum, or in the order of the unknowns, whatever takes fewer operations.
+    /// formed the same sum, in the order of the unknowns, or at once, whatever takes fewest operations.
     fn uncoupled(&self, arena: &mut Arena, row: usize) -> Expr {
-        let mut sorted = self.eliminated.clone();
+        let mut sorted = self.eliminated.concat();
         sorted.sort_unstable();
-        let [as_eliminated, as_numbered] = [&self.eliminated, &sorted].map(|over| {
+        let one_by_one: Vec<Vec<usize>> = sorted.iter().map(|&k| vec![k]).collect();
+        let ways = [self.eliminated.clone(), one_by_one, vec![sorted]];
+        let operations = |over: &&Vec<Vec<usize>>| {
             let mark = arena.mark();
             self.about_centres.schur_diagonal(arena, row, over);
             let operations = arena.operations_since(mark);
             arena.rollback(mark);
             operations
-        });
-        let over = if as_eliminated < as_numbered {
-            &self.eliminated
-        } else {
-            &sorted
         };
+        let over = ways.iter().min_by_key(operations);
+        let over = over.expect("there are three ways");
         self.about_centres.schur_diagonal(arena, row, over)
     }
 
@@ -402,6 +343,10 @@ impl Elimination {
                 Inverse::Matrix(invert(arena, &self.matrix, &unknowns))
             }
         };
+        self.eliminate(arena, unknowns, inverse);
+    }
+
+    fn eliminate(&mut self, arena: &mut Arena, unknowns: Vec<usize>, inverse: Inverse) {
         let matrix = &mut self.matrix;
         let coupled: Vec<usize> = {
             let mut coupled: Vec<usize> = unknowns
@@ -413,73 +358,48 @@ impl Elimination {
             coupled.retain(|k| !unknowns.contains(k));
             coupled
         };
-        let column = |matrix: &Symmetric, i: usize| -> Vec<Expr> {
-            unknowns.iter().map(|&k| matrix.get(i, k)).collect()
-        };
-        let lower: Vec<(usize, Vec<Expr>)> = coupled
+        let columns: Vec<Vec<Expr>> = coupled
             .iter()
-            .map(|&i| (i, inverse.reduce(arena, &column(matrix, i))))
+            .map(|&i| unknowns.iter().map(|&k| matrix.get(i, k)).collect())
             .collect();
-        for (place, (i, row)) in lower.iter().enumerate() {
-            for (j, reduced) in &lower[..place] {
-                let update = inverse.product(arena, row, &column(matrix, *j), reduced);
-                matrix.add(arena, *i, *j, -update);
+        let determined: Vec<[Vec<Expr>; 2]> = columns
+            .iter()
+            .map(|column| inverse.determined(arena, column))
+            .collect();
+        let mut lower: Vec<(usize, Vec<Expr>)> = Vec::new();
+        for (place, &i) in coupled.iter().enumerate() {
+            let [x, left] = &determined[place];
+            let row = if x.is_empty() {
+                inverse.apply(arena, &columns[place])
+            } else {
+                [&x[..], left].concat()
+            };
+            for (other, &j) in coupled[..=place].iter().enumerate() {
+                let update = match &inverse {
+                    Inverse::Matrix(_) => dot(arena, &row, &columns[other]),
+                    Inverse::Diagonal(inverses) => {
+                        through(arena, inverses, &columns[place], &columns[other])
+                    }
+                    // Not by way of multipliers, which may not be asked for.
+                    _ => {
+                        let pair = [place, other];
+                        by_determined(arena, pair.map(|k| (&columns[k][..], &determined[k])))
+                    }
+                };
+                matrix.add(arena, i, j, -update);
             }
-            let update = inverse.square(arena, row, &column(matrix, *i));
-            matrix.add(arena, *i, *i, -update);
+            lower.push((i, row));
         }
         for &unknown in &unknowns {
             matrix.remove(unknown);
         }
-        self.eliminated.extend(&unknowns);
+        self.eliminated.push(unknowns.clone());
         self.factors.steps.push(Step {
             unknowns,
             inverse,
             lower,
         });
     }
-}
-
-fn invert(arena: &mut Arena, matrix: &Symmetric, unknowns: &[usize]) -> Vec<Vec<Expr>> {
-    match *unknowns {
-        [k] => vec![vec![arena.reciprocal(matrix.get(k, k))]],
-        [k, l] => {
-            let (a, b, c) = (matrix.get(k, k), matrix.get(k, l), matrix.get(l, l));
-            let (ac, bb) = (arena.mul(a, c), arena.square(b));
-            let determinant = arena.sub(ac, bb);
-            let inverse = arena.reciprocal(determinant);
-            let (a, b, c) = (
-                arena.mul(a, inverse),
-                arena.mul(b, inverse),
-                arena.mul(c, inverse),
-            );
-            vec![vec![c, -b], vec![-b, a]]
-        }
-        _ => unreachable!("a pivot that is inverted entry by entry has one or two unknowns"),
-    }
-}
-
-/// The inverse of `[A C^T; C 0]`, and the determinant of `C`.
-fn invert_forbidden(
-    arena: &mut Arena,
-    matrix: &Symmetric,
-    accelerations: [usize; 2],
-    rows: [usize; 2],
-) -> (Inverse, Expr) {
-    let coupling = rows.map(|row| accelerations.map(|k| matrix.get(row, k)));
-    let [[a, b], [c, d]] = coupling;
-    let (ad, bc) = (arena.mul(a, d), arena.mul(b, c));
-    let determinant = arena.sub(ad, bc);
-    let reciprocal = arena.reciprocal(determinant);
-    // Rows are accelerations, columns are rows of C.
-    let inverse = [[d, -b], [-c, a]].map(|row| row.map(|entry| arena.mul(entry, reciprocal)));
-    let mass = accelerations.map(|k| accelerations.map(|l| matrix.get(k, l)));
-    let inverse = Inverse::Forbidden {
-        coupling,
-        inverse,
-        mass,
-    };
-    (inverse, determinant)
 }
 
 impl Factors {
@@ -491,29 +411,61 @@ impl Factors {
 
     /// Solves the system for a right-hand side.
     pub fn solve(&self, arena: &mut Arena, mut right: Vec<Expr>) -> Vec<Expr> {
+        let rows = self.shares.iter().map(|share| right[share.row]);
+        let gamma: Vec<Expr> = rows.collect();
+        for share in &self.shares {
+            share.add_forces(arena, &mut right);
+        }
         let mut reduced = Vec::new();
         for step in &self.steps {
             let own: Vec<Expr> = step.unknowns.iter().map(|&k| right[k]).collect();
-            let of_own = step.inverse.reduce(arena, &own);
+            let [x, left] = step.inverse.determined(arena, &own);
+            let half = x.len();
             for (i, row) in &step.lower {
-                let product = step.inverse.product(arena, row, &own, &of_own);
-                right[*i] = arena.sub(right[*i], product);
+                let known: Vec<Expr> = own[..half].iter().chain(&x).copied().collect();
+                let known = if half == 0 { &own } else { &known };
+                if let Inverse::Diagonal(_) = step.inverse {
+                    let term = sum_of_products(arena, row, known);
+                    right[*i] = arena.sub(right[*i], term);
+                    continue;
+                }
+                for (&entry, &known) in row.iter().zip(known) {
+                    let product = arena.mul(entry, known);
+                    right[*i] = arena.sub(right[*i], product);
+                }
             }
-            reduced.push(of_own);
+            reduced.push(if half == 0 {
+                step.inverse.apply(arena, &own)
+            } else {
+                [x, left].concat()
+            });
         }
         let mut solution = vec![Arena::ZERO; right.len()];
-        for (step, mut left) in self.steps.iter().zip(reduced).rev() {
-            for (p, value) in left.iter_mut().enumerate() {
+        for (step, mut values) in self.steps.iter().zip(reduced).rev() {
+            for (p, value) in values.iter_mut().enumerate() {
                 // What is known first comes first, so that the path is short.
-                for (i, row) in step.lower.iter().rev() {
-                    let product = arena.mul(row[p], solution[*i]);
+                let terms = step.lower.iter().rev();
+                let terms = terms.map(|(i, row)| (row[p], solution[*i]));
+                let terms: Vec<(Expr, Expr)> = terms.collect();
+                let terms = match step.inverse {
+                    Inverse::Diagonal(_) => common(arena, terms),
+                    _ => terms,
+                };
+                for (entry, known) in terms {
+                    let product = arena.mul(entry, known);
                     *value = arena.sub(*value, product);
                 }
             }
-            let values = step.inverse.finish(arena, left);
+            let half = values.len() / 2;
+            let y = step.inverse.multipliers(arena, &values[half..]);
+            let first = values.len() - y.len();
+            values[first..].copy_from_slice(&y);
             for (&unknown, value) in step.unknowns.iter().zip(values) {
                 solution[unknown] = value;
             }
+        }
+        for (share, gamma) in self.shares.iter().zip(gamma) {
+            share.add_reaction(arena, gamma, &mut solution);
         }
         solution
     }

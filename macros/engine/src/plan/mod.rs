@@ -4,13 +4,17 @@
 //! is saved is saved by constants that fold.
 
 pub mod alone;
+mod augmented;
 pub mod candidates;
 mod carried;
+mod collect;
 pub mod eliminate;
+mod inverse;
 pub mod kernels;
 mod order;
 mod reach;
 pub mod readings;
+mod symmetric;
 pub mod system;
 pub mod time;
 mod tree;

@@ -173,29 +173,25 @@ impl<'a> Order<'a> {
         let mut determinants = Vec::new();
         let mut waiting: Vec<usize> = Vec::new();
         for &(body, joint) in &tree.bodies {
-            let first = scene.layout.velocity[body];
             self.enter(body);
+            // Of a leaf the block is made of numbers, which the rows of its joint carry on as they are.
+            let is_filled = self.is_filled(body);
             if let Some(joint) = joint {
-                for row in self.carried_rows(joint, first) {
-                    let rows = [row, row + 1, row + 2];
-                    let is_free = |row: &usize| self.is_first_on(*row, body);
-                    let waits = late.is_some() && self.is_between_bodies(row);
-                    if waits || !rows.iter().all(is_free) || !self.hold(&rows) {
-                        continue;
-                    }
-                    for k in 0..3 {
-                        self.take(&mut pivots, Pivot::Saddle(first + k, velocities + row + k));
+                if is_filled {
+                    for k in self.free(joint, body) {
+                        self.take(&mut pivots, Pivot::Acceleration(k));
                     }
                 }
-            }
-            if let Some(joint) = joint.filter(|_| forbidden)
-                && let Some((accelerations, rows, determinant)) = self.forbidden_motion(joint, body)
-                && rows.iter().all(|&row| self.is_first_on(row, body))
-                && self.hold(&rows)
-            {
-                let rows = rows.map(|row| velocities + row);
-                self.take(&mut pivots, Pivot::Forbidden(accelerations, rows));
-                determinants.push(determinant);
+                // What turns with the body goes first, unless the point rows know of it.
+                let turns_first = is_filled && self.are_about_their_point(joint, body);
+                for turns in [turns_first, !turns_first] {
+                    if !turns {
+                        self.take_carried(&mut pivots, joint, body, late);
+                    } else if forbidden {
+                        let determinant = self.take_forbidden(&mut pivots, joint, body);
+                        determinants.extend(determinant);
+                    }
+                }
             }
             self.take_body(&mut pivots, body);
             let behind = joint.map_or_else(Vec::new, |joint| rows_of(scene, joint));
@@ -216,6 +212,76 @@ impl<'a> Order<'a> {
             self.take(&mut pivots, Pivot::Multiplier(velocities + row));
         }
         (pivots, determinants)
+    }
+
+    /// Point rows of a joint together with the accelerations of the body that it carries.
+    fn take_carried(
+        &mut self,
+        pivots: &mut Vec<Pivot>,
+        joint: usize,
+        body: usize,
+        late: Option<Rows>,
+    ) {
+        let (first, velocities) = (
+            self.scene.layout.velocity[body],
+            self.scene.layout.velocities,
+        );
+        for row in self.carried_rows(joint, first) {
+            let rows = [row, row + 1, row + 2];
+            let is_free = |row: &usize| self.is_first_on(*row, body);
+            let waits = late.is_some() && self.is_between_bodies(row);
+            if waits || !rows.iter().all(is_free) || !self.hold(&rows) {
+                continue;
+            }
+            for k in 0..3 {
+                self.take(pivots, Pivot::Saddle(first + k, velocities + row + k));
+            }
+        }
+    }
+
+    /// The motion that a joint forbids the body that it carries; its determinant at the start.
+    fn take_forbidden(
+        &mut self,
+        pivots: &mut Vec<Pivot>,
+        joint: usize,
+        body: usize,
+    ) -> Option<f64> {
+        let (accelerations, rows, determinant) = self.forbidden_motion(joint, body)?;
+        if !rows.iter().all(|&row| self.is_first_on(row, body)) || !self.hold(&rows) {
+            return None;
+        }
+        let rows = rows.map(|row| self.scene.layout.velocities + row);
+        self.take(pivots, Pivot::Forbidden(accelerations, rows));
+        Some(determinant)
+    }
+
+    /// Whether the point rows of a joint do not act on the angular acceleration of the body that it carries.
+    fn are_about_their_point(&self, joint: usize, body: usize) -> bool {
+        let first = self.scene.layout.velocity[body];
+        let carried = self.carried_rows(joint, first);
+        let mut rows = carried.iter().flat_map(|&row| &self.coupling[row..row + 3]);
+        let own = first + 3..first + self.kinds[body].velocities();
+        rows.all(|row| row.iter().all(|(k, _)| !own.contains(k)))
+    }
+
+    /// Whether a row that acts on a body is eliminated, so that its block of masses is not made of numbers any more.
+    fn is_filled(&self, body: usize) -> bool {
+        let velocities = self.scene.layout.velocities;
+        let mut rows = self.reach.rows.iter().enumerate();
+        rows.any(|(row, bodies)| self.done[velocities + row] && bodies.contains(&Some(body)))
+    }
+
+    /// The accelerations of a body that no row of the joint acts on which carries it. Before the others they know of their own body only, so that little
+    /// is coupled with them.
+    fn free(&self, joint: usize, body: usize) -> Vec<usize> {
+        let first = self.scene.layout.velocity[body];
+        let own = first..first + self.kinds[body].velocities();
+        let rows = rows_of(self.scene, joint);
+        let acts = |k: usize| {
+            let mut entries = rows.iter().flat_map(|&row| &self.coupling[row]);
+            entries.any(|(unknown, _)| *unknown == k)
+        };
+        own.filter(|&k| !acts(k)).collect()
     }
 
     /// Whether a row acts on more than one body.

@@ -1,10 +1,12 @@
 //! The saddle system of a scene in the axes of a plan, and its solution back in the axes of the state.
 
-use super::Plan;
+use super::augmented::{Augmented, handed_on, shares};
 use super::eliminate::{Check, Factors, Symmetric, factorise_within};
+use super::{Pivot, Plan};
 use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
+use crate::symbolic::rotation;
 use crate::symbolic::scene::{Constraint, Scene};
 use crate::symbolic::vector::{Frame, Triple, VectorId, ZERO, cross};
 
@@ -107,20 +109,21 @@ fn assembled(
     kinds: &[BodyKind],
     plan: &Plan,
     compliances: &[Expr],
+    augmented: &Augmented,
 ) -> Symmetric {
     let (velocities, rows) = (scene.layout.velocities, scene.layout.rows);
     let mut matrix = Symmetric::new(velocities + rows);
     for (body, kind) in kinds.iter().enumerate() {
         let first = scene.layout.velocity[body];
-        let mass = scene.mass[body];
+        let mass = augmented.mass[body];
         for k in 0..3 {
             matrix.set(first + k, first + k, mass);
         }
         if *kind != BodyKind::Rigid {
             continue;
         }
-        let inertia = scene.inertia_about_reference(body);
-        let centre = scene.centre(body);
+        let points = &augmented.points[body];
+        let (moment, inertia) = scene.moments_about_reference(body, points);
         for k in 0..3 {
             for (l, &entry) in inertia[k].iter().enumerate().skip(k) {
                 matrix.set(first + 3 + k, first + 3 + l, entry);
@@ -128,12 +131,11 @@ fn assembled(
             // What a rotation about one axis does to the centre of mass.
             let mut axis = ZERO;
             axis[k] = Arena::ONE;
-            let moved = cross(&mut scene.space.arena, axis, centre);
+            let moved = cross(&mut scene.space.arena, axis, moment);
             let moved = scene.space.native(Frame::Body(body), moved);
             let moved = scene.space.components(moved, plan.translation[body]);
             for (l, component) in moved.into_iter().enumerate() {
-                let entry = scene.space.arena.mul(mass, component);
-                matrix.set(first + l, first + 3 + k, entry);
+                matrix.set(first + l, first + 3 + k, component);
             }
         }
     }
@@ -144,6 +146,26 @@ fn assembled(
         matrix.set(velocities + row, velocities + row, -compliances[row]);
     }
     matrix
+}
+
+/// Where two bodies are held by rows that forbid a motion, the determinant of these is an entry of the rotation between them.
+fn relate(scene: &mut Scene, kinds: &[BodyKind], plan: &Plan, matrix: &Symmetric) {
+    let layout = &scene.layout;
+    let body_of = |unknown: usize| layout.velocity.iter().rposition(|&first| first <= unknown);
+    let mut pairs = Vec::new();
+    for pivot in &plan.pivots {
+        if let Pivot::Forbidden([own, _], [row, _]) = *pivot {
+            let unknowns = matrix.neighbours(row).filter(|&k| k < layout.velocities);
+            let own = body_of(own);
+            pairs.extend(unknowns.filter_map(|other| body_of(other).zip(own)));
+        }
+    }
+    pairs.dedup();
+    for (other, own) in pairs {
+        if other != own && kinds[other] == BodyKind::Rigid {
+            rotation::relate(&mut scene.space, other, own);
+        }
+    }
 }
 
 impl System {
@@ -165,21 +187,36 @@ impl System {
     ) -> Option<Self> {
         let compliances = compliances(scene, terms);
         scene.motion.reference.fill(ZERO);
-        let about_centres = assembled(scene, kinds, &plan, &compliances);
+        let described = Augmented::none(scene);
+        let about_centres = assembled(scene, kinds, &plan, &compliances, &described);
         let matrix = if plan.points.iter().any(Option::is_some) {
             plan.refer(scene);
-            assembled(scene, kinds, &plan, &compliances)
+            assembled(scene, kinds, &plan, &compliances, &described)
         } else {
             about_centres.clone()
         };
+        let handed_on = match terms {
+            Terms::Plain | Terms::Stabilised => handed_on(scene, kinds, &plan),
+            Terms::Compliant => Vec::new(),
+        };
+        let (to_factorise, shares) = if handed_on.is_empty() {
+            (matrix.clone(), Vec::new())
+        } else {
+            let (augmented, masses) = Augmented::new(scene, &handed_on);
+            let matrix = assembled(scene, kinds, &plan, &compliances, &augmented);
+            let shares = shares(scene, &matrix, &handed_on, &masses);
+            (matrix, shares)
+        };
+        relate(scene, kinds, &plan, &matrix);
         let arena = &mut scene.space.arena;
         let mut factors = factorise_within(
             arena,
-            matrix.clone(),
+            to_factorise,
             about_centres.clone(),
             (&plan.pivots, &plan.determinants),
             most,
         )?;
+        factors.shares = shares;
         if terms == Terms::Compliant {
             // Quasi-definite: every pivot is safe.
             factors.checks.clear();
@@ -299,18 +336,30 @@ impl System {
         known: VectorId,
     ) -> Triple {
         let first = scene.layout.velocity[body];
-        let [a, w] = [first, first + 3].map(|first| [0, 1, 2].map(|k| accelerations[first + k]));
-        let frame = Frame::Body(body);
-        let centre = scene.centre(body);
+        let a = [0, 1, 2].map(|k| accelerations[first + k]);
+        let a = scene.space.native(self.plan.translation[body], a);
+        let turning = self.turning(scene, body, accelerations);
         let space = &mut scene.space;
-        let (a, w) = (
-            space.native(self.plan.translation[body], a),
-            space.native(frame, w),
-        );
-        let centre = space.native(frame, centre);
-        let turning = space.cross(frame, w, centre);
         let sum = space.sum([a, turning, known].map(|term| (Arena::ONE, term)));
         space.components(sum, Frame::Global)
+    }
+
+    /// What the angular acceleration of a body adds to the acceleration of its centre of mass, beyond that of the point of reference.
+    fn turning(&self, scene: &mut Scene, body: usize, accelerations: &[Expr]) -> VectorId {
+        let centre = scene.centre(body);
+        let first = scene.layout.velocity[body] + 3;
+        if centre == ZERO {
+            return scene.space.native(Frame::Global, ZERO);
+        }
+        let frame = Frame::Body(body);
+        let space = &mut scene.space;
+        let w = space.native(frame, [0, 1, 2].map(|k| accelerations[first + k]));
+        let (factor, along) = space.direction(centre);
+        let along = space.native(frame, along);
+        let turning = space.cross(frame, w, along);
+        // In global axes at once, where it is asked for: otherwise plans of nearly equal cost are told apart by the order of the fields.
+        space.components(turning, Frame::Global);
+        space.scale(factor, turning)
     }
 
     /// Solves for a right-hand side, with as few operations of a stage or later as possible.

@@ -11,6 +11,7 @@ mod identities;
 mod index;
 mod kept;
 mod node;
+pub mod rotation;
 pub mod scene;
 mod start;
 pub(crate) mod table;

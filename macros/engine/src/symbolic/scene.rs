@@ -6,6 +6,8 @@ use super::fixed::{Copies, number, triple};
 use super::functions::{AngleExpr, PairedAngles};
 use super::identities::from_centres;
 use super::kept::kept;
+use super::rotation::{complete, own_cofactors, unit_rotation};
+pub use super::rotation::{homogeneous_rotation, normalised_rotation};
 use super::twist::{Gradient, Motion, ScalarExpr, VectorExpr};
 use super::vector::{Frame, Space, Triple};
 use crate::model::mechanism::Layout;
@@ -126,75 +128,27 @@ pub struct CountedAngle {
     pub bodies: [Option<usize>; 2],
 }
 
-/// `(e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, row by row: `|p|^2` times a rotation (Nikravesh 1988, eq. 6.18). 26 operations.
-pub fn homogeneous_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
-    let doubled = [1, 2, 3].map(|k| arena.add(p[k], p[k]));
-    let [ww, xx, yy, zz] = p.map(|e| arena.square(e));
-    let (sum_x, sum_yz) = (arena.add(ww, xx), arena.add(yy, zz));
-    let (difference_x, difference_yz) = (arena.sub(ww, xx), arena.sub(yy, zz));
-    let diagonal = [
-        arena.sub(sum_x, sum_yz),
-        arena.add(difference_x, difference_yz),
-        arena.sub(difference_x, difference_yz),
-    ];
-    with_diagonal(arena, p, doubled, diagonal)
+/// Whether a body has an axis of symmetry.
+fn has_equal_moments([a, b, c]: &Triple) -> bool {
+    a == b || b == c || c == a
 }
 
-/// The rotation of `p / |p|`, row by row. The vector part is doubled and divided by `p.p` at once, so that
-/// no square root stands in the way. 33 operations.
-pub fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
-    let squares = p.map(|e| arena.square(e));
-    let (first, second) = (
-        arena.add(squares[0], squares[1]),
-        arena.add(squares[2], squares[3]),
-    );
-    let norm = arena.add(first, second);
-    let reciprocal = arena.reciprocal(norm);
-    let scale = arena.add(reciprocal, reciprocal);
-    let doubled = [1, 2, 3].map(|k| arena.mul(scale, p[k]));
-    let [xx, yy, zz] = [0, 1, 2].map(|k| arena.mul(doubled[k], p[k + 1]));
-    let diagonal = [(yy, zz), (zz, xx), (xx, yy)].map(|(a, b)| {
-        let sum = arena.add(a, b);
-        arena.sub(Arena::ONE, sum)
-    });
-    with_diagonal(arena, p, doubled, diagonal)
-}
-
-/// The rotation of unit Euler parameters, row by row. 24 operations.
-fn unit_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
-    let doubled = [1, 2, 3].map(|k| arena.add(p[k], p[k]));
-    let [xx, yy, zz] = [0, 1, 2].map(|k| arena.mul(doubled[k], p[k + 1]));
-    let rests = [xx, yy].map(|square| arena.sub(Arena::ONE, square));
-    let diagonal = [
-        arena.sub(rests[1], zz),
-        arena.sub(rests[0], zz),
-        arena.sub(rests[0], yy),
-    ];
-    with_diagonal(arena, p, doubled, diagonal)
-}
-
-fn with_diagonal(
-    arena: &mut Arena,
-    p: [Expr; 4],
-    doubled: Triple,
-    diagonal: Triple,
-) -> [Triple; 3] {
-    let [x2, y2, z2] = doubled;
-    let (xy, xz, yz) = (
-        arena.mul(x2, p[2]),
-        arena.mul(x2, p[3]),
-        arena.mul(y2, p[3]),
-    );
-    let (wx, wy, wz) = (
-        arena.mul(x2, p[0]),
-        arena.mul(y2, p[0]),
-        arena.mul(z2, p[0]),
-    );
-    [
-        [diagonal[0], arena.sub(xy, wz), arena.add(xz, wy)],
-        [arena.add(xy, wz), diagonal[1], arena.sub(yz, wx)],
-        [arena.sub(xz, wy), arena.add(yz, wx), diagonal[2]],
-    ]
+/// `m (c.c I - c c^T)`: the tensor of inertia of a mass on a point.
+fn huygens(arena: &mut Arena, m: Expr, c: Triple) -> [Triple; 3] {
+    let mut tensor = [super::vector::ZERO; 3];
+    for k in 0..3 {
+        for l in 0..3 {
+            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+            let arms = if k == l {
+                let (first, second) = (arena.square(c[a]), arena.square(c[b]));
+                arena.add(first, second)
+            } else {
+                -arena.mul(c[k], c[l])
+            };
+            tensor[k][l] = arena.mul(m, arms);
+        }
+    }
+    tensor
 }
 
 impl Scene {
@@ -379,15 +333,9 @@ impl Scene {
             let Some(a) = scene.space.rotation(body).copied() else {
                 continue;
             };
-            let arena = &mut scene.space.arena;
-            for k in 0..3 {
-                for l in 0..3 {
-                    let (k1, k2, l1, l2) = ((k + 1) % 3, (k + 2) % 3, (l + 1) % 3, (l + 2) % 3);
-                    let forth = arena.mul(a[k1][l1], a[k2][l2]);
-                    let back = arena.mul(a[k1][l2], a[k2][l1]);
-                    let cofactor = arena.sub(forth, back);
-                    arena.identify(cofactor, a[k][l]);
-                }
+            own_cofactors(&mut scene.space.arena, &a);
+            if has_equal_moments(&scene.inertia[body]) {
+                complete(&mut scene.space.arena, &a);
             }
         }
         scene
@@ -504,27 +452,66 @@ impl Scene {
         self.motion.reference[body].map(|component| -component)
     }
 
+    /// What a constraint between vectors holds a point of a body to, if it is one point of another body or of the ground: the other body and the point there, from
+    /// its centre of mass.
+    #[must_use]
+    pub fn joins(&self, constraint: usize, body: usize) -> Option<Option<(usize, Triple)>> {
+        let Constraint::Vector(VectorExpr::Sum(terms)) = &self.constraints[constraint].constraint
+        else {
+            return None;
+        };
+        let (mut own, mut others) = (Vec::new(), Vec::new());
+        for (factor, term) in terms {
+            match term {
+                VectorExpr::Point(Some(on), _) if *on == body => own.push(*factor),
+                VectorExpr::Point(Some(on), point) => others.push((*factor, *on, *point)),
+                VectorExpr::Point(None, _) | VectorExpr::Fixed(None, _) => {}
+                _ => return None,
+            }
+        }
+        match (&own[..], &others[..]) {
+            ([factor], []) if factor.abs() == Arena::ONE => Some(None),
+            ([factor], [(other, on, point)])
+                if factor.abs() == Arena::ONE && *other == -*factor =>
+            {
+                Some(Some((*on, *point)))
+            }
+            _ => None,
+        }
+    }
+
+    /// The first moment of mass and the tensor of inertia of a body about the point of reference, principal axes, with masses on points of
+    /// it, from the centre of mass.
+    pub fn moments_about_reference(
+        &mut self,
+        body: usize,
+        points: &[(Expr, Triple)],
+    ) -> (Triple, [Triple; 3]) {
+        let mut inertia = self.inertia_about_reference(body);
+        let (centre, mass) = (self.centre(body), self.mass[body]);
+        let arena = &mut self.space.arena;
+        let mut moment = centre.map(|c| arena.mul(mass, c));
+        for &(mass, point) in points {
+            let arm = [0, 1, 2].map(|k| arena.add(point[k], centre[k]));
+            let steiner = huygens(arena, mass, arm);
+            for k in 0..3 {
+                let first = arena.mul(mass, arm[k]);
+                moment[k] = arena.add(moment[k], first);
+                for l in 0..3 {
+                    inertia[k][l] = arena.add(inertia[k][l], steiner[k][l]);
+                }
+            }
+        }
+        (moment, inertia)
+    }
+
     /// The tensor of inertia of a body about the point of reference, principal axes: `J + m (c.c I - c c^T)` (Huygens, Steiner).
     pub fn inertia_about_reference(&mut self, body: usize) -> [Triple; 3] {
         let (c, m, j) = (self.centre(body), self.mass[body], self.inertia[body]);
         let arena = &mut self.space.arena;
-        let mut tensor = [super::vector::ZERO; 3];
+        let mut tensor = huygens(arena, m, c);
         for k in 0..3 {
-            for l in 0..3 {
-                let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-                let arms = if k == l {
-                    let (first, second) = (arena.square(c[a]), arena.square(c[b]));
-                    arena.add(first, second)
-                } else {
-                    -arena.mul(c[k], c[l])
-                };
-                let moved = arena.mul(m, arms);
-                tensor[k][l] = if k == l {
-                    arena.add(j[k], moved)
-                } else {
-                    moved
-                };
-            }
+            tensor[k][k] = arena.add(j[k], tensor[k][k]);
         }
         tensor
     }

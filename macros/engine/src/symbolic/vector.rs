@@ -261,6 +261,7 @@ impl Space {
         if fixed == ZERO {
             return self.native(Frame::Global, ZERO);
         }
+        let (factor, fixed) = self.direction(fixed);
         let frame = Frame::Body(body);
         let spun = Spun {
             body,
@@ -269,7 +270,22 @@ impl Space {
             vector: self.native(frame, fixed),
             fixed,
         };
-        self.intern(Vector::Spun(spun))
+        let spun = self.intern(Vector::Spun(spun));
+        self.scale(factor, spun)
+    }
+
+    /// A vector as a multiple of one that parallel vectors have in common.
+    pub fn direction(&mut self, vector: Triple) -> (Expr, Triple) {
+        let mut components = vector.into_iter().filter(|&c| c != Arena::ZERO);
+        let (first, other) = (components.next(), components.next());
+        let Some(first) = first.filter(|_| !self.identities && !self.exact) else {
+            return (Arena::ONE, vector);
+        };
+        let is_known = |c: &Expr| self.arena.literal(*c).is_some();
+        if other.is_some() && !vector.iter().all(is_known) {
+            return (Arena::ONE, vector);
+        }
+        (first, vector.map(|c| self.arena.div(c, first)))
     }
 
     /// The frame in which a vector is defined.

@@ -13,6 +13,9 @@ use holonom_engine::symbolic::scene::{Reading, Scene};
 /// The compliance of the compliant systems here.
 const COMPLIANCE: f64 = 1e-3;
 
+/// The numbers here that the macro cannot see.
+pub(crate) const SYMBOL: f64 = 2.0;
+
 /// Numbers between -1 and 1 (Marsaglia's xorshift).
 #[derive(Clone)]
 pub(crate) struct Dice(u64);
@@ -84,6 +87,7 @@ impl State {
             Input::Velocity(place) => self.velocities.get(place as usize).copied(),
             Input::Time => Some(0.3),
             Input::Compliance(_) => Some(COMPLIANCE),
+            Input::Symbol(_) => Some(SYMBOL),
             _ => None,
         });
         values

@@ -7,3 +7,4 @@ mod declaration;
 mod dense;
 mod library;
 mod pivots;
+mod trees;
