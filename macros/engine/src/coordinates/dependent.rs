@@ -133,8 +133,9 @@ fn best(stops: &Stops, open: &[usize], joints: &[usize], sizes: &[f64]) -> Optio
             for second in seconds {
                 let velocities: Vec<usize> = [Some(k), second].into_iter().flatten().collect();
                 let found = candidate(stops, open, &rows, velocities, sizes);
-                let merit = |c: &Candidate| (c.others, -c.steady);
-                let is_better = best.as_ref().is_none_or(|b| merit(&found) < merit(b));
+                // Round-off does not decide between what is alike: the last does.
+                let merit = |c: &Candidate| (c.others, -(1e6 * c.steady).round());
+                let is_better = best.as_ref().is_none_or(|b| merit(&found) <= merit(b));
                 if found.steady > STEADY && is_better {
                     best = Some(found);
                 }
