@@ -3,6 +3,7 @@
 mod algebra;
 mod angles;
 mod articulated;
+pub mod beginning;
 pub mod candidates;
 mod dependent;
 pub mod frames;
