@@ -7,9 +7,10 @@ use crate::dynamics::{Dynamics, Iterations, singular, vanishes};
 use crate::error::{Fault, NotFinite};
 use crate::formulation::{Formulation, JointSaddle, JointSolution};
 use crate::integrate::System;
-use crate::joint_coordinates::{JointCoordinates, JointEvaluation, JointParts};
+use crate::joint_coordinates::{Freedom, JointCoordinates, JointEvaluation, JointParts};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Normalised, Pivot, Stabilisation};
+use crate::origin::before_accelerations;
 use crate::report::BodyKind;
 use crate::rotation::{check_state, from_matrix, normalised_or_zero, read, write};
 use crate::scalar::Real;
@@ -314,10 +315,39 @@ where
         if vanishes::<S, F::Terms>(pivot.relative) {
             return singular::<S, M>(pivot);
         }
-        let of_bodies = self.bodies.evaluate(time, &self.bodies(state));
-        of_bodies.err().unwrap_or(Fault::RatesNotFinite {
-            origin: NotFinite::Unknown,
-        })
+        let constants = self.bodies.constants();
+        let bodies = &self.bodies(state);
+        if let Err(fault) = check_state::<S, M>(bodies) {
+            return fault;
+        }
+        let applied = A::PRESENT.then(|| {
+            let mut forces = M::forces(constants, time, bodies);
+            let law = self.bodies.applied(time, bodies);
+            add(forces.as_mut_slice(), law.as_slice());
+            forces
+        });
+        let origin =
+            before_accelerations::<S, M, F::Terms>(constants, time, bodies, applied.as_ref());
+        Fault::RatesNotFinite {
+            origin: origin.unwrap_or_else(|| self.first_of_rates(time, state)),
+        }
+    }
+
+    /// The first body with a motion whose rate is not finite.
+    fn first_of_rates(&self, time: S, state: &M::JointState<S>) -> NotFinite {
+        let mut rates = M::JointState::<S>::zeros();
+        let mut multipliers = M::ClosingMultipliers::<S>::zeros();
+        self.straight(time, state, &mut rates, &mut multipliers);
+        let mut left = rates.rates_slice().iter();
+        let motion = M::JOINT_REPORT.motions.iter().find(|motion| {
+            let count = match motion.freedom {
+                Freedom::Ball => 3,
+                Freedom::Turn { .. } | Freedom::Slide => 1,
+            };
+            let mut own = left.by_ref().take(count);
+            !own.all(|rate| rate.is_finite())
+        });
+        motion.map_or(NotFinite::Unknown, |motion| NotFinite::Body(motion.body))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::array::Array;
 use crate::error::NotFinite;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Terms};
 use crate::report::{BodyInfo, BodyKind, Report};
 use crate::scalar::Real;
 
@@ -10,13 +10,28 @@ use crate::scalar::Real;
 /// equations, accelerations.
 #[cold]
 #[inline(never)]
-pub(crate) fn origin<S: Real, M: Mechanism>(
+pub(crate) fn origin<S: Real, M: Mechanism, T: Terms>(
     constants: &M::Constants<S>,
     time: S,
     state: &M::State<S>,
     applied: Option<&M::Velocities<S>>,
     accelerations: &M::Velocities<S>,
 ) -> NotFinite {
+    before_accelerations::<S, M, T>(constants, time, state, applied).unwrap_or_else(|| {
+        body(&M::REPORT, accelerations.as_slice()).map_or(NotFinite::Unknown, NotFinite::Body)
+    })
+}
+
+/// The first thing that is not finite of those that accelerations are made of. Only what the terms ask for is looked at: a user compiles no kernel for a message that
+/// nothing else needs.
+#[cold]
+#[inline(never)]
+pub(crate) fn before_accelerations<S: Real, M: Mechanism, T: Terms>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+    applied: Option<&M::Velocities<S>>,
+) -> Option<NotFinite> {
     let force = M::REPORT.forces.iter().enumerate().find(|(index, info)| {
         (0..info.bodies.len()).any(|place| {
             let load = M::force_load(constants, time, state, *index, place);
@@ -24,20 +39,21 @@ pub(crate) fn origin<S: Real, M: Mechanism>(
         })
     });
     if let Some((_, force)) = force {
-        return NotFinite::Force(force.name);
+        return Some(NotFinite::Force(force.name));
     }
     let described = M::forces(constants, time, state);
     if let Some(body) = body(&M::REPORT, described.as_slice()) {
-        return NotFinite::Body(body);
+        return Some(NotFinite::Body(body));
     }
     if let Some(body) = applied.and_then(|applied| body(&M::REPORT, applied.as_slice())) {
-        return NotFinite::Closure(body);
+        return Some(NotFinite::Closure(body));
     }
-    let phi = M::constraints(constants, time, state);
-    let phi_rate = M::constraint_rates(constants, time, state);
-    let gamma = M::gamma(constants, time, state);
+    let mut rows = [M::gamma(constants, time, state); 3];
+    if T::STABILISED || T::COMPLIANT {
+        rows[1] = M::constraints(constants, time, state);
+        rows[2] = M::constraint_rates(constants, time, state);
+    }
     let jacobian = M::jacobian(constants, time, state);
-    let rows = [&phi, &phi_rate, &gamma];
     let joint = M::REPORT.joints.iter().enumerate().find(|(index, info)| {
         let of_rows = |values: &[S]| all_finite(values.iter().skip(info.row).take(info.rows));
         let mut blocks = M::REPORT.blocks.iter().filter(|b| b.joint == *index);
@@ -47,10 +63,7 @@ pub(crate) fn origin<S: Real, M: Mechanism>(
                 all_finite(values.take(block.rows * block.columns))
             })
     });
-    if let Some((_, joint)) = joint {
-        return NotFinite::Joint(joint.name);
-    }
-    body(&M::REPORT, accelerations.as_slice()).map_or(NotFinite::Unknown, NotFinite::Body)
+    joint.map(|(_, joint)| NotFinite::Joint(joint.name))
 }
 
 /// The first body with an element that is not finite.

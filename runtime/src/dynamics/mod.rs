@@ -361,7 +361,7 @@ where
         }
         let read = &Self::read(state);
         Fault::RatesNotFinite {
-            origin: origin::<S, M>(&self.constants, time, read, applied, &accelerations),
+            origin: origin::<S, M, F::Terms>(&self.constants, time, read, applied, &accelerations),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Ways to the equations of motion worth counting, and the choice among them.
 
+use super::beginning::Beginning;
 use super::links::Runs;
-use super::spanning::Spanning;
 use super::system::Reduced;
 use crate::model::Model;
 use crate::plan::system::Terms;
@@ -43,7 +43,11 @@ impl Strategy {
     /// Those that differ for a mechanism.
     #[must_use]
     pub fn all(model: &Model) -> Vec<Self> {
-        let has_loops = !Spanning::new(model).closing.is_empty();
+        Self::beginning_with(&Beginning::new(model))
+    }
+
+    fn beginning_with(beginning: &Beginning<'_>) -> Vec<Self> {
+        let has_loops = !beginning.spanning.closing.is_empty();
         let differs = |strategy: &Self| match strategy.method {
             Method::MassMatrix => true,
             Method::Articulated => !has_loops,
@@ -59,13 +63,22 @@ impl Strategy {
 
 /// The cheapest for constraints without stabilisation.
 #[must_use]
-pub fn choose(model: &Model) -> Strategy {
-    let cost = |strategy: &Strategy| {
-        let mut reduced = Reduced::of(model, *strategy);
-        let solution = reduced.solve(Terms::Plain);
-        let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
-        count(&reduced.scene.space.arena, &outputs, Stage::State).weighted()
-    };
-    let cheapest = Strategy::all(model).into_iter().min_by_key(cost);
-    cheapest.expect("there is a way")
+pub fn choose(model: &Model) -> (Strategy, Reduced) {
+    let beginning = Beginning::new(model);
+    let mut best: Option<(usize, Strategy, Reduced)> = None;
+    for strategy in Strategy::beginning_with(&beginning) {
+        let reduced = Reduced::from_beginning(&beginning, strategy);
+        let cost = cost(reduced.clone());
+        if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+            best = Some((cost, strategy, reduced));
+        }
+    }
+    let (_, strategy, reduced) = best.expect("there is a way");
+    (strategy, reduced)
+}
+
+fn cost(mut reduced: Reduced) -> usize {
+    let solution = reduced.solve(Terms::Plain);
+    let outputs = [&solution.accelerations[..], &solution.multipliers].concat();
+    count(&reduced.scene.space.arena, &outputs, Stage::State).weighted()
 }

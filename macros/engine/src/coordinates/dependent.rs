@@ -4,11 +4,10 @@
 //! here and there: so the mechanism is led on a tour, and where some velocities come near to being undetermined by rows that determine others, the rows stay
 //! behind.
 
+use super::beginning::Beginning;
 use super::from_bodies::from_bodies;
 use super::links::Links;
-use crate::model::Model;
 use crate::plan::Pivot;
-use crate::rank::closing;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::evaluate::evaluate;
 
@@ -24,23 +23,23 @@ type Stops = Vec<Vec<Vec<f64>>>;
 
 /// The inputs of some stops of a tour, the first of which is the described configuration; none where nothing can move or be told.
 #[must_use]
-pub(super) fn tour(arena: &Arena, model: &Model, links: &Links) -> Vec<(f64, Vec<f64>)> {
-    let mut whole = model.clone();
-    let joints = whole.joints.iter_mut();
-    joints.for_each(|joint| joint.dropped.clear());
+pub(super) fn tour(
+    arena: &Arena,
+    beginning: &Beginning<'_>,
+    links: &Links,
+) -> Vec<(f64, Vec<f64>)> {
     let mut arena = arena.clone();
-    let outputs = from_bodies(&mut arena, model, links);
+    let outputs = from_bodies(&mut arena, beginning.model, links);
     let count = outputs.len() - links.velocities;
-    let stops = closing::stops(&whole).into_iter();
-    let stops = stops.map(|(time, coordinates)| {
+    let stops = beginning.stops().iter().map(|(time, coordinates)| {
         let values = evaluate(&arena, &outputs[..count], |input| match input {
             Input::Coordinate(place) => coordinates.get(place as usize).copied(),
             Input::Velocity(_) => Some(0.0),
-            Input::Time => Some(time),
+            Input::Time => Some(*time),
             _ => None,
         });
         let values: Option<Vec<f64>> = values.into_iter().collect();
-        values.map(|values| (time, values))
+        values.map(|values| (*time, values))
     });
     stops.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
@@ -133,8 +132,9 @@ fn best(stops: &Stops, open: &[usize], joints: &[usize], sizes: &[f64]) -> Optio
             for second in seconds {
                 let velocities: Vec<usize> = [Some(k), second].into_iter().flatten().collect();
                 let found = candidate(stops, open, &rows, velocities, sizes);
-                let merit = |c: &Candidate| (c.others, -c.steady);
-                let is_better = best.as_ref().is_none_or(|b| merit(&found) < merit(b));
+                // Round-off does not decide between what is alike: the last does.
+                let merit = |c: &Candidate| (c.others, -(1e6 * c.steady).round());
+                let is_better = best.as_ref().is_none_or(|b| merit(&found) <= merit(b));
                 if found.steady > STEADY && is_better {
                     best = Some(found);
                 }

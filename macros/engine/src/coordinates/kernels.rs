@@ -87,8 +87,7 @@ impl JointKernels {
     /// Builds all kernels of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        let strategy = choose(model);
-        let reduced = Reduced::of(model, strategy);
+        let (strategy, reduced) = choose(model);
         let rows: Vec<usize> = reduced
             .scene
             .constraints

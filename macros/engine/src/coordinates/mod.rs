@@ -4,6 +4,7 @@ mod algebra;
 mod align;
 mod angles;
 mod articulated;
+pub mod beginning;
 pub mod candidates;
 mod dependent;
 pub mod frames;

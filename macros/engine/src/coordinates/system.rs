@@ -1,19 +1,18 @@
 //! The equations of motion in joint coordinates: `[M D^T; D -E] (u', lambda) = (forces, gamma*)`.
 
 use super::algebra::{add, apply};
+use super::beginning::Beginning;
 use super::candidates::{Method, Strategy};
 use super::dependent::{dependent, tour};
 use super::frames::Frames;
 use super::handover::Handover;
 use super::kinematics::Kinematics;
 use super::links::{Links, Runs};
-use super::spanning::Spanning;
 use super::wrenches::{Wrench, inertial};
 use crate::model::{BodyKind, Model};
 use crate::plan::Pivot;
 use crate::plan::eliminate::{Check, Symmetric, factorise};
 use crate::plan::system::Terms;
-use crate::rank::closing;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::{clean, size, transpose};
 use crate::symbolic::scene::{Chart, Scene};
@@ -35,8 +34,8 @@ pub struct Reduced {
     strategy: Strategy,
     /// The links with masses handed over closing joints.
     counted: Option<(Links, Vec<Handover>)>,
-    /// Time and coordinates at the stops of a tour, if these are wanted.
-    tour: Vec<(f64, Vec<f64>)>,
+    /// What is eliminated before the rest where rows have no compliance, and the determinants in the described configuration.
+    together: (Vec<Pivot>, Vec<f64>),
 }
 
 /// The solution of the equations of motion.
@@ -54,9 +53,16 @@ impl Reduced {
     /// A mechanism in the coordinates of its joints.
     #[must_use]
     pub fn of(model: &Model, strategy: Strategy) -> Self {
-        let spanning = Spanning::new(model);
+        Self::from_beginning(&Beginning::new(model), strategy)
+    }
+
+    /// The same of a mechanism of which something is known already.
+    pub(super) fn from_beginning(beginning: &Beginning<'_>, strategy: Strategy) -> Self {
+        let Beginning {
+            model, spanning, ..
+        } = beginning;
         let mut arena = Arena::new();
-        let mut links = Links::new(&mut arena, model, &spanning, strategy.runs);
+        let mut links = Links::new(&mut arena, model, spanning, strategy.runs);
         if strategy.runs == Runs::Shared {
             links.share_axes();
         }
@@ -71,10 +77,7 @@ impl Reduced {
             .independent(model)
             .is_some_and(|wanted| wanted < rows)
         {
-            let mut whole = model.clone();
-            let joints = whole.joints.iter_mut();
-            joints.for_each(|joint| joint.dropped.clear());
-            left_out.extend(closing::following(&whole, &spanning.closing).unwrap_or_default());
+            left_out.extend(beginning.following());
         }
         if !left_out.is_empty() {
             for (joint, row) in left_out {
@@ -87,19 +90,30 @@ impl Reduced {
             reduced = Self::new(arena, &remaining, links, strategy);
         }
         if strategy.method == Method::Dependent && !reduced.scene.constraints.is_empty() {
-            reduced.tour = tour(&reduced.scene.space.arena, model, &reduced.links);
+            reduced.together = reduced.clone().taken_together(beginning);
         }
-        if !reduced.tour.is_empty() {
+        if !reduced.together.0.is_empty() {
             let mut handovers = reduced.handovers(model);
             let arena = &mut reduced.scene.space.arena;
             whole.regroup(arena, &mut handovers);
             handovers.retain(|handover| handover.mass != Arena::ZERO);
             reduced.counted = (!handovers.is_empty()).then_some((whole, handovers));
         }
-        for joint in spanning.closing {
+        for &joint in &spanning.closing {
             reduced.dropped[joint].clone_from(&remaining.joints[joint].dropped);
         }
         reduced
+    }
+
+    /// The velocities that rows determine, with these, and their determinants.
+    fn taken_together(mut self, beginning: &Beginning<'_>) -> (Vec<Pivot>, Vec<f64>) {
+        let tour = tour(&self.scene.space.arena, beginning, &self.links);
+        let (rows, _) = self.rows(Terms::Plain);
+        let constraints = self.scene.constraints.iter();
+        let joints: Vec<usize> = constraints
+            .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
+            .collect();
+        dependent(&self.scene.space.arena, &rows, &joints, &tour)
     }
 
     /// The equations, by joint and place, that no velocity changes.
@@ -148,7 +162,7 @@ impl Reduced {
             dropped: vec![Vec::new(); model.joints.len()],
             strategy,
             counted: None,
-            tour: Vec::new(),
+            together: (Vec::new(), Vec::new()),
         }
     }
 
@@ -383,17 +397,12 @@ impl Reduced {
     }
 
     /// The order in which velocities and multipliers are eliminated.
-    fn elimination(&mut self, terms: Terms, rows: &[Vec<Expr>]) -> Elimination {
+    fn elimination(&self, terms: Terms, rows: &[Vec<Expr>]) -> Elimination {
         let velocities = self.links.velocities;
-        let arena = &mut self.scene.space.arena;
         let (together, determinants) = if terms == Terms::Compliant {
             (Vec::new(), Vec::new())
         } else {
-            let constraints = self.scene.constraints.iter();
-            let joints: Vec<usize> = constraints
-                .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
-                .collect();
-            dependent(arena, rows, &joints, &self.tour)
+            self.together.clone()
         };
         // Leaves that close no loop, then what their rows determine, then the rest.
         let closing: Vec<usize> = (0..velocities)

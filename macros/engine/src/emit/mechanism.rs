@@ -9,6 +9,7 @@ use super::parameters;
 use super::parts::{Frame, write_in_parts};
 use super::report::report;
 use super::rows;
+use super::solution::is_short;
 use super::store::{Kernel as Arguments, Store};
 use super::straight_line::{Given, StraightLine, write};
 use crate::coordinates::kernels::JointKernels;
@@ -298,8 +299,14 @@ impl Writer<'_> {
         let line = self.line_of(kernel, &Given::default(), &frame);
         let (statements, value) = Self::value(line, result);
         let name = format_ident!("{name}");
+        // A long kernel is compiled once, and not wherever something is read or goes wrong.
+        let inline = if is_short(&kernel.arena, &kernel.outputs) {
+            quote!(#[inline])
+        } else {
+            quote!(#[inline(never)])
+        };
         quote! {
-            #[inline]
+            #inline
             fn #name<__S: #facade::Scalar>(
                 #constants: &Self::Constants<__S>,
                 #time

@@ -361,12 +361,16 @@ fn evaluation_function(terms: Terms, reading: Reading) -> Ident {
 }
 
 pub(super) fn inline(arena: &Arena, outputs: &[Expr]) -> TokenStream {
-    let operations = crate::symbolic::count::count(arena, outputs, Stage::State).total();
-    if operations <= INLINE {
+    if is_short(arena, outputs) {
         quote!(#[inline(always)])
     } else {
         quote!(#[inline(never)])
     }
+}
+
+/// Whether a kernel is so short that a call of it costs.
+pub(super) fn is_short(arena: &Arena, outputs: &[Expr]) -> bool {
+    crate::symbolic::count::count(arena, outputs, Stage::State).total() <= INLINE
 }
 
 /// The verdict on recorded pivots.

@@ -1,8 +1,9 @@
 //! The way back onto the constraints.
 
-use super::dense::{norm, transposed};
+use super::dense::norm;
 use super::motion::{Configuration, Constraints};
 use super::normal::solve_normal;
+use super::sparse::transposed;
 
 /// Violations up to this, over the size of the row's gradient, are round-off.
 pub(super) const ASSEMBLED: f64 = 1e-9;
@@ -41,14 +42,14 @@ impl Constraints {
             let mut gradients = self.gradients(&at)?;
             for (row, size) in gradients.iter_mut().zip(&self.sizes) {
                 let factor = size.map_or(0.0, f64::recip);
-                row.iter_mut().for_each(|x| *x *= factor);
+                row.scale(factor);
             }
             let gradients = chosen(gradients, rows);
             let mut next = None;
             for _ in 0..ATTEMPTS {
                 let damping = (caution * size * size).max(1e-14);
                 if let Some(y) = solve_normal(&gradients, &violations, damping) {
-                    let step = transposed(&gradients, &y);
+                    let step = transposed(&gradients, &y, self.velocities());
                     let factor = -(BOUND / norm(&step)).min(1.0);
                     let step: Vec<f64> = step.iter().map(|x| factor * x).collect();
                     let reached = self.moved(&at, &step);

@@ -1,7 +1,8 @@
 //! Which equations close loops: those of other joints are not in question, because coordinates satisfy them by themselves.
 
-use super::dense::{Rows, independent, orthonormal, remove_all};
 use super::motion::Constraints;
+use super::span::{Span, independent};
+use super::sparse::{Row, Rows};
 use super::{Random, TOLERANCE, choice, place_of, tour, walk};
 use crate::model::Model;
 
@@ -22,7 +23,7 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     let is_closing: Vec<bool> = (0..layout.rows)
         .map(|row| closing.contains(&place_of(&layout, row).0))
         .collect();
-    let stands_out = |rows: &Rows| beside(rows, &is_closing);
+    let stands_out = |rows: &Rows| beside(rows, layout.velocities, &is_closing);
     let directions = configurations
         .iter()
         .map(|at| constraints.directions(at, TOLERANCE));
@@ -76,14 +77,18 @@ pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
 }
 
 /// What is left of the rows that close loops beside all others.
-fn beside(rows: &Rows, is_closing: &[bool]) -> Rows {
+fn beside(rows: &Rows, velocities: usize, is_closing: &[bool]) -> Rows {
     let of = |wanted: bool| -> Rows {
         let rows = rows.iter().zip(is_closing);
         let rows = rows.filter(|(_, is_closing)| **is_closing == wanted);
         rows.map(|(row, _)| row.clone()).collect()
     };
-    let others = orthonormal(&of(false), TOLERANCE);
-    let mut rest = of(true);
-    rest.iter_mut().for_each(|row| remove_all(row, &others));
-    rest
+    let others = of(false);
+    let others = Span::of(&others, TOLERANCE);
+    let rest = of(true).into_iter().map(|row| {
+        let mut row = row.dense(velocities);
+        others.remove_from(&mut row);
+        Row::of(&row)
+    });
+    rest.collect()
 }

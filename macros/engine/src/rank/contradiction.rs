@@ -4,9 +4,10 @@
 //! everywhere, or nowhere. With a time in the equations it must hold at all times, so that the speeds that it asks for must be those
 //! that the kept ones ask for: `Y^T Phi_t = 0` where `Y^T D = 0`.
 
-use super::dense::{Rows, dot, independent, norm};
 use super::motion::{Configuration, Constraints};
 use super::normal::Normal;
+use super::span::independent;
+use super::sparse::Rows;
 use super::{Random, TOLERANCE, walk};
 
 /// To what fraction of themselves laws agree that are given to seven digits, as [`TOLERANCE`] has it for lengths.
@@ -232,8 +233,7 @@ pub(super) fn by_speed(
             continue;
         };
         let disagrees = |&row: &usize| {
-            let products: Vec<f64> = basis.iter().map(|other| dot(other, &rows[row])).collect();
-            let shares = normal.solve(&products);
+            let shares = normal.solve(&normal.products(&rows[row]));
             let parts = shares
                 .iter()
                 .zip(kept)
@@ -241,7 +241,7 @@ pub(super) fn by_speed(
             let parts: Vec<f64> = parts.collect();
             let difference = demands[row] - parts.iter().sum::<f64>();
             let size = demands[row].abs() + parts.iter().map(|part| part.abs()).sum::<f64>();
-            norm(&rows[row]) > 0.0 && difference.abs() > AGREEMENT * size + STILL * largest
+            rows[row].norm() > 0.0 && difference.abs() > AGREEMENT * size + STILL * largest
         };
         let found: Vec<Contradicted> = (0..rows.len())
             .filter(|row| !kept.contains(row))

@@ -23,12 +23,15 @@ mod geometry;
 mod motion;
 pub mod moves;
 mod normal;
+mod span;
+mod sparse;
 mod tour;
 
 use self::contradiction::Contradicted;
-use self::dense::{Rows, dot, independent, norm};
 use self::motion::{Configuration, Constraints};
 use self::normal::Normal;
+use self::span::independent;
+use self::sparse::Rows;
 use crate::model::mechanism::Layout;
 use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
 
@@ -235,7 +238,7 @@ fn walk(
 
 /// The rows that vanish at all configurations, though not everywhere.
 fn dormant(constraints: &Constraints, directions: &[Rows]) -> Vec<usize> {
-    let vanishes = |row: usize| directions.iter().all(|rows| norm(&rows[row]) == 0.0);
+    let vanishes = |row: usize| directions.iter().all(|rows| rows[row].norm() == 0.0);
     (0..constraints.sizes.len())
         .filter(|&row| constraints.sizes[row].is_some() && vanishes(row))
         .collect()
@@ -302,8 +305,8 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
     (0..layout.rows)
         .filter(|row| !kept.contains(row))
         .map(|row| {
-            let products: Vec<f64> = basis.iter().map(|other| dot(other, &rows[row])).collect();
-            let shares = normal.as_ref().map(|normal| normal.solve(&products));
+            let shares = normal.as_ref();
+            let shares = shares.map(|normal| normal.solve(&normal.products(&rows[row])));
             let shares = shares.unwrap_or_default();
             let mut follows_from: Vec<usize> = kept
                 .iter()

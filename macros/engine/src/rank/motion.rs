@@ -3,10 +3,10 @@
 //! Motions are measured without dimension: translations by the size of the mechanism, rotations in radians.
 
 use super::TOLERANCE;
-use super::dense::{Rows, norm, transposed};
 use super::displacement::{Twist, apply};
 use super::geometry::{along_screw, length, turned};
 use super::normal::solve_normal;
+use super::sparse::{Row, Rows, transposed};
 use crate::model::inertia::IDENTITY;
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, Model};
@@ -150,7 +150,7 @@ impl Constraints {
         let mut sizes = vec![0.0_f64; self.layout.rows];
         for at in places {
             for (size, row) in sizes.iter_mut().zip(self.gradients(at)?) {
-                *size = size.max(norm(&row));
+                *size = size.max(row.norm());
             }
         }
         let least = VANISHING * self.least;
@@ -200,7 +200,7 @@ impl Constraints {
     /// `D` over motions without dimension.
     pub(super) fn gradients(&self, at: &Configuration) -> Option<Rows> {
         let values = self.evaluate(&self.jacobian, at)?;
-        let mut rows = vec![vec![0.0; self.layout.velocities]; self.layout.rows];
+        let mut rows = vec![Row::default(); self.layout.rows];
         for &Block {
             joint,
             body,
@@ -212,7 +212,7 @@ impl Constraints {
             let own = &mut rows[self.layout.row[joint]..][..self.counts[joint]];
             for (row, values) in own.iter_mut().zip(values[offset..].chunks(columns)) {
                 for (k, value) in values.iter().enumerate() {
-                    row[first + k] = if k < 3 { value * self.length } else { *value };
+                    row.push(first + k, if k < 3 { value * self.length } else { *value });
                 }
             }
         }
@@ -223,10 +223,10 @@ impl Constraints {
     pub(super) fn directions(&self, at: &Configuration, tolerance: f64) -> Option<Rows> {
         let mut rows = self.gradients(at)?;
         for (row, size) in rows.iter_mut().zip(&self.sizes) {
-            let length = norm(row);
+            let length = row.norm();
             let is_sound = size.is_some_and(|size| length > tolerance * size);
             let factor = if is_sound { length.recip() } else { 0.0 };
-            row.iter_mut().for_each(|x| *x *= factor);
+            row.scale(factor);
         }
         Some(rows)
     }
@@ -240,7 +240,7 @@ impl Constraints {
         let mut rates = self.evaluate(driven, at)?;
         let rows = self.gradients(at)?;
         for ((rate, row), size) in rates.iter_mut().zip(rows).zip(&self.sizes) {
-            let length = norm(&row);
+            let length = row.norm();
             let is_sound = size.is_some_and(|size| length > tolerance * size);
             *rate = if is_sound { *rate / length } else { 0.0 };
         }
@@ -255,7 +255,7 @@ impl Constraints {
         let demands = self.demands(at, TOLERANCE)?;
         let speeds: Vec<f64> = demands.iter().map(|demand| -demand).collect();
         let shares = solve_normal(&directions, &speeds, DAMPING)?;
-        Some(transposed(&directions, &shares))
+        Some(transposed(&directions, &shares, self.layout.velocities))
     }
 
     /// The rows that are violated where their gradients vanish, though these do not everywhere.
@@ -269,7 +269,7 @@ impl Constraints {
         (0..rows.len())
             .filter(|&row| {
                 self.sizes[row].is_some()
-                    && norm(&rows[row]) == 0.0
+                    && rows[row].norm() == 0.0
                     && violations[row].abs() > VIOLATED
             })
             .collect()

@@ -4,9 +4,11 @@
 //! equations must hold, no motion may have a part along a gradient, and there must be as many motions as the rank of the gradients leaves.
 
 use super::TOLERANCE;
-use super::dense::{Rows, dot, independent, norm};
+use super::dense::norm;
 use super::displacement::{Displacement, Twist, apply};
 use super::motion::{Configuration, Constraints};
+use super::span::independent;
+use super::sparse::{Row, Rows, width};
 use super::{Random, assemble};
 use crate::model::{BodyKind, Direction, JointUse, Model, Motion};
 use crate::symbolic::arena::Arena;
@@ -312,15 +314,10 @@ impl Pair {
             carriers.push(carriers[carriers.len() - 1].after(amount));
         }
         let columns = twists.iter().map(|(motion, twist)| {
-            let mut column =
-                self.constraints
-                    .velocity_of(at, body, &twist.carried(&carriers[*motion]));
-            let size = norm(&column);
-            if size > TOLERANCE {
-                column.iter_mut().for_each(|x| *x *= sign / size);
-            } else {
-                column.fill(0.0);
-            }
+            let twist = twist.carried(&carriers[*motion]);
+            let mut column = Row::of(&self.constraints.velocity_of(at, body, &twist));
+            let size = column.norm();
+            column.scale(if size > TOLERANCE { sign / size } else { 0.0 });
             column
         });
         Some(columns.collect())
@@ -330,9 +327,11 @@ impl Pair {
 /// The motions that have a part along a gradient.
 fn forbidden(rows: &Rows, twists: &[(usize, Twist)], columns: &Rows) -> Vec<(usize, usize)> {
     let mut found: Vec<(usize, usize, f64)> = Vec::new();
+    let length = width(rows).max(width(columns));
     for ((motion, _), column) in twists.iter().zip(columns) {
+        let column = column.dense(length);
         for (row, gradient) in rows.iter().enumerate() {
-            let along = dot(gradient, column).abs();
+            let along = gradient.along(&column).abs();
             if along <= ROUND_OFF {
                 continue;
             }

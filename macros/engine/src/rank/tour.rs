@@ -1,8 +1,10 @@
 //! Ways of a mechanism: along what its constraints leave free, and as time goes on.
 
 use super::TOLERANCE;
-use super::dense::{Rows, norm, orthonormal, remove_all};
+use super::dense::norm;
 use super::motion::{Configuration, Constraints};
+use super::span::Span;
+use super::sparse::Rows;
 
 /// Configurations on a way that is looked at step by step.
 const STOPS: usize = 60;
@@ -32,7 +34,7 @@ pub(super) fn stops(
         let Some(here) = constraints.directions(&at, TOLERANCE) else {
             break;
         };
-        remove_all(&mut heading, &orthonormal(&here, TOLERANCE));
+        Span::of(&here, TOLERANCE).remove_from(&mut heading);
         stops.push((at.clone(), here));
         let most = largest(&heading);
         if most < TOLERANCE {

@@ -60,15 +60,17 @@ impl Arena {
     }
 
     /// The operation behind a reference.
+    #[inline(always)]
     #[must_use]
     pub fn get(&self, expr: Expr) -> Node {
-        self.nodes[expr.node()]
+        self.nodes.as_slice()[expr.node()]
     }
 
     /// When the value is known.
+    #[inline(always)]
     #[must_use]
     pub fn stage(&self, expr: Expr) -> Stage {
-        self.stages[expr.node()]
+        self.stages.as_slice()[expr.node()]
     }
 
     /// The number of nodes.
@@ -185,8 +187,9 @@ impl Arena {
         }
     }
 
+    #[inline(always)]
     fn is_without_number(&self, expr: Expr) -> bool {
-        self.without_number[expr.node()]
+        self.without_number.as_slice()[expr.node()]
     }
 
     /// A number known at expansion.
@@ -460,10 +463,13 @@ impl Arena {
             needed[output.node()] = true;
         }
         let mut live = Vec::new();
-        for node in (0..needed.len()).rev() {
-            if needed[node] && self.stages[node] >= from && !is_given[node] {
+        let (needed, stages) = (needed.as_mut_slice(), self.stages.as_slice());
+        let mut node = needed.len();
+        while node > 0 {
+            node -= 1;
+            if needed[node] && stages[node] >= from && !is_given[node] {
                 live.push(node);
-                let (first, second) = self.nodes[node].pair();
+                let (first, second) = self.node(node).pair();
                 if let Some(operand) = first {
                     needed[operand.node()] = true;
                 }
@@ -477,9 +483,10 @@ impl Arena {
     }
 
     /// The node at a place.
+    #[inline(always)]
     #[must_use]
     pub fn node(&self, place: usize) -> Node {
-        self.nodes[place]
+        self.nodes.as_slice()[place]
     }
 
     /// The stage of the node at a place.

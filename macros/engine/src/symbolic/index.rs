@@ -4,17 +4,24 @@
 use super::node::Node;
 
 /// A node in two words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Key {
     kind: u64,
     value: u64,
 }
 
 impl Key {
+    #[inline(always)]
     pub(super) const fn new(kind: u64, value: u64) -> Self {
         Self { kind, value }
     }
 
+    #[inline(always)]
+    const fn is(self, other: Self) -> bool {
+        self.kind == other.kind && self.value == other.value
+    }
+
+    #[inline(always)]
     const fn hash(self) -> usize {
         let mixed = (self.value ^ self.kind.rotate_left(59)).wrapping_mul(0xf135_7aea_2e62_a9c5);
         (mixed ^ mixed >> 32) as usize
@@ -79,11 +86,12 @@ impl Index {
 
     /// The place of a key, or the empty one where it would stand.
     fn probe(&self, key: Key) -> usize {
-        let mask = self.places.len() - 1;
+        let (places, keys) = (self.places.as_slice(), self.keys.as_slice());
+        let mask = places.len() - 1;
         let mut place = key.hash() & mask;
         loop {
-            let number = self.places[place];
-            if number == EMPTY || self.keys[number as usize] == key {
+            let number = places[place];
+            if number == EMPTY || keys[number as usize].is(key) {
                 return place;
             }
             place = (place + 1) & mask;

@@ -1,4 +1,6 @@
 //! What an arena holds: signed references, numbers known later, operations.
+//!
+//! What every operation asks for is inlined always: that is done without optimisation, too.
 
 use super::index::Key;
 
@@ -7,29 +9,34 @@ use super::index::Key;
 pub struct Expr(u32);
 
 impl Expr {
+    #[inline(always)]
     pub(super) const fn new(node: u32, negative: bool) -> Self {
         Self(node << 1 | negative as u32)
     }
 
     /// The place of the node in the arena.
+    #[inline(always)]
     #[must_use]
     pub const fn node(self) -> usize {
         (self.0 >> 1) as usize
     }
 
     /// Whether the sign is turned.
+    #[inline(always)]
     #[must_use]
     pub const fn is_negative(self) -> bool {
         self.0 & 1 == 1
     }
 
     /// The reference without its sign.
+    #[inline(always)]
     #[must_use]
     pub const fn abs(self) -> Self {
         Self(self.0 & !1)
     }
 
     /// The other sign where asked for. Zero, the first node, has no sign.
+    #[inline(always)]
     pub(super) const fn with_sign_of(self, negative: bool) -> Self {
         if self.0 >> 1 == 0 {
             Self(0)
@@ -42,6 +49,7 @@ impl Expr {
 impl std::ops::Neg for Expr {
     type Output = Self;
 
+    #[inline(always)]
     fn neg(self) -> Self {
         self.with_sign_of(true)
     }
@@ -152,6 +160,7 @@ impl Node {
     }
 
     /// The operands, for loops over whole arenas.
+    #[inline(always)]
     pub(super) const fn pair(self) -> (Option<Expr>, Option<Expr>) {
         match self {
             Self::Constant(_) | Self::Input(_) => (None, None),
@@ -169,6 +178,7 @@ impl Node {
 
     /// What tells it from all other nodes.
     pub(super) const fn key(self) -> Key {
+        #[inline(always)]
         const fn two(a: Expr, b: Expr) -> u64 {
             (a.0 as u64) << 32 | b.0 as u64
         }

@@ -1,0 +1,50 @@
+//! What all ways to the equations of motion begin with, found once for a mechanism: a tree, and what numbers tell of the rows that close its loops.
+
+use std::cell::OnceCell;
+
+use super::spanning::Spanning;
+use crate::model::Model;
+use crate::rank::closing;
+
+/// What is common to all strategies.
+pub struct Beginning<'a> {
+    /// The mechanism.
+    pub(super) model: &'a Model,
+    /// Its tree.
+    pub(super) spanning: Spanning,
+    following: OnceCell<Vec<(usize, usize)>>,
+    stops: OnceCell<Vec<(f64, Vec<f64>)>>,
+}
+
+impl<'a> Beginning<'a> {
+    /// The tree of a mechanism; numbers are asked when they are needed.
+    #[must_use]
+    pub fn new(model: &'a Model) -> Self {
+        Self {
+            model,
+            spanning: Spanning::new(model),
+            following: OnceCell::new(),
+            stops: OnceCell::new(),
+        }
+    }
+
+    /// The equations, by joint and place, of the closing joints that follow from all others and from each other; none where nothing can be told.
+    pub(super) fn following(&self) -> &[(usize, usize)] {
+        self.following.get_or_init(|| {
+            closing::following(&self.whole(), &self.spanning.closing).unwrap_or_default()
+        })
+    }
+
+    /// Times and coordinates of the bodies along a tour; none where nothing can move or be told.
+    pub(super) fn stops(&self) -> &[(f64, Vec<f64>)] {
+        self.stops.get_or_init(|| closing::stops(&self.whole()))
+    }
+
+    /// The mechanism with all its equations.
+    fn whole(&self) -> Model {
+        let mut whole = self.model.clone();
+        let joints = whole.joints.iter_mut();
+        joints.for_each(|joint| joint.dropped.clear());
+        whole
+    }
+}
