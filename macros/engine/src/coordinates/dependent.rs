@@ -15,6 +15,8 @@ use crate::symbolic::evaluate::evaluate;
 const STEADY: f64 = 0.1;
 /// Where the volume falls to this fraction of the largest along a tour, the mechanism is near a singular position, and no choice is better than another.
 const SINGULAR: f64 = 1e-3;
+/// An entry below this fraction of the largest of its row is round-off.
+const ROUND_OFF: f64 = 1e-12;
 /// A tour of fewer stops tells nothing.
 const STOPS: usize = 4;
 
@@ -132,9 +134,9 @@ fn best(stops: &Stops, open: &[usize], joints: &[usize], sizes: &[f64]) -> Optio
             for second in seconds {
                 let velocities: Vec<usize> = [Some(k), second].into_iter().flatten().collect();
                 let found = candidate(stops, open, &rows, velocities, sizes);
-                // Round-off does not decide between what is alike: the last does.
+                // Round-off does not decide between what is alike: the first does.
                 let merit = |c: &Candidate| (c.others, -(1e6 * c.steady).round());
-                let is_better = best.as_ref().is_none_or(|b| merit(&found) <= merit(b));
+                let is_better = best.as_ref().is_none_or(|b| merit(&found) < merit(b));
                 if found.steady > STEADY && is_better {
                     best = Some(found);
                 }
@@ -144,8 +146,14 @@ fn best(stops: &Stops, open: &[usize], joints: &[usize], sizes: &[f64]) -> Optio
     best
 }
 
+/// Whether a row knows of a velocity: by more than round-off, which looks steady beside itself.
 fn is_known(stops: &Stops, row: usize, velocity: usize) -> bool {
-    stops.iter().any(|stop| stop[row][velocity] != 0.0)
+    stops.iter().any(|stop| {
+        let largest = stop[row]
+            .iter()
+            .fold(0.0, |most: f64, entry| most.max(entry.abs()));
+        stop[row][velocity].abs() > ROUND_OFF * largest
+    })
 }
 
 fn candidate(

@@ -63,6 +63,23 @@ const OFF_THE_CONSTRAINTS: &str = "
         joint: Twice,
     }";
 
+/// Bodies with axes of their own: entries of rows that are round-off are constants in joint coordinates, and one that was alone in its column was taken for a pivot.
+const ROUND_OFF: &str = "
+    pub struct Random {
+        #[body(mass = 0.6401213484139585, inertia = [
+            [1.5634479915400958, -0.0023681017162023813, 0.05318422119388869],
+            [-0.0023681017162023813, 1.5893419049526911, 0.028089789980247484],
+            [0.05318422119388869, 0.028089789980247484, 1.7407584335004551],
+        ], orientation = [0.09640384061088607, 0.9776480122107469, -0.1273628648490137, 0.13670905015139953], position = [-0.19468287961962938, -0.5511553658052033, 0.1671263925694606], free)]
+        b2: Body,
+        #[body(mass = 1.9247246042284278, inertia = [1.571831817217988, 1.2883264605370053, 0.7609731500507042], position = [0.0, -0.5, 0.5210126705456006], free)]
+        b0: Body,
+        #[joint(point = local([0.3333359834040208, 0.5, 0.5898791590506245], [0.38047336553869393, -1.0779599512911309, -0.5056617306712246]), axis = [0.0, -2.0, 0.0], between = [ground, b2])]
+        j2: Prismatic,
+        #[joint(between = [ground, b0], point = [-0.59237053025, 0.94561090173142, -0.9200364590048529], normal = local([0.3830227158789034, -0.5985821628489295, -0.7035573846104144], [-0.4370711265586833, -0.4421087738502577, -0.7832679378177976]))]
+        j0: Planar,
+    }";
+
 #[test]
 fn mechanisms_that_failed_once() {
     let own = "Own(i, j; axis: Axis) { dot(i.axis.normal(), j.origin - i.origin); }";
@@ -72,6 +89,7 @@ fn mechanisms_that_failed_once() {
         NORMALS,
         EQUAL_COMPONENTS,
         OFF_THE_CONSTRAINTS,
+        ROUND_OFF,
     ] {
         let text = Text {
             item: item.into(),

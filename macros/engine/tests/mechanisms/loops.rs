@@ -8,7 +8,7 @@ use crate::comparison::Extent;
 use crate::library;
 use crate::text::{Outcome, Text};
 
-/// Three rods of different lengths, tilted, with centres of mass off their middles, in a plane that is no coordinate plane.
+/// A crank that turns all round, a coupler and a rocker, tilted, with centres of mass off their middles, gravity out of their plane.
 const FOUR_BAR: &str = "
     #[mechanism(gravity = [0.3, -9.7, 1.1], redundant = \"drop\")]
     pub struct Linkage {
@@ -22,7 +22,7 @@ const FOUR_BAR: &str = "
         foot: Revolute,
         #[joint(between = [ground, rocker], point = [2.4, -0.2, 0.1], axis = [0.0, 0.0, 1.0])]
         bearing: Revolute,
-        #[joint(between = [crank, coupler], point = [0.4, 0.9, 0.2], axis = [0.0, 0.0, 1.0])]
+        #[joint(between = [crank, coupler], point = [0.2, 0.45, 0.2], axis = [0.0, 0.0, 1.0])]
         knee: Revolute,
         #[joint(between = [rocker, coupler], point = [1.9, 1.4, 0.3], axis = [0.0, 0.0, 1.0])]
         wrist: Revolute,
