@@ -24,7 +24,7 @@ impl Links {
             let frame = if is_backwards { &mut from } else { &mut to };
             if !self.frames.is_fixed(*frame) {
                 let (sign, velocity, pair) = self.turn_about(arena, *frame, axis)?;
-                let [c, s] = self.from_reference(arena, *frame, pair)?;
+                let [c, s] = self.since_reference(arena, *frame, pair)?;
                 let sign = if is_backwards { -sign } else { sign };
                 angle = angle.plus(arena, velocity, c, s, sign);
             }
@@ -34,7 +34,7 @@ impl Links {
     }
 
     /// Cosine and sine of the angle since the reference configuration.
-    fn from_reference(&self, arena: &mut Arena, frame: FrameId, pair: usize) -> Option<[Expr; 2]> {
+    fn since_reference(&self, arena: &mut Arena, frame: FrameId, pair: usize) -> Option<[Expr; 2]> {
         let (_, c, s) = self.frames.pair(frame)?;
         let [from_c, from_s] = self.angles[pair];
         let [cc, ss, sc, cs] =
