@@ -1,8 +1,6 @@
 //! Motions through singular configurations, with every formulation, with and without a projection, at every tolerance and step: none ends wrong without
 //! an error or a doubt, and none goes on for ever.
 
-use std::time::{Duration, Instant};
-
 use holonom::joints::{PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{BodyHandle, Doubt, Integrator, Rk4};
@@ -95,8 +93,8 @@ fn equal_links() -> Mark<EqualLinks> {
 
 /// What is right to a hundredth is right.
 const RIGHT: f64 = 1e-2;
-/// Of a build with some optimisation on a machine that does other things too.
-const PATIENCE: Duration = Duration::from_secs(60);
+/// Evaluations: more than any run takes that ends. One that stalls in a singular configuration says that they are used up.
+const PATIENCE: usize = 1_000_000;
 
 fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
     model: &M,
@@ -107,20 +105,18 @@ fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
     if projected {
         simulation = simulation.projection(Projection::default());
     }
-    let started = Instant::now();
     let mut error = f64::NAN;
     let outcome = simulation.run(0.0..=mark.duration, every(mark.duration), |sample| {
         error = (sample.point(mark.body, mark.point) - mark.place).norm();
         ControlFlow::Continue(())
     });
-    let took = started.elapsed();
     let what = format!("{method:?}, {integrator:?}, projected: {projected}");
     match outcome {
         Ok(report) => {
             let is_right = error <= RIGHT;
             let doubts = report.doubts();
             println!(
-                "{what}: off by {error:.1e} m, {} doubts, {} evaluations, {took:.1?}",
+                "{what}: off by {error:.1e} m, {} doubts, {} evaluations",
                 doubts.len(),
                 report.evaluations
             );
@@ -143,9 +139,8 @@ fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
                 "{what}: passed without a word"
             );
         }
-        Err(error) => println!("{what}: {error}, {took:.1?}"),
+        Err(error) => println!("{what}: {error}"),
     }
-    assert!(took < PATIENCE, "{what} took {took:?}");
 }
 
 fn sweep<M: Mechanism, F: Formulation<f64>>(model: &M, mark: &Mark<M>, method: F) {
@@ -153,7 +148,7 @@ fn sweep<M: Mechanism, F: Formulation<f64>>(model: &M, mark: &Mark<M>, method: F
         for exponent in 5..=11 {
             let relative = 10.0_f64.powi(-exponent);
             let absolute = 1e-2 * relative;
-            let integrator = DormandPrince::new(Tolerance { relative, absolute });
+            let integrator = DormandPrince::new(Tolerance { relative, absolute }).budget(PATIENCE);
             run(model, mark, (method, integrator, projected));
         }
         for step in [1e-2, 1e-3, 1e-4] {
@@ -198,7 +193,7 @@ fn an_extreme_penalty_factor_is_doubted() {
         for exponent in [6, 9, 11] {
             let relative = 10.0_f64.powi(-exponent);
             let absolute = 1e-2 * relative;
-            let integrator = DormandPrince::new(Tolerance { relative, absolute });
+            let integrator = DormandPrince::new(Tolerance { relative, absolute }).budget(PATIENCE);
             run(
                 &FourBar::default(),
                 &four_bar(),
