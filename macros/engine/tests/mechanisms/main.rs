@@ -32,6 +32,9 @@ mod text;
 mod writing;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
+use std::panic::resume_unwind;
+use std::thread;
 
 use comparison::Extent;
 use shrink::run;
@@ -42,6 +45,25 @@ fn setting(name: &str, default: u64) -> u64 {
     given.map_or(default, |text| text.parse().expect("a number"))
 }
 
+/// Mechanisms that are compared at the same time.
+const BATCH: u64 = 8;
+
+/// What becomes of some mechanisms, which know nothing of each other.
+fn side_by_side(
+    seeds: Range<u64>,
+    extent: &(impl Fn(u64) -> Extent + Sync),
+) -> Vec<(u64, (Outcome, String))> {
+    thread::scope(|scope| {
+        let spawn = |seed| (seed, scope.spawn(move || run(seed, &[], extent(seed))));
+        let running: Vec<_> = seeds.map(spawn).collect();
+        let ended = running.into_iter().map(|(seed, thread)| {
+            let ended = thread.join();
+            (seed, ended.unwrap_or_else(|panic| resume_unwind(panic)))
+        });
+        ended.collect()
+    })
+}
+
 #[test]
 fn random_mechanisms_against_a_dense_solution() {
     let wanted = setting("HOLONOM_MECHANISMS", 300);
@@ -49,14 +71,14 @@ fn random_mechanisms_against_a_dense_solution() {
     let mut statistics = Statistics::default();
     let mut used: BTreeMap<&str, usize> = library::names().map(|name| (name, 0)).collect();
     let (mut refused, mut refused_otherwise) = (0, 0);
-    for seed in first.. {
-        // In a long run, most of them quickly.
-        let extent = if wanted > 10_000 && seed % 128 != 0 {
-            Extent::Quick
-        } else {
-            Extent::Full
-        };
-        let (outcome, text) = run(seed, &[], extent);
+    // In a long run, most of them quickly.
+    let extent = |seed: u64| match seed % 128 {
+        1.. if wanted > 10_000 => Extent::Quick,
+        _ => Extent::Full,
+    };
+    let batches = (0..).map(|batch| first + batch * BATCH);
+    let outcomes = batches.flat_map(|first| side_by_side(first..first + BATCH, &extent));
+    for (seed, (outcome, text)) in outcomes {
         match outcome {
             Outcome::Compared(found) => {
                 statistics.add(&found);
