@@ -4,6 +4,8 @@
 //! here and there: so the mechanism is led on a tour, and where some velocities come near to being undetermined by rows that determine others, the rows stay
 //! behind.
 
+use std::collections::BTreeMap;
+
 use super::beginning::Beginning;
 use super::from_bodies::from_bodies;
 use super::links::Links;
@@ -67,12 +69,22 @@ fn values(arena: &Arena, rows: &[Vec<Expr>], tour: &[(f64, Vec<f64>)]) -> Option
 struct Candidate {
     rows: Vec<usize>,
     velocities: Vec<usize>,
-    /// How many other rows know of the velocities.
-    others: usize,
     /// The least determinant along the tour over the volume that the rows span, in columns of like size.
     steady: f64,
     /// At the first stop, or if this is a singular position, the largest.
     determinant: f64,
+}
+
+/// The rows that are not taken yet, at the stops of a tour.
+struct Open<'a> {
+    rows: Vec<usize>,
+    joints: &'a [usize],
+    stops: Stops,
+    sizes: Vec<f64>,
+    /// The velocities that each row knows of.
+    known: Vec<Vec<usize>>,
+    /// What was found of rows that are taken together, as long as it holds.
+    candidates: BTreeMap<Vec<usize>, Vec<Candidate>>,
 }
 
 /// What is eliminated before the rest: velocities with the rows that determine them, and the determinants in the described configuration. Velocities
@@ -87,13 +99,11 @@ pub(super) fn dependent(
     if tour.len() < STOPS {
         return (pivots, determinants);
     }
-    let Some(mut stops) = values(arena, rows, tour) else {
+    let Some(stops) = values(arena, rows, tour) else {
         return (pivots, determinants);
     };
-    let mut open: Vec<usize> = (0..rows.len()).collect();
-    let sizes = sizes(&stops);
-    while let Some(chosen) = best(&stops, &open, joints, &sizes) {
-        open.retain(|row| !chosen.rows.contains(row));
+    let mut open = Open::new(stops, joints);
+    while let Some(chosen) = open.best() {
         let first = rows[0].len();
         pivots.push(match (&chosen.velocities[..], &chosen.rows[..]) {
             (&[k, l], &[m, n]) => Pivot::Forbidden([k, l], [first + m, first + n]),
@@ -101,109 +111,198 @@ pub(super) fn dependent(
             _ => unreachable!("a candidate has rows and velocities"),
         });
         determinants.push(chosen.determinant);
-        let least = SINGULAR * chosen.determinant.abs();
-        stops.retain(|stop| determinant(stop, &chosen.rows, &chosen.velocities).abs() > least);
-        for stop in &mut stops {
-            eliminate(stop, &open, &chosen);
-        }
+        open.eliminate(&chosen);
     }
     (pivots, determinants)
 }
 
-/// The candidate that the fewest other rows know of, then the steadiest.
-fn best(stops: &Stops, open: &[usize], joints: &[usize], sizes: &[f64]) -> Option<Candidate> {
-    stops.first()?;
-    let mut best: Option<Candidate> = None;
-    for (place, &row) in open.iter().enumerate() {
-        let next = open.get(place + 1).copied();
-        // Two rows of one joint meet in a determinant that vanishes less often than their entries.
-        let next = next.filter(|&next| joints[next] == joints[row]);
-        let rows: Vec<usize> = [Some(row), next].into_iter().flatten().collect();
-        if rows.len() == 1 && place > 0 && joints[open[place - 1]] == joints[row] {
-            continue;
+impl<'a> Open<'a> {
+    fn new(stops: Stops, joints: &'a [usize]) -> Self {
+        let rows: Vec<usize> = (0..stops.first().map_or(0, Vec::len)).collect();
+        let known = rows.iter().map(|&row| known(&stops, row)).collect();
+        Self {
+            rows,
+            joints,
+            sizes: sizes(&stops),
+            stops,
+            known,
+            candidates: BTreeMap::new(),
         }
-        let known: Vec<usize> = (0..stops[0][row].len())
-            .filter(|&k| rows.iter().any(|&row| is_known(stops, row, k)))
-            .collect();
-        for (number, &k) in known.iter().enumerate() {
-            let seconds = if rows.len() == 1 {
-                vec![None]
-            } else {
-                known[number + 1..].iter().map(|&l| Some(l)).collect()
-            };
-            for second in seconds {
-                let velocities: Vec<usize> = [Some(k), second].into_iter().flatten().collect();
-                let found = candidate(stops, open, &rows, velocities, sizes);
+    }
+
+    /// Rows that are taken together: two of one joint meet in a determinant that vanishes less often than their entries.
+    fn groups(&self) -> Vec<Vec<usize>> {
+        let joint = |place: usize| self.rows.get(place).map(|&row| self.joints[row]);
+        let mut groups = Vec::new();
+        for (place, &row) in self.rows.iter().enumerate() {
+            if joint(place + 1) == joint(place) {
+                groups.push(vec![row, self.rows[place + 1]]);
+            } else if place == 0 || joint(place - 1) != joint(place) {
+                groups.push(vec![row]);
+            }
+        }
+        groups
+    }
+
+    /// The candidate that the fewest other rows know of, then the steadiest.
+    fn best(&mut self) -> Option<Candidate> {
+        self.stops.first()?;
+        let mut best: Option<((usize, f64), Candidate)> = None;
+        for group in self.groups() {
+            if !self.candidates.contains_key(&group) {
+                let found = self.candidates_of(&group);
+                self.candidates.insert(group.clone(), found);
+            }
+            for candidate in &self.candidates[&group] {
                 // Round-off does not decide between what is alike: the first does.
-                let merit = |c: &Candidate| (c.others, -(1e6 * c.steady).round());
-                let is_better = best.as_ref().is_none_or(|b| merit(&found) < merit(b));
-                if found.steady > STEADY && is_better {
-                    best = Some(found);
+                let merit = (self.others(candidate), -(1e6 * candidate.steady).round());
+                if best.as_ref().is_none_or(|(best, _)| merit < *best) {
+                    best = Some((merit, candidate.clone()));
                 }
             }
         }
+        best.map(|(_, candidate)| candidate)
     }
-    best
-}
 
-/// Whether a row knows of a velocity: by more than round-off, which looks steady beside itself.
-fn is_known(stops: &Stops, row: usize, velocity: usize) -> bool {
-    stops.iter().any(|stop| {
-        let largest = stop[row]
-            .iter()
-            .fold(0.0, |most: f64, entry| most.max(entry.abs()));
-        stop[row][velocity].abs() > ROUND_OFF * largest
-    })
-}
+    /// How many other rows know of the velocities.
+    fn others(&self, candidate: &Candidate) -> usize {
+        let knows = |row: usize| {
+            let mut velocities = candidate.velocities.iter();
+            velocities.any(|k| self.known[row].binary_search(k).is_ok())
+        };
+        let rows = self.rows.iter();
+        rows.filter(|&&row| knows(row) && !candidate.rows.contains(&row))
+            .count()
+    }
 
-fn candidate(
-    stops: &Stops,
-    open: &[usize],
-    rows: &[usize],
-    velocities: Vec<usize>,
-    sizes: &[f64],
-) -> Candidate {
-    let others = open.iter().filter(|row| !rows.contains(row));
-    let others = others.filter(|&&row| velocities.iter().any(|&k| is_known(stops, row, k)));
-    let determinants: Vec<f64> = stops
-        .iter()
-        .map(|stop| determinant(stop, rows, &velocities))
-        .collect();
-    let scale: f64 = velocities.iter().map(|&k| sizes[k]).product();
-    let volumes: Vec<f64> = stops.iter().map(|stop| volume(stop, rows, sizes)).collect();
-    let largest = |values: &[f64]| {
-        let largest = values
+    /// All steady ways to take some rows.
+    fn candidates_of(&self, rows: &[usize]) -> Vec<Candidate> {
+        let mut known: Vec<usize> = rows
             .iter()
+            .flat_map(|&row| &self.known[row])
             .copied()
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        largest.unwrap_or(0.0)
-    };
-    let least = SINGULAR * largest(&volumes);
-    let regular = determinants.iter().zip(&volumes);
-    let shares: Vec<f64> = regular
-        .filter(|(_, volume)| **volume > least)
-        .map(|(determinant, volume)| determinant / scale / volume)
-        .collect();
-    let vanishes = shares.windows(2).any(|pair| passes_zero(pair[0], pair[1]));
-    let steady = if vanishes {
-        0.0
-    } else {
-        shares
+            .collect();
+        known.sort_unstable();
+        known.dedup();
+        let volumes: Vec<f64> = self
+            .stops
             .iter()
-            .fold(f64::INFINITY, |least, share| least.min(share.abs()))
-    };
-    let most = largest(&determinants);
-    Candidate {
-        rows: rows.to_vec(),
-        others: others.count(),
-        steady: if most == 0.0 { 0.0 } else { steady },
-        determinant: if determinants[0].abs() > STEADY * most.abs() {
-            determinants[0]
-        } else {
-            most
-        },
-        velocities,
+            .map(|stop| self.volume(stop, rows, &known))
+            .collect();
+        let mut found = Vec::new();
+        for (number, &k) in known.iter().enumerate() {
+            match rows {
+                [_] => found.extend(self.candidate(rows, vec![k], &volumes)),
+                _ => found.extend(
+                    known[number + 1..]
+                        .iter()
+                        .filter_map(|&l| self.candidate(rows, vec![k, l], &volumes)),
+                ),
+            }
+        }
+        found
     }
+
+    fn candidate(
+        &self,
+        rows: &[usize],
+        velocities: Vec<usize>,
+        volumes: &[f64],
+    ) -> Option<Candidate> {
+        let stops = self.stops.iter();
+        let determinants: Vec<f64> = stops
+            .map(|stop| determinant(stop, rows, &velocities))
+            .collect();
+        let scale: f64 = velocities.iter().map(|&k| self.sizes[k]).product();
+        let least = SINGULAR * largest(volumes);
+        let regular = determinants.iter().zip(volumes);
+        let shares: Vec<f64> = regular
+            .filter(|(_, volume)| **volume > least)
+            .map(|(determinant, volume)| determinant / scale / volume)
+            .collect();
+        let mut steps = shares.windows(2);
+        if steps.any(|pair| passes_zero(pair[0], pair[1])) {
+            return None;
+        }
+        let steady = shares
+            .iter()
+            .fold(f64::INFINITY, |least, share| least.min(share.abs()));
+        let most = largest(&determinants);
+        let is_first = determinants[0].abs() > STEADY * most.abs();
+        (steady > STEADY && most != 0.0).then(|| Candidate {
+            rows: rows.to_vec(),
+            velocities,
+            steady,
+            determinant: if is_first { determinants[0] } else { most },
+        })
+    }
+
+    /// The volume that one or two rows span: the root of the sum of all squared determinants.
+    fn volume(&self, stop: &[Vec<f64>], rows: &[usize], known: &[usize]) -> f64 {
+        let dot = |a: usize, b: usize| -> f64 {
+            let entries = known.iter();
+            entries
+                .map(|&k| (stop[a][k] / self.sizes[k]) * (stop[b][k] / self.sizes[k]))
+                .sum()
+        };
+        match *rows {
+            [m, n] => (dot(m, m) * dot(n, n) - dot(m, n).powi(2)).max(0.0).sqrt(),
+            [m, ..] => dot(m, m).sqrt(),
+            [] => 0.0,
+        }
+    }
+
+    /// Puts what the chosen velocities follow from into the rows that are left.
+    fn eliminate(&mut self, chosen: &Candidate) {
+        self.rows.retain(|row| !chosen.rows.contains(row));
+        let least = SINGULAR * chosen.determinant.abs();
+        let before = self.stops.len();
+        self.stops
+            .retain(|stop| determinant(stop, &chosen.rows, &chosen.velocities).abs() > least);
+        let mut changed: Vec<usize> = Vec::new();
+        for &row in &self.rows {
+            let knows =
+                |stop: &Vec<Vec<f64>>| chosen.velocities.iter().any(|&k| stop[row][k] != 0.0);
+            if self.stops.iter().any(knows) {
+                self.stops
+                    .iter_mut()
+                    .for_each(|stop| reduce(stop, row, chosen));
+                changed.push(row);
+            }
+        }
+        if self.stops.len() < before {
+            changed.clone_from(&self.rows);
+        }
+        for &row in &changed {
+            self.known[row] = known(&self.stops, row);
+        }
+        self.candidates
+            .retain(|rows, _| !rows.iter().any(|row| changed.contains(row)));
+    }
+}
+
+/// The velocities that a row knows of: by more than round-off, which looks steady beside itself.
+fn known(stops: &Stops, row: usize) -> Vec<usize> {
+    let width = stops.first().map_or(0, |stop| stop[row].len());
+    let mut is_known = vec![false; width];
+    for stop in stops {
+        let least = ROUND_OFF * largest(&stop[row]).abs();
+        for (is_known, entry) in is_known.iter_mut().zip(&stop[row]) {
+            *is_known |= entry.abs() > least;
+        }
+    }
+    (0..width).filter(|&k| is_known[k]).collect()
+}
+
+/// The value of largest magnitude.
+fn largest(values: &[f64]) -> f64 {
+    let mut largest = 0.0_f64;
+    for &value in values {
+        if value.abs() >= largest.abs() {
+            largest = value;
+        }
+    }
+    largest
 }
 
 /// Whether a share vanishes between two stops. In a singular position all shares change their signs at once, and keep their sizes.
@@ -231,21 +330,6 @@ fn sizes(stops: &Stops) -> Vec<f64> {
         .collect()
 }
 
-/// The volume that one or two rows span: the root of the sum of all squared determinants.
-fn volume(stop: &[Vec<f64>], rows: &[usize], sizes: &[f64]) -> f64 {
-    let scaled = |row: usize| -> Vec<f64> {
-        let entries = stop[row].iter().zip(sizes);
-        entries.map(|(entry, size)| entry / size).collect()
-    };
-    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-    let rows: Vec<Vec<f64>> = rows.iter().map(|&row| scaled(row)).collect();
-    match &rows[..] {
-        [m, n] => (dot(m, m) * dot(n, n) - dot(m, n).powi(2)).max(0.0).sqrt(),
-        [m, ..] => dot(m, m).sqrt(),
-        [] => 0.0,
-    }
-}
-
 fn determinant(stop: &[Vec<f64>], rows: &[usize], velocities: &[usize]) -> f64 {
     match (rows, velocities) {
         (&[m, n], &[k, l]) => stop[m][k] * stop[n][l] - stop[m][l] * stop[n][k],
@@ -254,30 +338,28 @@ fn determinant(stop: &[Vec<f64>], rows: &[usize], velocities: &[usize]) -> f64 {
     }
 }
 
-/// Puts what the chosen velocities follow from into the other rows.
-fn eliminate(stop: &mut [Vec<f64>], open: &[usize], chosen: &Candidate) {
+/// Puts what the chosen velocities follow from into another row.
+fn reduce(stop: &mut [Vec<f64>], row: usize, chosen: &Candidate) {
     let determinant = determinant(stop, &chosen.rows, &chosen.velocities);
-    for &row in open {
-        let entries: Vec<f64> = chosen.velocities.iter().map(|&k| stop[row][k]).collect();
-        // Shares of the chosen rows, by Cramer's rule.
-        let shares = match (&chosen.velocities[..], &chosen.rows[..]) {
-            (&[k, l], &[m, n]) => vec![
-                (entries[0] * stop[n][l] - entries[1] * stop[n][k]) / determinant,
-                (entries[1] * stop[m][k] - entries[0] * stop[m][l]) / determinant,
-            ],
-            _ => vec![entries[0] / determinant],
-        };
-        for (&from, share) in chosen.rows.iter().zip(shares) {
-            if share == 0.0 {
-                continue;
-            }
-            for k in 0..stop[row].len() {
-                let change = share * stop[from][k];
-                stop[row][k] -= change;
-            }
+    let entries: Vec<f64> = chosen.velocities.iter().map(|&k| stop[row][k]).collect();
+    // Shares of the chosen rows, by Cramer's rule.
+    let shares = match (&chosen.velocities[..], &chosen.rows[..]) {
+        (&[k, l], &[m, n]) => vec![
+            (entries[0] * stop[n][l] - entries[1] * stop[n][k]) / determinant,
+            (entries[1] * stop[m][k] - entries[0] * stop[m][l]) / determinant,
+        ],
+        _ => vec![entries[0] / determinant],
+    };
+    for (&from, share) in chosen.rows.iter().zip(shares) {
+        if share == 0.0 {
+            continue;
         }
-        for &k in &chosen.velocities {
-            stop[row][k] = 0.0;
+        for k in 0..stop[row].len() {
+            let change = share * stop[from][k];
+            stop[row][k] -= change;
         }
+    }
+    for &k in &chosen.velocities {
+        stop[row][k] = 0.0;
     }
 }

@@ -271,8 +271,8 @@ impl Arena {
     pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
         let negative = a.is_negative() != b.is_negative();
         let (a, b) = (a.abs(), b.abs());
-        let [has_number_a, has_number_b] = [a, b].map(|x| !self.is_without_number(x));
-        if a == Self::ZERO && has_number_b || b == Self::ZERO && has_number_a {
+        let is_zero = |a: Expr, b: Expr| a == Self::ZERO && !self.is_without_number(b);
+        if is_zero(a, b) || is_zero(b, a) {
             return Self::ZERO;
         }
         if a == Self::ONE {
