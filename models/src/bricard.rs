@@ -24,7 +24,7 @@ use holonom::prelude::*;
 /// Good for: equations that depend on each other while no two of them are alike; a motion through space with one angle,
 /// `cos(A) + cos(B) + cos(A) cos(B) = 0`, `A` that of the hinges 1, 3 and 5 and `B` that of the others.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "joints")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
 pub struct Bricard {
     #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, 0.0, 0.0])]
     first: Body,

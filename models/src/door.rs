@@ -25,7 +25,7 @@ use holonom::prelude::*;
 /// with `I = 4.269333` kg m^2, `d = 0.4` m. The angle of either hinge is zero at the start: `angle = phi - pi/2`, `phi`
 /// from the position at rest.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop", coordinates = "joints")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop", coordinates = "both")]
 pub struct Door {
     #[body(
         mass = 20.0,

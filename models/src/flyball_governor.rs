@@ -32,7 +32,7 @@ use holonom::prelude::*;
 /// The angles of the arms' hinges are zero at the start and grow as the arms sink: `alpha = pi/6 + angle` below the
 /// horizontal. The displacement of `guide` is the height of the slider less 0.5 m.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct FlyballGovernor {
     #[body(
         mass = 0.3,

@@ -26,7 +26,7 @@ use holonom::prelude::*;
 /// on it. It has a closed form, `(N + 1 + 3 N) / 3 theta'' = (N + 1 + 2 N) / 2 g sin(theta)` with `theta` of the upright
 /// links clockwise from the upward vertical.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "joints")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
 pub struct FourBar {
     #[body(
         mass = 1.0,
@@ -73,7 +73,7 @@ impl FourBar {
 ///
 /// Good for: what the [`FourBar`] is good for, with three ways to go on in the singular configurations.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "joints")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
 pub struct DoubleFourBar {
     #[body(
         mass = 1.0,

@@ -20,7 +20,7 @@ use holonom::prelude::*;
 /// Good for: large rotations and Euler parameters, 24 turns a second; the order of convergence of an integrator. The energy,
 /// 5435.696790865547 J, the angular momentum about z, -70.3124296875 kg m^2/s, and the spin of 150 rad/s about the axis stay.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct HeavyTop {
     #[body(
         mass = 15.0,

@@ -12,7 +12,7 @@ use holonom::prelude::*;
 /// Good for: a robot of seven hinges in a row, one more than the hand has freedoms; forward dynamics against
 /// [Pinocchio](https://github.com/stack-of-tasks/pinocchio), which the tests hold to 1e-12.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct Panda {
     /// The moment of the motor of `joint_1` (N m), on the outer link.
     #[input]

@@ -25,7 +25,7 @@ use holonom::prelude::*;
 ///
 /// Good for: a loop at high speed; conservation of energy (7.49554875 J from the crank's axis).
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "joints")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
 pub struct SliderCrank {
     #[body(
         mass = 0.038,
@@ -64,7 +64,7 @@ pub struct SliderCrank {
 /// I'(theta) theta'^2 / 2 + V'(theta)`, with `I` the inertia of everything reduced to the crank and `V` the potential
 /// energy.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "joints")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
 pub struct DrivenSliderCrank {
     #[body(
         mass = 0.038,

@@ -8,7 +8,7 @@ use crate::mechanism::{Mechanism, Pivot, Stabilisation, Terms};
 use crate::report::Kernel;
 use crate::scalar::Scalar;
 
-/// A mechanism with `#[mechanism(coordinates = "joints")]`: besides the kernels of [`Mechanism`] it has those of its equations of motion in joint
+/// A mechanism with `#[mechanism(coordinates = "joints")]` or `"both"`: besides the kernels of [`Mechanism`] it has those of its equations of motion in joint
 /// coordinates.
 ///
 /// Bodies of a spanning tree move by what their joints leave free; only joints that close loops, and those that do not say how they move, keep equations and

@@ -143,7 +143,8 @@ pub use bodies::{Body, Particle};
 /// hinges), which are refused otherwise: see [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the
 /// motion is the same, reactions are those of the joints without these equations. Keep them, and
 /// only formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
-/// `coordinates = "joints"` adds the equations of motion in joint coordinates, [`JointCoordinates`].
+/// `coordinates = "joints"` adds the equations of motion in joint coordinates, [`JointCoordinates`], and has those of the bodies only to be read; `"both"` has both
+/// as one kernel each, see [`guide::coordinates`].
 /// `recursion_limit = 256` repeats what stands at the top of the crate, `#![recursion_limit = "256"]`: more than a hundred kinds of
 /// bodies, joints and forces in one mechanism need both.
 ///

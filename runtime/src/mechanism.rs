@@ -183,7 +183,8 @@ pub trait Mechanism: Sized + 'static {
     /// The whole right-hand side in one straight line: rates of the state and multipliers, from the saddle system
     /// with `lambda_previous = 0` and without applied forces of a user. Writes every element of both; returns the smallest relative pivot.
     ///
-    /// `T` names the terms that the formulation has, `P` how Euler parameters are read.
+    /// `T` names the terms that the formulation has, `P` how Euler parameters are read. With `coordinates = "joints"` it is put together from
+    /// [`Mechanism::factor`], [`Mechanism::solve`] and the kernels of the right-hand side.
     fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,

@@ -2,7 +2,40 @@
 
 pub use holonom_macros::{assemble, force_impl, joint_impl};
 
-use crate::scalar::elementary;
+use crate::array::StateParts;
+use crate::mechanism::{Mechanism, Orientation, Pivot, Terms};
+use crate::rotation::{scale_euler_rates, with_unit_orientations};
+use crate::scalar::{Scalar, elementary};
+
+/// [`Mechanism::evaluate_into`] from the other kernels, with the right-hand side of the rows, `gamma*`, from a closure.
+#[inline]
+pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
+    constants: &M::Constants<S>,
+    coefficients: &M::Coefficients<S>,
+    time: S,
+    state: &M::State<S>,
+    rates: &mut M::State<S>,
+    multipliers: &mut M::Multipliers<S>,
+    lower: impl FnOnce(&M::State<S>) -> M::Multipliers<S>,
+) -> Pivot<S> {
+    let read = if P::NORMALISED {
+        with_unit_orientations::<S, M>(state)
+    } else {
+        *state
+    };
+    let (factors, pivot) = M::factor::<S, T>(constants, coefficients, time, &read);
+    let (upper, lower) = (M::forces(constants, time, &read), lower(&read));
+    let (accelerations, solved) =
+        M::solve::<S, T>(constants, coefficients, &factors, &upper, &lower);
+    let mut coordinate_rates = M::coordinate_rates(constants, &read);
+    if P::NORMALISED {
+        // Those of Euler parameters are made of these as they are.
+        scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
+    }
+    *rates = M::State::from_parts(coordinate_rates, accelerations);
+    *multipliers = solved;
+    pivot
+}
 
 /// Square root.
 #[must_use]

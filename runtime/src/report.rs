@@ -31,7 +31,7 @@ pub struct Report {
     pub degrees_of_freedom: isize,
     /// Where the time itself stands in the equations.
     pub time: ExplicitTime,
-    /// What the kernels cost, one evaluation each.
+    /// What the kernels cost, one evaluation each. A mechanism with `coordinates = "joints"` has no fused evaluations of its bodies: `"both"` counts them.
     pub kernels: &'static [Kernel],
     /// The order of elimination and the frames of the multiplier rows, in words.
     pub plan: &'static str,

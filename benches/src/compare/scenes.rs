@@ -9,7 +9,7 @@ macro_rules! chain {
     ($(#[$attribute:meta])* $name:ident: [$joint:ident; $links:tt] $($keys:tt)*) => {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, Mechanism)]
-        #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+        #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
         pub struct $name {
             #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, k + 0.5, 0.0])]
             rods: [Body; $links],
@@ -25,7 +25,7 @@ macro_rules! windows {
     ($(#[$attribute:meta])* $name:ident: [$rods:tt] [$windows:tt]) => {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, Mechanism)]
-        #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "joints")]
+        #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
         pub struct $name {
             #[body(
                 mass = 1.0, inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0], position = [k, 0.5, 0.0],

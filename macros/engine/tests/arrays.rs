@@ -10,7 +10,7 @@ use quote::ToTokens;
 use syn::{Block, Expr, File, ImplItem, Item, Stmt};
 
 /// A chain with axes in turn, springs between neighbours, loads and numbers known at run time.
-const CHAIN: &str = "#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = \"joints\")] struct Chain {
+const CHAIN: &str = "#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = \"both\")] struct Chain {
     #[param] lengths: [f64; 5],
     #[input] thrusts: [f64; 2],
     #[body(mass = 1.0 + 0.25 * k, inertia = [0.1, 0.05, 0.1 + 0.001 * k * k], position = [0.0, 0.5 + 1.0 * k, 0.0],
@@ -27,7 +27,7 @@ const CHAIN: &str = "#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = \"jo
 /// The same with a field for each element.
 fn written_out() -> String {
     let mut text = String::from(
-        "#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = \"joints\")] struct Chain {",
+        "#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = \"both\")] struct Chain {",
     );
     for k in 0..5 {
         text += &format!("#[param] lengths_{k}: f64,");

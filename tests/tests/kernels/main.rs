@@ -51,6 +51,7 @@ mod drift;
 mod free_bodies;
 mod letters;
 mod mechanisms;
+mod parts;
 mod projection;
 mod scalars;
 mod scene;

@@ -277,7 +277,7 @@ impl Scene {
             let start = M::initial_state(bodies.dynamics.constants());
             let operations = match reported(M::REPORT.kernels, method) {
                 Some(operations) => operations,
-                None => iterated_by_bodies::<M>(&self.states)?,
+                None => counted_by_bodies::<M>(method, &self.states)?,
             };
             Ok((operations, contestants(bodies, start, step)?))
         });
@@ -340,13 +340,27 @@ fn reported(kernels: &[Kernel], method: Method) -> Option<Operations> {
     found.or(only).map(|kernel| kernel.operations)
 }
 
-/// The operations of an evaluation that iterates, counted at the last of some states.
-fn iterated_by_bodies<M: Mechanism + Default>(states: &[Vec<f64>]) -> Result<Operations, Fault> {
-    let formulation = AugmentedLagrangian::<Counted>::default();
-    let dynamics = Dynamics::<Counted, M, _>::new(&M::default(), formulation)?;
-    let state = counted_state::<M>(dynamics.constants(), states);
-    let (operations, outcome) = counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));
-    outcome.map(|()| operations)
+/// The operations of an evaluation that iterates, or that is put together from its parts, counted at the last of some states.
+fn counted_by_bodies<M: Mechanism + Default>(
+    method: Method,
+    states: &[Vec<f64>],
+) -> Result<Operations, Fault> {
+    fn of<M: Mechanism + Default, F: Formulation<Counted>>(
+        formulation: F,
+        states: &[Vec<f64>],
+    ) -> Result<Operations, Fault> {
+        let dynamics = Dynamics::<Counted, M, _>::new(&M::default(), formulation)?;
+        let state = counted_state::<M>(dynamics.constants(), states);
+        let (operations, outcome) =
+            counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));
+        outcome.map(|()| operations)
+    }
+    match method {
+        Method::Standard => of::<M, _>(StandardLagrange, states),
+        Method::Baumgarte => of::<M, _>(Baumgarte::default(), states),
+        Method::Penalty => of::<M, _>(Penalty::default(), states),
+        Method::AugmentedLagrangian => of::<M, _>(AugmentedLagrangian::default(), states),
+    }
 }
 
 /// The same in joint coordinates.

@@ -205,7 +205,7 @@ impl JointChecker<'_> {
         let Some(written) = written else {
             return is_cut;
         };
-        if self.coordinates != Coordinates::Joints {
+        if !self.coordinates.have_joints() {
             faults.at(
                 &written.key,
                 "`cut` says which joint stays equations in joint coordinates, which this mechanism has not; write \

@@ -14,7 +14,7 @@ use super::store::{Kernel as Arguments, Store};
 use super::straight_line::{Given, StraightLine, write};
 use crate::coordinates::kernels::JointKernels;
 use crate::model::name::fields;
-use crate::model::{Coordinates, Model, Name};
+use crate::model::{Model, Name};
 use crate::plan::kernels::{Kernel, Kernels};
 use crate::symbolic::arena::Stage;
 
@@ -88,12 +88,10 @@ impl Writer<'_> {
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
         let compliances = local("compliances");
         let vector_rows = &kernels.vector_rows;
-        let joints = match model.coordinates {
-            Coordinates::Joints => {
-                super::coordinates::implementation(model, &JointKernels::new(model), facade)
-            }
-            Coordinates::Bodies => TokenStream::new(),
-        };
+        let joints = model
+            .coordinates
+            .have_joints()
+            .then(|| super::coordinates::implementation(model, &JointKernels::new(model), facade));
         let parts = &self.parts;
         let given = local("parameters");
         quote! {

@@ -54,6 +54,9 @@ impl Writer<'_> {
     /// The fused evaluations. Where they are long, both readings of Euler parameters call one function of the rotation matrices: [`Evaluation::normalised`]
     /// made the second so.
     pub(super) fn evaluations(&mut self) -> TokenStream {
+        if let Some(stabilised) = &self.kernels.stabilised {
+            return self.stabilised(stabilised);
+        }
         let (raw, normalised) = self.kernels.evaluations.split_at(Terms::ALL.len());
         let operations = |evaluation: &Evaluation| {
             let Kernel { arena, outputs } = &evaluation.kernel;
@@ -78,6 +81,33 @@ impl Writer<'_> {
             tokens.extend(self.rotations(normalised));
         }
         tokens
+    }
+
+    /// `gamma*`, for evaluations that are put together from their parts.
+    fn stabilised(&mut self, kernel: &Kernel) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let frame = Frame {
+            name: "__stabilised".into(),
+            facade: facade.clone(),
+            declared: self.arguments(),
+            passed: Self::passed(),
+            unpack: Self::unpack(),
+        };
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line_of(kernel, &Given::default(), &frame);
+        let (arguments, unpack) = (self.arguments(), Self::unpack());
+        quote! {
+            #[inline(never)]
+            fn __stabilised<__S: #facade::Scalar>(
+                #arguments
+            ) -> <#name as #facade::Mechanism>::Multipliers<__S> {
+                #unpack
+                #statements
+                [#(#outputs),*]
+            }
+        }
     }
 
     /// The rotation matrices as one reading has them.
@@ -187,6 +217,18 @@ impl Writer<'_> {
         let (factors, upper, lower) = (local("factors"), local("upper"), local("lower"));
         let (rates, multipliers) = (local("rates"), local("multipliers"));
         let time = local("time");
+        let evaluate = self.kernels.stabilised.is_some().then(|| {
+            quote! {
+                #facade::__private::evaluate_in_parts::<__S, Self, __T, __P>(
+                    #constants, #coefficients, #time, #state, #rates, #multipliers,
+                    |#state| if __T::STABILISED || __T::COMPLIANT {
+                        __stabilised(#constants, #coefficients, #time, #state)
+                    } else {
+                        Self::gamma(#constants, #time, #state)
+                    },
+                )
+            }
+        });
         let arms = self.kernels.evaluations.iter().map(|evaluation| {
             let (stabilised, compliant) = match evaluation.terms {
                 Terms::Plain => (quote!(false), quote!(false)),
@@ -199,6 +241,13 @@ impl Writer<'_> {
                 (#normalised, #stabilised, #compliant) => #function(#constants, #coefficients, #time, #state, #rates, #multipliers),
             }
         });
+        let evaluate = evaluate.unwrap_or_else(|| {
+            quote! {
+                match (__P::NORMALISED, __T::STABILISED, __T::COMPLIANT) {
+                    #(#arms)*
+                }
+            }
+        });
         quote! {
             #[inline(always)]
             fn evaluate_into<__S: #facade::Scalar, __T: #facade::Terms, __P: #facade::Orientation>(
@@ -209,9 +258,7 @@ impl Writer<'_> {
                 #rates: &mut Self::State<__S>,
                 #multipliers: &mut Self::Multipliers<__S>,
             ) -> #facade::Pivot<__S> {
-                match (__P::NORMALISED, __T::STABILISED, __T::COMPLIANT) {
-                    #(#arms)*
-                }
+                #evaluate
             }
 
             #[inline(always)]

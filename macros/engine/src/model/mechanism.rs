@@ -152,13 +152,31 @@ pub enum Coordinates {
     /// Positions and orientations of the bodies.
     #[default]
     Bodies,
-    /// These, and besides what the joints of a spanning tree leave free.
+    /// What the joints of a spanning tree leave free; what asks for the bodies' own equations of motion puts them together from their parts.
     Joints,
+    /// Either, each with evaluations of its own.
+    Both,
 }
 
 impl Coordinates {
     /// What `coordinates` takes.
-    pub const ALL: [(&'static str, Self); 2] = [("bodies", Self::Bodies), ("joints", Self::Joints)];
+    pub const ALL: [(&'static str, Self); 3] = [
+        ("bodies", Self::Bodies),
+        ("joints", Self::Joints),
+        ("both", Self::Both),
+    ];
+
+    /// Whether the equations of motion of the bodies have fused evaluations.
+    #[must_use]
+    pub fn fuse_bodies(self) -> bool {
+        self != Self::Joints
+    }
+
+    /// Whether there are joint coordinates.
+    #[must_use]
+    pub fn have_joints(self) -> bool {
+        self != Self::Bodies
+    }
 }
 
 /// A checked mechanism.

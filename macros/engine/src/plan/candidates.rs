@@ -148,6 +148,19 @@ pub fn choose(model: &Model) -> Plans {
     Plans { rigid, compliant }
 }
 
+/// Plans that cost little to find, for what runs seldom: bodies from the leaves of the tree, rows of a body's joint right behind it.
+#[must_use]
+pub fn first(model: &Model) -> Plans {
+    let beginning = Beginning::new(model);
+    let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| {
+        let [strategy, ..] = strategies(terms) else {
+            unreachable!("there are strategies")
+        };
+        beginning.plan(*strategy)
+    });
+    Plans { rigid, compliant }
+}
+
 /// A plan whose matrix is factorised.
 struct Candidate {
     plan: Plan,

@@ -1,7 +1,7 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
 use super::alone::alone;
-use super::candidates::{choose, equations_of_motion};
+use super::candidates::{choose, equations_of_motion, first};
 use super::eliminate::Check;
 use super::readings::Readings;
 use super::system::{System, Terms, applied_forces};
@@ -108,8 +108,11 @@ pub struct Kernels {
     pub readings: Readings,
     /// What each joint costs by itself.
     pub alone: Vec<Count>,
-    /// The fused evaluations for all terms, those that read Euler parameters as they are before those that normalise them.
+    /// The fused evaluations for all terms, those that read Euler parameters as they are before those that normalise them. None where the mechanism is
+    /// described by its joints alone.
     pub evaluations: Vec<Evaluation>,
+    /// `gamma*` with terms of stabilisation, for evaluations that are put together from their parts.
+    pub stabilised: Option<Kernel>,
     /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
     /// The plans of the solutions.
@@ -120,11 +123,13 @@ impl Kernels {
     /// Builds all kernels of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        let plans = choose(model);
-        let raw = Terms::ALL.map(|terms| raw(model, plans.of(terms), terms));
-        let normalised = Scene::for_solution(model, Reading::Normalised);
-        let normalised = raw.each_ref().map(|raw| raw.normalised(&normalised));
-        let evaluations = raw.into_iter().chain(normalised).collect();
+        let is_fused = model.coordinates.fuse_bodies();
+        let plans = if is_fused {
+            choose(model)
+        } else {
+            first(model)
+        };
+        let evaluations = is_fused.then(|| evaluations(model, &plans));
         let solvers = [Terms::Plain, Terms::Compliant]
             .map(|terms| solver(model, plans.of(terms), terms))
             .into();
@@ -155,11 +160,20 @@ impl Kernels {
                 vec![scene.space.arena.sum(powers)]
             }),
             readings: Readings::new(scene, model),
-            evaluations,
+            evaluations: evaluations.unwrap_or_default(),
+            stabilised: (!is_fused).then(|| stabilised(scene)),
             solvers,
             plans,
         }
     }
+}
+
+/// The fused evaluations for all terms and both readings.
+fn evaluations(model: &Model, plans: &Plans) -> Vec<Evaluation> {
+    let raw = Terms::ALL.map(|terms| raw(model, plans.of(terms), terms));
+    let normalised = Scene::for_solution(model, Reading::Normalised);
+    let normalised = raw.each_ref().map(|raw| raw.normalised(&normalised));
+    raw.into_iter().chain(normalised).collect()
 }
 
 fn kinds(model: &Model) -> Vec<BodyKind> {
@@ -185,10 +199,20 @@ fn vector_rows(scene: &Scene) -> Vec<usize> {
 
 /// A combination of `Phi`, `Phi'` and the quadratic terms of `Phi''`, row by row.
 pub(crate) fn rows(scene: &Scene, factors: [Expr; 3]) -> Kernel {
+    with_scene(scene, |scene| combinations(scene, factors))
+}
+
+fn combinations(scene: &mut Scene, factors: [Expr; 3]) -> Vec<Expr> {
+    (0..scene.constraints.len())
+        .flat_map(|place| scene.combination(place, Frame::Global, factors))
+        .collect()
+}
+
+/// `gamma*`, with terms of stabilisation.
+fn stabilised(scene: &Scene) -> Kernel {
     with_scene(scene, |scene| {
-        (0..scene.constraints.len())
-            .flat_map(|place| scene.combination(place, Frame::Global, factors))
-            .collect()
+        let factors = Terms::Stabilised.factors(&mut scene.space.arena);
+        combinations(scene, factors)
     })
 }
 
