@@ -16,7 +16,7 @@ use crate::symbolic::arena::{Arena, Expr, Stage};
 /// Kernels of up to so many statements are one function: of some more than a thousand, one that is not divided is a little faster.
 const MANY: usize = 1800;
 /// The statements of a part.
-const PART: usize = 300;
+const PART: usize = 160;
 
 /// The function that a kernel is written for.
 pub(super) struct Frame {

@@ -81,9 +81,16 @@ const COMPLIANT: [Strategy; 5] = {
     ]
 };
 
-const fn strategies(terms: Terms) -> &'static [Strategy] {
+/// Mechanisms of more bodies are not searched in full: what wins where there are many is one of two, and every candidate takes time.
+const MANY: usize = 12;
+const RIGID_OF_MANY: [Strategy; 2] = [RIGID[0], RIGID[5]];
+const COMPLIANT_OF_MANY: [Strategy; 2] = [COMPLIANT[4], COMPLIANT[3]];
+
+const fn strategies(terms: Terms, bodies: usize) -> &'static [Strategy] {
     match terms {
+        Terms::Plain | Terms::Stabilised if bodies > MANY => &RIGID_OF_MANY,
         Terms::Plain | Terms::Stabilised => &RIGID,
+        Terms::Compliant if bodies > MANY => &COMPLIANT_OF_MANY,
         Terms::Compliant => &COMPLIANT,
     }
 }
@@ -124,7 +131,7 @@ impl<'a> Beginning<'a> {
     /// The plans worth counting, each once.
     fn plans(&self, terms: Terms) -> Vec<Plan> {
         let mut plans: Vec<Plan> = Vec::new();
-        for &strategy in strategies(terms) {
+        for &strategy in strategies(terms, self.kinds.len()) {
             let plan = self.plan(strategy);
             if !plans.contains(&plan) {
                 plans.push(plan);
@@ -143,29 +150,49 @@ pub fn all(model: &Model, terms: Terms) -> Vec<Plan> {
 /// The cheapest plans for a model.
 #[must_use]
 pub fn choose(model: &Model) -> Plans {
-    let beginning = Beginning::new(model);
-    let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| beginning.choose(terms));
+    let [rigid, compliant] = cheapest(model).map(|factorised| factorised.plan);
     Plans { rigid, compliant }
+}
+
+/// The cheapest plans, without a compliance and with one.
+pub(super) fn cheapest(model: &Model) -> [Factorised; 2] {
+    let beginning = Beginning::new(model);
+    [Terms::Plain, Terms::Compliant].map(|terms| beginning.choose(terms))
 }
 
 /// Plans that cost little to find, for what runs seldom: bodies from the leaves of the tree, rows of a body's joint right behind it.
-#[must_use]
-pub fn first(model: &Model) -> Plans {
+pub(super) fn first(model: &Model) -> [Factorised; 2] {
     let beginning = Beginning::new(model);
-    let [rigid, compliant] = [Terms::Plain, Terms::Compliant].map(|terms| {
-        let [strategy, ..] = strategies(terms) else {
-            unreachable!("there are strategies")
-        };
-        beginning.plan(*strategy)
-    });
-    Plans { rigid, compliant }
+    [(Terms::Plain, RIGID[0]), (Terms::Compliant, COMPLIANT[0])].map(|(terms, strategy)| {
+        let plan = beginning.plan(strategy);
+        let factorised = beginning.factorised(plan, terms, usize::MAX);
+        factorised.expect("there is no bound")
+    })
 }
 
-/// A plan whose matrix is factorised.
+/// A plan whose matrix is factorised, and nothing else worked out yet.
+#[derive(Clone, Debug)]
+pub(super) struct Factorised {
+    pub(super) plan: Plan,
+    pub(super) scene: Scene,
+    pub(super) system: System,
+}
+
+impl Factorised {
+    pub(super) fn new(model: &Model, plan: &Plan, terms: Terms) -> Self {
+        let mut scene = Scene::for_solution(model, Reading::Raw);
+        let system = System::new(&mut scene, &kinds(model), plan.clone(), terms);
+        Self {
+            plan: plan.clone(),
+            scene,
+            system,
+        }
+    }
+}
+
+/// A plan that may be the cheapest.
 struct Candidate {
-    plan: Plan,
-    scene: Scene,
-    system: System,
+    factorised: Factorised,
     /// What it costs without the right-hand sides.
     at_least: usize,
 }
@@ -175,40 +202,52 @@ const FILLED: usize = 3;
 
 impl Beginning<'_> {
     /// The cheapest plan. What a plan costs is found in two steps, of which the second takes longer: the factors and the back-substitution, then the right-hand sides.
-    fn choose(&self, terms: Terms) -> Plan {
+    fn choose(&self, terms: Terms) -> Factorised {
         let mut candidates: Vec<Candidate> = Vec::new();
         let mut most = usize::MAX;
         for plan in self.plans(terms) {
-            candidates.extend(self.factorised(plan, terms, &mut most));
+            let Some(factorised) = self.factorised(plan, terms, most) else {
+                continue;
+            };
+            let nodes = factorised.scene.space.arena.len() - self.scene.space.arena.len();
+            most = most.min(FILLED * nodes);
+            let (factors, back) = Self::given(&mut factorised.scene.clone(), &factorised.system);
+            let evaluations = served(terms).len() * factors;
+            candidates.push(Candidate {
+                factorised,
+                at_least: 4 * evaluations + back,
+            });
         }
         candidates.sort_by_key(|candidate| candidate.at_least);
-        let mut best: Option<(usize, Plan)> = None;
-        for candidate in candidates {
-            let at_least = candidate.at_least;
+        let mut best: Option<(usize, Factorised)> = None;
+        for Candidate {
+            factorised,
+            at_least,
+        } in candidates
+        {
             if best.as_ref().is_some_and(|(least, _)| at_least >= *least) {
                 break;
             }
-            let (cost, plan) = self.cost(candidate, terms);
+            // Right-hand sides of many bodies take as long to work out as the factors, and decide seldom.
+            let cost = if self.kinds.len() > MANY {
+                at_least
+            } else {
+                self.cost(&factorised, terms)
+            };
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, plan));
+                best = Some((cost, factorised));
             }
         }
         best.expect("there are strategies").1
     }
 
-    fn factorised(&self, plan: Plan, terms: Terms, most: &mut usize) -> Option<Candidate> {
+    fn factorised(&self, plan: Plan, terms: Terms, most: usize) -> Option<Factorised> {
         let mut scene = self.scene.clone();
-        let before = scene.space.arena.len();
-        let system = System::within(&mut scene, &self.kinds, plan.clone(), terms, *most)?;
-        let nodes = scene.space.arena.len() - before;
-        *most = (*most).min(FILLED * nodes);
-        let (factors, back) = Self::given(&mut scene.clone(), &system);
-        let evaluations = served(terms).len() * factors;
-        Some(Candidate {
+        let system = System::within(&mut scene, &self.kinds, plan.clone(), terms, most)?;
+        Some(Factorised {
             plan,
             scene,
             system,
-            at_least: 4 * evaluations + back,
         })
     }
 
@@ -223,24 +262,20 @@ impl Beginning<'_> {
 
     /// What a plan costs: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
     /// back-substitution for a given right-hand side, which runs less often.
-    fn cost(&self, candidate: Candidate, terms: Terms) -> (usize, Plan) {
-        let Candidate {
-            plan,
-            mut scene,
-            system,
-            ..
-        } = candidate;
+    fn cost(&self, factorised: &Factorised, terms: Terms) -> usize {
+        let Factorised { scene, system, .. } = factorised;
+        let mut scene = scene.clone();
         let checks = system.checks(&scene);
         let ratio = |check: &Check| scene.space.arena.div(check.pivot, check.before);
         let pivots: Vec<Expr> = checks.iter().map(ratio).collect();
         let evaluations = served(terms).iter().map(|&terms| {
-            let solution = solved(&mut scene, &self.kinds, &system, terms);
+            let solution = solved(&mut scene, &self.kinds, system, terms);
             let outputs = [&solution.accelerations[..], &solution.multipliers, &pivots].concat();
             count(&scene.space.arena, &outputs, Stage::State).weighted()
         });
         let evaluations: usize = evaluations.sum();
-        let (_, back) = Self::given(&mut scene, &system);
-        (4 * evaluations + back, plan)
+        let (_, back) = Self::given(&mut scene, system);
+        4 * evaluations + back
     }
 
     fn plan(&self, strategy: Strategy) -> Plan {
@@ -318,7 +353,12 @@ fn kinds(model: &Model) -> Vec<BodyKind> {
     model.bodies.iter().map(|body| body.kind).collect()
 }
 
-fn solved(scene: &mut Scene, kinds: &[BodyKind], system: &System, terms: Terms) -> Solution {
+pub(super) fn solved(
+    scene: &mut Scene,
+    kinds: &[BodyKind],
+    system: &System,
+    terms: Terms,
+) -> Solution {
     let right = system.equations_of_motion(scene, terms);
     let upper = applied_forces(scene, kinds);
     system.solve(scene, &right, &upper, Stage::State)

@@ -86,7 +86,7 @@ pub(super) fn factorise_within(
         turn,
         about_centres,
         matrix,
-        eliminated: Vec::new(),
+        step: vec![None; size],
         waiting: Vec::new(),
         factors: Factors {
             steps: Vec::new(),
@@ -132,11 +132,9 @@ pub(super) fn factorise_within(
     for row in std::mem::take(&mut elimination.waiting) {
         elimination.step(arena, Pivot::Multiplier(row), 1.0);
     }
-    let mut eliminated = elimination.eliminated.concat();
-    eliminated.sort_unstable();
     assert!(
-        eliminated.iter().copied().eq(0..size),
-        "a plan eliminates every unknown once, not {eliminated:?} of {size}"
+        elimination.step.iter().all(Option::is_some),
+        "a plan eliminates every unknown"
     );
     Some(elimination.factors)
 }
@@ -150,8 +148,8 @@ struct Elimination {
     /// When the plan eliminates each unknown: sums are taken in this order, so that the numbers of the unknowns, and with them the order of the fields,
     /// have no say.
     turn: Vec<usize>,
-    /// In order, step by step.
-    eliminated: Vec<Vec<usize>>,
+    /// The step that has eliminated an unknown, and the unknown's place in it.
+    step: Vec<Option<(usize, usize)>>,
     /// Rows whose pivot is zero so far.
     waiting: Vec<usize>,
     factors: Factors,
@@ -188,17 +186,16 @@ impl Elimination {
     /// The first pivots, if they are accelerations that know nothing of each other.
     fn strangers(&self, pivots: &[Pivot]) -> Vec<usize> {
         let mut together: Vec<usize> = Vec::new();
+        let mut is_taken = vec![false; self.matrix.size()];
         for pivot in pivots {
             let Pivot::Acceleration(k) = *pivot else {
                 break;
             };
-            if together
-                .iter()
-                .any(|&l| self.matrix.get(k, l) != Arena::ZERO)
-            {
+            if self.matrix.neighbours(k).any(|l| is_taken[l]) {
                 break;
             }
             together.push(k);
+            is_taken[k] = true;
         }
         together
     }
@@ -290,10 +287,15 @@ impl Elimination {
     /// The pivot of a multiplier if there were no other rows. The terms are summed in the order of elimination, where the elimination may have
     /// formed the same sum, in the order of the unknowns, or at once, whatever takes fewest operations.
     fn uncoupled(&self, arena: &mut Arena, row: usize) -> Expr {
-        let mut sorted = self.eliminated.concat();
-        sorted.sort_unstable();
+        let mut sorted: Vec<usize> = self.about_centres.neighbours(row).collect();
+        sorted.retain(|&k| self.step[k].is_some());
+        let mut in_turn: Vec<(Option<(usize, usize)>, usize)> =
+            sorted.iter().map(|&k| (self.step[k], k)).collect();
+        in_turn.sort_unstable();
+        let steps = in_turn.chunk_by(|(a, _), (b, _)| a.map(|a| a.0) == b.map(|b| b.0));
+        let steps = steps.map(|step| step.iter().map(|&(_, k)| k).collect());
         let one_by_one: Vec<Vec<usize>> = sorted.iter().map(|&k| vec![k]).collect();
-        let ways = [self.eliminated.clone(), one_by_one, vec![sorted]];
+        let ways = [steps.collect(), one_by_one, vec![sorted]];
         let operations = |over: &&Vec<Vec<usize>>| {
             let mark = arena.mark();
             self.about_centres.schur_diagonal(arena, row, over);
@@ -366,6 +368,8 @@ impl Elimination {
             .iter()
             .map(|column| inverse.determined(arena, column))
             .collect();
+        // Each of many accelerations that know nothing of each other is in few columns.
+        let acting: Vec<Vec<usize>> = columns.iter().map(|column| acting(column)).collect();
         let mut lower: Vec<(usize, Vec<Expr>)> = Vec::new();
         for (place, &i) in coupled.iter().enumerate() {
             let [x, left] = &determined[place];
@@ -378,7 +382,14 @@ impl Elimination {
                 let update = match &inverse {
                     Inverse::Matrix(_) => dot(arena, &row, &columns[other]),
                     Inverse::Diagonal(inverses) => {
-                        through(arena, inverses, &columns[place], &columns[other])
+                        let both = common_places(&acting[place], &acting[other]);
+                        if both.is_empty() {
+                            continue;
+                        }
+                        let of =
+                            |values: &[Expr]| both.iter().map(|&k| values[k]).collect::<Vec<_>>();
+                        let [a, b] = [place, other].map(|k| of(&columns[k]));
+                        through(arena, &of(inverses), &a, &b)
                     }
                     // Not by way of multipliers, which may not be asked for.
                     _ => {
@@ -393,13 +404,36 @@ impl Elimination {
         for &unknown in &unknowns {
             matrix.remove(unknown);
         }
-        self.eliminated.push(unknowns.clone());
+        for (place, &unknown) in unknowns.iter().enumerate() {
+            let former = self.step[unknown].replace((self.factors.steps.len(), place));
+            assert!(former.is_none(), "a plan eliminates every unknown once");
+        }
         self.factors.steps.push(Step {
             unknowns,
             inverse,
             lower,
         });
     }
+}
+
+/// The places of entries that are not zero.
+fn acting(column: &[Expr]) -> Vec<usize> {
+    let entries = column.iter().enumerate();
+    let acting = entries.filter(|(_, entry)| **entry != Arena::ZERO);
+    acting.map(|(place, _)| place).collect()
+}
+
+/// What two sorted lists have in common.
+fn common_places(a: &[usize], b: &[usize]) -> Vec<usize> {
+    let mut others = b.iter().copied().peekable();
+    let mut common = Vec::new();
+    for &place in a {
+        while others.next_if(|&other| other < place).is_some() {}
+        if others.peek() == Some(&place) {
+            common.push(place);
+        }
+    }
+    common
 }
 
 impl Factors {
@@ -421,15 +455,18 @@ impl Factors {
             let own: Vec<Expr> = step.unknowns.iter().map(|&k| right[k]).collect();
             let [x, left] = step.inverse.determined(arena, &own);
             let half = x.len();
+            let known = if half == 0 {
+                own.clone()
+            } else {
+                [&own[..half], &x].concat()
+            };
             for (i, row) in &step.lower {
-                let known: Vec<Expr> = own[..half].iter().chain(&x).copied().collect();
-                let known = if half == 0 { &own } else { &known };
                 if let Inverse::Diagonal(_) = step.inverse {
-                    let term = sum_of_products(arena, row, known);
+                    let term = sum_of_products(arena, row, &known);
                     right[*i] = arena.sub(right[*i], term);
                     continue;
                 }
-                for (&entry, &known) in row.iter().zip(known) {
+                for (&entry, &known) in row.iter().zip(&known) {
                     let product = arena.mul(entry, known);
                     right[*i] = arena.sub(right[*i], product);
                 }

@@ -1,7 +1,7 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
 use super::alone::alone;
-use super::candidates::{choose, equations_of_motion, first};
+use super::candidates::{Factorised, cheapest, first, solved};
 use super::eliminate::Check;
 use super::readings::Readings;
 use super::system::{System, Terms, applied_forces};
@@ -124,15 +124,21 @@ impl Kernels {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let is_fused = model.coordinates.fuse_bodies();
-        let plans = if is_fused {
-            choose(model)
+        let factorised = if is_fused {
+            cheapest(model)
         } else {
             first(model)
         };
-        let evaluations = is_fused.then(|| evaluations(model, &plans));
-        let solvers = [Terms::Plain, Terms::Compliant]
-            .map(|terms| solver(model, plans.of(terms), terms))
-            .into();
+        let evaluations = is_fused.then(|| evaluations(model, &factorised));
+        let [rigid, compliant] = factorised;
+        let plans = Plans {
+            rigid: rigid.plan.clone(),
+            compliant: compliant.plan.clone(),
+        };
+        let solvers = vec![
+            back_substitution(rigid, Terms::Plain),
+            back_substitution(compliant, Terms::Compliant),
+        ];
         let scene = &Scene::new(model);
         let (jacobian, blocks) = jacobian(scene, model);
         let minus = -Arena::ONE;
@@ -169,8 +175,11 @@ impl Kernels {
 }
 
 /// The fused evaluations for all terms and both readings.
-fn evaluations(model: &Model, plans: &Plans) -> Vec<Evaluation> {
-    let raw = Terms::ALL.map(|terms| raw(model, plans.of(terms), terms));
+fn evaluations(model: &Model, [rigid, compliant]: &[Factorised; 2]) -> Vec<Evaluation> {
+    let raw = Terms::ALL.map(|terms| match terms {
+        Terms::Plain | Terms::Stabilised => raw(model, rigid, terms),
+        Terms::Compliant => raw(model, compliant, terms),
+    });
     let normalised = Scene::for_solution(model, Reading::Normalised);
     let normalised = raw.each_ref().map(|raw| raw.normalised(&normalised));
     raw.into_iter().chain(normalised).collect()
@@ -473,7 +482,7 @@ pub(crate) fn relative(scene: &mut Scene, recorded: &[Check]) -> (Vec<Expr>, Vec
 /// The fused evaluation with a plan.
 #[must_use]
 pub fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) -> Evaluation {
-    let raw = raw(model, plan, terms);
+    let raw = raw(model, &Factorised::new(model, plan, terms), terms);
     match reading {
         Reading::Raw => raw,
         Reading::Normalised => raw.normalised(&Scene::for_solution(model, reading)),
@@ -481,13 +490,13 @@ pub fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) ->
 }
 
 /// The fused evaluation that reads Euler parameters as they are.
-fn raw(model: &Model, plan: &Plan, terms: Terms) -> Evaluation {
-    let mut scene = Scene::for_solution(model, Reading::Raw);
-    let (solution, system) = equations_of_motion(&mut scene, model, plan.clone(), terms);
+fn raw(model: &Model, Factorised { scene, system, .. }: &Factorised, terms: Terms) -> Evaluation {
+    let mut scene = scene.clone();
+    let solution = solved(&mut scene, &kinds(model), system, terms);
     let mut outputs = coordinate_rates(&mut scene, model);
     outputs.extend(solution.accelerations);
     outputs.extend(solution.multipliers);
-    let (pivots, checks) = relative_pivots(&mut scene, &system);
+    let (pivots, checks) = relative_pivots(&mut scene, system);
     outputs.extend(pivots);
     Evaluation {
         terms,
@@ -557,9 +566,13 @@ impl Evaluation {
 /// Factorisation and back-substitution with a plan.
 #[must_use]
 pub fn solver(model: &Model, plan: &Plan, terms: Terms) -> Solver {
-    let mut scene = Scene::for_solution(model, Reading::Raw);
-    let kinds = kinds(model);
-    let system = System::new(&mut scene, &kinds, plan.clone(), terms);
+    back_substitution(Factorised::new(model, plan, terms), terms)
+}
+
+fn back_substitution(factorised: Factorised, terms: Terms) -> Solver {
+    let Factorised {
+        mut scene, system, ..
+    } = factorised;
     let (pivots, checks) = relative_pivots(&mut scene, &system);
     let solution = system.solve_given(&mut scene);
     let solution = solution
