@@ -210,7 +210,11 @@ fn choice<T: Copy>(key: &str, expr: &Expr, all: &[(&str, T)], faults: &mut Fault
             .iter()
             .map(|(name, _)| format!("`\"{name}\"`"))
             .collect();
-        let names = names.join(" or ");
+        let names = match names.split_last() {
+            Some((last, [])) => last.clone(),
+            Some((last, others)) => format!("{} or {last}", others.join(", ")),
+            None => String::new(),
+        };
         faults.at(expr, format!("`{key}` takes {names}{near}"));
     }
     known.map(|(_, meaning)| *meaning)

@@ -1,4 +1,4 @@
-//! Symbolic elimination of a symmetric system with pivots of one, two or four unknowns, in a given order: `L D L^T`.
+//! Symbolic elimination of a symmetric system with pivots of one to four unknowns, or of many that are not coupled, in a given order: `L D L^T`.
 //!
 //! Accelerations that follow each other and are not coupled are eliminated together, and so are accelerations that follow each other with the rows that
 //! carry them: what they add to an entry is summed before, so that entries share it.
@@ -134,7 +134,7 @@ pub(super) fn factorise_within(
     }
     assert!(
         elimination.step.iter().all(Option::is_some),
-        "a plan eliminates every unknown"
+        "a plan eliminates every unknown once"
     );
     Some(elimination.factors)
 }
