@@ -111,19 +111,15 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     }
 
     #[inline(always)]
-    fn for_each(&self, f: impl FnMut(S)) {
-        self.iter().copied().for_each(f);
+    fn for_each(&self, mut f: impl FnMut(S)) {
+        for &element in self {
+            f(element);
+        }
     }
 
     #[inline(always)]
     fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
-        let mut result = *self;
-        for (factor, direction) in terms {
-            for (element, slope) in result.iter_mut().zip(direction) {
-                *element = slope.fused(factor, *element);
-            }
-        }
-        result
+        plus(self, &terms, |direction| direction)
     }
 
     #[inline(always)]
@@ -131,12 +127,7 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     where
         S: Real,
     {
-        let mut ratio = [S::zero(); N].plus(terms);
-        for ((ratio, x), y) in ratio.iter_mut().zip(self).zip(other) {
-            let scale = greater(greater(x.abs(), y.abs()), floor);
-            *ratio = ratio.abs().quotient(scale);
-        }
-        greatest(&ratio)
+        relative_norm([self, other], floor, &terms, |direction| direction)
     }
 
     #[inline(always)]
@@ -146,6 +137,38 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     {
         all_finite(self)
     }
+}
+
+/// [`Vector::plus`] of a part of a state.
+#[inline(always)]
+pub(crate) fn plus<S: Scalar, X, const N: usize>(
+    from: &[S; N],
+    terms: &[(S, &X)],
+    part: impl Fn(&X) -> &[S; N],
+) -> [S; N] {
+    let mut result = *from;
+    for (factor, direction) in terms {
+        for (element, slope) in result.iter_mut().zip(part(direction)) {
+            *element = slope.fused(*factor, *element);
+        }
+    }
+    result
+}
+
+/// [`Vector::relative_norm`] of a part of a state.
+#[inline(always)]
+pub(crate) fn relative_norm<S: Real, X, const N: usize>(
+    [from, to]: [&[S; N]; 2],
+    floor: S,
+    terms: &[(S, &X)],
+    part: impl Fn(&X) -> &[S; N],
+) -> S {
+    let mut ratio = plus(&[S::zero(); N], terms, part);
+    for ((ratio, x), y) in ratio.iter_mut().zip(from).zip(to) {
+        let scale = greater(greater(x.abs(), y.abs()), floor);
+        *ratio = ratio.abs().quotient(scale);
+    }
+    greatest(&ratio)
 }
 
 /// The greater of two numbers; the first if either is NaN.
@@ -220,12 +243,8 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
     #[inline(always)]
     fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
         Self {
-            coordinates: self
-                .coordinates
-                .plus(terms.map(|(factor, x)| (factor, &x.coordinates))),
-            velocities: self
-                .velocities
-                .plus(terms.map(|(factor, x)| (factor, &x.velocities))),
+            coordinates: plus(&self.coordinates, &terms, |x| &x.coordinates),
+            velocities: plus(&self.velocities, &terms, |x| &x.velocities),
         }
     }
 
@@ -234,14 +253,12 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
     where
         S: Real,
     {
-        let coordinates = terms.map(|(factor, x)| (factor, &x.coordinates));
-        let velocities = terms.map(|(factor, x)| (factor, &x.velocities));
-        self.coordinates
-            .relative_norm(&other.coordinates, floor, coordinates)
-            .max(
-                self.velocities
-                    .relative_norm(&other.velocities, floor, velocities),
-            )
+        let coordinates = [&self.coordinates, &other.coordinates];
+        let velocities = [&self.velocities, &other.velocities];
+        let moved = relative_norm(coordinates, floor, &terms, |x: &Self| &x.coordinates);
+        moved.max(relative_norm(velocities, floor, &terms, |x: &Self| {
+            &x.velocities
+        }))
     }
 
     #[inline(always)]

@@ -36,7 +36,7 @@ pub(crate) fn compliances<S: Real, M: Mechanism, T: Terms>(
         }
     }
     let alpha = stabilisation.compliance.reciprocal();
-    let depends = M::REPORT.redundant.iter().any(|row| !row.dropped);
+    let depends = M::REPORT.keeps_redundant();
     match largest {
         Some(largest) if depends && alpha > largest => Err(Fault::PenaltyFactor {
             alpha: alpha.to_f64(),

@@ -1,6 +1,6 @@
 //! The state of a mechanism in joint coordinates, whose angles are pairs on a circle.
 
-use crate::array::{Vector, all_finite, greater, greatest};
+use crate::array::{Vector, all_finite, greater, greatest, plus, relative_norm};
 use crate::scalar::{Real, Scalar};
 
 /// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every turning joint, further coordinates, rates.
@@ -172,8 +172,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
         Self {
             pairs: turned(&self.pairs, &increments(&terms)),
-            rest: self.rest.plus(terms.map(|(factor, x)| (factor, &x.rest))),
-            rates: self.rates.plus(terms.map(|(factor, x)| (factor, &x.rates))),
+            rest: plus(&self.rest, &terms, |x| &x.rest),
+            rates: plus(&self.rates, &terms, |x| &x.rates),
         }
     }
 
@@ -210,12 +210,15 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
         S: Real,
     {
         let scale = greater(S::one(), floor);
-        let angles = increments(&terms).map(|angle| angle.abs().quotient(scale));
-        let rest = terms.map(|(factor, x)| (factor, &x.rest));
-        let rates = terms.map(|(factor, x)| (factor, &x.rates));
+        let mut angles = increments(&terms);
+        for angle in &mut angles {
+            *angle = angle.abs().quotient(scale);
+        }
+        let rest = [&self.rest, &other.rest];
+        let rates = [&self.rates, &other.rates];
         greatest(&angles)
-            .max(self.rest.relative_norm(&other.rest, floor, rest))
-            .max(self.rates.relative_norm(&other.rates, floor, rates))
+            .max(relative_norm(rest, floor, &terms, |x: &Self| &x.rest))
+            .max(relative_norm(rates, floor, &terms, |x: &Self| &x.rates))
     }
 
     #[inline(always)]

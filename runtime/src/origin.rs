@@ -54,16 +54,23 @@ pub(crate) fn before_accelerations<S: Real, M: Mechanism, T: Terms>(
         rows[2] = M::constraint_rates(constants, time, state);
     }
     let jacobian = M::jacobian(constants, time, state);
-    let joint = M::REPORT.joints.iter().enumerate().find(|(index, info)| {
+    let rows = rows.each_ref().map(Array::as_slice);
+    joint(&M::REPORT, rows, jacobian.as_slice()).map(NotFinite::Joint)
+}
+
+/// The first joint with an element that is not finite, in a value for each row or in `D`.
+fn joint<S: Real>(report: &Report, rows: [&[S]; 3], jacobian: &[S]) -> Option<&'static str> {
+    let mut joints = report.joints.iter().enumerate();
+    let joint = joints.find(|(index, info)| {
         let of_rows = |values: &[S]| all_finite(values.iter().skip(info.row).take(info.rows));
-        let mut blocks = M::REPORT.blocks.iter().filter(|b| b.joint == *index);
-        !rows.iter().all(|values| of_rows(values.as_slice()))
+        let mut blocks = report.blocks.iter().filter(|b| b.joint == *index);
+        !rows.iter().all(|values| of_rows(values))
             || !blocks.all(|block| {
-                let values = jacobian.as_slice().iter().skip(block.offset);
+                let values = jacobian.iter().skip(block.offset);
                 all_finite(values.take(block.rows * block.columns))
             })
     });
-    joint.map(|(_, joint)| NotFinite::Joint(joint.name))
+    joint.map(|(_, joint)| joint.name)
 }
 
 /// The first body with an element that is not finite.

@@ -108,6 +108,11 @@ pub struct RedundantRow {
 }
 
 impl Report {
+    /// Whether equations stand in `Phi` that follow from others.
+    pub(crate) fn keeps_redundant(&self) -> bool {
+        self.redundant.iter().any(|row| !row.dropped)
+    }
+
     /// The operations of a kernel by its name, such as `"evaluate standard"`.
     #[must_use]
     pub fn operations(&self, kernel: &str) -> Option<Operations> {

@@ -2,7 +2,7 @@
 
 use crate::array::{Array, StateParts};
 use crate::mechanism::Mechanism;
-use crate::report::BodyKind;
+use crate::report::{Block, BodyKind};
 use crate::rotation::{minus, read, write};
 use crate::scalar::{Real, Scalar};
 
@@ -119,28 +119,16 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     fn take_jacobian(&mut self, constants: &M::Constants<S>, state: &M::State<S>) {
         let jacobian = M::jacobian(constants, self.time, state);
         let mass = M::mass(constants);
-        for block in M::REPORT.blocks {
-            let values = jacobian.as_slice().get(block.offset..).unwrap_or(&[]);
-            let translations = self.translation.as_mut_slice().iter_mut();
-            let rotations = self.rotation.as_mut_slice().iter_mut();
-            let stiffnesses = self.stiffness.as_mut_slice().iter_mut();
-            let rows = translations
-                .zip(rotations)
-                .zip(stiffnesses)
-                .skip(block.row)
-                .take(block.rows);
-            for (((translation, rotation), stiffness), row) in
-                rows.zip(values.chunks(block.columns.max(1)))
-            {
-                let masses = mass.as_slice().iter().skip(block.column);
-                for (&value, &mass) in row.iter().zip(masses) {
-                    *stiffness = *stiffness + (value * value).quotient(mass);
-                }
-                let (force, moment) = row.split_at_checked(3).unwrap_or((row, &[]));
-                *translation = translation.max(norm(force));
-                *rotation = rotation.max(norm(moment));
-            }
-        }
+        add_blocks(
+            M::REPORT.blocks,
+            jacobian.as_slice(),
+            mass.as_slice(),
+            [
+                self.translation.as_mut_slice(),
+                self.rotation.as_mut_slice(),
+                self.stiffness.as_mut_slice(),
+            ],
+        );
     }
 
     /// Arms of the joints, and how far from the origin they are.
@@ -372,6 +360,32 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             *element = part * stiffness;
         }
         compliances
+    }
+}
+
+/// The norms of the rows of `D` by translation and by rotation, of the body where they are largest, and their stiffness.
+fn add_blocks<S: Real>(
+    blocks: &[Block],
+    jacobian: &[S],
+    mass: &[S],
+    [translations, rotations, stiffnesses]: [&mut [S]; 3],
+) {
+    for block in blocks {
+        let values = jacobian.get(block.offset..).unwrap_or(&[]);
+        let rows = translations.iter_mut().zip(rotations.iter_mut());
+        let rows = rows.zip(stiffnesses.iter_mut());
+        let rows = rows.skip(block.row).take(block.rows);
+        for (((translation, rotation), stiffness), row) in
+            rows.zip(values.chunks(block.columns.max(1)))
+        {
+            let masses = mass.iter().skip(block.column);
+            for (&value, &mass) in row.iter().zip(masses) {
+                *stiffness = *stiffness + (value * value).quotient(mass);
+            }
+            let (force, moment) = row.split_at_checked(3).unwrap_or((row, &[]));
+            *translation = translation.max(norm(force));
+            *rotation = rotation.max(norm(moment));
+        }
     }
 }
 

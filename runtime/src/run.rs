@@ -1,6 +1,5 @@
 //! A run under way: segments of integration between breaks, corrections, reports, and the watch over them.
 
-use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use crate::error::Fault;
@@ -16,7 +15,7 @@ use crate::scalar::Real;
 use crate::watch::Watch;
 
 /// A run under way.
-pub(crate) struct Run<'r, S: Real, M: Mechanism, D, O> {
+pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
     /// What the integrator moves.
     pub(crate) moving: D,
     pub(crate) projection: Option<Projection<S>>,
@@ -24,38 +23,38 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, D, O> {
     /// Instants (s) at which the integration begins anew, in any order, besides those of the description.
     pub(crate) breaks: &'r [S],
     pub(crate) watch: Option<Watch<S, M>>,
-    pub(crate) log: Log<'r, S, M, O>,
+    pub(crate) log: Log<'r, S, M>,
     pub(crate) counts: Counts,
 }
 
+/// Whom states are shown to. Behind a pointer, so that a run is compiled once for all observers.
+pub(crate) type Observer<'o, S, M> = dyn FnMut(&Sample<'_, S, M>) -> ControlFlow<()> + 'o;
+
 /// Shows states to the observer.
-pub(crate) struct Log<'r, S: Real, M: Mechanism, O> {
-    observe: &'r mut O,
+pub(crate) struct Log<'r, S: Real, M: Mechanism> {
+    observe: &'r mut Observer<'r, S, M>,
     worst_violation: S,
-    mechanism: PhantomData<fn() -> M>,
     flow: ControlFlow<()>,
     /// Steps since a state was shown.
     unseen: usize,
 }
 
-impl<'r, S: Real, M: Mechanism, O> Log<'r, S, M, O> {
-    pub(crate) fn new(observe: &'r mut O) -> Self {
+impl<'r, S: Real, M: Mechanism> Log<'r, S, M> {
+    pub(crate) fn new(observe: &'r mut Observer<'r, S, M>) -> Self {
         Self {
             observe,
             worst_violation: S::zero(),
-            mechanism: PhantomData,
             flow: ControlFlow::Continue(()),
             unseen: 0,
         }
     }
 }
 
-impl<S, M, D, O> Run<'_, S, M, D, O>
+impl<S, M, D> Run<'_, S, M, D>
 where
     S: Real,
     M: Mechanism,
     D: Moving<S, M>,
-    O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
 {
     /// Goes from a state to the end; keeps the last good state.
     pub(crate) fn go<I: Integrator<S>>(
@@ -67,7 +66,7 @@ where
         let mut from = start;
         self.show(start, &last_good.1);
         while from < end && self.log.flow.is_continue() {
-            let until = self.next_break(from, end);
+            let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
             let span = Span {
                 start: from,
                 end: until,
@@ -78,17 +77,6 @@ where
             from = until;
         }
         Ok(self.report(*last_good))
-    }
-
-    /// The first break after a time, or the end.
-    fn next_break(&self, from: S, end: S) -> S {
-        let described = M::REPORT.time.breaks.iter();
-        let described = described.map(|&time| S::constant(time));
-        let beyond = |time: S, bound: S| time - bound > S::constant(16.0) * bound.max(time).ulp();
-        described
-            .chain(self.breaks.iter().copied())
-            .filter(|&time| beyond(time, from) && beyond(end, time))
-            .fold(end, S::min)
     }
 
     /// Integrates over an interval without breaks.
@@ -222,4 +210,14 @@ where
         let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
         self.moving.dynamics().explained(fault, absolute, last_good)
     }
+}
+
+/// The first break after a time, of those of the description and those of a run, or the end.
+fn next_break<S: Real>(described: &[f64], breaks: &[S], from: S, end: S) -> S {
+    let described = described.iter().map(|&time| S::constant(time));
+    let beyond = |time: S, bound: S| time - bound > S::constant(16.0) * bound.max(time).ulp();
+    described
+        .chain(breaks.iter().copied())
+        .filter(|&time| beyond(time, from) && beyond(end, time))
+        .fold(end, S::min)
 }

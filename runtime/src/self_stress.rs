@@ -3,7 +3,7 @@
 use crate::array::{Array, StateParts};
 use crate::displace::displaced;
 use crate::mechanism::Mechanism;
-use crate::report::BodyKind;
+use crate::report::{Block, BodyInfo, BodyKind};
 use crate::rows::Rows;
 use crate::scalar::Real;
 
@@ -60,51 +60,69 @@ fn cancellation<S: Real, M: Mechanism>(
 ) -> S {
     let jacobian = M::jacobian(constants, time, state);
     let leverages = leverages::<S, M>(constants);
-    // Squares would leave the range of numbers.
-    let largest = multipliers.as_slice().iter();
-    let largest = largest.fold(S::zero(), |largest, lambda| largest.max(lambda.abs()));
     // Element by element: the sum of the loads, and the sum of their squares.
     let mut together = M::Velocities::<S>::zeros();
     let mut one_by_one = M::Velocities::<S>::zeros();
-    for block in M::REPORT.blocks {
-        let values = jacobian.as_slice().get(block.offset..).unwrap_or(&[]);
+    add_loads(
+        M::REPORT.blocks,
+        jacobian.as_slice(),
+        multipliers.as_slice(),
+        [together.as_mut_slice(), one_by_one.as_mut_slice()],
+    );
+    least_left(
+        M::REPORT.bodies,
+        leverages.as_slice(),
+        [together.as_slice(), one_by_one.as_slice()],
+    )
+}
+
+/// The loads of multipliers, which are scaled to 1: their sum, and the sum of their squares.
+fn add_loads<S: Real>(
+    blocks: &[Block],
+    jacobian: &[S],
+    multipliers: &[S],
+    [together, one_by_one]: [&mut [S]; 2],
+) {
+    // Squares would leave the range of numbers.
+    let largest = multipliers.iter();
+    let largest = largest.fold(S::zero(), |largest, lambda| largest.max(lambda.abs()));
+    for block in blocks {
+        let values = jacobian.get(block.offset..).unwrap_or(&[]);
         let rows = values.chunks(block.columns.max(1)).take(block.rows);
-        let multipliers = multipliers.as_slice().iter().skip(block.row);
-        for (row, &multiplier) in rows.zip(multipliers) {
-            let sums = together.as_mut_slice().iter_mut();
-            let places = sums.zip(one_by_one.as_mut_slice()).skip(block.column);
-            for ((sum, squares), &value) in places.zip(row) {
+        for (row, &multiplier) in rows.zip(multipliers.iter().skip(block.row)) {
+            let places = together.iter_mut().zip(one_by_one.iter_mut());
+            for ((sum, squares), &value) in places.skip(block.column).zip(row) {
                 let load = value * multiplier.quotient(largest);
                 *sum = *sum + load;
                 *squares = load.fused(load, *squares);
             }
         }
     }
-    for sum in together.as_mut_slice() {
-        *sum = *sum * *sum;
-    }
-    let on = |squares: &M::Velocities<S>, first: usize, elements: usize| {
-        let places = squares.as_slice().iter().zip(leverages.as_slice());
-        let own = places.skip(first).take(elements);
-        own.fold(S::zero(), |sum, (&square, &leverage)| {
-            square.fused(leverage, sum)
+}
+
+/// What is left of loads together of what they are one by one, on the body where most is left.
+fn least_left<S: Real>(
+    bodies: &[BodyInfo],
+    leverages: &[S],
+    [together, one_by_one]: [&[S]; 2],
+) -> S {
+    let on = |body: &BodyInfo, square: &dyn Fn(usize) -> S| {
+        let own = body.velocity..body.velocity + elements(body.kind);
+        own.fold(S::zero(), |sum, place| {
+            let leverage = leverages.get(place).copied().unwrap_or(S::zero());
+            square(place).fused(leverage, sum)
         })
     };
-    let bodies = || {
-        M::REPORT.bodies.iter().map(|body| {
-            let (first, elements) = (body.velocity, elements(body.kind));
-            (
-                on(&together, first, elements),
-                on(&one_by_one, first, elements),
-            )
-        })
-    };
-    let most = bodies().fold(S::zero(), |most, (_, single)| most.max(single));
+    let at = |values: &[S], place: usize| values.get(place).copied().unwrap_or(S::zero());
+    let left = |place: usize| at(together, place) * at(together, place);
+    let single = |place: usize| at(one_by_one, place);
+    let most = bodies.iter();
+    let most = most.fold(S::zero(), |most, body| most.max(on(body, &single)));
     let least = S::constant(CANCELLED * CANCELLED) * most;
-    let worst = bodies().fold(S::zero(), |worst, (left, single)| {
-        let single = single.max(least);
+    let worst = bodies.iter().fold(S::zero(), |worst, body| {
+        let single = on(body, &single).max(least);
         if single > S::zero() {
-            worst.max(left.quotient(single))
+            worst.max(on(body, &left).quotient(single))
         } else {
             worst
         }

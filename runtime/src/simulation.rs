@@ -15,7 +15,7 @@ use crate::moving::{Bodies, Description, Joints};
 use crate::project::Projection;
 use crate::reporting::{Reporting, Schedule, check_interval};
 use crate::rotation::check_state;
-use crate::run::{Log, Run};
+use crate::run::{Log, Observer, Run};
 use crate::run_report::{RunReport, RunResult};
 use crate::sample::Sample;
 use crate::scalar::Real;
@@ -231,16 +231,13 @@ where
             })
     }
 
-    fn attempt<O>(
+    fn attempt(
         &self,
         (start, end): (S, S),
         reporting: Reporting<S>,
-        observe: &mut O,
+        observe: &mut Observer<'_, S, M>,
         last_good: &mut (S, M::State<S>),
-    ) -> Result<RunReport<S, M>, Fault>
-    where
-        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
-    {
+    ) -> Result<RunReport<S, M>, Fault> {
         let dynamics =
             Dynamics::new(self.mechanism, self.formulation)?.exchange::<P, &A>(|_| &self.forces);
         let constants = *dynamics.constants();

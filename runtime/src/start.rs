@@ -3,6 +3,7 @@
 use crate::array::{Array, StateParts};
 use crate::error::{Fault, Quantity};
 use crate::mechanism::Mechanism;
+use crate::report::BodyInfo;
 use crate::rotation::read;
 use crate::scalar::Real;
 use crate::watch::{Meanings, extent};
@@ -68,8 +69,12 @@ fn largest<S: Real>(elements: &[S]) -> S {
 
 /// What the digits of positions resolve (m): `EPSILON` of the largest.
 pub(crate) fn resolution<S: Real, M: Mechanism>(state: &M::State<S>) -> S {
-    let coordinates = state.coordinates().as_slice();
-    let positions = M::REPORT.bodies.iter();
+    S::EPSILON * farthest(M::REPORT.bodies, state.coordinates().as_slice())
+}
+
+/// The largest component (m) of a position.
+pub(crate) fn farthest<S: Real>(bodies: &[BodyInfo], coordinates: &[S]) -> S {
+    let positions = bodies.iter();
     let positions = positions.map(|body| largest(&read::<S, 3>(coordinates, body.coordinate)));
-    S::EPSILON * positions.fold(S::zero(), S::max)
+    positions.fold(S::zero(), S::max)
 }

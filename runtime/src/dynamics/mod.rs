@@ -16,10 +16,11 @@ use crate::mechanism::{
 };
 use crate::origin::origin;
 use crate::rotation::{
-    bring_to_unit_length, check_state, read, scale_euler_rates, stretch, with_unit_orientations,
+    bring_to_unit_length, check_state, scale_euler_rates, stretch, with_unit_orientations,
 };
 use crate::sample::Evaluate;
 use crate::scalar::Real;
+use crate::start::farthest;
 use crate::view::View;
 use crate::watch::Seen;
 
@@ -201,12 +202,7 @@ where
             let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
             near.then(|| field::<M>(joint.to_f64() as usize))
         });
-        let coordinates = state.coordinates().as_slice();
-        let farthest = M::REPORT.bodies.iter().fold(S::zero(), |most, body| {
-            let position: [S; 3] = read(coordinates, body.coordinate);
-            position.iter().fold(most, |most, x| most.max(x.abs()))
-        });
-        let resolution = farthest.ulp();
+        let resolution = farthest(M::REPORT.bodies, state.coordinates().as_slice()).ulp();
         Fault::StepSizeUnderflow {
             step,
             is_least,

@@ -99,13 +99,7 @@ where
         if is_driven {
             let at_rest = M::State::from_parts(*state.coordinates(), M::Velocities::<S>::zeros());
             let by_time = M::constraint_rates(&self.constants, time, &at_rest);
-            let rows = by_time
-                .as_slice()
-                .iter()
-                .zip(self.seen.multipliers.as_slice());
-            power = rows.fold(power, |sum, (&rate, &multiplier)| {
-                rate.fused(multiplier, sum)
-            });
+            power = plus_dot(power, by_time.as_slice(), self.seen.multipliers.as_slice());
         }
         Some(power)
     }
@@ -114,7 +108,7 @@ where
     /// kept: their pivots tell nothing.
     #[inline]
     fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<S> {
-        if M::REPORT.equations == 0 || M::REPORT.redundant.iter().any(|row| !row.dropped) {
+        if M::REPORT.equations == 0 || M::REPORT.keeps_redundant() {
             return None;
         }
         if F::Terms::COMPLIANT {
@@ -143,4 +137,10 @@ where
             watch.name(pivot.joint.to_f64() as usize);
         }
     }
+}
+
+/// `sum + a . b`.
+fn plus_dot<S: Real>(sum: S, a: &[S], b: &[S]) -> S {
+    let pairs = a.iter().zip(b);
+    pairs.fold(sum, |sum, (&a, &b)| a.fused(b, sum))
 }

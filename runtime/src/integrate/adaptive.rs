@@ -120,9 +120,9 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
     /// Why a trial failed, or why its end or its error is not finite; `None` where all rates are finite, and only their sums are not.
     #[cold]
     #[inline(never)]
-    fn refused<Y: System<S, State = X>>(
+    fn refused(
         &mut self,
-        system: &mut Y,
+        system: &mut dyn System<S, State = X>,
         step: S,
         end: S,
         fault: Option<Fault>,

@@ -1,6 +1,6 @@
 //! The method of Dormand and Prince.
 
-use super::tableau::dormand_prince as tableau;
+use super::tableau::{dormand_prince as tableau, scaled};
 use super::{
     AdaptiveCourse, FixedStep, Integrator, Scheme, Span, Start, Stride, System, Tolerance, dense,
 };
@@ -181,7 +181,7 @@ impl<X> DormandPrinceStages<X> {
         first: &'a X,
         last: &'a X,
     ) -> [(S, &'a X); 6] {
-        let [e1, e3, e4, e5, e6, e7] = tableau::ERROR.map(|e| S::constant(e) * step);
+        let [e1, e3, e4, e5, e6, e7] = scaled(tableau::ERROR, step);
         [
             (e1, first),
             (e3, &self.third),
@@ -218,23 +218,22 @@ impl<S: Real> Scheme<S> for DormandPrince5 {
             state,
             slope: k1,
         } = start;
-        let scaled = |factor: f64| S::constant(factor) * step;
-        let [t2, t3, t4, t5] =
-            tableau::TIMES.map(|fraction| S::constant(fraction).fused(step, time));
+        let [t2, t3, t4, t5] = scaled(tableau::TIMES, S::one());
+        let at = |fraction: S| fraction.fused(step, time);
 
-        let [a] = tableau::STAGE_2.map(scaled);
+        let [a] = scaled(tableau::STAGE_2, step);
         let mut k2 = k1.clone();
-        system.stage(t2, &state.plus([(a, k1)]), &mut k2)?;
-        let [a, b] = tableau::STAGE_3.map(scaled);
+        system.stage(at(t2), &state.plus([(a, k1)]), &mut k2)?;
+        let [a, b] = scaled(tableau::STAGE_3, step);
         let stage = state.plus([(a, k1), (b, &k2)]);
-        system.stage(t3, &stage, &mut k.third)?;
-        let [a, b, c] = tableau::STAGE_4.map(scaled);
+        system.stage(at(t3), &stage, &mut k.third)?;
+        let [a, b, c] = scaled(tableau::STAGE_4, step);
         let stage = state.plus([(a, k1), (b, &k2), (c, &k.third)]);
-        system.stage(t4, &stage, &mut k.fourth)?;
-        let [a, b, c, d] = tableau::STAGE_5.map(scaled);
+        system.stage(at(t4), &stage, &mut k.fourth)?;
+        let [a, b, c, d] = scaled(tableau::STAGE_5, step);
         let stage = state.plus([(a, k1), (b, &k2), (c, &k.third), (d, &k.fourth)]);
-        system.stage(t5, &stage, &mut k.fifth)?;
-        let [a, b, c, d, e] = tableau::STAGE_6.map(scaled);
+        system.stage(at(t5), &stage, &mut k.fifth)?;
+        let [a, b, c, d, e] = scaled(tableau::STAGE_6, step);
         let stage = state.plus([
             (a, k1),
             (b, &k2),
@@ -243,7 +242,7 @@ impl<S: Real> Scheme<S> for DormandPrince5 {
             (e, &k.fifth),
         ]);
         system.stage(time + step, &stage, &mut k.sixth)?;
-        let [a, b, c, d, e] = tableau::RESULT.map(scaled);
+        let [a, b, c, d, e] = scaled(tableau::RESULT, step);
         Ok(state.plus([
             (a, k1),
             (b, &k.third),

@@ -301,10 +301,10 @@ impl Counts {
 /// Why a step failed, or led to a state that is not finite.
 #[cold]
 #[inline(never)]
-fn refused<S: Real, K: Scheme<S>, Y: System<S>>(
+fn refused<S: Real, K: Scheme<S>, X: Vector<S>>(
     scheme: &K,
-    system: &mut Y,
-    (time, state): (S, &Y::State),
+    system: &mut dyn System<S, State = X>,
+    (time, state): (S, &X),
     step: S,
     fault: Option<Fault>,
 ) -> Fault {
@@ -325,17 +325,15 @@ fn named<X>(fault: Option<Fault>, again: impl FnOnce() -> Result<X, Fault>) -> O
     }
 }
 
-/// A system that looks at the rates of every stage, by one piece of code for all of them.
-struct Checked<'a, Y> {
-    system: &'a mut Y,
+/// A system that looks at the rates of every stage; one piece of code for all systems with such states.
+struct Checked<'a, S, X> {
+    system: &'a mut dyn System<S, State = X>,
 }
 
-impl<S: Real, Y: System<S>> System<S> for Checked<'_, Y> {
-    type State = Y::State;
+impl<S: Real, X: Vector<S>> System<S> for Checked<'_, S, X> {
+    type State = X;
 
-    #[cold]
-    #[inline(never)]
-    fn rates(&mut self, time: S, state: &Y::State) -> Result<Y::State, Fault> {
+    fn rates(&mut self, time: S, state: &X) -> Result<X, Fault> {
         self.system.rates(time, state)
     }
 }

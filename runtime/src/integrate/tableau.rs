@@ -1,5 +1,17 @@
 //! Coefficients of the Runge-Kutta methods.
 
+use crate::scalar::Scalar;
+
+/// A row of a tableau times the step.
+#[inline(always)]
+pub(super) fn scaled<S: Scalar, const N: usize>(row: [f64; N], step: S) -> [S; N] {
+    let mut weights = [step; N];
+    for (weight, factor) in weights.iter_mut().zip(row) {
+        *weight = S::constant(factor) * step;
+    }
+    weights
+}
+
 /// The pair of Dormand and Prince, order 5 with an embedded order 4, and its free interpolant of order 4.
 ///
 /// Dormand and Prince, *A family of embedded Runge-Kutta formulae*, J. Comp. Appl. Math. 6 (1980), 19-26; Hairer,
