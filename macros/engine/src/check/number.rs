@@ -9,11 +9,11 @@ use syn::{BinOp, Expr, Lit, UnOp};
 
 use super::elements::{Found, Reference, bare, known};
 use crate::diag::{Faults, code, did_you_mean, list};
-use crate::emit::local;
 use crate::model::{Name, Number, RunTimeValue, Symbol};
 use crate::syntax::array::is_index;
 use crate::syntax::integer::integer;
 use crate::syntax::ungroup;
+use crate::syntax::words::local;
 
 /// The size of numbers: beyond it products and reciprocals leave the range of `f64`.
 const SIZES: RangeInclusive<f64> = 1e-40..=1e40;

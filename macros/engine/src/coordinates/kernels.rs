@@ -5,9 +5,10 @@ use super::from_bodies::from_bodies;
 use super::links::Freedom;
 use super::system::Reduced;
 use crate::model::{BodyKind, Model};
-use crate::plan::kernels::{Kernel, PivotCheck, euler_rates, relative, turning};
+use crate::plan::kernels::{PivotCheck, relative};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::equations::{Kernel, euler_rates, turning};
 
 /// An evaluation: outputs are the rates of the pairs' angles, of the further coordinates and auxiliary variables, and of the velocities; multipliers; relative
 /// pivots in the order of `checks`.

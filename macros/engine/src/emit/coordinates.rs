@@ -3,7 +3,6 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::local;
 use super::parts::{Frame, write_in_parts};
 use super::report::{evaluation_name, kernel};
 use super::rows::{WIDTH, array, pack};
@@ -12,11 +11,12 @@ use super::store::{BackSubstitution, Store, load_input};
 use super::straight_line::{Environment, Given, StraightLine, Value};
 use crate::coordinates::kernels::{Evaluation, JointKernels, Meaning, Solver};
 use crate::model::Model;
-use crate::plan::kernels::Kernel;
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::{Count, count};
+use crate::symbolic::equations::Kernel;
 use crate::symbolic::scene::Reading;
+use crate::syntax::words::local;
 
 /// The environment of a kernel that reads a state in joint coordinates.
 struct Arguments<'a> {

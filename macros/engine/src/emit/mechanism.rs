@@ -4,7 +4,6 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::documentation::documentation;
-use super::local;
 use super::parameters;
 use super::parts::{Frame, write_in_parts};
 use super::report::report;
@@ -15,8 +14,10 @@ use super::straight_line::{Given, StraightLine, write};
 use crate::coordinates::kernels::JointKernels;
 use crate::model::name::fields;
 use crate::model::{Model, Name};
-use crate::plan::kernels::{Kernel, Kernels};
+use crate::plan::kernels::Kernels;
 use crate::symbolic::arena::Stage;
+use crate::symbolic::equations::Kernel;
+use crate::syntax::words::local;
 
 /// Writes everything that is generated for a mechanism.
 #[must_use]

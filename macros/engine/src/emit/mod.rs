@@ -13,12 +13,3 @@ mod rows;
 pub mod solution;
 pub mod store;
 pub mod straight_line;
-
-use proc_macro2::{Ident, Span};
-
-/// A local name that belongs to the generator: variables of users and of other macros cannot meet it, by its hygiene. Constants, statics and
-/// unit structs could, because hygiene does not part those from a pattern of the same name; hence the underscores.
-#[must_use]
-pub fn local(name: &str) -> Ident {
-    Ident::new(&format!("__{name}"), Span::mixed_site())
-}

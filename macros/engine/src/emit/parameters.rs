@@ -5,10 +5,10 @@ use std::collections::HashSet;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::local;
 use crate::check::number::value_name;
 use crate::model::name::fields;
 use crate::model::{ElementKind, Model, Name, Number, Symbol};
+use crate::syntax::words::local;
 
 /// Numbers that the macro could not see are checked by the compiler where it can evaluate them.
 pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {

@@ -8,10 +8,10 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::local;
 use super::rows::{Element, WIDTH, pack};
 use super::straight_line::{Environment, Given, Lines, StraightLine, Value, lines, write_all};
 use crate::symbolic::arena::{Arena, Expr, Stage};
+use crate::syntax::words::local;
 
 /// Kernels of up to so many statements are one function: of some more than a thousand, one that is not divided is a little faster.
 const MANY: usize = 1800;

@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::local;
 use super::mechanism::Writer;
 use super::straight_line::StraightLine;
+use crate::syntax::words::local;
 
 impl Writer<'_> {
     pub(super) fn angles(&mut self) -> TokenStream {

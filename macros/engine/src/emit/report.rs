@@ -8,11 +8,12 @@ use crate::coordinates::spanning::Spanning;
 use crate::model::mechanism::Layout;
 use crate::model::{JointUse, Model, Rank};
 use crate::plan::Plan;
-use crate::plan::kernels::{Kernel, Kernels};
+use crate::plan::kernels::Kernels;
 use crate::plan::system::Terms;
 use crate::plan::time::ExplicitTime;
 use crate::symbolic::arena::Stage;
 use crate::symbolic::count::{Count, count};
+use crate::symbolic::equations::Kernel;
 use crate::symbolic::scene::Reading;
 use crate::symbolic::vector::Frame;
 
@@ -222,7 +223,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         carriers[carried.body] = quote!(#facade::Carrier { body: #body, joint: #joint });
     }
     let blocks = kernels.blocks.iter().map(|block| {
-        let crate::plan::kernels::Block { joint, body, offset } = *block;
+        let crate::symbolic::equations::Block { joint, body, offset } = *block;
         let (row, rows) = (layout.row[joint], model.equations(&model.joints[joint]));
         let (column, columns) = (layout.velocity[body], model.bodies[body].kind.velocities());
         quote! {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::local;
+use crate::syntax::words::local;
 
 /// The length of rows.
 pub(super) const WIDTH: usize = 16;

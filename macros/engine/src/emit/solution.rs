@@ -3,16 +3,17 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::local;
 use super::mechanism::Writer;
 use super::parts::{Frame, write_in_parts};
 use super::rows::{WIDTH, pack};
 use super::store::BackSubstitution;
 use super::straight_line::{Given, StraightLine};
-use crate::plan::kernels::{Evaluation, Kernel, PivotCheck, Solver};
+use crate::plan::kernels::{Evaluation, PivotCheck, Solver};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Stage};
+use crate::symbolic::equations::Kernel;
 use crate::symbolic::scene::Reading;
+use crate::syntax::words::local;
 
 /// Operations up to which a kernel becomes part of its caller, which saves moving the results twice.
 const INLINE: usize = 300;

@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::local;
 use super::rows::Element;
 use super::straight_line::{Environment, StraightLine, Value, write};
 use crate::model::Symbol;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::table::Table;
+use crate::syntax::words::local;
 
 /// The values that kernels take from `prepare` and from `coefficients`, gathered from all kernels.
 #[derive(Debug, Default)]

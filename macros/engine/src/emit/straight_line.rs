@@ -6,9 +6,9 @@ use std::ops::Range;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::local;
 use super::rows::{Element, unpack};
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+use crate::syntax::words::local;
 
 /// How values of an earlier stage, and inputs, reach the code.
 pub trait Environment {

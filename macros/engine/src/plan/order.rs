@@ -14,11 +14,11 @@
 use std::collections::BTreeSet;
 
 use super::Pivot;
-use super::kernels::initial_state;
 use super::reach::Reach;
 use super::tree::Tree;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::equations::initial_state;
 use crate::symbolic::evaluate::evaluate;
 use crate::symbolic::scene::{Constraint, Scene};
 use crate::symbolic::twist::{ScalarExpr, VectorExpr};

@@ -1,9 +1,9 @@
 //! What can be read of joints and forces at a state.
 
-use super::kernels::{Kernel, with_scene};
 use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Input};
+use crate::symbolic::equations::{Kernel, with_scene};
 use crate::symbolic::scene::Scene;
 use crate::symbolic::twist::Gradient;
 use crate::symbolic::vector::{Frame, VectorId};

@@ -1,7 +1,8 @@
 //! Where the time itself stands in the equations, and the instants at which laws of it have a break.
 
-use super::kernels::{Kernel, Kernels};
+use super::kernels::Kernels;
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+use crate::symbolic::equations::Kernel;
 
 /// Where the time stands, besides in the motion.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -111,8 +112,8 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::add_breaks;
-    use crate::plan::kernels::Kernel;
     use crate::symbolic::arena::{Arena, Input};
+    use crate::symbolic::equations::Kernel;
 
     #[test]
     fn a_smooth_step_has_two_breaks() {

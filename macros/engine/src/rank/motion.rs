@@ -10,8 +10,10 @@ use super::sparse::{Row, Rows, transposed};
 use crate::model::inertia::IDENTITY;
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, Model};
-use crate::plan::kernels::{Block, Kernel, counter_rates, counters, initial_state, jacobian, rows};
 use crate::symbolic::arena::{Arena, Input, Node, Stage};
+use crate::symbolic::equations::{
+    Block, Kernel, counter_rates, counters, initial_state, jacobian, rows,
+};
 use crate::symbolic::evaluate::evaluate;
 use crate::symbolic::scene::Scene;
 use crate::symbolic::tape::Tape;

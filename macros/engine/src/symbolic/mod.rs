@@ -3,6 +3,7 @@
 pub mod arena;
 pub mod bind;
 pub mod count;
+pub mod equations;
 pub mod evaluate;
 pub mod fixed;
 mod force;

@@ -2,8 +2,8 @@
 
 use holonom_engine::model::inertia::{compose, rotation};
 use holonom_engine::model::{BodyKind, Model};
-use holonom_engine::plan::kernels::Kernel;
 use holonom_engine::symbolic::arena::{Arena, Expr, Input};
+use holonom_engine::symbolic::equations::Kernel;
 use holonom_engine::symbolic::evaluate::evaluate;
 
 use crate::reading::{Described, Numbers, number};

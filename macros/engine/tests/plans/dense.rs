@@ -4,9 +4,10 @@ use holonom_engine::model::{BodyKind, Model};
 use holonom_engine::plan::Plan;
 use holonom_engine::plan::candidates::equations_of_motion;
 use holonom_engine::plan::eliminate::Check;
-use holonom_engine::plan::kernels::{Evaluation, Kernel, Kernels};
+use holonom_engine::plan::kernels::{Evaluation, Kernels};
 use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::arena::{Arena, Expr, Input};
+use holonom_engine::symbolic::equations::Kernel;
 use holonom_engine::symbolic::evaluate::evaluate;
 use holonom_engine::symbolic::scene::{Reading, Scene};
 
