@@ -4,11 +4,13 @@
 //! crate of the procedural macros is a shim. The passes:
 //!
 //! ```text
-//! syntax     tokens            -> what was written, with spans; every fault collected
-//! check      what was written  -> the model, or refusals, each a sentence at the user's token
-//! symbolic   the model         -> vectors that know their frame, then a hash-consed arena of scalars
-//! plan       symbols           -> axes of the unknowns, order of elimination, kernels as outputs over arenas
-//! emit       kernels           -> Rust; cannot fail
+//! syntax       tokens            -> what was written, with spans; every fault collected
+//! check        what was written  -> the model, or refusals, each a sentence at the user's token
+//! symbolic     the model         -> vectors that know their frame, then a hash-consed arena of scalars
+//! rank         the equations     -> by numbers, which of them follow from others
+//! plan         symbols           -> axes of the unknowns, order of elimination, kernels as outputs over arenas
+//! coordinates  symbols           -> the same by joint coordinates
+//! emit         kernels           -> Rust; cannot fail
 //! ```
 #![forbid(unsafe_code)]
 
@@ -17,6 +19,7 @@ pub mod coordinates;
 pub mod diag;
 pub mod emit;
 pub mod model;
+pub mod passes;
 pub mod plan;
 pub mod rank;
 pub mod symbolic;
@@ -63,7 +66,7 @@ fn element(tokens: TokenStream, kind: ElementKind) -> TokenStream {
         let Some(syntax) = syntax::joint::parse(tokens.collect(), kind, &mut faults) else {
             return faults.into_tokens();
         };
-        let definition = check::joint::define(&syntax, &mut faults);
+        let definition = passes::definition(&syntax, &mut faults);
         let items = emit::joint::emit(&syntax, definition.as_ref(), &facade);
         let errors = faults.into_tokens();
         quote!(#errors #items)
@@ -98,7 +101,7 @@ pub fn derive(tokens: TokenStream) -> TokenStream {
         let syntax = syntax::mechanism::parse(&input, &mut faults);
         if syntax.is_plain {
             let facade = TokenStream::new();
-            check::mechanism::check(&syntax, &Vec::new(), Vec::new(), &facade, &mut faults);
+            passes::mechanism(&syntax, &Vec::new(), Vec::new(), &facade, &mut faults);
         }
         faults.into_tokens()
     })
@@ -147,7 +150,7 @@ pub fn assemble(tokens: TokenStream) -> TokenStream {
             })
             .collect();
         let model = if syntax.is_plain {
-            check::mechanism::check(&syntax, &types, definitions, &facade, &mut faults)
+            passes::mechanism(&syntax, &types, definitions, &facade, &mut faults)
         } else {
             None
         };

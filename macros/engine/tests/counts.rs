@@ -7,7 +7,7 @@ use holonom_engine::plan::alone::{Alone, alone};
 use holonom_engine::symbolic::arena::Input;
 use holonom_engine::symbolic::evaluate::evaluate;
 use holonom_engine::symbolic::scene::Scene;
-use holonom_engine::{check, syntax};
+use holonom_engine::{check, passes, syntax};
 use quote::quote;
 
 /// The definitions of the library, by name.
@@ -75,7 +75,7 @@ fn between_free_bodies(joint: &JointDef) -> Model {
     ];
     let facade = quote!(::holonom);
     let definitions = vec![joint.clone()];
-    let model = check::mechanism::check(&written, &types, definitions, &facade, &mut faults);
+    let model = passes::mechanism(&written, &types, definitions, &facade, &mut faults);
     let errors = faults.into_tokens();
     model.unwrap_or_else(|| panic!("{kind}: {errors}"))
 }

@@ -4,8 +4,9 @@ mod common;
 
 use common::{delivered, tokens};
 use holonom_engine::diag::Faults;
+use holonom_engine::model::Comparison;
 use holonom_engine::model::{Direction, ElementKind, JointDef, Model, Motion};
-use holonom_engine::rank::moves::{Comparison, compare};
+use holonom_engine::rank::moves::compare;
 use holonom_engine::{check, syntax};
 use quote::quote;
 

@@ -10,7 +10,8 @@ use super::expression::{Context, Shaped, extent, too_large};
 use super::moves;
 use crate::diag::{Faults, did_you_mean, list};
 use crate::model::{
-    Action, ElementKind, Extent, JointDef, Motion, Parameter, ParameterKind, Row, Term, Turn,
+    Action, Comparison, ElementKind, Extent, JointDef, Motion, Parameter, ParameterKind, Row, Term,
+    Turn,
 };
 use crate::syntax::joint::{JointSyntax, ParameterSyntax, Statement};
 use crate::syntax::motion::MotionSyntax;
@@ -30,20 +31,29 @@ const RESERVED: [&str; 10] = [
     "time",
 ];
 
-/// Checks a definition where it stands, and what it says of motions against its equations. `None` if anything is wrong; the faults say
-/// what.
-pub fn define(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
-    let (joint, places) = read(syntax, faults)?;
-    moves::check(syntax, &joint, &places, faults).then_some(joint)
+/// A sound definition where it stands.
+pub struct Defined<'a> {
+    syntax: &'a JointSyntax,
+    /// What it means.
+    pub joint: JointDef,
+    /// Where its constraints are written.
+    places: Vec<Span>,
+}
+
+impl Defined<'_> {
+    /// The definition, if the motions that it states are those that its equations leave: how they compare was found by numbers.
+    pub fn compared(self, found: &Comparison, faults: &mut Faults) -> Option<JointDef> {
+        moves::refuse(self.syntax, &self.joint, &self.places, found, faults).then_some(self.joint)
+    }
 }
 
 /// Checks a definition that may have come from elsewhere, where its motions were looked at. `None` if anything is wrong; the faults say what.
 pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
-    read(syntax, faults).map(|(joint, _)| joint)
+    define(syntax, faults).map(|defined| defined.joint)
 }
 
-/// A definition, and where its constraints are written.
-fn read(syntax: &JointSyntax, faults: &mut Faults) -> Option<(JointDef, Vec<Span>)> {
+/// Checks a definition where it stands, but for its motions. `None` if anything is wrong; the faults say what.
+pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Defined<'a>> {
     if !syntax.is_complete {
         return None;
     }
@@ -126,7 +136,11 @@ fn read(syntax: &JointSyntax, faults: &mut Faults) -> Option<(JointDef, Vec<Span
             span: syntax.name.span(),
         };
         joint.turns = turns(&joint);
-        (joint, places)
+        Defined {
+            syntax,
+            joint,
+            places,
+        }
     })
 }
 

@@ -33,14 +33,30 @@ pub enum Definition {
 /// The definitions behind the field types, by the path as it was written.
 pub type Definitions = Vec<(String, Definition)>;
 
-/// Checks a mechanism. `None` if anything is wrong; the faults say what.
-pub fn check(
-    syntax: &MechanismSyntax,
+/// A mechanism that is sound as far as can be read from what was written.
+pub struct Checked<'a> {
+    /// What it means.
+    pub model: Model,
+    wish: Wish<'a>,
+}
+
+impl Checked<'_> {
+    /// The model, whose redundant equations are refused, left out or kept, as was wished: what they are was found by numbers.
+    pub fn judged(mut self, found: Independence, faults: &mut Faults) -> Model {
+        self.model.independence = found;
+        redundant::check(&mut self.model, self.wish, faults);
+        self.model
+    }
+}
+
+/// Checks a mechanism, but for its redundant equations. `None` if anything is wrong with its parts; the faults say what.
+pub fn check<'a>(
+    syntax: &'a MechanismSyntax,
     types: &Definitions,
     definitions: Vec<JointDef>,
     facade: &proc_macro2::TokenStream,
     faults: &mut Faults,
-) -> Option<Model> {
+) -> Option<Checked<'a>> {
     let owner = Name::from(syntax.name.clone());
     let mut numbers = Numbers::new(owner, &syntax.unmeasured, facade);
     numbers.values = super::values::values(syntax, faults);
@@ -135,7 +151,7 @@ pub fn check(
     let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
-    let mut model = Model {
+    let model = Model {
         name: syntax.name.clone(),
         gravity: gravity?,
         bodies,
@@ -147,10 +163,7 @@ pub fn check(
         independence: Independence::default(),
         coordinates,
     };
-    if !faults.any() {
-        redundant::check(&mut model, wish, faults);
-    }
-    Some(model)
+    Some(Checked { model, wish })
 }
 
 /// Reads `#[mechanism(..)]`.
@@ -186,11 +199,13 @@ fn attributes<'a>(
     }
 }
 
+/// What to do with redundant equations, and where that is said.
+type Wish<'a> = (Redundant, Option<&'a Expr>);
+
 /// What `#[mechanism(..)]` says.
 struct Attributes<'a> {
     gravity: Option<[Number; 3]>,
-    /// What to do with redundant equations, and where that is said.
-    wish: (Redundant, Option<&'a Expr>),
+    wish: Wish<'a>,
     coordinates: Coordinates,
 }
 

@@ -4,15 +4,13 @@ use syn::Expr;
 
 use crate::diag::{Faults, list};
 use crate::model::{Binding, Contradiction, Model, Name, Rank, Redundant, RedundantRow};
-use crate::rank::judge;
 
-/// Finds the rank of a model that is sound otherwise, and does with redundant equations what the user wishes, which was written as `expr`.
+/// Does with the redundant equations of a model, sound otherwise, what the user wishes, which was written as `expr`.
 pub(super) fn check(
     model: &mut Model,
     (wish, expr): (Redundant, Option<&Expr>),
     faults: &mut Faults,
 ) {
-    model.independence = judge(model);
     stuck(model, faults);
     if faults.any() {
         return;

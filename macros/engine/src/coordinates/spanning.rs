@@ -2,9 +2,10 @@
 
 use crate::model::number::literals;
 use crate::model::{
-    Binding, BodyKind, Direction, JointUse, Model, Motion, Name, Number, ParameterKind, Rank,
+    Binding, BodyKind, Comparison, Direction, JointUse, Model, Motion, Name, Number, ParameterKind,
+    Rank,
 };
-use crate::rank::moves::{Comparison, compare};
+use crate::rank::moves::compare;
 
 /// A body and what it moves by.
 #[derive(Clone, Debug)]

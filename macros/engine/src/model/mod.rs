@@ -1,5 +1,6 @@
 //! What a description means: bodies, joints and numbers, names bound, shapes known, independent of how it was written.
 
+pub mod comparison;
 pub mod inertia;
 pub mod joint;
 pub mod mechanism;
@@ -7,6 +8,7 @@ pub mod name;
 pub mod number;
 pub mod rank;
 
+pub use comparison::Comparison;
 pub use joint::{
     Action, Direction, ElementKind, Extent, Function, JointDef, Motion, Parameter, ParameterKind,
     Row, Term, Turn,

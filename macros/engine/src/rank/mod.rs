@@ -25,6 +25,7 @@ pub mod moves;
 mod normal;
 mod span;
 mod sparse;
+pub mod specimen;
 mod tour;
 
 use self::contradiction::Contradicted;

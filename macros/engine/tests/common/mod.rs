@@ -4,7 +4,7 @@
 use holonom_engine::check::mechanism::{Definition, Definitions};
 use holonom_engine::diag::Faults;
 use holonom_engine::model::{BodyKind, ElementKind, JointDef, Model};
-use holonom_engine::{check, syntax};
+use holonom_engine::{check, passes, syntax};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -163,7 +163,7 @@ pub(crate) fn checked(
         types.push((path, found));
     }
     let facade = quote!(::holonom);
-    let model = check::mechanism::check(&written, &types, definitions, &facade, &mut faults);
+    let model = passes::mechanism(&written, &types, definitions, &facade, &mut faults);
     let refused = faults.any();
     let errors = faults.into_tokens().to_string();
     model.filter(|_| !refused).ok_or(errors)
