@@ -85,6 +85,9 @@ pub struct Independence {
     pub is_driven: bool,
     /// Whether they are gone.
     pub dropped: bool,
+    /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from the described configuration on, where there was a
+    /// choice of equations to be made.
+    pub tour: Vec<(f64, Vec<f64>)>,
 }
 
 impl Independence {

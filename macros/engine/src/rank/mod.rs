@@ -115,6 +115,7 @@ pub fn judge(model: &Model) -> Independence {
     } = found;
     let mut against = Vec::new();
     let mut by_chance = Vec::new();
+    let mut stops = Vec::new();
     if rank < model.layout().rows {
         if constraints.is_driven() {
             against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
@@ -139,7 +140,11 @@ pub fn judge(model: &Model) -> Independence {
             };
         }
         let heading = random.motion(model.layout().velocities);
-        let mut tour = tour::tour(&constraints, &start, heading);
+        let mut tour: Vec<Rows>;
+        (stops, tour) = tour::stops(&constraints, &start, heading)
+            .into_iter()
+            .map(|(at, rows)| ((at.time, at.coordinates), rows))
+            .unzip();
         // One way through the start.
         tour.reverse();
         tour.extend(way);
@@ -164,6 +169,7 @@ pub fn judge(model: &Model) -> Independence {
             .collect(),
         is_alone,
         is_driven: constraints.is_driven(),
+        tour: stops,
         ..not(Rank::Decided { rank, at_start })
     }
 }
