@@ -135,7 +135,7 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     where
         S: Real,
     {
-        all_finite(self)
+        zero_if_finite(self) == S::zero()
     }
 }
 
@@ -198,11 +198,11 @@ pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
     }
 }
 
-/// Whether every element is finite: zero times any other number is NaN, and so is every sum with NaN.
+/// Zero where every element is finite, else NaN: zero times any other number is NaN, and so is every sum with NaN.
 ///
 /// Without a comparison for each, and four places at once, as in [`greatest`].
 #[inline(always)]
-pub(crate) fn all_finite<S: Real>(elements: &[S]) -> bool {
+pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
     let mut lanes = [S::zero(); 4];
     for chunk in elements.chunks(4) {
         for (lane, &element) in lanes.iter_mut().zip(chunk) {
@@ -210,7 +210,7 @@ pub(crate) fn all_finite<S: Real>(elements: &[S]) -> bool {
         }
     }
     let [a, b, c, d] = lanes;
-    (a + b) + (c + d) == S::zero()
+    (a + b) + (c + d)
 }
 
 /// The state of a mechanism: coordinates and velocities of its bodies, and auxiliary variables, in an order that the mechanism knows.
@@ -267,7 +267,7 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
         S: Real,
     {
         // Not `&&`, which would branch once more.
-        Vector::is_finite(&self.coordinates) & Vector::is_finite(&self.velocities)
+        zero_if_finite(&self.coordinates) + zero_if_finite(&self.velocities) == S::zero()
     }
 }
 

@@ -283,23 +283,46 @@ where
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`].
+    #[inline(always)]
     pub fn evaluate(
         &self,
         time: S,
         state: &M::JointState<S>,
     ) -> Result<JointEvaluation<S, M>, Fault> {
-        let mut rates = M::JointState::<S>::zeros();
-        let mut multipliers = M::ClosingMultipliers::<S>::zeros();
-        let pivot = self.straight(time, state, &mut rates, &mut multipliers);
-        if Self::IN_PARTS && rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative) {
-            let solved = self.completed(time, state, &mut rates, &mut multipliers);
-            match solved {
-                Err(Fault::RatesNotFinite { .. }) => return Err(self.fault(time, state, &pivot)),
-                other => other?,
-            };
+        // Written where it is returned: a copy takes as long as a short kernel.
+        let mut outcome = Ok(JointEvaluation {
+            rates: M::JointState::<S>::zeros(),
+            multipliers: M::ClosingMultipliers::<S>::zeros(),
+        });
+        if let Ok(evaluation) = &mut outcome
+            && let Err(fault) = self.evaluate_into(time, state, evaluation)
+        {
+            outcome = Err(fault);
         }
-        if rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative) {
-            Ok(JointEvaluation { rates, multipliers })
+        outcome
+    }
+
+    #[inline(always)]
+    fn evaluate_into(
+        &self,
+        time: S,
+        state: &M::JointState<S>,
+        JointEvaluation { rates, multipliers }: &mut JointEvaluation<S, M>,
+    ) -> Result<(), Fault> {
+        let pivot = self.straight(time, state, rates, multipliers);
+        let is_sound = |rates: &M::JointState<S>| {
+            rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative)
+        };
+        let mut sound = is_sound(rates);
+        if Self::IN_PARTS && sound {
+            match self.completed(time, state, rates, multipliers) {
+                Ok(_) => sound = is_sound(rates),
+                Err(Fault::RatesNotFinite { .. }) => sound = false,
+                Err(fault) => return Err(fault),
+            }
+        }
+        if sound {
+            Ok(())
         } else {
             Err(self.fault(time, state, &pivot))
         }

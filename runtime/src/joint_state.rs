@@ -1,6 +1,6 @@
 //! The state of a mechanism in joint coordinates, whose angles are pairs on a circle.
 
-use crate::array::{Vector, all_finite, greater, greatest, plus, relative_norm};
+use crate::array::{Vector, greater, greatest, plus, relative_norm, zero_if_finite};
 use crate::scalar::{Real, Scalar};
 
 /// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every turning joint, further coordinates, rates.
@@ -226,9 +226,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     where
         S: Real,
     {
-        all_finite(self.pairs.as_flattened())
-            & Vector::is_finite(&self.rest)
-            & Vector::is_finite(&self.rates)
+        let pairs = zero_if_finite(self.pairs.as_flattened());
+        pairs + zero_if_finite(&self.rest) + zero_if_finite(&self.rates) == S::zero()
     }
 }
 

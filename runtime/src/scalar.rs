@@ -178,7 +178,7 @@ pub(crate) mod elementary {
 }
 
 macro_rules! real {
-    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident, $terms:literal) => {
+    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident, $polynomial:ident) => {
         impl Scalar for $float {
             #[inline(always)]
             fn constant(value: f64) -> Self {
@@ -261,8 +261,7 @@ macro_rules! real {
 
                 #[inline(always)]
                 fn of_small(angle: $float) -> [$float; 2] {
-                    let (sine, versine) = (&versine::SINE, &versine::VERSINE);
-                    versine::of_small(angle, &sine[..$terms], &versine[..$terms])
+                    versine::of_small(angle, versine::$polynomial)
                 }
 
                 // The same number for an angle, whatever stands beside it.
@@ -326,10 +325,10 @@ macro_rules! real {
 }
 
 real!(
-    f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64, 6
+    f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64, six
 );
 real!(
-    f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32, 3
+    f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32, three
 );
 
 #[cfg(test)]

@@ -36,27 +36,33 @@ pub(crate) fn of<S: Scalar>(angle: S) -> [S; 2] {
     [twice * half.cos(), twice * sine]
 }
 
-/// `[sin a, 1 - cos a]` of a small angle (rad), by as many terms of [`SINE`] and [`VERSINE`] as the slices have.
+/// `[sin a, 1 - cos a]` of a small angle (rad), by as many terms of [`SINE`] and [`VERSINE`] as a polynomial takes: [`three`] or [`six`].
 #[inline(always)]
-pub(crate) fn of_small<S: Scalar>(angle: S, sine: &[f64], versine: &[f64]) -> [S; 2] {
+pub(crate) fn of_small<S: Scalar>(angle: S, polynomial: impl Fn(S, S, &[f64; 6]) -> S) -> [S; 2] {
     let square = angle * angle;
     let fourth = square * square;
     [
-        polynomial(square, fourth, sine).fused(square * angle, angle),
-        polynomial(square, fourth, versine).fused(fourth, S::constant(0.5) * square),
+        polynomial(square, fourth, &SINE).fused(square * angle, angle),
+        polynomial(square, fourth, &VERSINE).fused(fourth, S::constant(0.5) * square),
     ]
 }
 
-/// A polynomial in `x`, by pairs of terms, which do not wait for each other.
+/// A polynomial in `x` by the first three coefficients.
 #[inline(always)]
-fn polynomial<S: Scalar>(x: S, square: S, coefficients: &[f64]) -> S {
-    let pairs = coefficients.chunks(2).map(|pair| match *pair {
-        [even, odd] => S::constant(odd).fused(x, S::constant(even)),
-        [even] => S::constant(even),
-        _ => S::zero(),
-    });
-    pairs
-        .rev()
-        .reduce(|higher, pair| higher.fused(square, pair))
-        .unwrap_or(S::zero())
+pub(crate) fn three<S: Scalar>(x: S, square: S, &[a, b, c, ..]: &[f64; 6]) -> S {
+    S::constant(c).fused(square, pair(x, a, b))
+}
+
+/// A polynomial in `x` by pairs of terms, which do not wait for each other. Written out: a loop over the coefficients is called where much is compiled together, and takes
+/// three times as long.
+#[inline(always)]
+pub(crate) fn six<S: Scalar>(x: S, square: S, &[a, b, c, d, e, f]: &[f64; 6]) -> S {
+    pair(x, e, f)
+        .fused(square, pair(x, c, d))
+        .fused(square, pair(x, a, b))
+}
+
+#[inline(always)]
+fn pair<S: Scalar>(x: S, even: f64, odd: f64) -> S {
+    S::constant(odd).fused(x, S::constant(even))
 }

@@ -168,18 +168,20 @@ where
             let parts = self.evaluate_in_parts(time, state)?;
             Ok((parts.evaluation, parts.iterations))
         } else {
-            let mut evaluation = Evaluation::<S, M>::zeros();
-            let Evaluation {
-                rates,
-                multipliers,
-                pivot,
-            } = &mut evaluation;
-            *pivot = self.straight(time, state, rates, multipliers);
-            if sound::<S, M, F::Terms>(&evaluation) {
-                Ok((evaluation, 1))
-            } else {
-                Err(self.fault(time, state, None))
+            // Written where it is returned: a copy takes as long as a short kernel.
+            let mut outcome = Ok((Evaluation::<S, M>::zeros(), 1));
+            if let Ok((evaluation, _)) = &mut outcome {
+                let Evaluation {
+                    rates,
+                    multipliers,
+                    pivot,
+                } = evaluation;
+                *pivot = self.straight(time, state, rates, multipliers);
+                if !sound::<S, M, F::Terms>(evaluation) {
+                    outcome = Err(self.fault(time, state, None));
+                }
             }
+            outcome
         }
     }
 

@@ -443,12 +443,7 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
     let throughput = contestant(count, move || {
         let subject = shared.borrow();
         for state in &*places {
-            match subject.evaluate(black_box(state)) {
-                Ok(ref evaluation) => {
-                    black_box(evaluation);
-                }
-                Err(fault) => return Err(fault),
-            }
+            black_box(&subject.evaluate(black_box(state))?);
         }
         Ok(())
     })?;
