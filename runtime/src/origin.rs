@@ -48,7 +48,11 @@ pub(crate) fn before_accelerations<S: Real, M: Mechanism, T: Terms>(
     if let Some(body) = applied.and_then(|applied| body(&M::REPORT, applied.as_slice())) {
         return Some(NotFinite::Closure(body));
     }
-    let mut rows = [M::gamma(constants, time, state); 3];
+    let mut rows = [M::Multipliers::<S>::zeros(); 3];
+    // Without the time and without positions it is made of rotations and of what `D` is made of.
+    if const { M::REPORT.time.constraints || M::REPORT.curved } {
+        rows[0] = M::gamma(constants, time, state);
+    }
     if T::STABILISED || T::COMPLIANT {
         rows[1] = M::constraints(constants, time, state);
         rows[2] = M::constraint_rates(constants, time, state);

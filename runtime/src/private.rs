@@ -277,6 +277,7 @@ macro_rules! __stub_mechanism {
                     redundant: &[],
                     degrees_of_freedom: 0,
                     time: $crate::ExplicitTime::NONE,
+                    curved: false,
                     kernels: &[],
                     plan: "",
                 };

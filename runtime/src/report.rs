@@ -31,6 +31,8 @@ pub struct Report {
     pub degrees_of_freedom: isize,
     /// Where the time itself stands in the equations.
     pub time: ExplicitTime,
+    /// Whether there are velocities without rotation in `gamma`: an equation that is not linear in the positions, such as that of a distance.
+    pub curved: bool,
     /// What the kernels cost, one evaluation each. A mechanism with `coordinates = "joints"` has no fused evaluations of its bodies: `"both"` counts them.
     pub kernels: &'static [Kernel],
     /// The order of elimination and the frames of the multiplier rows, in words.

@@ -103,14 +103,21 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             length: zeros(),
             distance: zeros(),
             counted: counted::<S, M>(constants, time, state),
-            drift: M::constraint_rates(constants, time, &moving::<S, M>(state, |_| S::zero())),
+            drift: if const { M::REPORT.time.constraints } {
+                M::constraint_rates(constants, time, &moving::<S, M>(state, |_| S::zero()))
+            } else {
+                zeros()
+            },
             stiffness: zeros(),
             extent: extent::<S, M>(constants, state),
             time,
         };
         rows.take_jacobian(constants, state);
         rows.take_joints(constants, state);
-        rows.take_curvature(constants, state);
+        // What is known to be absent is not compiled.
+        if const { M::REPORT.curved } {
+            rows.take_curvature(constants, state);
+        }
         evened::<S, M>(&mut rows.stiffness);
         rows
     }

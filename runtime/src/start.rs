@@ -3,9 +3,9 @@
 use crate::array::{Array, StateParts};
 use crate::error::{Fault, Quantity};
 use crate::mechanism::Mechanism;
-use crate::report::BodyInfo;
+use crate::report::{Block, BodyInfo};
 use crate::rotation::read;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::watch::{Meanings, extent};
 
 /// A violation at the start that counts as an inexact number of a description, over the length of the mechanism, over a radian, and over the velocities of
@@ -44,7 +44,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
             return Err(fault(row, quantity, violation));
         }
     }
-    let phi_rate = M::constraint_rates(constants, time, state);
+    let phi_rate = constraint_rates::<S, M>(constants, time, state);
     let fastest = largest(state.velocities().as_slice());
     for (row, (&rate, &factor)) in phi_rate.as_slice().iter().zip(rows.factors()).enumerate() {
         let is_length = rows.is_length(row);
@@ -61,6 +61,40 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
         }
     }
     Ok(())
+}
+
+/// `Phi'`, by `D u` where the time stands in no equation, because `D` is compiled already.
+fn constraint_rates<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> M::Multipliers<S> {
+    if const { M::REPORT.time.constraints } {
+        return M::constraint_rates(constants, time, state);
+    }
+    let mut rates = M::Multipliers::<S>::zeros();
+    let jacobian = M::jacobian(constants, time, state);
+    add_products(
+        M::REPORT.blocks,
+        jacobian.as_slice(),
+        state.velocities().as_slice(),
+        rates.as_mut_slice(),
+    );
+    rates
+}
+
+/// Adds `D u`.
+fn add_products<S: Scalar>(blocks: &[Block], jacobian: &[S], velocities: &[S], sums: &mut [S]) {
+    for block in blocks {
+        let entries = jacobian.get(block.offset..).unwrap_or(&[]);
+        let of_body = velocities.get(block.column..).unwrap_or(&[]);
+        let sums = sums.iter_mut().skip(block.row).take(block.rows);
+        for (sum, row) in sums.zip(entries.chunks_exact(block.columns)) {
+            for (&entry, &u) in row.iter().zip(of_body) {
+                *sum = entry.fused(u, *sum);
+            }
+        }
+    }
 }
 
 fn largest<S: Real>(elements: &[S]) -> S {

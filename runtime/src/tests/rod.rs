@@ -111,6 +111,7 @@ impl Mechanism for Rod {
         redundant: &[],
         degrees_of_freedom: 1,
         time: ExplicitTime::NONE,
+        curved: false,
         kernels: &[],
         plan: "",
     };

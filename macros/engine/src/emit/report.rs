@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::plan::kernels::Kernels;
 use crate::plan::system::Terms;
 use crate::plan::time::ExplicitTime;
-use crate::symbolic::arena::Stage;
+use crate::symbolic::arena::{Input, Node, Stage};
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
 use crate::symbolic::scene::Reading;
@@ -256,6 +256,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         quote!(#facade::RedundantRow { joint: #joint, row: #row, dropped: #dropped })
     });
     let time = explicit_time(&ExplicitTime::of(kernels), facade);
+    let curved = is_curved(model, &kernels.gamma);
     let plan = describe(model, &kernels.plans.rigid, &layout);
     quote! {
         #facade::Report {
@@ -273,8 +274,22 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             redundant: &[#(#redundant),*],
             degrees_of_freedom: #degrees_of_freedom,
             time: #time,
+            curved: #curved,
             kernels: &[#(#counts),*],
             plan: #plan,
         }
     }
+}
+
+/// Whether `gamma` speaks of velocities of centres of mass.
+fn is_curved(model: &Model, gamma: &Kernel) -> bool {
+    let layout = model.layout();
+    let mut is_translation = vec![false; layout.velocities];
+    for &first in &layout.velocity {
+        is_translation[first..first + 3].fill(true);
+    }
+    let live = gamma.arena.live(&gamma.outputs, Stage::Literal);
+    live.into_iter().any(|place| {
+        matches!(gamma.arena.node(place), Node::Input(Input::Velocity(u)) if is_translation[u as usize])
+    })
 }

@@ -75,7 +75,7 @@ pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
         return Vec::new();
     };
     let heading = random.motion(model.layout().velocities);
-    let stops = tour::stops(&constraints, &start, heading).into_iter();
+    let stops = tour::stops(&constraints, &start, heading, None).into_iter();
     stops.map(|(at, _)| (at.time, at.coordinates)).collect()
 }
 

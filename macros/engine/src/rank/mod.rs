@@ -141,7 +141,7 @@ pub fn judge(model: &Model) -> Independence {
         }
         let heading = random.motion(model.layout().velocities);
         let mut tour: Vec<Rows>;
-        (stops, tour) = tour::stops(&constraints, &start, heading)
+        (stops, tour) = tour::stops(&constraints, &start, heading, Some(&kept))
             .into_iter()
             .map(|(at, rows)| ((at.time, at.coordinates), rows))
             .unzip();

@@ -18,15 +18,16 @@ pub(super) fn tour(
     start: &Configuration,
     heading: Vec<f64>,
 ) -> Vec<Rows> {
-    let stops = stops(constraints, start, heading).into_iter();
+    let stops = stops(constraints, start, heading, None).into_iter();
     stops.map(|(_, rows)| rows).collect()
 }
 
-/// The same with the configurations.
+/// The same with the configurations, where it is known which rows the others follow from.
 pub(super) fn stops(
     constraints: &Constraints,
     start: &Configuration,
     mut heading: Vec<f64>,
+    independent: Option<&[usize]>,
 ) -> Vec<(Configuration, Rows)> {
     let mut stops = Vec::new();
     let mut at = start.clone();
@@ -34,7 +35,9 @@ pub(super) fn stops(
         let Some(here) = constraints.directions(&at, TOLERANCE) else {
             break;
         };
-        Span::of(&here, TOLERANCE).remove_from(&mut heading);
+        let few: Option<Rows> =
+            independent.map(|rows| rows.iter().map(|&row| here[row].clone()).collect());
+        Span::of(few.as_ref().unwrap_or(&here), TOLERANCE).remove_from(&mut heading);
         stops.push((at.clone(), here));
         let most = largest(&heading);
         if most < TOLERANCE {
