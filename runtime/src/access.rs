@@ -100,7 +100,7 @@ pub trait MechanismExt: Mechanism {
         }
     }
 
-    /// The angles (rad) that a joint or a force counts turns of, as they stand in the state: in the order of its definition, zero in the described
+    /// The angles (rad) that a joint or a force counts turns of, as they stand in the state: in the order of its definition, zero in the reference
     /// configuration, without elements where it counts none.
     fn counted_angles<S: Scalar, E: CountsTurns<Self>>(state: &Self::State<S>, element: E) -> &[S] {
         let angles = state.coordinates().as_slice().get(element.counters());
@@ -204,7 +204,7 @@ pub trait MechanismExt: Mechanism {
         Ok(())
     }
 
-    /// Sets how the second body of a ball joint is turned against the first, from the described configuration on: 1 is the described one, and where the first body stands
+    /// Sets how the second body of a ball joint is turned against the first, from the reference configuration on: 1 is the reference one, and where the first body stands
     /// as described, the second is turned by this rotation, global axes. What hangs on the joint turns about its point as one body, see [`MechanismExt::set_angle`].
     ///
     /// The quaternion may have any length but zero, which is refused with [`Fault::StateNotFinite`].

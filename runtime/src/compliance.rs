@@ -10,7 +10,7 @@ use crate::scalar::Real;
 /// is left.
 const RESOLVED: f64 = 64.0;
 
-/// The compliance of every row: that of the formulation, in the unit of the row at the described configuration.
+/// The compliance of every row: that of the formulation, in the unit of the row at the reference configuration.
 ///
 /// # Errors
 /// [`Fault::PenaltyFactor`] where equations are kept that depend on others and the compliance is lost in round-off.

@@ -152,8 +152,8 @@ pub use bodies::{Body, Particle};
 ///
 /// `#[joint(between = [i, j], ..)]` on a field whose type is a joint: `between` names its bodies in the order of the joint's
 /// definition, fields of the struct or `ground`; the other keys are the parameters of the joint, see [`joints`] and [`joint!`]. Points and
-/// axes are given once, **in global axes at the described configuration**, and the macro makes the copies that are fixed on the bodies;
-/// so the described configuration satisfies the joint. Or one for each body in its own axes, points from its centre of mass:
+/// axes are given once, **in global axes at the reference configuration**, and the macro makes the copies that are fixed on the bodies;
+/// so the reference configuration satisfies the joint. Or one for each body in its own axes, points from its centre of mass:
 /// `point = local([..], [..])` (the ground's axes are the global ones); the joint may then be violated at the start,
 /// which [`MechanismExt::assemble`] mends. `cut` keeps it equations in joint coordinates, see [`guide::coordinates`].
 ///

@@ -311,7 +311,7 @@ impl<S: Scalar, M: Mechanism> Debug for Evaluation<S, M> {
 ///
 /// A relative pivot is the pivot of a row over what it would be without the other rows: 1 for a row that is orthogonal to the
 /// others (in the metric of the inverse mass matrix), 0 for a row that depends on them. Where two rows determine two components of an
-/// angular acceleration, it is their determinant over that of the described configuration.
+/// angular acceleration, it is their determinant over that of the reference configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pivot<S> {
     /// About 1 or less; 1 where no pivot had to be checked.

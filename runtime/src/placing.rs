@@ -133,7 +133,7 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         self.finite()
     }
 
-    /// Turns the second body against the first, so that it is turned by these Euler parameters from how it stands in the described configuration; global axes
+    /// Turns the second body against the first, so that it is turned by these Euler parameters from how it stands in the reference configuration; global axes
     /// there.
     pub(crate) fn set_orientation(mut self, orientation: &[S; 4]) -> Result<M::State<S>, Fault> {
         let [first, second] = *self.info.bodies else {
@@ -142,7 +142,7 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         let described = M::initial_state(self.constants);
         let stood = |body| orientation_of::<S, M>(&described, body);
         let stands = |body| orientation_of::<S, M>(&self.state, body);
-        // From global axes in the described configuration to where they are now, for either body.
+        // From global axes in the reference configuration to where they are now, for either body.
         let turned = |body| product(&stands(body), &conjugate(&stood(body)));
         let wanted = if Some(self.body) == second {
             let to = product(&turned(first), &normalised(orientation));

@@ -103,7 +103,7 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 ///
 /// | kind | what a mechanism gives | in the definition |
 /// |---|---|---|
-/// | `Point` | a point in global axes in the described configuration, or `local(..)`: one for each body from its centre of mass in its own axes | `i.name`: the point fixed on `i`, as it moves |
+/// | `Point` | a point in global axes in the reference configuration, or `local(..)`: one for each body from its centre of mass in its own axes | `i.name`: the point fixed on `i`, as it moves |
 /// | `Axis` | a direction, likewise; any length but zero, used as a unit vector | `i.name`: the unit vector fixed on `i`; `i.name.normal()` and `i.name.binormal()`: unit vectors on `i` that make it a right-handed frame, in directions that are fixed but arbitrary (take a second `Axis` or `Vector` where they matter); `i.name.normals()`: both of them, twofold |
 /// | `Vector` | a vector, likewise | `i.name` |
 /// | `Length`, `Angle`, `Number` | a number (m, rad, 1); may have a default, as in `ratio: Number = 1.0` | `name` |
@@ -113,10 +113,10 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 ///
 /// | | |
 /// |---|---|
-/// | vectors | `i.origin` (the centre of mass), `[x, y, z]` (global axes), `a + b`, `a - b`, `-a`, `x * a`, `a / x`, `cross(a, b)`, `fixed(i, a)`: the vector `a` as it is in the described configuration, fixed on `i` |
+/// | vectors | `i.origin` (the centre of mass), `[x, y, z]` (global axes), `a + b`, `a - b`, `-a`, `x * a`, `a / x`, `cross(a, b)`, `fixed(i, a)`: the vector `a` as it is in the reference configuration, fixed on `i` |
 /// | scalars | numbers, `PI`, `TAU`, `time`, `+ - * /`, `dot(a, b)`, `length(a)`, `squared(a)` (the square of the length), `sqrt sin cos exp (x)`, `smooth_step(x)`: 0 below 0, 1 above 1, `6 x^5 - 15 x^4 + 10 x^3` between |
-/// | | `angle(i, j, axis)`: the angle (rad) of `j` against `i` about an `Axis`, right-handed, zero in the described configuration. Turns are counted, by an auxiliary variable of the state |
-/// | | `initial(x)`: the scalar `x` as it is in the described configuration |
+/// | | `angle(i, j, axis)`: the angle (rad) of `j` against `i` about an `Axis`, right-handed, zero in the reference configuration. Turns are counted, by an auxiliary variable of the state |
+/// | | `initial(x)`: the scalar `x` as it is in the reference configuration |
 ///
 /// Statements beside equations: `let name = expression;`, `drive x to y;`, the equation `x - y` of a driver, with `y` a function of time, whose effort can be
 /// read ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and `displacement x;`, which can be read
@@ -129,7 +129,7 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// | `slide axis` | a translation along `axis` |
 /// | `ball at point` | every rotation about `point`: three motions |
 ///
-/// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a `Point`, as they are in the described configuration. Motions that
+/// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a `Point`, as they are in the reference configuration. Motions that
 /// are not those that the equations leave are refused, where that can be told without a mechanism. A joint connects one or more
 /// bodies; the `ground` of a mechanism may be any of them.
 ///

@@ -85,7 +85,7 @@ pub enum Rank {
     },
     /// Not decided at expansion: the constraints depend on numbers that the macro cannot see.
     NotDecided,
-    /// Not decided at expansion: no configuration near the described one was found that satisfies the constraints.
+    /// Not decided at expansion: no configuration near the reference one was found that satisfies the constraints.
     NotAssembled,
 }
 

@@ -1,6 +1,6 @@
 //! The angle of one body against another about an axis, with its turns counted.
 //!
-//! With `n1`, `n2`, `a` a right-handed frame in the described configuration, `n1` and `n2` fixed on body `i` and `m`, which
+//! With `n1`, `n2`, `a` a right-handed frame in the reference configuration, `n1` and `n2` fixed on body `i` and `m`, which
 //! is `n1` there, fixed on body `j`:
 //!
 //! ```text

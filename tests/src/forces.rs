@@ -53,7 +53,7 @@ pub enum Force {
 
 impl Force {
     /// A spring and a damper side by side between a point `head` of body `i` and a point `tail` of body `j` (m, global
-    /// axes, described configuration).
+    /// axes, reference configuration).
     #[must_use]
     pub fn spring_damper(
         scene: &Assembler,
@@ -72,7 +72,7 @@ impl Force {
         }
     }
 
-    /// A torsional spring and damper on the counted angle of `j` against `i` about an axis (global axes, described
+    /// A torsional spring and damper on the counted angle of `j` against `i` about an axis (global axes, reference
     /// configuration).
     #[must_use]
     pub fn torsional_spring_damper(
@@ -120,7 +120,7 @@ impl Force {
         }
     }
 
-    /// A force (N, global axes in the described configuration) fixed in the axes of `i`, at a point of `j` (m).
+    /// A force (N, global axes in the reference configuration) fixed in the axes of `i`, at a point of `j` (m).
     #[must_use]
     pub fn point_force(
         scene: &Assembler,
@@ -145,7 +145,7 @@ impl Force {
         Self::point_force(scene, [body, body], point, force)
     }
 
-    /// A moment (N m, global axes in the described configuration) fixed in the axes of `i`, on `j`.
+    /// A moment (N m, global axes in the reference configuration) fixed in the axes of `i`, on `j`.
     #[must_use]
     pub fn constant_moment(scene: &Assembler, [i, j]: [BodyId; 2], moment: [f64; 3]) -> Self {
         Self::Moment {

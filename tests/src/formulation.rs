@@ -116,7 +116,7 @@ pub struct Evaluator {
     iterations: usize,
 }
 
-/// One over the largest gradient of each row in the described configuration: with respect to the position of a body, or to the
+/// One over the largest gradient of each row in the reference configuration: with respect to the position of a body, or to the
 /// rotation of one where it does not depend on positions.
 fn units(assembler: &Assembler) -> DVector<f64> {
     let jacobian = assembler.jacobian(assembler.initial_state().as_slice());

@@ -1,4 +1,4 @@
-//! The joints by name, from points (m) and axes (any length) in global axes of the described configuration.
+//! The joints by name, from points (m) and axes (any length) in global axes of the reference configuration.
 //!
 //! Rows stand in the order of the definitions; [`Assembler::normals`] is applied to the axis in global axes and the two vectors are
 //! carried to the body that the definition names. `d` is the point on `j` minus the point on `i`. Sources: Nikravesh
@@ -14,19 +14,19 @@ use crate::kinematics::Mark;
 use crate::scalars::Scalar;
 
 impl Assembler {
-    /// A point (m, global axes, described configuration) fixed on a body.
+    /// A point (m, global axes, reference configuration) fixed on a body.
     #[must_use]
     pub fn point(&self, body: BodyId, point: [f64; 3]) -> Mark {
         Mark::new(body, self.to_body_point(body, point))
     }
 
-    /// A vector (global axes, described configuration) fixed on a body.
+    /// A vector (global axes, reference configuration) fixed on a body.
     #[must_use]
     pub fn vector(&self, body: BodyId, vector: [f64; 3]) -> Mark {
         Mark::new(body, self.to_body_vector(body, vector))
     }
 
-    /// The angle of `j` against `i` about an axis, zero in the described configuration.
+    /// The angle of `j` against `i` about an axis, zero in the reference configuration.
     #[must_use]
     pub fn angle(&self, [i, j]: [BodyId; 2], axis: [f64; 3]) -> Angle {
         let axis = unit(axis);
@@ -86,7 +86,7 @@ pub(crate) fn along(
     }
 }
 
-/// `a . d` kept at what it is in the described configuration.
+/// `a . d` kept at what it is in the reference configuration.
 fn along_kept(
     scene: &Assembler,
     between: [BodyId; 2],
@@ -99,7 +99,7 @@ fn along_kept(
     Row::constant(along(scene, between, head, tail, axis), initial)
 }
 
-/// `d . d` kept at what it is in the described configuration.
+/// `d . d` kept at what it is in the reference configuration.
 fn distance_kept(scene: &Assembler, [i, j]: [BodyId; 2], head: [f64; 3], tail: [f64; 3]) -> Row {
     let initial = (Vector3::from(tail) - Vector3::from(head)).norm_squared();
     let points = [scene.point(i, head), scene.point(j, tail)];
@@ -195,7 +195,7 @@ impl Joint {
         joint
     }
 
-    /// `P_j - P_i`, then `y_i . x_j`, `z_i . x_j`, `y_i . z_j` of the global axes of the described configuration: 6 rows.
+    /// `P_j - P_i`, then `y_i . x_j`, `z_i . x_j`, `y_i . z_j` of the global axes of the reference configuration: 6 rows.
     #[must_use]
     pub fn fixed(scene: &Assembler, between: [BodyId; 2], point: [f64; 3]) -> Self {
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
@@ -223,7 +223,7 @@ impl Joint {
         joint(scene, between, point, point, [r1, r2, flat])
     }
 
-    /// `d . d - L^2` between `head` on `i` and `tail` on `j`, the described distance without a `length` (m): 1 row.
+    /// `d . d - L^2` between `head` on `i` and `tail` on `j`, the reference distance without a `length` (m): 1 row.
     #[must_use]
     pub fn distance(
         scene: &Assembler,

@@ -24,7 +24,7 @@ use holonom_tests::schur::SchurEvaluator;
 
 use crate::opponents::formulation;
 
-/// What joins two bodies of a scene: a point and an axis where it has one, global at the described configuration.
+/// What joins two bodies of a scene: a point and an axis where it has one, global at the reference configuration.
 #[derive(Clone, Copy, Debug)]
 enum Join {
     Hinge([f64; 3], [f64; 3]),

@@ -179,7 +179,7 @@ pub fn assemble(tokens: TokenStream) -> TokenStream {
 fn resolve(
     carried: Carried,
     path: &TokenStream,
-    definitions: &mut Vec<model::JointDef>,
+    definitions: &mut Vec<model::ElementDef>,
     faults: &mut Faults,
 ) -> Definition {
     match carried {

@@ -4,13 +4,13 @@ use proc_macro2::TokenStream;
 
 use crate::check::mechanism::Definitions;
 use crate::diag::Faults;
-use crate::model::{JointDef, Model};
+use crate::model::{ElementDef, Model};
 use crate::syntax::joint::JointSyntax;
 use crate::syntax::mechanism::MechanismSyntax;
 use crate::{check, rank};
 
 /// A definition where it stands, and what it says of motions against its equations. `None` if anything is wrong; the faults say what.
-pub fn definition(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
+pub fn definition(syntax: &JointSyntax, faults: &mut Faults) -> Option<ElementDef> {
     let defined = check::joint::define(syntax, faults)?;
     let found = rank::specimen::compare(&defined.joint);
     defined.compared(&found, faults)
@@ -20,7 +20,7 @@ pub fn definition(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef>
 pub fn mechanism(
     syntax: &MechanismSyntax,
     types: &Definitions,
-    definitions: Vec<JointDef>,
+    definitions: Vec<ElementDef>,
     facade: &TokenStream,
     faults: &mut Faults,
 ) -> Option<Model> {

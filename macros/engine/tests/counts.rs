@@ -2,7 +2,7 @@
 
 use holonom_engine::check::mechanism::Definition;
 use holonom_engine::diag::Faults;
-use holonom_engine::model::{BodyKind, ElementKind, JointDef, Model};
+use holonom_engine::model::{BodyKind, ElementDef, ElementKind, Model};
 use holonom_engine::plan::alone::{Alone, alone};
 use holonom_engine::symbolic::arena::Input;
 use holonom_engine::symbolic::evaluate::evaluate;
@@ -11,7 +11,7 @@ use holonom_engine::{check, passes, syntax};
 use quote::quote;
 
 /// The definitions of the library, by name.
-fn library() -> Vec<JointDef> {
+fn library() -> Vec<ElementDef> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../runtime/src/joints");
     let mut joints = Vec::new();
     for entry in std::fs::read_dir(folder).expect("the library of joints") {
@@ -32,7 +32,7 @@ fn library() -> Vec<JointDef> {
 }
 
 /// Two free bodies with one joint; axes along x, points on x.
-fn between_free_bodies(joint: &JointDef) -> Model {
+fn between_free_bodies(joint: &ElementDef) -> Model {
     let attributes = joint
         .parameters
         .iter()

@@ -5,13 +5,13 @@ mod common;
 use common::{delivered, tokens};
 use holonom_engine::diag::Faults;
 use holonom_engine::model::Comparison;
-use holonom_engine::model::{Direction, ElementKind, JointDef, Model, Motion};
+use holonom_engine::model::{Direction, ElementDef, ElementKind, Model, Motion};
 use holonom_engine::rank::moves::compare;
 use holonom_engine::{check, syntax};
 use quote::quote;
 
 /// What stands behind the word `joint`: as it is carried from crate to crate.
-fn definition(body: &str) -> Result<JointDef, String> {
+fn definition(body: &str) -> Result<ElementDef, String> {
     let mut faults = Faults::new();
     let syntax = syntax::joint::parse_transported(tokens(body), ElementKind::Joint, &mut faults);
     let joint = syntax.and_then(|syntax| check::joint::check(&syntax, &mut faults));

@@ -15,7 +15,7 @@ crate::force! {
 
 crate::force! {
     /// A spring and a damper on the angle of `j` against `i` about `axis`, in parallel: they turn `j` back by
-    /// `stiffness (a - free_angle) + damping a'` (N m), where `a` is the angle (rad), right-handed, zero in the described
+    /// `stiffness (a - free_angle) + damping a'` (N m), where `a` is the angle (rad), right-handed, zero in the reference
     /// configuration; turns are counted by an auxiliary variable of the state. Stiffness in N m/rad, damping in N m s/rad, potential
     /// energy `stiffness (a - free_angle)^2 / 2` (Nikravesh 1988, section 9.3.5).
     pub force TorsionalSpringDamper(

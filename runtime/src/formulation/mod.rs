@@ -7,7 +7,7 @@
 //! [ D   -E  ] [ lambda ] = [ gamma* - E lambda_previous  ]
 //! ```
 //!
-//! A row in metres, or in radians, has the compliance `e`. A row in another unit has `e` times the square of what a metre is in it at the described
+//! A row in metres, or in radians, has the compliance `e`. A row in another unit has `e` times the square of what a metre is in it at the reference
 //! configuration, so that `e` means the same for all: `(2 l)^2 e` for a [`Distance`](crate::joints::Distance) of the length `l`, which is the
 //! difference of squares.
 //!

@@ -1,7 +1,7 @@
 //! Drivers: coordinates as explicit functions of time.
 
 crate::joint! {
-    /// A motor of given motion: the angle of `j` against `i` about `axis` is `motion` (rad), right-handed, zero in the described
+    /// A motor of given motion: the angle of `j` against `i` about `axis` is `motion` (rad), right-handed, zero in the reference
     /// configuration. Turns are counted by an auxiliary variable of the state.
     ///
     /// Only this equation: a `Revolute` or another joint says where the axis is. The driving effort is the moment of the motor (N m).
@@ -23,7 +23,7 @@ crate::joint! {
 
 crate::joint! {
     /// A linear motor of given motion: the point of `j` is displaced against that of `i` along an axis of `i` by `motion` (m), zero in the
-    /// described configuration.
+    /// reference configuration.
     ///
     /// The driving effort (N) acts on `j` along the axis.
     pub joint DisplacementDriver(i, j; point: Point, axis: Axis, motion: Law) {
@@ -34,7 +34,7 @@ crate::joint! {
 
 crate::joint! {
     /// An orientation of given motion: `j` is turned against `i` by the angle `motion` (rad) about `axis`, which is fixed on both; zero in
-    /// the described configuration. Points are not constrained.
+    /// the reference configuration. Points are not constrained.
     ///
     /// The driving effort is the moment about the axis (N m).
     pub joint OrientationDriver(i, j; axis: Axis, motion: Law) {

@@ -2,7 +2,7 @@
 
 crate::joint! {
     /// A point of `j` stays on a line of `i`, which passes through the point along `axis`; four motions are left (Flores 2015, section
-    /// 8.9). The displacement is that of the point along the line, zero in the described configuration.
+    /// 8.9). The displacement is that of the point along the line, zero in the reference configuration.
     pub joint PointOnLine(i, j; point: Point, axis: Axis) {
         dot(i.axis.normals(), j.point - i.point);
         displacement dot(i.axis, j.point - i.point);

@@ -11,7 +11,7 @@ use crate::bodies::BodyId;
 use crate::joints::{Joint, normals};
 use crate::laws::Motion;
 
-/// Random points (m), unit axes and numbers in global axes of the described configuration.
+/// Random points (m), unit axes and numbers in global axes of the reference configuration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Data {
     pub(super) head: Vector3<f64>,
@@ -34,7 +34,7 @@ impl Data {
     }
 }
 
-/// The displacement of a body since the described configuration: `R X + t` for points.
+/// The displacement of a body since the reference configuration: `R X + t` for points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moved {
     pub(super) turn: Matrix3<f64>,
@@ -214,7 +214,7 @@ pub(super) fn catalogue() -> Vec<Entry> {
     ]
 }
 
-/// Joints that hold in the described configuration for any data; the others have to be corrected onto their rows.
+/// Joints that hold in the reference configuration for any data; the others have to be corrected onto their rows.
 pub(super) fn holds_as_described(name: &str) -> bool {
     const OTHERS: [&str; 6] = [
         "Universal",

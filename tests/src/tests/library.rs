@@ -62,7 +62,7 @@ fn for_every_joint(
     }
 }
 
-/// The displacement of a body since the described configuration.
+/// The displacement of a body since the reference configuration.
 fn moved(scene: &Assembler, body: BodyId, x: &[f64]) -> Moved {
     let described = scene.body(body);
     let frame = scene.kinematics(x).frames[body.0];

@@ -44,14 +44,14 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// A point given in the described configuration, on a body.
+    /// A point given in the reference configuration, on a body.
     fn point(&self, end: End, point: V) -> Vector3<f64> {
         self.scene
             .point(self.ends[end as usize], point)
             .point(&self.at)
     }
 
-    /// The unit vector along an axis given in the described configuration, on a body.
+    /// The unit vector along an axis given in the reference configuration, on a body.
     fn axis(&self, end: End, axis: V) -> Vector3<f64> {
         let mark = self.scene.vector(self.ends[end as usize], axis);
         mark.vector(&self.at).normalize()

@@ -206,7 +206,7 @@ impl Context<'_> {
         }))
     }
 
-    /// Refuses what has no value in the described configuration.
+    /// Refuses what has no value in the reference configuration.
     fn is_of_configuration(
         &self,
         call: &ExprCall,
@@ -219,7 +219,7 @@ impl Context<'_> {
             faults.at(
                 call,
                 format!(
-                    "`{name}` is what something is in the described configuration, which knows no time, no rates and no laws"
+                    "`{name}` is what something is in the reference configuration, which knows no time, no rates and no laws"
                 ),
             );
             return None;

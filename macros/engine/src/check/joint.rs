@@ -10,8 +10,8 @@ use super::expression::{Context, Shaped, extent, too_large};
 use super::moves;
 use crate::diag::{Faults, did_you_mean, list};
 use crate::model::{
-    Action, Comparison, ElementKind, Extent, JointDef, Motion, Parameter, ParameterKind, Row, Term,
-    Turn,
+    Action, Comparison, ElementDef, ElementKind, Extent, Motion, Parameter, ParameterKind, Row,
+    Term, Turn,
 };
 use crate::syntax::joint::{JointSyntax, ParameterSyntax, Statement};
 use crate::syntax::motion::MotionSyntax;
@@ -35,20 +35,20 @@ const RESERVED: [&str; 10] = [
 pub struct Defined<'a> {
     syntax: &'a JointSyntax,
     /// What it means.
-    pub joint: JointDef,
+    pub joint: ElementDef,
     /// Where its constraints are written.
     places: Vec<Span>,
 }
 
 impl Defined<'_> {
     /// The definition, if the motions that it states are those that its equations leave: how they compare was found by numbers.
-    pub fn compared(self, found: &Comparison, faults: &mut Faults) -> Option<JointDef> {
+    pub fn compared(self, found: &Comparison, faults: &mut Faults) -> Option<ElementDef> {
         moves::refuse(self.syntax, &self.joint, &self.places, found, faults).then_some(self.joint)
     }
 }
 
 /// Checks a definition that may have come from elsewhere, where its motions were looked at. `None` if anything is wrong; the faults say what.
-pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<JointDef> {
+pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<ElementDef> {
     define(syntax, faults).map(|defined| defined.joint)
 }
 
@@ -120,7 +120,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         parameter.default = default;
     }
     sound.then(|| {
-        let mut joint = JointDef {
+        let mut joint = ElementDef {
             kind: syntax.kind,
             name: syntax.name.clone(),
             bodies: syntax.bodies.clone(),
@@ -144,8 +144,8 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
     })
 }
 
-/// The angles over many turns that a definition speaks of outside the described configuration, where they are zero.
-fn turns(joint: &JointDef) -> Vec<Turn> {
+/// The angles over many turns that a definition speaks of outside the reference configuration, where they are zero.
+fn turns(joint: &ElementDef) -> Vec<Turn> {
     fn find(term: &Term, turns: &mut Vec<Turn>) {
         match term {
             Term::Angle(turn) if !turns.contains(turn) => turns.push(*turn),
@@ -206,7 +206,7 @@ impl Reader<'_> {
             faults.at(
                 expr,
                 format!(
-                    "the default of `{name}` depends on the motion; write `initial(..)` for its value in the described \
+                    "the default of `{name}` depends on the motion; write `initial(..)` for its value in the reference \
                      configuration"
                 ),
             );

@@ -13,7 +13,7 @@ use super::pairs::Pairs;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, Coordinates, ElementKind, Extent, JointDef, JointUse, Name,
+    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Name,
     Number, ParameterKind, Term,
 };
 use crate::syntax::array::is_index;
@@ -38,7 +38,7 @@ pub(super) struct JointChecker<'a> {
     pub(super) bodies: &'a [Option<Body>],
     /// Arrays whose length was refused.
     pub(super) unmeasured: &'a [Ident],
-    pub(super) definitions: &'a [JointDef],
+    pub(super) definitions: &'a [ElementDef],
     /// Which kernels the mechanism has.
     pub(super) coordinates: Coordinates,
 }
@@ -50,7 +50,7 @@ impl JointChecker<'_> {
         mentioned: &mut Mentioned,
         numbers: &mut Numbers<'_>,
         faults: &mut Faults,
-    ) -> Option<JointUse> {
+    ) -> Option<Element> {
         let name = &self.field.name;
         let found = code(&self.field.ty);
         let word = self.kind.word();
@@ -182,7 +182,7 @@ impl JointChecker<'_> {
             faults.at_span(self.word, too_large(&format!("{word} `{name}` is")));
             return None;
         }
-        Some(JointUse {
+        Some(Element {
             name: name.clone(),
             path: carrier_path(&self.field.ty)?,
             definition,
@@ -194,7 +194,7 @@ impl JointChecker<'_> {
     }
 
     /// Whether the joint is to carry no body in joint coordinates: `cut`, unless that is a parameter of its own.
-    fn cut(&self, joint: &JointDef, pairs: &mut Pairs<'_>, faults: &mut Faults) -> bool {
+    fn cut(&self, joint: &ElementDef, pairs: &mut Pairs<'_>, faults: &mut Faults) -> bool {
         let key = "cut";
         let is_own = joint.parameters.iter().any(|own| own.name == key);
         if self.kind == ElementKind::Force || is_own || !pairs.has(key) {
@@ -317,7 +317,7 @@ impl JointChecker<'_> {
         expr: &Expr,
         kind: ParameterKind,
         bodies: Option<&[Option<usize>]>,
-        joint: &JointDef,
+        joint: &ElementDef,
         numbers: &mut Numbers<'_>,
         faults: &mut Faults,
     ) -> Option<Binding> {
@@ -392,7 +392,7 @@ impl JointChecker<'_> {
     /// A particle has no orientation: it carries a joint's points at its own place only.
     fn particles(
         &self,
-        joint: &JointDef,
+        joint: &ElementDef,
         bodies: &[Option<usize>],
         bindings: &[Binding],
         faults: &mut Faults,
@@ -448,14 +448,14 @@ impl JointChecker<'_> {
 }
 
 /// Whether a definition fixes a vector of its own on one of its bodies, or exerts a moment on it.
-fn turns(joint: &JointDef, body: usize) -> bool {
+fn turns(joint: &ElementDef, body: usize) -> bool {
     let moment = |action: &Action| matches!(action, Action::Moment { body: b, .. } if *b == body);
     let onto = |term: &Term| matches!(term, Term::Onto(b, _) if *b == body);
     joint.terms().any(|term| term.has(onto)) || joint.actions.iter().any(moment)
 }
 
 /// The vector parameters that a definition fixes on one of its bodies.
-fn uses(joint: &JointDef, body: usize) -> Vec<(usize, ParameterKind)> {
+fn uses(joint: &ElementDef, body: usize) -> Vec<(usize, ParameterKind)> {
     let mut found = Vec::new();
     let mut note = |term: &Term| match term {
         Term::Point { body: b, parameter }

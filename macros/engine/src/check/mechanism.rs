@@ -13,7 +13,7 @@ use super::pairs::Pairs;
 use super::{kinds, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::{
-    BodyKind, Coordinates, ElementKind, Independence, JointDef, Model, Name, Number, Redundant,
+    BodyKind, Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Redundant,
 };
 use crate::syntax::array::is_index;
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
@@ -53,7 +53,7 @@ impl Checked<'_> {
 pub fn check<'a>(
     syntax: &'a MechanismSyntax,
     types: &Definitions,
-    definitions: Vec<JointDef>,
+    definitions: Vec<ElementDef>,
     facade: &proc_macro2::TokenStream,
     faults: &mut Faults,
 ) -> Option<Checked<'a>> {

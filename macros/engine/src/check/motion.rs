@@ -93,7 +93,7 @@ impl Context<'_> {
         let Some(name) = ident(expr) else {
             let message = match self.on_a_body(expr, wanted) {
                 Some(name) => format!(
-                    "a motion is told in the described configuration, where both bodies have one `{name}`; write `{name}`"
+                    "a motion is told in the reference configuration, where both bodies have one `{name}`; write `{name}`"
                 ),
                 None => format!("{what}, and {has}; found `{}`", code(expr)),
             };

@@ -4,14 +4,14 @@ use proc_macro2::{Span, TokenStream};
 
 use super::joints::plural;
 use crate::diag::Faults;
-use crate::model::{Comparison, JointDef, Row};
+use crate::model::{Comparison, ElementDef, Row};
 use crate::syntax::joint::{JointSyntax, Statement};
 use crate::syntax::motion::MotionSyntax;
 
 /// Says what was found where it is stated. `places` are where the constraints are written. Whether nothing was refused.
 pub(super) fn refuse(
     syntax: &JointSyntax,
-    joint: &JointDef,
+    joint: &ElementDef,
     places: &[Span],
     found: &Comparison,
     faults: &mut Faults,
@@ -37,7 +37,7 @@ pub(super) fn refuse(
 
 /// Says what is wrong with the motions of a joint.
 struct Refusal<'a> {
-    joint: &'a JointDef,
+    joint: &'a ElementDef,
     places: &'a [Span],
     tokens: &'a TokenStream,
     motions: &'a [MotionSyntax],

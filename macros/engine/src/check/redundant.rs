@@ -35,7 +35,7 @@ pub(super) fn check(
         Redundant::Drop if model.independence.is_alone => {
             faults.at(
                 expr,
-                "no equations can be left out: no other configuration that satisfies all of them was found near the described one, and there they \
+                "no equations can be left out: no other configuration that satisfies all of them was found near the reference one, and there they \
                  may depend on each other by chance; look for constraints that only touch each other, and for a singular start",
             );
         }
@@ -61,7 +61,7 @@ fn stuck(model: &Model, faults: &mut Faults) {
         .collect();
     once_a_joint(model, &stuck, faults, |name, row| {
         format!(
-            "`{name}[{row}]` does not hold in the described configuration, and no motion that begins there brings it nearer: look for \
+            "`{name}[{row}]` does not hold in the reference configuration, and no motion that begins there brings it nearer: look for \
                  axes of `{name}` that are parallel and should be perpendicular, and for points that should be apart; what is meant for \
                  another configuration is given by `local(..)`"
         )
@@ -100,7 +100,7 @@ fn dormant(model: &Model, faults: &mut Faults) {
 fn by_chance(model: &Model, faults: &mut Faults) {
     once_a_joint(model, &model.independence.by_chance, faults, |name, row| {
         format!(
-            "`{name}[{row}]` cannot be left out: it follows from the other equations near the described configuration by chance, and does not \
+            "`{name}[{row}]` cannot be left out: it follows from the other equations near the reference configuration by chance, and does not \
                  hold where these lead to; look for constraints that only touch each other, and for a singular start"
         )
     });
@@ -168,7 +168,7 @@ fn brief(time: f64) -> String {
 /// Why equations that follow from others cannot be found, and what to do.
 fn undecided(model: &Model) -> String {
     if model.independence.rank == Rank::NotAssembled {
-        return "no equations can be left out: nothing near the described configuration satisfies all of them; look for a point or \
+        return "no equations can be left out: nothing near the reference configuration satisfies all of them; look for a point or \
                 an axis that contradicts the others"
             .into();
     }
@@ -242,7 +242,7 @@ fn refuse(model: &Model, faults: &mut Faults) {
         );
         let is_chance = model.independence.is_alone || !model.independence.by_chance.is_empty();
         let cure = if is_chance {
-            " in the described configuration, and perhaps only there: look for constraints that only touch each other, and for a singular start, \
+            " in the reference configuration, and perhaps only there: look for constraints that only touch each other, and for a singular start, \
              or write `redundant = \"keep\"` for formulations with a compliance (penalty, augmented Lagrangian)"
                 .into()
         } else if is_locked {

@@ -25,7 +25,7 @@ const STOPS: usize = 4;
 /// Rows of `D` at the stops of a tour, stop by stop.
 type Stops = Vec<Vec<Vec<f64>>>;
 
-/// The inputs of some stops of a tour, the first of which is the described configuration; none where nothing can move or be told.
+/// The inputs of some stops of a tour, the first of which is the reference configuration; none where nothing can move or be told.
 #[must_use]
 pub(super) fn tour(
     arena: &Arena,
@@ -87,7 +87,7 @@ struct Open<'a> {
     candidates: BTreeMap<Vec<usize>, Vec<Candidate>>,
 }
 
-/// What is eliminated before the rest: velocities with the rows that determine them, and the determinants in the described configuration. Velocities
+/// What is eliminated before the rest: velocities with the rows that determine them, and the determinants in the reference configuration. Velocities
 /// count from 0, rows from the number of velocities.
 pub(super) fn dependent(
     arena: &Arena,

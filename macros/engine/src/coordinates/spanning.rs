@@ -2,7 +2,7 @@
 
 use crate::model::number::literals;
 use crate::model::{
-    Binding, BodyKind, Comparison, Direction, JointUse, Model, Motion, Name, Number, ParameterKind,
+    Binding, BodyKind, Comparison, Direction, Element, Model, Motion, Name, Number, ParameterKind,
     Rank,
 };
 use crate::rank::moves::compare;
@@ -177,7 +177,7 @@ fn free(model: &Model, body: usize) -> Carried {
 /// The motions by which a joint carries a body, from the carrier on; `None` where it cannot, so that it stays as equations.
 fn motions(
     model: &Model,
-    joint: &JointUse,
+    joint: &Element,
     by: Option<usize>,
     body: usize,
     is_reversed: bool,
@@ -222,7 +222,7 @@ fn motions(
 }
 
 /// Whether a particle stands at a point of its joint, as far as the macro can see.
-fn stands_at(model: &Model, joint: &JointUse, body: usize, point: usize) -> bool {
+fn stands_at(model: &Model, joint: &Element, body: usize, point: usize) -> bool {
     let Binding::Global(given) = &joint.bindings[point] else {
         return false;
     };

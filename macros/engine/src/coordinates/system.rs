@@ -14,9 +14,9 @@ use crate::plan::Pivot;
 use crate::plan::eliminate::{Check, Symmetric, factorise};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::differentiate::Gradient;
 use crate::symbolic::fixed::{clean, size, transpose};
 use crate::symbolic::scene::{Chart, Scene};
-use crate::symbolic::twist::Gradient;
 use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
 
 /// A mechanism in joint coordinates, in symbols.
@@ -34,7 +34,7 @@ pub struct Reduced {
     strategy: Strategy,
     /// The links with masses handed over closing joints.
     counted: Option<(Links, Vec<Handover>)>,
-    /// What is eliminated before the rest where rows have no compliance, and the determinants in the described configuration.
+    /// What is eliminated before the rest where rows have no compliance, and the determinants in the reference configuration.
     together: (Vec<Pivot>, Vec<f64>),
 }
 

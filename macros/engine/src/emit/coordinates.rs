@@ -15,7 +15,7 @@ use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
-use crate::symbolic::scene::Reading;
+use crate::symbolic::scene::Normalisation;
 use crate::syntax::words::local;
 
 /// The environment of a kernel that reads a state in joint coordinates.
@@ -522,7 +522,7 @@ impl Writer<'_> {
     fn counts(&self) -> impl Iterator<Item = (String, Count)> + '_ {
         self.kernels.evaluations.iter().map(|evaluation| {
             let Kernel { arena, outputs } = &evaluation.kernel;
-            let name = evaluation_name(evaluation.terms, Reading::Raw);
+            let name = evaluation_name(evaluation.terms, Normalisation::Raw);
             (name, count(arena, outputs, Stage::State))
         })
     }

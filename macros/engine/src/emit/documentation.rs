@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::report::counts;
-use crate::model::{BodyKind, JointUse, Model, Rank};
+use crate::model::{BodyKind, Element, Model, Rank};
 use crate::plan::kernels::Kernels;
 
 /// Documentation as attributes.
@@ -77,7 +77,7 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
 }
 
 /// The bodies of a joint or a force, by their names.
-fn between(model: &Model, element: &JointUse) -> String {
+fn between(model: &Model, element: &Element) -> String {
     let name = |body: usize| model.bodies[body].name.to_string();
     let bodies = element.bodies.iter();
     let names: Vec<String> = bodies
@@ -98,7 +98,7 @@ fn independence(model: &Model) -> String {
             "Degrees of freedom (velocities less equations; the rank is not decided at expansion): {freedom}."
         ),
         Rank::NotAssembled => format!(
-            "Degrees of freedom (velocities less equations; the rank is not decided at expansion, because the described \
+            "Degrees of freedom (velocities less equations; the rank is not decided at expansion, because the reference \
              configuration cannot be assembled): {freedom}."
         ),
     };

@@ -4,13 +4,13 @@ use proc_macro2::{Literal, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use crate::diag::list;
-use crate::model::{BodyKind, Direction, ElementKind, JointDef, Motion, Term};
+use crate::model::{BodyKind, Direction, ElementDef, ElementKind, Motion, Term};
 use crate::syntax::joint::{JointSyntax, Statement};
 use crate::wire;
 
 /// Writes a joint. A faulty definition still yields the type, so that its users see one error and not many.
 #[must_use]
-pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream) -> TokenStream {
+pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStream) -> TokenStream {
     let JointSyntax {
         attributes,
         visibility,
@@ -21,7 +21,7 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
     let carrier = wire::carrier(syntax, facade, fingerprint, joint.is_some());
     let documentation = joint.map(documentation);
     let text = name.to_string();
-    let equations = joint.map_or(0, JointDef::equations);
+    let equations = joint.map_or(0, ElementDef::equations);
     let bodies = syntax.bodies.len();
     let fingerprint = Literal::u64_suffixed(fingerprint);
     let has = |wanted: fn(&Statement) -> bool| syntax.statements.iter().any(wanted);
@@ -82,7 +82,7 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&JointDef>, facade: &TokenStream
     }
 }
 
-fn documentation(joint: &JointDef) -> TokenStream {
+fn documentation(joint: &ElementDef) -> TokenStream {
     let equations = joint.equations();
     let bodies = list(&joint.bodies);
     let opening = match (joint.kind, equations) {
@@ -105,7 +105,7 @@ fn documentation(joint: &JointDef) -> TokenStream {
         if let Some(default) = &parameter.default {
             line = match default {
                 Term::Number(value) => format!("{line}; {value} if left out"),
-                _ => format!("{line}; if left out, that of the described configuration"),
+                _ => format!("{line}; if left out, that of the reference configuration"),
             };
         }
         lines.push(line);
@@ -123,7 +123,7 @@ fn documentation(joint: &JointDef) -> TokenStream {
         };
         lines.push(String::new());
         lines.push(format!(
-            "The angle of the joint is that of `{j}` against `{i}`, right-handed about `{axis}`, zero in the described \
+            "The angle of the joint is that of `{j}` against `{i}`, right-handed about `{axis}`, zero in the reference \
              configuration{turns}."
         ));
     }
@@ -144,7 +144,7 @@ fn documentation(joint: &JointDef) -> TokenStream {
 }
 
 /// A motion as it is written.
-fn motion(joint: &JointDef, motion: Motion) -> String {
+fn motion(joint: &ElementDef, motion: Motion) -> String {
     let name = |parameter: usize| &joint.parameters[parameter].name;
     let direction = |of: Direction| {
         let normal = match of.normal {

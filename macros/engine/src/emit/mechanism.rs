@@ -74,7 +74,7 @@ impl Writer<'_> {
         let points = self.points();
         let displacements = self.displacements();
         let recount = self.recount();
-        let forces = self.force_readings();
+        let forces = self.force_readouts();
         let user_axes = self.user_axes();
         let initial = self.initial_state();
         let coefficients = self.store.write_coefficients();

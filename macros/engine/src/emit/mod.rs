@@ -7,7 +7,7 @@ pub mod joint;
 pub mod mechanism;
 pub mod parameters;
 mod parts;
-mod readings;
+mod readouts;
 pub mod report;
 mod rows;
 pub mod solution;

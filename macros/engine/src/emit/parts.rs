@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::rows::{Element, WIDTH, pack};
+use super::rows::{ArrayElement, WIDTH, pack};
 use super::straight_line::{Environment, Given, Lines, StraightLine, Value, lines, write_all};
 use crate::symbolic::arena::{Arena, Expr, Stage};
 use crate::syntax::words::local;
@@ -76,7 +76,7 @@ fn name(frame: &Frame, part: usize) -> Ident {
 /// The values that pass between parts.
 struct Passed {
     /// The place of each statement's value in the array, if another part or an output needs it.
-    places: Vec<Option<Element>>,
+    places: Vec<Option<ArrayElement>>,
     /// The rows that each part writes: where, and the statements.
     written: Vec<Vec<(usize, Vec<usize>)>>,
     /// The length of the array.
@@ -125,7 +125,7 @@ impl Passed {
                 let row = free.pop().unwrap_or(passed.rows);
                 passed.rows = passed.rows.max(row + 1);
                 for (column, &statement) in statements.iter().enumerate() {
-                    passed.places[statement] = Some(Element::new("values", row, column));
+                    passed.places[statement] = Some(ArrayElement::new("values", row, column));
                 }
                 held.push((row, last[statements[statements.len() - 1]]));
                 written.push((row, statements.to_vec()));

@@ -6,7 +6,7 @@ use quote::quote;
 use super::joint::kind;
 use crate::coordinates::spanning::Spanning;
 use crate::model::mechanism::Layout;
-use crate::model::{JointUse, Model, Rank};
+use crate::model::{Element, Model, Rank};
 use crate::plan::Plan;
 use crate::plan::kernels::Kernels;
 use crate::plan::system::Terms;
@@ -14,7 +14,7 @@ use crate::plan::time::ExplicitTime;
 use crate::symbolic::arena::{Input, Node, Stage};
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
-use crate::symbolic::scene::Reading;
+use crate::symbolic::scene::Normalisation;
 use crate::symbolic::vector::Frame;
 
 /// Name and cost of every kernel that is called at run time, in the order of the report.
@@ -24,7 +24,7 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
     let mut counts = vec![];
     for evaluation in &kernels.evaluations {
         counts.push((
-            evaluation_name(evaluation.terms, evaluation.reading),
+            evaluation_name(evaluation.terms, evaluation.normalisation),
             of(&evaluation.kernel),
         ));
     }
@@ -40,7 +40,7 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
     ] {
         counts.push((name.into(), of(kernel)));
     }
-    if !kernels.readings.energies.is_empty() {
+    if !kernels.readouts.energies.is_empty() {
         counts.push(("power".into(), of(&kernels.power)));
     }
     for solver in &kernels.solvers {
@@ -57,15 +57,15 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
 
 /// The name of an evaluation in the report.
 #[must_use]
-pub fn evaluation_name(terms: Terms, reading: Reading) -> String {
+pub fn evaluation_name(terms: Terms, normalisation: Normalisation) -> String {
     let terms = match terms {
         Terms::Plain => "standard",
         Terms::Stabilised => "baumgarte",
         Terms::Compliant => "penalty",
     };
-    match reading {
-        Reading::Raw => format!("evaluate {terms}"),
-        Reading::Normalised => format!("evaluate {terms}, normalised"),
+    match normalisation {
+        Normalisation::Raw => format!("evaluate {terms}"),
+        Normalisation::Normalised => format!("evaluate {terms}, normalised"),
     }
 }
 
@@ -117,7 +117,7 @@ pub fn describe(model: &Model, plan: &Plan, layout: &Layout) -> String {
 }
 
 /// The bodies of a joint or force, `None` for the ground.
-fn places(element: &JointUse) -> impl Iterator<Item = TokenStream> {
+fn places(element: &Element) -> impl Iterator<Item = TokenStream> {
     element.bodies.iter().copied().map(option)
 }
 

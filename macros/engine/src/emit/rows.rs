@@ -15,14 +15,14 @@ pub(super) const WIDTH: usize = 16;
 
 /// A value in an array of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Element {
+pub struct ArrayElement {
     /// The name of the array.
     array: &'static str,
     row: usize,
     column: usize,
 }
 
-impl Element {
+impl ArrayElement {
     pub(super) const fn new(array: &'static str, row: usize, column: usize) -> Self {
         Self { array, row, column }
     }
@@ -34,7 +34,9 @@ impl Element {
 }
 
 /// Statements that give elements their names.
-pub(super) fn unpack<'a>(elements: impl IntoIterator<Item = (Element, &'a Ident)>) -> TokenStream {
+pub(super) fn unpack<'a>(
+    elements: impl IntoIterator<Item = (ArrayElement, &'a Ident)>,
+) -> TokenStream {
     let mut rows: BTreeMap<(&str, usize), BTreeMap<usize, &Ident>> = BTreeMap::new();
     for (element, name) in elements {
         let row = rows.entry((element.array, element.row)).or_default();

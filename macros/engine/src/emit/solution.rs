@@ -12,12 +12,12 @@ use crate::plan::kernels::{Evaluation, PivotCheck, Solver};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Stage};
 use crate::symbolic::equations::Kernel;
-use crate::symbolic::scene::Reading;
+use crate::symbolic::scene::Normalisation;
 use crate::syntax::words::local;
 
 /// Operations up to which a kernel becomes part of its caller, which saves moving the results twice.
 const INLINE: usize = 300;
-/// Operations up to which an evaluation is written for each reading of Euler parameters: matrices need not pass through memory.
+/// Operations up to which an evaluation is written for each normalisation of Euler parameters: matrices need not pass through memory.
 const SHARED: usize = 3000;
 /// The entries of a rotation matrix.
 const ENTRIES: usize = 9;
@@ -52,7 +52,7 @@ impl Writer<'_> {
         quote!(#(#names,)*)
     }
 
-    /// The fused evaluations. Where they are long, both readings of Euler parameters call one function of the rotation matrices: [`Evaluation::normalised`]
+    /// The fused evaluations. Where they are long, both normalisations of Euler parameters call one function of the rotation matrices: [`Evaluation::normalised`]
     /// made the second so.
     pub(super) fn evaluations(&mut self) -> TokenStream {
         if let Some(stabilised) = &self.kernels.stabilised {
@@ -65,8 +65,8 @@ impl Writer<'_> {
         };
         let mut tokens = TokenStream::new();
         let mut matrices = None;
-        for readings in raw.iter().zip(normalised) {
-            let (raw, normalised) = readings;
+        for pair in raw.iter().zip(normalised) {
+            let (raw, normalised) = pair;
             if operations(raw) <= SHARED {
                 tokens.extend(self.evaluation(raw, None));
                 tokens.extend(self.evaluation(normalised, None));
@@ -75,7 +75,7 @@ impl Writer<'_> {
             tokens.extend(self.by_rotations(raw));
             tokens.extend(self.by_rotations(normalised));
             tokens.extend(self.evaluation(raw, Some(&raw.rotations)));
-            matrices.get_or_insert(readings);
+            matrices.get_or_insert(pair);
         }
         if let Some((raw, normalised)) = matrices {
             tokens.extend(self.rotations(raw));
@@ -111,10 +111,10 @@ impl Writer<'_> {
         }
     }
 
-    /// The rotation matrices as one reading has them.
+    /// The rotation matrices of one normalisation.
     fn rotations(&mut self, evaluation: &Evaluation) -> TokenStream {
         let facade = self.facade;
-        let function = rotations_function(evaluation.reading);
+        let function = rotations_function(evaluation.normalisation);
         let bodies = evaluation.rotations.len() / ENTRIES;
         let frame = Frame {
             name: function.to_string(),
@@ -152,9 +152,9 @@ impl Writer<'_> {
     /// An evaluation that is a function of the rotation matrices.
     fn by_rotations(&self, evaluation: &Evaluation) -> TokenStream {
         let facade = self.facade;
-        let function = evaluation_function(evaluation.terms, evaluation.reading);
+        let function = evaluation_function(evaluation.terms, evaluation.normalisation);
         let of_rotations = of_rotations(evaluation.terms);
-        let rotations = rotations_function(evaluation.reading);
+        let rotations = rotations_function(evaluation.normalisation);
         let (arguments, passed) = (self.arguments(), Self::passed());
         let (rates, multipliers) = (local("rates"), local("multipliers"));
         let results = self.results();
@@ -170,7 +170,7 @@ impl Writer<'_> {
     fn evaluation(&mut self, evaluation: &Evaluation, given: Option<&[Expr]>) -> TokenStream {
         let facade = self.facade;
         let layout = self.model.layout();
-        let mut function = evaluation_function(evaluation.terms, evaluation.reading);
+        let mut function = evaluation_function(evaluation.terms, evaluation.normalisation);
         let (mut arguments, mut passed) = (self.arguments(), Self::passed());
         let mut elements = Given::default();
         if let Some(rotations) = given {
@@ -236,8 +236,8 @@ impl Writer<'_> {
                 Terms::Stabilised => (quote!(true), quote!(false)),
                 Terms::Compliant => (quote!(_), quote!(true)),
             };
-            let normalised = evaluation.reading == Reading::Normalised;
-            let function = evaluation_function(evaluation.terms, evaluation.reading);
+            let normalised = evaluation.normalisation == Normalisation::Normalised;
+            let function = evaluation_function(evaluation.terms, evaluation.normalisation);
             quote! {
                 (#normalised, #stabilised, #compliant) => #function(#constants, #coefficients, #time, #state, #rates, #multipliers),
             }
@@ -381,10 +381,10 @@ impl Writer<'_> {
     }
 }
 
-fn rotations_function(reading: Reading) -> Ident {
-    match reading {
-        Reading::Raw => format_ident!("__rotations"),
-        Reading::Normalised => format_ident!("__rotations_normalised"),
+fn rotations_function(normalisation: Normalisation) -> Ident {
+    match normalisation {
+        Normalisation::Raw => format_ident!("__rotations"),
+        Normalisation::Normalised => format_ident!("__rotations_normalised"),
     }
 }
 
@@ -400,11 +400,11 @@ pub(super) fn name(terms: Terms) -> &'static str {
     }
 }
 
-fn evaluation_function(terms: Terms, reading: Reading) -> Ident {
+fn evaluation_function(terms: Terms, normalisation: Normalisation) -> Ident {
     let terms = name(terms);
-    match reading {
-        Reading::Raw => format_ident!("__evaluate_{terms}"),
-        Reading::Normalised => format_ident!("__evaluate_{terms}_normalised"),
+    match normalisation {
+        Normalisation::Raw => format_ident!("__evaluate_{terms}"),
+        Normalisation::Normalised => format_ident!("__evaluate_{terms}_normalised"),
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::rows::Element;
+use super::rows::ArrayElement;
 use super::straight_line::{Environment, StraightLine, Value, write};
 use crate::model::Symbol;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
@@ -214,6 +214,6 @@ impl Environment for BackSubstitution<'_> {
             self.factors.push(value);
             self.factors.len() - 1
         });
-        Value::Element(Element::at("factors", place))
+        Value::Element(ArrayElement::at("factors", place))
     }
 }

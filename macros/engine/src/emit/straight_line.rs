@@ -6,7 +6,7 @@ use std::ops::Range;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::rows::{Element, unpack};
+use super::rows::{ArrayElement, unpack};
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
 use crate::syntax::words::local;
 
@@ -25,7 +25,7 @@ pub enum Value {
     /// What an expression gives.
     Expression(TokenStream),
     /// What stands in a row of values.
-    Element(Element),
+    Element(ArrayElement),
 }
 
 /// Statements, and the outputs as expressions over them.
@@ -140,7 +140,7 @@ struct Writer<'a, E> {
 /// Values that are computed elsewhere and reach a kernel as an argument.
 #[derive(Debug, Default)]
 pub(super) struct Given {
-    nodes: Vec<(usize, Element)>,
+    nodes: Vec<(usize, ArrayElement)>,
 }
 
 impl Given {
@@ -149,7 +149,7 @@ impl Given {
         let places = values.iter().enumerate();
         let mut nodes: Vec<_> = places
             .map(|(place, value)| {
-                let element = Element::new(array, place / width, place % width);
+                let element = ArrayElement::new(array, place / width, place % width);
                 (value.node(), element)
             })
             .collect();
@@ -157,7 +157,7 @@ impl Given {
         Self { nodes }
     }
 
-    fn value(&self, node: usize) -> Option<Element> {
+    fn value(&self, node: usize) -> Option<ArrayElement> {
         let place = self.nodes.binary_search_by_key(&node, |(node, _)| *node);
         place.ok().map(|place| self.nodes[place].1)
     }

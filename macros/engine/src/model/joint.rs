@@ -160,7 +160,7 @@ pub enum Term {
     Origin(usize),
     /// A vector by its components, global axes.
     Components([Box<Term>; 3]),
-    /// A vector as it is in the described configuration, fixed on a body.
+    /// A vector as it is in the reference configuration, fixed on a body.
     Onto(usize, Box<Term>),
     /// A sum with signs: `true` is minus.
     Sum(Vec<(bool, Term)>),
@@ -174,7 +174,7 @@ pub enum Term {
     Function(Function, Box<Term>),
     /// The angle of a body against another about an axis, over many turns.
     Angle(Turn),
-    /// A scalar as it is in the described configuration.
+    /// A scalar as it is in the reference configuration.
     Initial(Box<Term>),
     /// The time derivative of a scalar.
     Rate(Box<Term>),
@@ -478,7 +478,7 @@ impl ElementKind {
 
 /// The definition of a joint or a force.
 #[derive(Clone, Debug)]
-pub struct JointDef {
+pub struct ElementDef {
     /// Joint or force.
     pub kind: ElementKind,
     /// The name of its type.
@@ -508,7 +508,7 @@ pub struct JointDef {
     pub span: Span,
 }
 
-impl JointDef {
+impl ElementDef {
     /// The number of its equations.
     #[must_use]
     pub fn equations(&self) -> usize {

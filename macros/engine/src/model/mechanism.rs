@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use proc_macro2::{Ident, TokenStream};
 
-use super::joint::{Extent, Function, JointDef, Turn};
+use super::joint::{ElementDef, Extent, Function, Turn};
 use super::name::Name;
 use super::number::{Number, Symbol};
 use super::rank::Independence;
@@ -111,7 +111,7 @@ impl LawTerm {
 
 /// A joint or a force of a mechanism.
 #[derive(Clone, Debug)]
-pub struct JointUse {
+pub struct Element {
     /// The field, or its element.
     pub name: Name,
     /// The type as it was written, without generic arguments.
@@ -189,13 +189,13 @@ pub struct Model {
     /// The bodies in the order of the fields.
     pub bodies: Vec<Body>,
     /// The joints in the order of the fields.
-    pub joints: Vec<JointUse>,
+    pub joints: Vec<Element>,
     /// The forces in the order of the fields.
-    pub forces: Vec<JointUse>,
+    pub forces: Vec<Element>,
     /// Run-time values in the order of the fields.
     pub values: Vec<RunTimeValue>,
     /// The definitions that joints and forces use.
-    pub definitions: Vec<JointDef>,
+    pub definitions: Vec<ElementDef>,
     /// Numbers that the macro cannot see.
     pub symbols: Vec<Symbol>,
     /// Whether the equations depend on each other.
@@ -207,7 +207,7 @@ pub struct Model {
 impl Model {
     /// The definition of a joint.
     #[must_use]
-    pub fn definition(&self, joint: &JointUse) -> &JointDef {
+    pub fn definition(&self, joint: &Element) -> &ElementDef {
         &self.definitions[joint.definition]
     }
 
@@ -223,7 +223,7 @@ impl Model {
     }
 
     /// Joints, then forces.
-    pub fn elements(&self) -> impl Iterator<Item = &JointUse> {
+    pub fn elements(&self) -> impl Iterator<Item = &Element> {
         self.joints.iter().chain(&self.forces)
     }
 
@@ -261,7 +261,7 @@ impl Model {
 
     /// The number of a joint's equations that are not left out.
     #[must_use]
-    pub fn equations(&self, joint: &JointUse) -> usize {
+    pub fn equations(&self, joint: &Element) -> usize {
         self.definition(joint).equations() - joint.dropped.len()
     }
 

@@ -10,10 +10,10 @@ pub mod rank;
 
 pub use comparison::Comparison;
 pub use joint::{
-    Action, Direction, ElementKind, Extent, Function, JointDef, Motion, Parameter, ParameterKind,
+    Action, Direction, ElementDef, ElementKind, Extent, Function, Motion, Parameter, ParameterKind,
     Row, Term, Turn,
 };
-pub use mechanism::{Binding, Body, BodyKind, Coordinates, JointUse, LawTerm, Model, RunTimeValue};
+pub use mechanism::{Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, RunTimeValue};
 pub use name::Name;
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};

@@ -30,7 +30,7 @@ pub enum Rank {
     /// The constraints depend on numbers that the macro cannot see.
     #[default]
     NotDecided,
-    /// No configuration near the described one satisfies the constraints.
+    /// No configuration near the reference one satisfies the constraints.
     NotAssembled,
 }
 
@@ -69,7 +69,7 @@ pub struct Independence {
     pub redundant: Vec<RedundantRow>,
     /// The equations that no motion satisfies together with the others. If there are any, redundant ones are not looked for.
     pub contradictions: Vec<Contradiction>,
-    /// The equations, by joint and place, that are violated in the described configuration where their gradients vanish, if nothing near
+    /// The equations, by joint and place, that are violated in the reference configuration where their gradients vanish, if nothing near
     /// it satisfies all.
     pub stuck: Vec<(usize, usize)>,
     /// The equations among the redundant ones, by joint and place, whose gradients vanish wherever the mechanism got to, but not everywhere:
@@ -78,14 +78,14 @@ pub struct Independence {
     /// The equations among the redundant ones, by joint and place, that do not hold where the others lead to: where the mechanism was looked at, they
     /// follow from these by chance.
     pub by_chance: Vec<(usize, usize)>,
-    /// Whether no other configuration was found near the described one, although the rank leaves motion free: there rows may depend on each
+    /// Whether no other configuration was found near the reference one, although the rank leaves motion free: there rows may depend on each
     /// other by chance.
     pub is_alone: bool,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
     /// Whether they are gone.
     pub dropped: bool,
-    /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from the described configuration on, where there was a
+    /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from the reference configuration on, where there was a
     /// choice of equations to be made.
     pub tour: Vec<(f64, Vec<f64>)>,
 }

@@ -3,7 +3,7 @@
 use super::alone::alone;
 use super::candidates::{Factorised, cheapest, first, solved};
 use super::eliminate::Check;
-use super::readings::Readings;
+use super::readouts::Readouts;
 use super::system::{System, Terms, applied_forces};
 use super::{Plan, Plans};
 use crate::model::Model;
@@ -13,7 +13,7 @@ use crate::symbolic::equations::{
     Block, Kernel, combinations, coordinate_rates, counters, initial_state, jacobian, kinds,
     kinetic_energy, mass, potential_energy, rows, vector_rows, with_scene,
 };
-use crate::symbolic::scene::{Reading, Scene};
+use crate::symbolic::scene::{Normalisation, Scene};
 use crate::symbolic::table::Table;
 
 /// A kernel that solves: outputs are coordinate rates, accelerations, multipliers.
@@ -22,7 +22,7 @@ pub struct Evaluation {
     /// The terms of the formulation.
     pub terms: Terms,
     /// How Euler parameters are read.
-    pub reading: Reading,
+    pub normalisation: Normalisation,
     /// Outputs, and behind them the relative pivots in the order of `checks`.
     pub kernel: Kernel,
     /// The pivots to check.
@@ -87,7 +87,7 @@ pub struct Kernels {
     /// The power of all forces that have no potential.
     pub power: Kernel,
     /// What can be read of joints and forces.
-    pub readings: Readings,
+    pub readouts: Readouts,
     /// What each joint costs by itself.
     pub alone: Vec<Count>,
     /// The fused evaluations for all terms, those that read Euler parameters as they are before those that normalise them. None where the mechanism is
@@ -147,7 +147,7 @@ impl Kernels {
                 let powers: Vec<Expr> = powers.collect();
                 vec![scene.space.arena.sum(powers)]
             }),
-            readings: Readings::new(scene, model),
+            readouts: Readouts::new(scene, model),
             evaluations: evaluations.unwrap_or_default(),
             stabilised: (!is_fused).then(|| stabilised(scene)),
             solvers,
@@ -156,13 +156,13 @@ impl Kernels {
     }
 }
 
-/// The fused evaluations for all terms and both readings.
+/// The fused evaluations for all terms and both normalisations.
 fn evaluations(model: &Model, [rigid, compliant]: &[Factorised; 2]) -> Vec<Evaluation> {
     let raw = Terms::ALL.map(|terms| match terms {
         Terms::Plain | Terms::Stabilised => raw(model, rigid, terms),
         Terms::Compliant => raw(model, compliant, terms),
     });
-    let normalised = Scene::for_solution(model, Reading::Normalised);
+    let normalised = Scene::for_solution(model, Normalisation::Normalised);
     let normalised = raw.each_ref().map(|raw| raw.normalised(&normalised));
     raw.into_iter().chain(normalised).collect()
 }
@@ -213,11 +213,16 @@ pub(crate) fn relative(scene: &mut Scene, recorded: &[Check]) -> (Vec<Expr>, Vec
 
 /// The fused evaluation with a plan.
 #[must_use]
-pub fn evaluation(model: &Model, plan: &Plan, reading: Reading, terms: Terms) -> Evaluation {
+pub fn evaluation(
+    model: &Model,
+    plan: &Plan,
+    normalisation: Normalisation,
+    terms: Terms,
+) -> Evaluation {
     let raw = raw(model, &Factorised::new(model, plan, terms), terms);
-    match reading {
-        Reading::Raw => raw,
-        Reading::Normalised => raw.normalised(&Scene::for_solution(model, reading)),
+    match normalisation {
+        Normalisation::Raw => raw,
+        Normalisation::Normalised => raw.normalised(&Scene::for_solution(model, normalisation)),
     }
 }
 
@@ -232,7 +237,7 @@ fn raw(model: &Model, Factorised { scene, system, .. }: &Factorised, terms: Term
     outputs.extend(pivots);
     Evaluation {
         terms,
-        reading: Reading::Raw,
+        normalisation: Normalisation::Raw,
         rotations: rotations(&scene),
         kernel: Kernel {
             arena: scene.space.arena,
@@ -284,7 +289,7 @@ impl Evaluation {
         }
         Self {
             terms: self.terms,
-            reading: Reading::Normalised,
+            normalisation: Normalisation::Normalised,
             kernel: Kernel {
                 outputs: outputs.iter().map(|&output| of(&known, output)).collect(),
                 arena,

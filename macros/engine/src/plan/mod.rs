@@ -13,7 +13,7 @@ mod inverse;
 pub mod kernels;
 mod order;
 mod reach;
-pub mod readings;
+pub mod readouts;
 mod symmetric;
 pub mod system;
 pub mod time;

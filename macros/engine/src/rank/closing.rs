@@ -61,7 +61,7 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     )
 }
 
-/// Times and coordinates of the bodies along a motion that the constraints leave free, from the described configuration on; none where nothing can be told.
+/// Times and coordinates of the bodies along a motion that the constraints leave free, from the reference configuration on; none where nothing can be told.
 pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
     if !model.independence.tour.is_empty() {
         return model.independence.tour.clone();

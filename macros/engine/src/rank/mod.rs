@@ -1,7 +1,7 @@
 //! The rank of the constraints, found by numbers at expansion.
 //!
 //! Equations that follow from others do so in every configuration, whereas in a singular configuration, such as the dead
-//! point of a linkage, rows of `D` depend on each other by chance. So the rank is judged at the described configuration and at some more that
+//! point of a linkage, rows of `D` depend on each other by chance. So the rank is judged at the reference configuration and at some more that
 //! random motions lead to, each put back onto the constraints, and the largest counts.
 //!
 //! Which equations to leave out is a choice, and one that is sound here may be singular after half a turn. So where there is a

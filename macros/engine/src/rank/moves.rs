@@ -10,12 +10,12 @@ use super::motion::{Configuration, Constraints};
 use super::span::independent;
 use super::sparse::{Row, Rows, width};
 use super::{Random, assemble};
-use crate::model::{BodyKind, Comparison, Direction, JointUse, Model, Motion};
+use crate::model::{BodyKind, Comparison, Direction, Element, Model, Motion};
 use crate::symbolic::arena::Arena;
 use crate::symbolic::fixed::{Copies, copies};
 use crate::symbolic::vector::Triple;
 
-/// Configurations besides the described one.
+/// Configurations besides the reference one.
 const PLACES: usize = 3;
 /// What is left of a motion along a gradient by round-off, both of unit length.
 const ROUND_OFF: f64 = 1e-9;
@@ -43,7 +43,7 @@ pub fn compare(model: &Model, joint: usize) -> Comparison {
     found.unwrap_or(Comparison::Undecided)
 }
 
-/// A motion in the described configuration, in global axes.
+/// A motion in the reference configuration, in global axes.
 enum Moving {
     Turn { axis: [f64; 3], point: [f64; 3] },
     Slide { along: [f64; 3] },
@@ -88,7 +88,7 @@ struct Pair {
 
 impl Pair {
     /// `None` where the equations cannot be evaluated, do not hold, or change with time.
-    fn new(model: &Model, joint: &JointUse) -> Option<Self> {
+    fn new(model: &Model, joint: &Element) -> Option<Self> {
         let [first, second] = joint.bodies[..] else {
             return None;
         };
@@ -107,7 +107,7 @@ impl Pair {
         })
     }
 
-    /// Where a body of the joint stands in the described configuration.
+    /// Where a body of the joint stands in the reference configuration.
     fn pose(&self, body: usize) -> ([f64; 3], [f64; 4]) {
         match self.bodies[body] {
             Some(body) => self.constraints.pose(&self.described, body),
@@ -115,7 +115,7 @@ impl Pair {
         }
     }
 
-    fn moving(&self, model: &Model, joint: &JointUse, motion: Motion) -> Option<Moving> {
+    fn moving(&self, model: &Model, joint: &Element, motion: Motion) -> Option<Moving> {
         Some(match motion {
             Motion::Turn { axis, point } => Moving::Turn {
                 axis: self.direction(model, joint, axis)?,
@@ -130,7 +130,7 @@ impl Pair {
         })
     }
 
-    fn point(&self, model: &Model, joint: &JointUse, parameter: usize) -> Option<[f64; 3]> {
+    fn point(&self, model: &Model, joint: &Element, parameter: usize) -> Option<[f64; 3]> {
         self.common(
             model,
             joint,
@@ -140,7 +140,7 @@ impl Pair {
         )
     }
 
-    fn direction(&self, model: &Model, joint: &JointUse, of: Direction) -> Option<[f64; 3]> {
+    fn direction(&self, model: &Model, joint: &Element, of: Direction) -> Option<[f64; 3]> {
         let copy = |copies: &Copies, body: usize| match of.normal {
             Some(which) => copies.normals[body][which],
             None => copies.vector[body],
@@ -152,7 +152,7 @@ impl Pair {
     fn common(
         &self,
         model: &Model,
-        joint: &JointUse,
+        joint: &Element,
         parameter: usize,
         copy: impl Fn(&Copies, usize) -> Triple,
         is_point: bool,

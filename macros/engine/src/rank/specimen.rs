@@ -8,7 +8,7 @@ use proc_macro2::{Ident, TokenStream};
 use super::{Random, moves};
 use crate::model::inertia::{IDENTITY, rotation};
 use crate::model::{
-    Binding, Body, BodyKind, Comparison, Coordinates, Extent, Independence, JointDef, JointUse,
+    Binding, Body, BodyKind, Comparison, Coordinates, Element, ElementDef, Extent, Independence,
     Model, Number, ParameterKind, Term,
 };
 
@@ -18,7 +18,7 @@ const LARGEST: f64 = 300.0;
 /// What all choices of parameters that can be compared agree in. Nothing can be said where there is none, or where with one of them the
 /// motions are those that the equations leave: with the others the joint may be a special case.
 #[must_use]
-pub fn compare(joint: &JointDef) -> Comparison {
+pub fn compare(joint: &ElementDef) -> Comparison {
     if joint.motions.is_none() {
         return Comparison::Undecided;
     }
@@ -41,7 +41,7 @@ pub fn compare(joint: &JointDef) -> Comparison {
     first.unwrap_or(Comparison::Undecided)
 }
 
-/// Parameters of a joint in the described configuration.
+/// Parameters of a joint in the reference configuration.
 #[derive(Clone, Copy)]
 struct Choice {
     axes: Axes,
@@ -71,7 +71,7 @@ enum Points {
 }
 
 /// The choices that are not the same for a joint.
-fn choices(joint: &JointDef) -> Vec<Choice> {
+fn choices(joint: &ElementDef) -> Vec<Choice> {
     let count = |wanted: fn(ParameterKind) -> bool| {
         let parameters = joint.parameters.iter();
         parameters.filter(|p| wanted(p.kind)).count()
@@ -115,7 +115,7 @@ fn choices(joint: &JointDef) -> Vec<Choice> {
 }
 
 /// Two free bodies and the joint.
-fn model(joint: &JointDef, choice: Choice) -> Model {
+fn model(joint: &ElementDef, choice: Choice) -> Model {
     let mut random = Random::new();
     let frame = rotation(unit(&mut random));
     let first = vector(&mut random);
@@ -158,7 +158,7 @@ fn model(joint: &JointDef, choice: Choice) -> Model {
             orientation,
         )
     });
-    let used = JointUse {
+    let used = Element {
         name: joint.name.clone().into(),
         path: TokenStream::new(),
         definition: 0,

@@ -1,12 +1,12 @@
 //! Definitions bound to the bodies and numbers of a mechanism.
 
 use super::arena::{Arena, Expr, Input};
+use super::differentiate::{ScalarExpr, VectorExpr};
 use super::fixed::{Copies, axis_and_normals, copies, number, triple};
 use super::functions::{AngleExpr, PairedAngles};
 use super::start;
-use super::twist::{ScalarExpr, VectorExpr};
 use super::vector::{Triple, ZERO};
-use crate::model::{Action, Binding, Function, JointUse, LawTerm, Model, Term, Turn};
+use crate::model::{Action, Binding, Element, Function, LawTerm, Model, Term, Turn};
 
 /// What a force does, bound to bodies.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ pub(super) fn all_copies(arena: &mut Arena, model: &Model) -> Vec<Vec<Option<Cop
 /// Replaces formal bodies and parameters of a definition by those of a joint or force.
 pub(super) struct Binder<'a> {
     pub(super) model: &'a Model,
-    pub(super) element: &'a JointUse,
+    pub(super) element: &'a Element,
     pub(super) copies: &'a [Option<Copies>],
     /// The place of its first auxiliary variable in the state.
     pub(super) first_counter: usize,

@@ -6,7 +6,7 @@ use super::arena::{Arena, Expr, Input};
 use super::vector::{Triple, cross, dot};
 use crate::model::inertia::{compose, rotation, snap};
 use crate::model::number::literals;
-use crate::model::{Binding, Body, BodyKind, JointUse, Model, Number, ParameterKind};
+use crate::model::{Binding, Body, BodyKind, Element, Model, Number, ParameterKind};
 
 /// A number as an expression.
 pub fn number(arena: &mut Arena, number: Number) -> Expr {
@@ -183,10 +183,10 @@ pub struct Copies {
 
 /// The copies of a vector parameter on the bodies of a joint.
 ///
-/// All bodies have the same normals in the described configuration where their axes are the same, and so angles are zero there. Axes that
+/// All bodies have the same normals in the reference configuration where their axes are the same, and so angles are zero there. Axes that
 /// are given by body need not be parallel: then the normals are those of the first body that the definition speaks of, taken along by
 /// the least rotation that makes the axes parallel, so that every body has a right-handed frame with its own axis.
-pub fn copies(arena: &mut Arena, model: &Model, joint: &JointUse, parameter: usize) -> Copies {
+pub fn copies(arena: &mut Arena, model: &Model, joint: &Element, parameter: usize) -> Copies {
     let definition = model.definition(joint);
     let kind = definition.parameters[parameter].kind;
     let binding = &joint.bindings[parameter];

@@ -2,8 +2,8 @@
 
 use super::arena::{Arena, Expr};
 use super::bind::Effect;
+use super::differentiate::Gradient;
 use super::scene::Scene;
-use super::twist::Gradient;
 
 impl Scene {
     /// Forces and moments of all force elements.

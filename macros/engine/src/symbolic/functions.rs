@@ -1,7 +1,7 @@
 //! Functions of scalars and their derivatives.
 
 use super::arena::{Arena, Expr, Input};
-use super::twist::{Gradient, Motion, ScalarExpr};
+use super::differentiate::{Gradient, Motion, ScalarExpr};
 use super::vector::{Space, Triple};
 use crate::model::Function;
 
@@ -195,7 +195,7 @@ impl AngleExpr {
     }
 
     /// `(c s'' - s c'' - 2 angle' (c c' + s s')) / (c^2 + s^2)` without accelerations.
-    pub fn quadratic(&self, space: &mut Space, motion: &Motion) -> Expr {
+    pub fn bias(&self, space: &mut Space, motion: &Motion) -> Expr {
         if self.paired.is_some() {
             return Arena::ZERO;
         }
@@ -206,8 +206,8 @@ impl AngleExpr {
             self.cosine.rate(space, motion),
         );
         let (dds, ddc) = (
-            self.sine.quadratic(space, motion),
-            self.cosine.quadratic(space, motion),
+            self.sine.bias(space, motion),
+            self.cosine.bias(space, motion),
         );
         let arena = &mut space.arena;
         let products = [arena.mul(c, dds), -arena.mul(s, ddc)];

@@ -1,8 +1,8 @@
 //! What holds of vectors that turn without change of length, and saves operations where `p` is of length 1.
 
 use super::arena::{Arena, Expr};
+use super::differentiate::{Motion, ScalarExpr, VectorExpr, body_frame};
 use super::scene::Constraint;
-use super::twist::{Motion, ScalarExpr, VectorExpr, body_frame};
 use super::vector::{Space, Triple, ZERO, dot};
 
 /// Two vectors, fixed on two bodies.
@@ -23,7 +23,7 @@ impl TwoVectors {
     }
 
     /// `(a . b)''` without accelerations: with `w = w_i - w_j`, `(w . a) (w_i . b) - (w . b) (w_j . a) - (w . w) (a . b)`.
-    pub(super) fn quadratic(&self, space: &mut Space, motion: &Motion) -> Expr {
+    pub(super) fn bias(&self, space: &mut Space, motion: &Motion) -> Expr {
         let spins = self.bodies.map(|body| match body {
             Some(body) => motion.spin[body],
             None => space.native(body_frame(None), ZERO),

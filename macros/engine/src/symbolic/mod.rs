@@ -3,6 +3,7 @@
 pub mod arena;
 pub mod bind;
 pub mod count;
+pub mod differentiate;
 pub mod equations;
 pub mod evaluate;
 pub mod fixed;
@@ -17,5 +18,4 @@ pub mod scene;
 mod start;
 pub(crate) mod table;
 pub mod tape;
-pub mod twist;
 pub mod vector;

@@ -2,20 +2,20 @@
 
 use super::arena::{Arena, Expr, Input};
 use super::bind::{Binder, Effect, all_copies};
+use super::differentiate::{Gradient, Motion, ScalarExpr, VectorExpr};
 use super::fixed::{Copies, number, triple};
 use super::functions::{AngleExpr, PairedAngles};
 use super::identities::from_centres;
 use super::kept::kept;
 use super::rotation::{complete, own_cofactors, unit_rotation};
 pub use super::rotation::{homogeneous_rotation, normalised_rotation};
-use super::twist::{Gradient, Motion, ScalarExpr, VectorExpr};
 use super::vector::{Frame, Space, Triple};
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, ElementKind, Model, Row, Term};
 
 /// How Euler parameters are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Reading {
+pub enum Normalisation {
     /// `A(p)` is `|p|^2` times a rotation.
     Raw,
     /// `p / |p|` takes the place of `p` in `A`.
@@ -33,11 +33,11 @@ enum Rotation {
     Unit,
 }
 
-impl From<Reading> for Rotation {
-    fn from(reading: Reading) -> Self {
-        match reading {
-            Reading::Raw => Self::Homogeneous,
-            Reading::Normalised => Self::Normalised,
+impl From<Normalisation> for Rotation {
+    fn from(normalisation: Normalisation) -> Self {
+        match normalisation {
+            Normalisation::Raw => Self::Homogeneous,
+            Normalisation::Normalised => Self::Normalised,
         }
     }
 }
@@ -327,8 +327,8 @@ impl Scene {
     ///
     /// Exact for `p` of length 1; elsewhere, where `A` is read raw, it differs by the drift of `|p|`, as `A^T A = I` does.
     #[must_use]
-    pub fn for_solution(model: &Model, reading: Reading) -> Self {
-        let mut scene = Self::build(model, reading.into(), false);
+    pub fn for_solution(model: &Model, normalisation: Normalisation) -> Self {
+        let mut scene = Self::build(model, normalisation.into(), false);
         for body in 0..model.bodies.len() {
             let Some(a) = scene.space.rotation(body).copied() else {
                 continue;
@@ -381,12 +381,12 @@ impl Scene {
         }
     }
 
-    /// `value * Phi + rate * Phi' + quadratic * (Phi'' without accelerations)` of a constraint, in the given axes.
+    /// `value * Phi + rate * Phi' + bias * (Phi'' without accelerations)` of a constraint, in the given axes.
     pub fn combination(
         &mut self,
         constraint: usize,
         frame: Frame,
-        [value, rate, quadratic]: [Expr; 3],
+        [value, rate, bias]: [Expr; 3],
     ) -> Vec<Expr> {
         let Self {
             space,
@@ -402,9 +402,9 @@ impl Scene {
                     let product = space.arena.mul(factor, term);
                     sum = space.arena.add(sum, product);
                 };
-                if wanted(quadratic) {
-                    let term = scalar.quadratic(space, motion);
-                    add(space, quadratic, term);
+                if wanted(bias) {
+                    let term = scalar.bias(space, motion);
+                    add(space, bias, term);
                 }
                 if wanted(rate) {
                     let term = scalar.rate(space, motion);
@@ -418,8 +418,8 @@ impl Scene {
             }
             Constraint::Vector(vector) => {
                 let mut terms = Vec::new();
-                if wanted(quadratic) {
-                    terms.push((quadratic, vector.quadratic(space, motion)));
+                if wanted(bias) {
+                    terms.push((bias, vector.bias(space, motion)));
                 }
                 if wanted(rate) {
                     terms.push((rate, vector.rate(space, motion)));

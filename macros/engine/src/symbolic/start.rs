@@ -1,12 +1,12 @@
-//! Expressions in the described configuration, where every body stands as its attributes say.
+//! Expressions in the reference configuration, where every body stands as its attributes say.
 
 use super::arena::{Arena, Expr};
+use super::differentiate::{ScalarExpr, VectorExpr};
 use super::fixed::{Placement, apply, clean, placement, size, transpose};
-use super::twist::{ScalarExpr, VectorExpr};
 use super::vector::{Triple, ZERO, cross, dot};
 use crate::model::Model;
 
-/// A vector in the described configuration, global axes.
+/// A vector in the reference configuration, global axes.
 pub(super) fn vector(arena: &mut Arena, model: &Model, expr: &VectorExpr) -> Triple {
     match expr {
         VectorExpr::Fixed(body, s) => {
@@ -46,7 +46,7 @@ pub(super) fn vector(arena: &mut Arena, model: &Model, expr: &VectorExpr) -> Tri
     }
 }
 
-/// A vector in the described configuration, in the principal axes of a body.
+/// A vector in the reference configuration, in the principal axes of a body.
 pub(super) fn on_body(
     arena: &mut Arena,
     model: &Model,
@@ -60,7 +60,7 @@ pub(super) fn on_body(
     clean(arena, turned, scale)
 }
 
-/// A scalar in the described configuration; angles over many turns are zero there.
+/// A scalar in the reference configuration; angles over many turns are zero there.
 pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Expr {
     match expr {
         ScalarExpr::Constant(value) => *value,
@@ -87,7 +87,7 @@ pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Exp
         }
         ScalarExpr::Angle(_) => Arena::ZERO,
         ScalarExpr::Time | ScalarExpr::Rate(_) => {
-            unreachable!("the language refuses time and rates in the described configuration")
+            unreachable!("the language refuses time and rates in the reference configuration")
         }
     }
 }

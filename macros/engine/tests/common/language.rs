@@ -122,7 +122,7 @@ pub(crate) enum Acting {
 /// Reads a definition at one instant.
 pub(crate) struct Interpreter<'a> {
     element: &'a Element,
-    /// Of the formal bodies, now and in the described configuration.
+    /// Of the formal bodies, now and in the reference configuration.
     poses: [Vec<Pose>; 2],
     /// Run-time values of the mechanism.
     values: &'a [(String, f64)],
@@ -146,7 +146,7 @@ enum When {
 type Arguments<'a> = Option<&'a [(String, Dual2_64)]>;
 
 impl<'a> Interpreter<'a> {
-    /// The poses of the mechanism's bodies in order, now and in the described configuration.
+    /// The poses of the mechanism's bodies in order, now and in the reference configuration.
     pub(crate) fn new(
         element: &'a Element,
         [now, described]: [&[Pose]; 2],
@@ -346,7 +346,7 @@ impl<'a> Interpreter<'a> {
         &self.poses[when as usize][body]
     }
 
-    /// Where a body that carries a global vector of the described configuration has it.
+    /// Where a body that carries a global vector of the reference configuration has it.
     fn carried(&self, body: usize, described: Vector, when: When) -> Vector {
         let local = self.pose(body, When::Described).inwards(described);
         self.pose(body, when).outwards(local)

@@ -3,7 +3,7 @@
 
 use holonom_engine::check::mechanism::{Definition, Definitions};
 use holonom_engine::diag::Faults;
-use holonom_engine::model::{BodyKind, ElementKind, JointDef, Model};
+use holonom_engine::model::{BodyKind, ElementDef, ElementKind, Model};
 use holonom_engine::{check, passes, syntax};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -143,7 +143,7 @@ pub(crate) fn checked(
     let input = syn::parse2(item.clone()).expect("a struct");
     let mut faults = Faults::new();
     let written = syntax::mechanism::parse(&input, &mut faults);
-    let mut definitions: Vec<JointDef> = Vec::new();
+    let mut definitions: Vec<ElementDef> = Vec::new();
     let mut types: Definitions = Vec::new();
     for path in paths(item) {
         let found = match path.as_str() {

@@ -47,7 +47,7 @@ pub(crate) struct Carried {
     pub(crate) copies: Vec<Numbers>,
     /// For an axis: its two normals.
     pub(crate) normals: Vec<[Numbers; 2]>,
-    /// For an axis: where it points in the described configuration, in global axes.
+    /// For an axis: where it points in the reference configuration, in global axes.
     global: Vec<Numbers>,
     /// For an axis: whether that depends on run-time values.
     is_symbolic: Vec<bool>,
@@ -571,7 +571,7 @@ impl Described {
         carried
     }
 
-    /// Where a body stands in the described configuration; `None` is the ground.
+    /// Where a body stands in the reference configuration; `None` is the ground.
     pub(crate) fn start(&self, body: Option<usize>) -> Pose {
         body.map_or_else(Pose::ground, |body| {
             let body = &self.bodies[body];

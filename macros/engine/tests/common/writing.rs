@@ -220,7 +220,7 @@ impl Writer<'_> {
         format!("{body}.{point}")
     }
 
-    /// A vector; where the described configuration is meant, without time.
+    /// A vector; where the reference configuration is meant, without time.
     fn vector(&mut self, depth: usize, described: bool) -> String {
         let named = self.names[1].len();
         if depth == 0 || self.dice.below(4) == 0 {
@@ -268,7 +268,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A scalar; where the described configuration is meant, without time.
+    /// A scalar; where the reference configuration is meant, without time.
     fn scalar(&mut self, depth: usize, described: bool) -> String {
         let named = self.names[0].len();
         if depth == 0 || self.dice.below(6) == 0 {

@@ -1,4 +1,4 @@
-//! Joints and forces of the library between given bodies, such that the described configuration satisfies them.
+//! Joints and forces of the library between given bodies, such that the reference configuration satisfies them.
 
 use crate::generator::Generator;
 

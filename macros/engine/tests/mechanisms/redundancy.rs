@@ -8,7 +8,7 @@ use crate::solutions::System;
 
 /// Of what follows from other equations, times the condition number.
 const TOLERANCE: f64 = 1e-12;
-/// Equations that hold by less than this in the described configuration hold.
+/// Equations that hold by less than this in the reference configuration hold.
 const HOLDS: f64 = 1e-9;
 /// Systems beyond this say nothing about equations that are left out.
 const CONDITION: f64 = 1e6;
@@ -18,7 +18,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 impl Comparison<'_> {
-    /// Where the described configuration satisfies the equations: with velocities that satisfy the rest of them, those that are left out are
+    /// Where the reference configuration satisfies the equations: with velocities that satisfy the rest of them, those that are left out are
     /// satisfied by velocities and accelerations too.
     pub(crate) fn left_out(&self, state: &State) -> Result<(), String> {
         if !self.dropped.contains(&true) {

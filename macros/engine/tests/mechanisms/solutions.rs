@@ -2,7 +2,7 @@
 
 use holonom_engine::plan::kernels::PivotCheck;
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::scene::Reading;
+use holonom_engine::symbolic::scene::Normalisation;
 
 use crate::comparison::{Comparison, difference};
 use crate::dense::{Factors, size};
@@ -168,16 +168,16 @@ impl Comparison<'_> {
         let coordinates = layout.coordinates + layout.auxiliaries;
         let mut found = Vec::new();
         for (plan, evaluation) in evaluations.chain(others) {
-            let (inputs, at) = match evaluation.reading {
-                Reading::Raw => (&raw, state),
-                Reading::Normalised => (&normalised, stretched),
+            let (inputs, at) = match evaluation.normalisation {
+                Normalisation::Raw => (&raw, state),
+                Normalisation::Normalised => (&normalised, stretched),
             };
             let values = inputs.of(&evaluation.kernel);
             let (rates, rest) = values.split_at(coordinates);
             let (solution, pivots) = rest.split_at(layout.velocities + rows);
             let what = format!(
                 "{plan} plan, {:?}, {:?}, pivots {pivots:?}",
-                evaluation.terms, evaluation.reading
+                evaluation.terms, evaluation.normalisation
             );
             let pivot = smallest(pivots, &evaluation.checks);
             found.push((

@@ -7,7 +7,7 @@ use holonom_engine::model::{ElementKind, Model};
 use holonom_engine::plan::candidates::choose;
 use holonom_engine::plan::kernels::evaluation;
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::scene::Reading;
+use holonom_engine::symbolic::scene::Normalisation;
 
 use crate::common::{checked, tokens};
 use crate::comparison::{Comparison, Extent, difference};
@@ -202,7 +202,7 @@ fn by_name(model: &Model, described: &Described) -> Option<(BTreeMap<String, Vec
     let evaluation = evaluation(
         model,
         &choose(model).rigid,
-        Reading::Normalised,
+        Normalisation::Normalised,
         Terms::Plain,
     );
     let values = inputs.of(&evaluation.kernel);

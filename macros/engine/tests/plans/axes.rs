@@ -101,7 +101,7 @@ fn an_angle_is_zero_where_the_least_rotation_makes_the_axes_parallel() {
     let mut state = State::described(&model, &kernels);
     let (sine, cosine) = 0.15_f64.sin_cos();
     state.coordinates[10..14].copy_from_slice(&[cosine, sine, 0.0, 0.0]);
-    let angle = state.of(&kernels.readings.angles[0].1);
+    let angle = state.of(&kernels.readouts.angles[0].1);
     assert!(
         (angle[0] - 1.0).abs() < 1e-15 && angle[1].abs() < 1e-15,
         "{angle:?}"

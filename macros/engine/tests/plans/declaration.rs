@@ -6,7 +6,7 @@ use holonom_engine::emit::report::counts;
 use holonom_engine::model::Model;
 use holonom_engine::plan::kernels::Kernels;
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::scene::Reading;
+use holonom_engine::symbolic::scene::Normalisation;
 use quote::ToTokens;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Fields, File, Item, ItemStruct};
@@ -88,7 +88,7 @@ fn worked_out(item: &ItemStruct) -> (Vec<(String, usize)>, Named) {
     let model = delivered(&item.to_token_stream(), library::definition);
     let kernels = Kernels::new(&model);
     let state = State::described(&model, &kernels);
-    let found = evaluated(&model, &kernels, Terms::Plain, Reading::Raw, &state);
+    let found = evaluated(&model, &kernels, Terms::Plain, Normalisation::Raw, &state);
     let counts = counts(&kernels).into_iter();
     let counts = counts.map(|(name, count)| (name, count.total())).collect();
     (counts, named(&model, &found.solution))

@@ -4,7 +4,7 @@ use holonom_engine::model::ElementKind;
 use holonom_engine::plan::candidates::all;
 use holonom_engine::plan::kernels::Kernels;
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::scene::Reading;
+use holonom_engine::symbolic::scene::Normalisation;
 use proc_macro2::TokenStream;
 
 use crate::common::{delivered, tokens};
@@ -58,12 +58,12 @@ fn judge(text: &str) -> Vec<f64> {
             }
             let (wanted, smallest) = dense(&model, &kernels, state, compliance);
             assert!(smallest > 1e-3, "the system is regular: {smallest:e}");
-            for reading in [Reading::Raw, Reading::Normalised] {
-                let found = evaluated(&model, &kernels, terms, reading, state);
+            for normalisation in [Normalisation::Raw, Normalisation::Normalised] {
+                let found = evaluated(&model, &kernels, terms, normalisation, state);
                 let difference = deviation(&found.solution, &wanted);
                 assert!(
                     difference < 1e-11,
-                    "{terms:?}, {reading:?}: {difference:e}\n{found:?}\n{wanted:?}",
+                    "{terms:?}, {normalisation:?}: {difference:e}\n{found:?}\n{wanted:?}",
                     found = found.solution
                 );
                 let least = found
@@ -78,7 +78,13 @@ fn judge(text: &str) -> Vec<f64> {
             }
         }
     }
-    let found = evaluated(&model, &kernels, Terms::Plain, Reading::Raw, &states[0]);
+    let found = evaluated(
+        &model,
+        &kernels,
+        Terms::Plain,
+        Normalisation::Raw,
+        &states[0],
+    );
     found.solution
 }
 

@@ -24,7 +24,7 @@ use common::{checked, tokens};
 use holonom_engine::model::{ElementKind, Model};
 use holonom_engine::symbolic::arena::{Arena, Expr, Input};
 use holonom_engine::symbolic::evaluate::evaluate;
-use holonom_engine::symbolic::scene::{Reading, Scene};
+use holonom_engine::symbolic::scene::{Normalisation, Scene};
 use holonom_engine::symbolic::vector::Frame;
 use language::{Interpreter, Pose};
 use num_dual::Dual2_64;
@@ -251,10 +251,10 @@ fn random_joints_against_dual_numbers() {
         let bodies = model.bodies.len();
         let scenes = [
             ("exact", Scene::new(&model)),
-            ("raw", Scene::for_solution(&model, Reading::Raw)),
+            ("raw", Scene::for_solution(&model, Normalisation::Raw)),
             (
                 "normalised",
-                Scene::for_solution(&model, Reading::Normalised),
+                Scene::for_solution(&model, Normalisation::Normalised),
             ),
         ];
         let scenes = scenes.map(|(name, scene)| (name, Derived::new(scene, bodies)));

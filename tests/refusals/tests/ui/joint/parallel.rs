@@ -1,4 +1,4 @@
-//! Equations that no start near the described one satisfies.
+//! Equations that no start near the reference one satisfies.
 
 use holonom::joints::{Distance, Revolute, Universal};
 use holonom::prelude::*;

@@ -182,7 +182,7 @@ impl VectorExpr {
     }
 
     /// The second time derivative without the terms of `v'` and `w'`.
-    pub fn quadratic(&self, space: &mut Space, motion: &Motion) -> VectorId {
+    pub fn bias(&self, space: &mut Space, motion: &Motion) -> VectorId {
         match self {
             Self::Fixed(None, _) | Self::Point(None, _) => space.native(Frame::Global, ZERO),
             Self::Fixed(Some(body), s) => space.spun(*body, motion.spin_components[*body], *s),
@@ -193,23 +193,20 @@ impl VectorExpr {
             Self::Sum(terms) => {
                 let terms: Vec<_> = terms
                     .iter()
-                    .map(|(factor, term)| (*factor, term.quadratic(space, motion)))
+                    .map(|(factor, term)| (*factor, term.bias(space, motion)))
                     .collect();
                 space.sum(terms)
             }
             Self::Scaled(factor, vector) => {
                 let (f, v) = (factor.value(space, motion), vector.value(space, motion));
                 let (df, dv) = (factor.rate(space, motion), vector.rate(space, motion));
-                let (ddf, ddv) = (
-                    factor.quadratic(space, motion),
-                    vector.quadratic(space, motion),
-                );
+                let (ddf, ddv) = (factor.bias(space, motion), vector.bias(space, motion));
                 let two = space.arena.constant(2.0);
                 let mixed = space.arena.mul(two, df);
                 space.sum([(ddf, v), (mixed, dv), (f, ddv)])
             }
             Self::Cross(a, b) => {
-                let (dda, ddb) = (a.quadratic(space, motion), b.quadratic(space, motion));
+                let (dda, ddb) = (a.bias(space, motion), b.bias(space, motion));
                 let (da, db) = (a.rate(space, motion), b.rate(space, motion));
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
                 let (first, mixed, last) = (
@@ -336,14 +333,14 @@ impl ScalarExpr {
     }
 
     /// The second time derivative without the terms of `v'` and `w'`.
-    pub fn quadratic(&self, space: &mut Space, motion: &Motion) -> Expr {
+    pub fn bias(&self, space: &mut Space, motion: &Motion) -> Expr {
         match self {
             Self::Constant(_) => Arena::ZERO,
             Self::Dot(a, b) => match TwoVectors::of(a, b) {
                 Some(pair) if space.has_identities() => space
                     .cheapest(&[false, true], |space, turning| {
                         if turning {
-                            pair.quadratic(space, motion)
+                            pair.bias(space, motion)
                         } else {
                             product_rule(space, motion, a, b)
                         }
@@ -351,9 +348,9 @@ impl ScalarExpr {
                     .expect("two ways were tried"),
                 _ => product_rule(space, motion, a, b),
             },
-            Self::Sum(terms) => weighted(space, motion, terms, Self::quadratic),
+            Self::Sum(terms) => weighted(space, motion, terms, Self::bias),
             Self::Product(a, b) => {
-                let (dda, ddb) = (a.quadratic(space, motion), b.quadratic(space, motion));
+                let (dda, ddb) = (a.bias(space, motion), b.bias(space, motion));
                 let (da, db) = (a.rate(space, motion), b.rate(space, motion));
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
                 let arena = &mut space.arena;
@@ -365,14 +362,14 @@ impl ScalarExpr {
             Self::Time => Arena::ZERO,
             Self::Function(function, inner) => {
                 let (x, dx) = (inner.value(space, motion), inner.rate(space, motion));
-                let ddx = inner.quadratic(space, motion);
+                let ddx = inner.bias(space, motion);
                 let arena = &mut space.arena;
                 let (slope, curvature) = (function.slope(arena, x), function.curvature(arena, x));
                 let square = arena.square(dx);
                 let (first, second) = (arena.mul(curvature, square), arena.mul(slope, ddx));
                 arena.add(first, second)
             }
-            Self::Angle(angle) => angle.quadratic(space, motion),
+            Self::Angle(angle) => angle.bias(space, motion),
             Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
         }
     }
@@ -419,7 +416,7 @@ impl ScalarExpr {
 
 /// `(a . b)''` without accelerations, by the product rule.
 fn product_rule(space: &mut Space, motion: &Motion, a: &VectorExpr, b: &VectorExpr) -> Expr {
-    let (dda, ddb) = (a.quadratic(space, motion), b.quadratic(space, motion));
+    let (dda, ddb) = (a.bias(space, motion), b.bias(space, motion));
     let (da, db) = (a.rate(space, motion), b.rate(space, motion));
     let (a, b) = (a.value(space, motion), b.value(space, motion));
     let (first, mixed, last) = (space.dot(dda, b), space.dot(da, db), space.dot(a, ddb));

@@ -1,4 +1,4 @@
-//! The two readings of Euler parameters, where long kernels share what they can.
+//! The two normalisations of Euler parameters, where long kernels share what they can.
 
 mod common;
 
@@ -29,7 +29,7 @@ fn functions(stream: TokenStream, defined: &mut HashSet<String>, mentioned: &mut
     }
 }
 
-/// Of a chain of four parallel hinges one reading has some operations more, and the other some less, than what is divided.
+/// Of a chain of four parallel hinges one normalisation has some operations more, and the other some less, than what is divided.
 #[test]
 fn what_is_called_is_written() {
     let mut shared = 0;

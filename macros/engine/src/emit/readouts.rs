@@ -13,7 +13,7 @@ impl Writer<'_> {
         let (constants, state, joint) = (local("constants"), local("state"), local("joint"));
         let unpack = Self::unpack();
         let mut arms = TokenStream::new();
-        for (place, kernel) in &self.kernels.readings.angles {
+        for (place, kernel) in &self.kernels.readouts.angles {
             let StraightLine {
                 statements,
                 outputs,
@@ -62,7 +62,7 @@ impl Writer<'_> {
         );
         let unpack = Self::unpack();
         let mut arms = TokenStream::new();
-        for (place, kernel) in &self.kernels.readings.displacements {
+        for (place, kernel) in &self.kernels.readouts.displacements {
             let StraightLine {
                 statements,
                 outputs,
@@ -96,7 +96,7 @@ impl Writer<'_> {
         let facade = self.facade;
         let (constants, joint, place) = (local("constants"), local("joint"), local("place"));
         let mut arms = TokenStream::new();
-        for (at, body, kernel) in &self.kernels.readings.points {
+        for (at, body, kernel) in &self.kernels.readouts.points {
             let StraightLine {
                 statements,
                 outputs,
@@ -153,7 +153,7 @@ impl Writer<'_> {
     }
 
     /// Energy, power and loads of single forces; only where there are forces.
-    pub(super) fn force_readings(&mut self) -> TokenStream {
+    pub(super) fn force_readouts(&mut self) -> TokenStream {
         let facade = self.facade;
         let (constants, time, state) = (local("constants"), local("time"), local("state"));
         let (force, place) = (local("force"), local("place"));
@@ -162,7 +162,7 @@ impl Writer<'_> {
         }
         let unpack = Self::unpack();
         let (mut energies, mut loads) = (TokenStream::new(), TokenStream::new());
-        for (at, kernel) in self.kernels.readings.energies.iter().enumerate() {
+        for (at, kernel) in self.kernels.readouts.energies.iter().enumerate() {
             let StraightLine {
                 statements,
                 outputs,
@@ -176,7 +176,7 @@ impl Writer<'_> {
                 });
             }
         }
-        for (at, body, kernel) in &self.kernels.readings.loads {
+        for (at, body, kernel) in &self.kernels.readouts.loads {
             let StraightLine {
                 statements,
                 outputs,

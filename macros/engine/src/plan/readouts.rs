@@ -3,14 +3,14 @@
 use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Input};
+use crate::symbolic::differentiate::Gradient;
 use crate::symbolic::equations::{Kernel, with_scene};
 use crate::symbolic::scene::Scene;
-use crate::symbolic::twist::Gradient;
 use crate::symbolic::vector::{Frame, VectorId};
 
 /// Kernels of what can be read, by the place of joint or force.
 #[derive(Clone, Debug)]
-pub struct Readings {
+pub struct Readouts {
     /// Cosine, sine and rate of the angle of each joint that has one, and the auxiliary variable that counts its turns.
     pub angles: Vec<(usize, Kernel)>,
     /// Value and rate of the displacement of each joint that has one.
@@ -23,7 +23,7 @@ pub struct Readings {
     pub loads: Vec<(usize, usize, Kernel)>,
 }
 
-impl Readings {
+impl Readouts {
     /// All kernels of a model.
     #[must_use]
     pub fn new(scene: &Scene, model: &Model) -> Self {
