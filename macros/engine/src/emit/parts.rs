@@ -57,10 +57,12 @@ pub(super) fn write_in_parts(
         .filter_map(|output| lines.statement_of(output.node()))
         .collect();
     let needed = passed.load(&lines, needed);
+    let repeated = &lines.repeated;
     let statements = quote! {
         let mut #values = [[__S::constant(0.0); #width]; #rows];
         #( #names(#arguments &mut #values); )*
         #needed
+        #repeated
     };
     let line = StraightLine {
         statements,

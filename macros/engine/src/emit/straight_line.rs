@@ -44,6 +44,8 @@ pub(super) struct Lines {
     operands: Vec<usize>,
     /// The statement of each node that has one.
     statement_of: Vec<Option<usize>>,
+    /// Statements behind all others: the numbers and negatives that are outputs more than once.
+    pub(super) repeated: TokenStream,
     /// The outputs by name.
     pub(super) outputs: Vec<TokenStream>,
 }
@@ -94,11 +96,12 @@ impl Lines {
 
     /// All statements; in blocks where they are many.
     pub(super) fn in_one_function(self, outputs: &[Expr]) -> StraightLine {
-        let statements = if self.statements.len() <= LONG {
+        let mut statements = if self.statements.len() <= LONG {
             in_one_block(&self.statements)
         } else {
             in_blocks(&self, outputs)
         };
+        statements.extend(self.repeated);
         StraightLine {
             statements,
             outputs: self.outputs,
@@ -211,6 +214,7 @@ pub(super) fn lines(
             statements: Vec::with_capacity(live.len()),
             operands: Vec::new(),
             statement_of: vec![None; arena.len()],
+            repeated: TokenStream::new(),
             outputs: Vec::new(),
         },
         operands: Vec::new(),
@@ -221,10 +225,7 @@ pub(super) fn lines(
         writer.inner = 0;
         writer.node(place);
     }
-    writer.lines.outputs = outputs
-        .iter()
-        .map(|&output| writer.reference(output))
-        .collect();
+    writer.outputs(outputs);
     writer.lines
 }
 
@@ -368,6 +369,31 @@ impl<E: Environment> Writer<'_, E> {
             return;
         }
         self.bind(place, Value::Expression(value), false);
+    }
+
+    /// The outputs. A number, most often 0, or a negative gets a name where it is one more than once: each would be looked up, and called, again.
+    fn outputs(&mut self, outputs: &[Expr]) {
+        let is_written =
+            |output: Expr| output.is_negative() || self.arena.literal(output).is_some();
+        let place = |output: Expr| 2 * output.node() + usize::from(output.is_negative());
+        let mut uses = vec![0_u32; 2 * self.arena.len()];
+        for &output in outputs.iter().filter(|output| is_written(**output)) {
+            uses[place(output)] += 1;
+        }
+        let mut names: Vec<Option<Ident>> = vec![None; uses.len()];
+        for &output in outputs {
+            let place = place(output);
+            if uses[place] > 1 && names[place].is_none() {
+                let (name, value) = (local(&format!("repeated_{place}")), self.reference(output));
+                self.lines.repeated.extend(quote!(let #name = #value;));
+                names[place] = Some(name);
+            }
+            let value = match &names[place] {
+                Some(name) => quote!(#name),
+                None => self.reference(output),
+            };
+            self.lines.outputs.push(value);
+        }
     }
 
     fn function(&mut self, name: &str, argument: Expr) -> TokenStream {
