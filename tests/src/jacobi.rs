@@ -98,31 +98,55 @@ impl SingularValues {
 fn sweep(columns: &mut DMatrix<f64>, right: &mut DMatrix<f64>) -> bool {
     // Below this a product comes from rounding: it belongs to columns that stand for zero.
     let noise = 1e-17 * columns.norm_squared();
+    // Those of columns that were turned are a little off, and are computed anew in the next sweep; the last one turns none.
+    let mut squares: Vec<f64> = columns.column_iter().map(|c| c.norm_squared()).collect();
     let mut turned = false;
     for i in 0..columns.ncols() {
         for j in i + 1..columns.ncols() {
-            let (a, b) = (columns.column(i), columns.column(j));
-            let (aa, bb, ab) = (a.norm_squared(), b.norm_squared(), a.dot(&b));
+            let (aa, bb) = (squares[i], squares[j]);
+            let (a, b) = pair(columns, i, j);
+            let ab = product(a, b);
             if ab.abs() <= noise.max(1e-15 * (aa * bb).sqrt()) {
                 continue;
             }
             turned = true;
             // The smaller root of t^2 + 2 z t - 1 = 0.
             let z = (bb - aa) / (2.0 * ab);
-            let t = z.signum() / (z.abs() + z.hypot(1.0));
-            let cosine = 1.0 / t.hypot(1.0);
-            rotate(columns, i, j, cosine, cosine * t);
-            rotate(right, i, j, cosine, cosine * t);
+            let t = z.signum() / (z.abs() + (z * z + 1.0).sqrt());
+            let cosine = 1.0 / (t * t + 1.0).sqrt();
+            rotate(pair(columns, i, j), cosine, cosine * t);
+            rotate(pair(right, i, j), cosine, cosine * t);
+            squares[i] = (aa - t * ab).max(0.0);
+            squares[j] = bb + t * ab;
         }
     }
     turned
 }
 
+/// Two columns, the first before the second.
+fn pair(matrix: &mut DMatrix<f64>, i: usize, j: usize) -> (&mut [f64], &mut [f64]) {
+    let rows = matrix.nrows();
+    let (before, after) = matrix.as_mut_slice().split_at_mut(j * rows);
+    (&mut before[i * rows..(i + 1) * rows], &mut after[..rows])
+}
+
+/// The product of two columns, in four sums.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let (a, a_rest) = a.as_chunks::<4>();
+    let (b, b_rest) = b.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for ([a0, a1, a2, a3], [b0, b1, b2, b3]) in a.iter().zip(b) {
+        let [s0, s1, s2, s3] = sums;
+        sums = [s0 + a0 * b0, s1 + a1 * b1, s2 + a2 * b2, s3 + a3 * b3];
+    }
+    let rest = a_rest.iter().zip(b_rest);
+    let rest: f64 = rest.map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
 /// `(a, b)` becomes `(c a - s b, s a + c b)`.
-fn rotate(matrix: &mut DMatrix<f64>, i: usize, j: usize, cosine: f64, sine: f64) {
-    for row in 0..matrix.nrows() {
-        let (a, b) = (matrix[(row, i)], matrix[(row, j)]);
-        matrix[(row, i)] = cosine * a - sine * b;
-        matrix[(row, j)] = sine * a + cosine * b;
+fn rotate((a, b): (&mut [f64], &mut [f64]), cosine: f64, sine: f64) {
+    for (a, b) in a.iter_mut().zip(b) {
+        (*a, *b) = (cosine * *a - sine * *b, sine * *a + cosine * *b);
     }
 }

@@ -3,8 +3,8 @@
 //! The deviation is that of the whole vector `(M^(1/2) u', lambda)` in the Euclidean norm, relative to the reference, and the
 //! condition number is that of the matrix that goes with it, `[I, M^(-1/2) D^T; D M^(-1/2), -e I]`: in SI units alone the moment of
 //! inertia of a thin rod would be 1e-4 of its mass for no reason. A condition number (largest over smallest singular value)
-//! bounds what a solution in floating point may be off by. Where the ratio of the largest to the smallest column of the matrix, which is
-//! never more than the condition number, shows that the bound holds, the singular values are not computed.
+//! bounds what a solution in floating point may be off by. Where a ratio that is never more than the condition number shows that the bound holds, the
+//! singular values are not computed: that of the largest to the smallest column of the matrix, or of what the matrix and its inverse make of a vector.
 
 use holonom::{
     Array, AugmentedLagrangian, Compliant, Dynamics, Normalised, Orientation, Plain, Raw, Real,
@@ -110,11 +110,32 @@ impl Reference {
         });
         let by_columns = deviation * least / most;
         if by_columns <= limit {
-            by_columns
-        } else {
-            deviation / SingularValues::new(&matrix).condition()
+            return by_columns;
         }
+        let by_vectors = deviation / condition_from_below(&matrix);
+        if by_vectors <= limit {
+            return by_vectors;
+        }
+        deviation / SingularValues::new(&matrix).condition()
     }
+}
+
+/// A bound of the condition number from below, and close to it: how much longer a vector becomes by the matrix and by its inverse, along what some steps of
+/// the power method make of it.
+fn condition_from_below(matrix: &DMatrix<f64>) -> f64 {
+    let factors = matrix.clone().lu();
+    let stretch = |step: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
+        let mut vector = DVector::from_element(matrix.nrows(), 1.0).normalize();
+        let mut stretch = 0.0;
+        for _ in 0..4 {
+            let next = step(&vector);
+            stretch = next.norm();
+            vector = next / stretch;
+        }
+        stretch
+    };
+    let solved = |v: &DVector<f64>| factors.solve(v).expect("no pivot is exactly zero");
+    stretch(&|v| matrix * v) * stretch(&solved)
 }
 
 /// The states of both sets, as the number type sees them.
