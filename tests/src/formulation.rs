@@ -197,6 +197,10 @@ impl Evaluator {
     /// If `x` or `out` has another size.
     pub fn rates(&mut self, time: f64, x: &[f64], out: &mut [f64]) -> Result<(), SolveError> {
         assert_eq!(x.len(), out.len());
+        assert_eq!(
+            x.len(),
+            self.assembler.coordinates() + self.assembler.velocities()
+        );
         self.assembler.update(time, x, &mut self.at);
         write_target(
             &self.assembler,

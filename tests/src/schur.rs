@@ -69,6 +69,10 @@ impl SchurEvaluator {
     /// If `x` or `out` has another size.
     pub fn rates(&mut self, time: f64, x: &[f64], out: &mut [f64]) -> Result<(), SolveError> {
         assert_eq!(x.len(), out.len());
+        assert_eq!(
+            x.len(),
+            self.assembler.coordinates() + self.assembler.velocities()
+        );
         let (assembler, at) = (&self.assembler, &mut self.at);
         assembler.update(time, x, at);
         write_target(

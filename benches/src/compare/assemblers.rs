@@ -270,6 +270,7 @@ pub(super) fn opponents(
     states: &[Vec<f64>],
 ) -> Vec<Opponent> {
     let settings = Settings::TABLE_15_2;
+    let states = &read_by(assembler, states);
     let mut opponents = Vec::new();
     let mut enter = |method, solve: Option<_>| {
         if let Some(contestant) = solve {
@@ -301,6 +302,13 @@ pub(super) fn opponents(
     opponents
 }
 
+/// States of a mechanism as an assembler takes them: angles that the mechanism counts behind its coordinates are none of it where it has no forces along them.
+fn read_by(assembler: &Assembler, states: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let (coordinates, velocities) = (assembler.coordinates(), assembler.velocities());
+    let read = |x: &Vec<f64>| [&x[..coordinates], &x[x.len() - velocities..]].concat();
+    states.iter().map(read).collect()
+}
+
 /// The most coordinates of a mechanism that the assembler solves as a whole.
 const LARGEST: usize = 300;
 /// The states of large mechanisms, whose evaluation takes milliseconds.
@@ -325,4 +333,36 @@ fn timed(
         Ok(())
     };
     contestant(count as u64, work).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use holonom::{Dynamics, StandardLagrange, System as _};
+
+    use super::*;
+
+    /// An arm at rest whose motors are off: its six counted angles are no coordinates of the assembler.
+    #[test]
+    fn an_arm_that_counts_turns_falls_as_its_assembler_says() {
+        let arm = Ur5::default();
+        let state = arm.described_state::<f64>().expect("described");
+        let (q, u) = (state.coordinates(), state.velocities());
+        let x = [q.as_slice(), u.as_slice()].concat();
+        let assembler = ur5();
+        let states = read_by(&assembler, std::slice::from_ref(&x));
+        assert_eq!(x.len(), states[0].len() + 6);
+        let mut found = vec![0.0; states[0].len()];
+        let mut schur = SchurEvaluator::new(assembler.clone(), 0.0, 0.0);
+        schur.rates(0.0, &states[0], &mut found).expect("a tree");
+        let dynamics = Dynamics::<f64, Ur5, _>::new(&arm, StandardLagrange);
+        let rates = dynamics.expect("sound").rates(0.0, &state).expect("a tree");
+        let found = &found[assembler.coordinates()..];
+        for (found, wanted) in found.iter().zip(rates.velocities().as_slice()) {
+            assert!(
+                (found - wanted).abs() <= 1e-9 * (1.0 + wanted.abs()),
+                "{found} {wanted}"
+            );
+        }
+        assert_eq!(opponents(("ur5", 1), &assembler, &[x]).len(), 6);
+    }
 }
