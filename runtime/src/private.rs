@@ -3,20 +3,21 @@
 pub use holonom_macros::{assemble, force_impl, joint_impl};
 
 use crate::array::StateParts;
+use crate::dynamics::stabilised;
 use crate::mechanism::{Mechanism, Orientation, Pivot, Terms};
 use crate::rotation::{scale_euler_rates, with_unit_orientations};
 use crate::scalar::{Scalar, elementary};
 
-/// [`Mechanism::evaluate_into`] from the other kernels, with the right-hand side of the rows, `gamma*`, from a closure.
+/// [`Mechanism::evaluate_into`] from the other kernels, with the gains of `Phi'` and of `Phi`.
 #[inline]
 pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
     constants: &M::Constants<S>,
     coefficients: &M::Coefficients<S>,
+    gains: [S; 2],
     time: S,
     state: &M::State<S>,
     rates: &mut M::State<S>,
     multipliers: &mut M::Multipliers<S>,
-    lower: impl FnOnce(&M::State<S>) -> M::Multipliers<S>,
 ) -> Pivot<S> {
     let read = if P::NORMALISED {
         with_unit_orientations::<S, M>(state)
@@ -24,7 +25,8 @@ pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
         *state
     };
     let (factors, pivot) = M::factor::<S, T>(constants, coefficients, time, &read);
-    let (upper, lower) = (M::forces(constants, time, &read), lower(&read));
+    let upper = M::forces(constants, time, &read);
+    let lower = stabilised::<S, M, T>(constants, gains, time, &read);
     let (accelerations, solved) =
         M::solve::<S, T>(constants, coefficients, &factors, &upper, &lower);
     let mut coordinate_rates = M::coordinate_rates(constants, &read);

@@ -19,7 +19,7 @@ use crate::rotation::{
     bring_to_unit_length, check_state, scale_euler_rates, stretch, with_unit_orientations,
 };
 use crate::sample::Evaluate;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::start::farthest;
 use crate::view::View;
 use crate::watch::Seen;
@@ -394,18 +394,28 @@ where
 
     /// `gamma* = gamma - 2 a Phi' - b^2 Phi`.
     fn stabilised(&self, time: S, state: &M::State<S>) -> M::Multipliers<S> {
-        let mut gamma = M::gamma(&self.constants, time, state);
-        if F::Terms::STABILISED {
-            let Stabilisation { rate, position, .. } = self.stabilisation;
-            let phi = M::constraints(&self.constants, time, state);
-            let phi_rate = M::constraint_rates(&self.constants, time, state);
-            let terms = phi.as_slice().iter().zip(phi_rate.as_slice());
-            for (gamma, (&phi, &phi_rate)) in gamma.as_mut_slice().iter_mut().zip(terms) {
-                *gamma = *gamma - (rate * phi_rate + position * phi);
-            }
-        }
-        gamma
+        let Stabilisation { rate, position, .. } = self.stabilisation;
+        stabilised::<S, M, F::Terms>(&self.constants, [rate, position], time, state)
     }
+}
+
+/// `gamma* = gamma - r Phi' - p Phi` with the gains `r` and `p`, where the terms have them.
+pub(crate) fn stabilised<S: Scalar, M: Mechanism, T: Terms>(
+    constants: &M::Constants<S>,
+    [rate, position]: [S; 2],
+    time: S,
+    state: &M::State<S>,
+) -> M::Multipliers<S> {
+    let mut gamma = M::gamma(constants, time, state);
+    if T::STABILISED {
+        let phi = M::constraints(constants, time, state);
+        let phi_rate = M::constraint_rates(constants, time, state);
+        let terms = phi.as_slice().iter().zip(phi_rate.as_slice());
+        for (gamma, (&phi, &phi_rate)) in gamma.as_mut_slice().iter_mut().zip(terms) {
+            *gamma = *gamma - (rate * phi_rate + position * phi);
+        }
+    }
+    gamma
 }
 
 impl<S, M, F, P, A> System<S> for Dynamics<S, M, F, P, A>

@@ -55,8 +55,8 @@ impl Writer<'_> {
     /// The fused evaluations. Where they are long, both normalisations of Euler parameters call one function of the rotation matrices: [`Evaluation::normalised`]
     /// made the second so.
     pub(super) fn evaluations(&mut self) -> TokenStream {
-        if let Some(stabilised) = &self.kernels.stabilised {
-            return self.stabilised(stabilised);
+        if self.kernels.evaluations.is_empty() {
+            return TokenStream::new();
         }
         let (raw, normalised) = self.kernels.evaluations.split_at(Terms::ALL.len());
         let operations = |evaluation: &Evaluation| {
@@ -82,33 +82,6 @@ impl Writer<'_> {
             tokens.extend(self.rotations(normalised));
         }
         tokens
-    }
-
-    /// `gamma*`, for evaluations that are put together from their parts.
-    fn stabilised(&mut self, kernel: &Kernel) -> TokenStream {
-        let (name, facade) = (&self.model.name, self.facade);
-        let frame = Frame {
-            name: "__stabilised".into(),
-            facade: facade.clone(),
-            declared: self.arguments(),
-            passed: Self::passed(),
-            unpack: Self::unpack(),
-        };
-        let StraightLine {
-            statements,
-            outputs,
-        } = self.line_of(kernel, &Given::default(), &frame);
-        let (arguments, unpack) = (self.arguments(), Self::unpack());
-        quote! {
-            #[inline(never)]
-            fn __stabilised<__S: #facade::Scalar>(
-                #arguments
-            ) -> <#name as #facade::Mechanism>::Multipliers<__S> {
-                #unpack
-                #statements
-                [#(#outputs),*]
-            }
-        }
     }
 
     /// The rotation matrices of one normalisation.
@@ -211,22 +184,23 @@ impl Writer<'_> {
         }
     }
 
-    pub(super) fn dispatch(&self) -> TokenStream {
+    pub(super) fn dispatch(&mut self) -> TokenStream {
         let facade = self.facade;
         let (constants, coefficients, state) =
             (local("constants"), local("coefficients"), local("state"));
         let (factors, upper, lower) = (local("factors"), local("upper"), local("lower"));
         let (rates, multipliers) = (local("rates"), local("multipliers"));
         let time = local("time");
-        let evaluate = self.kernels.stabilised.is_some().then(|| {
+        let kernels = self.kernels;
+        let evaluate = kernels.gains.as_ref().map(|gains| {
+            let StraightLine {
+                statements,
+                outputs,
+            } = self.line(gains);
             quote! {
+                #statements
                 #facade::__private::evaluate_in_parts::<__S, Self, __T, __P>(
-                    #constants, #coefficients, #time, #state, #rates, #multipliers,
-                    |#state| if __T::STABILISED || __T::COMPLIANT {
-                        __stabilised(#constants, #coefficients, #time, #state)
-                    } else {
-                        Self::gamma(#constants, #time, #state)
-                    },
+                    #constants, #coefficients, [#(#outputs),*], #time, #state, #rates, #multipliers,
                 )
             }
         });

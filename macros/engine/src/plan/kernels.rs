@@ -7,11 +7,11 @@ use super::readouts::Readouts;
 use super::system::{System, Terms, applied_forces};
 use super::{Plan, Plans};
 use crate::model::Model;
-use crate::symbolic::arena::{Arena, Expr, Stage};
+use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::Count;
 use crate::symbolic::equations::{
-    Block, Kernel, combinations, coordinate_rates, counters, initial_state, jacobian, kinds,
-    kinetic_energy, mass, potential_energy, rows, vector_rows, with_scene,
+    Block, Kernel, coordinate_rates, counters, initial_state, jacobian, kinds, kinetic_energy,
+    mass, potential_energy, rows, vector_rows, with_scene,
 };
 use crate::symbolic::scene::{Normalisation, Scene};
 use crate::symbolic::table::Table;
@@ -93,8 +93,8 @@ pub struct Kernels {
     /// The fused evaluations for all terms, those that read Euler parameters as they are before those that normalise them. None where the mechanism is
     /// described by its joints alone.
     pub evaluations: Vec<Evaluation>,
-    /// `gamma*` with terms of stabilisation, for evaluations that are put together from their parts.
-    pub stabilised: Option<Kernel>,
+    /// The gains of `Phi'` and of `Phi` in `gamma*`, for evaluations that are put together from their parts.
+    pub gains: Option<Kernel>,
     /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
     /// The plans of the solutions.
@@ -149,7 +149,7 @@ impl Kernels {
             }),
             readouts: Readouts::new(scene, model),
             evaluations: evaluations.unwrap_or_default(),
-            stabilised: (!is_fused).then(|| stabilised(scene)),
+            gains: (!is_fused).then(gains),
             solvers,
             plans,
         }
@@ -167,12 +167,14 @@ fn evaluations(model: &Model, [rigid, compliant]: &[Factorised; 2]) -> Vec<Evalu
     raw.into_iter().chain(normalised).collect()
 }
 
-/// `gamma*`, with terms of stabilisation.
-fn stabilised(scene: &Scene) -> Kernel {
-    with_scene(scene, |scene| {
-        let factors = Terms::Stabilised.factors(&mut scene.space.arena);
-        combinations(scene, factors)
-    })
+/// The gains of stabilisation, of `Phi'` and of `Phi`.
+fn gains() -> Kernel {
+    let mut arena = Arena::new();
+    let outputs = [Input::RateGain, Input::PositionGain].map(|gain| arena.input(gain));
+    Kernel {
+        outputs: outputs.into(),
+        arena,
+    }
 }
 
 fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotCheck>) {
