@@ -39,6 +39,14 @@ fn windows(count: usize) -> String {
     text + "}"
 }
 
+/// A cart of 1 kg and a point mass of 1 kg at 1 m, and nothing that pushes: what the model of the catalogue is without its numbers and its motor.
+const UNIT_CART_POLE: &str = "#[mechanism(gravity = [0.0, -9.81, 0.0])] struct UnitCartPole {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])] cart: Body,
+    #[body(mass = 1.0, inertia = [1e-20, 1e-20, 1e-20], position = [0.0, 1.0, 0.0])] pole: Body,
+    #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])] rail: Prismatic,
+    #[joint(between = [cart, pole], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, -1.0])] hinge: Revolute,
+}";
+
 /// A struct of the crate with the models.
 fn of_library(name: &str) -> String {
     let text = std::fs::read_to_string(format!(
@@ -90,9 +98,10 @@ fn accelerations_in_joint_coordinates() {
     for rods in [2, 8] {
         scenes.push((format!("{rods} balls"), chain("Spherical", rods, false)));
     }
-    for count in [1, 10] {
+    for count in [1, 10, 40] {
         scenes.push((format!("{count} windows"), windows(count)));
     }
+    scenes.push(("unit cart and pole".into(), UNIT_CART_POLE.into()));
     for name in ["slider_crank", "heavy_top", "cart_pole", "ur5", "panda"] {
         scenes.push((name.into(), of_library(name)));
     }
