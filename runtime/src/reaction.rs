@@ -17,6 +17,9 @@ pub struct Wrench<S> {
     pub moment: Vector3<S>,
     /// The point (m, global).
     pub point: Vector3<S>,
+    /// Whether nothing else would do. Not so where equations of the joint depend on others ([`JointInfo::undetermined`](crate::JointInfo)): then a part of the
+    /// reaction is one of many that hold the bodies, by the choice of equations that are kept or the compliance that they share, and zero in it says nothing.
+    pub is_unique: bool,
 }
 
 /// A force and a moment (N, N m, global) about a point.
@@ -39,7 +42,8 @@ pub(crate) fn wrench<S: Scalar, M: Mechanism>(
 ) -> Option<Wrench<S>> {
     let jacobian = M::jacobian(constants, time, state);
     let load = |body| load_on_body::<S, M>(jacobian.as_slice(), state, multipliers, joint, body);
-    let bodies = M::REPORT.joints.get(joint)?.bodies;
+    let info = M::REPORT.joints.get(joint)?;
+    let bodies = info.bodies;
     let offset = M::joint_point(constants, joint, place);
     let (point, reduced) = match *bodies.get(place)? {
         Some(body) => {
@@ -75,6 +79,7 @@ pub(crate) fn wrench<S: Scalar, M: Mechanism>(
         force: Vector3::from(reduced.force),
         moment: Vector3::from(reduced.moment),
         point: Vector3::from(point),
+        is_unique: info.undetermined.is_empty(),
     })
 }
 

@@ -189,6 +189,9 @@ pub struct JointInfo {
     pub auxiliary: usize,
     /// How many it has: the angles that its definition counts turns of, in the order in which they stand there.
     pub auxiliaries: usize,
+    /// The places, among the equations of its definition, of those whose multipliers are not unique: they take part in a dependence of equations, so
+    /// that [`Report::redundant`] could have been chosen otherwise. Empty where [`Report::rank`] is not decided, too.
+    pub undetermined: &'static [usize],
     /// What the joint costs by itself: `Phi`, `D` (rows along global axes) and `gamma` together, as functions of position, Euler
     /// parameters of length 1, velocity and angular velocity of its bodies, the last in global axes too. In the kernels of a
     /// mechanism joints share operations, with each other and with the solution.

@@ -224,6 +224,7 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
             force: Vector3::new(fx, fy, fz),
             moment: Vector3::from(moment),
             point: self.pose(body).position,
+            is_unique: true,
         })
     }
 

@@ -151,6 +151,7 @@ fn a_chain_has_full_rank() {
         let model = chain(links);
         assert_eq!(model.independence.rank, decided(5 * links, 5 * links));
         assert_eq!(rows(&model), []);
+        assert_eq!(model.independence.undetermined, []);
     }
 }
 
@@ -163,6 +164,10 @@ fn two_hinges_on_one_edge() {
     assert_eq!(kept.layout().rows, 10);
     let dropped = door("redundant = \"drop\"");
     assert_eq!(rows(&dropped), rows(&kept));
+    // Either hinge could carry the leaf alone, or both a part of it.
+    let all: Vec<(usize, usize)> = (0..10).map(|row| (row / 5, row % 5)).collect();
+    assert_eq!(kept.independence.undetermined, all);
+    assert_eq!(dropped.independence.undetermined, all);
     assert_eq!(dropped.layout().rows, 5);
     assert_eq!(dropped.layout().row, [0, 5]);
     assert_eq!(judge(&dropped).rank, decided(5, 5));
@@ -180,6 +185,12 @@ fn planar_loops_of_spatial_hinges() {
         assert_eq!(drop.layout().rows, rank);
         let again = judge(&drop);
         assert_eq!((again.rank, again.redundant), (decided(rank, rank), vec![]));
+        // Out of the plane the hinges hold each other: along z, and about axes across.
+        let hinges = 0..3 * count + 1;
+        let out_of_plane: Vec<_> = hinges
+            .flat_map(|joint| [2, 3, 4].map(|row| (joint, row)))
+            .collect();
+        assert_eq!(keep.independence.undetermined, out_of_plane);
     }
 }
 

@@ -86,6 +86,7 @@ impl Mechanism for Crank {
             has_point: true,
             auxiliary: 7,
             auxiliaries: 1,
+            undetermined: &[],
             operations: Operations::NONE,
         }],
         blocks: &[Block {

@@ -84,6 +84,7 @@ impl Mechanism for Rod {
             has_point: true,
             auxiliary: 7,
             auxiliaries: 0,
+            undetermined: &[],
             operations: Operations::NONE,
         }],
         forces: &[],

@@ -69,6 +69,7 @@ fn a_door_hangs_on_its_lower_hinge() {
                 .reaction(handles.upper, handles.leaf)
                 .expect("regular");
             assert_eq!((reaction.force.norm(), reaction.moment.norm()), (0.0, 0.0));
+            assert!(!reaction.is_unique);
             ControlFlow::Continue(())
         })
         .expect("independent");
@@ -125,6 +126,9 @@ fn a_planar_loop_of_spatial_hinges() {
     assert_eq!((report.equations, report.degrees_of_freedom), (17, 1));
     assert_eq!(report.redundant.len(), 3);
     assert_eq!(rows(&report), [(0, 5), (5, 5), (10, 5), (15, 2)]);
+    for joint in report.joints {
+        assert_eq!(joint.undetermined, [2, 3, 4], "{}", joint.name);
+    }
     let model = FourBar::default();
     let left = FourBar::HANDLES.left;
     let mut reference = Reference::default();

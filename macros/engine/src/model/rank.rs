@@ -67,6 +67,9 @@ pub struct Independence {
     pub rank: Rank,
     /// The equations that can go so that the others are independent and say the same.
     pub redundant: Vec<RedundantRow>,
+    /// The equations, by joint and place and in order, whose multipliers are not unique, because redundant ones follow from them or are redundant
+    /// themselves.
+    pub undetermined: Vec<(usize, usize)>,
     /// The equations that no motion satisfies together with the others. If there are any, redundant ones are not looked for.
     pub contradictions: Vec<Contradiction>,
     /// The equations, by joint and place, that are violated in the reference configuration where their gradients vanish, if nothing near

@@ -28,6 +28,8 @@ mod sparse;
 pub mod specimen;
 mod tour;
 
+use std::collections::BTreeSet;
+
 use self::contradiction::Contradicted;
 use self::motion::{Configuration, Constraints};
 use self::normal::Normal;
@@ -111,6 +113,7 @@ pub fn judge(model: &Model) -> Independence {
         rank,
         at_start,
         first_regular,
+        last_regular,
         mut kept,
     } = found;
     let mut against = Vec::new();
@@ -160,8 +163,12 @@ pub fn judge(model: &Model) -> Independence {
     let layout = model.layout();
     let is_alone = configurations.len() == 1 && rank < layout.rows.min(layout.velocities);
     let dormant = dormant(&constraints, &directions).into_iter();
+    let redundant = redundant(model, &kept, &directions[first_regular]);
+    // The reference configuration may hide what the last one shows.
+    let regular = [first_regular, last_regular].map(|k| &directions[k]);
     Independence {
-        redundant: redundant(model, &kept, &directions[first_regular]),
+        undetermined: undetermined(model, &kept, regular),
+        redundant,
         dormant: dormant.map(|row| place_of(&layout, row)).collect(),
         by_chance: by_chance
             .into_iter()
@@ -184,6 +191,8 @@ struct Found {
     at_start: usize,
     /// The first configuration of the largest rank.
     first_regular: usize,
+    /// The last one.
+    last_regular: usize,
     /// As many rows, independent at all configurations of that rank if there are such.
     kept: Vec<usize>,
 }
@@ -214,6 +223,7 @@ impl Found {
             directions,
             rank,
             first_regular,
+            last_regular: *regular.last()?,
             kept,
         })
     }
@@ -302,11 +312,10 @@ fn contradictions(
     found.collect()
 }
 
-/// The rows that are not kept, and the joints whose rows they follow from.
-fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
+/// The rows that are not kept, each with the kept ones that it follows from.
+fn followers(layout: &Layout, kept: &[usize], rows: &Rows) -> Vec<(usize, Vec<usize>)> {
     // Shares of a row in another below this are round-off.
     const SHARE: f64 = 1e-6;
-    let layout = model.layout();
     let basis: Rows = kept.iter().map(|&row| rows[row].clone()).collect();
     let normal = Normal::new(&basis, 0.0);
     (0..layout.rows)
@@ -314,13 +323,35 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
         .map(|row| {
             let shares = normal.as_ref();
             let shares = shares.map(|normal| normal.solve(&normal.products(&rows[row])));
-            let shares = shares.unwrap_or_default();
-            let mut follows_from: Vec<usize> = kept
-                .iter()
-                .zip(shares)
-                .filter(|(_, share)| share.abs() > SHARE)
-                .map(|(&other, _)| joint_of(&layout, other))
-                .collect();
+            let shares = kept.iter().zip(shares.unwrap_or_default());
+            let others = shares.filter(|(_, share)| share.abs() > SHARE);
+            (row, others.map(|(&other, _)| other).collect())
+        })
+        .collect()
+}
+
+/// The equations whose multipliers are not unique, whatever configuration tells so.
+fn undetermined(model: &Model, kept: &[usize], configurations: [&Rows; 2]) -> Vec<(usize, usize)> {
+    let layout = model.layout();
+    let found: BTreeSet<usize> = configurations
+        .into_iter()
+        .flat_map(|rows| followers(&layout, kept, rows))
+        .flat_map(|(row, others)| others.into_iter().chain([row]))
+        .collect();
+    found
+        .into_iter()
+        .map(|row| place_of(&layout, row))
+        .collect()
+}
+
+/// The rows that are not kept, and the joints whose rows they follow from.
+fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
+    let layout = model.layout();
+    let followers = followers(&layout, kept, rows).into_iter();
+    followers
+        .map(|(row, others)| {
+            let others = others.into_iter().map(|other| joint_of(&layout, other));
+            let mut follows_from: Vec<usize> = others.collect();
             follows_from.dedup();
             let (joint, row) = place_of(&layout, row);
             RedundantRow {
