@@ -14,6 +14,7 @@ use crate::rotation::{
     with_unit_orientations, write,
 };
 use crate::scalar::Real;
+use crate::start::farthest;
 use crate::view::square;
 
 /// A row may change by so much of what its terms would make of it, if a motion is one that the joint leaves free.
@@ -296,22 +297,44 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         let mut state = self.state;
         *state.velocities_mut() = Array::zeros();
         self.add_to(&mut state, twist);
+        let velocities = state.velocities().as_slice();
         let jacobian = M::jacobian(self.constants, S::zero(), &self.state);
+        let arm = self.round_off_of_arms();
         let (first, rows) = (self.info.row, self.info.rows);
         (first..first + rows).all(|row| {
             let (mut sum, mut size) = (S::zero(), S::zero());
             let own = |block: &&Block| (block.row..block.row + block.rows).contains(&row);
             for block in M::REPORT.blocks.iter().filter(own) {
                 let start = block.offset + (row - block.row) * block.columns;
-                let entries = jacobian.as_slice().iter().skip(start).take(block.columns);
-                let velocities = state.velocities().as_slice().iter().skip(block.column);
-                for (&entry, &velocity) in entries.zip(velocities) {
-                    sum = entry.fused(velocity, sum);
-                    size = size + (entry * velocity).abs();
-                }
+                let part = |slice: &[S], place: usize, is_there: bool| -> [S; 3] {
+                    if is_there {
+                        read(slice, place)
+                    } else {
+                        [S::zero(); 3]
+                    }
+                };
+                let turns = block.columns > 3;
+                let force = part(jacobian.as_slice(), start, true);
+                let moment = part(jacobian.as_slice(), start + 3, turns);
+                let slide = part(velocities, block.column, true);
+                let turn = part(velocities, block.column + 3, turns);
+                sum = sum + dot(&force, &slide) + dot(&moment, &turn);
+                let [force, moment, slide, turn] =
+                    [force, moment, slide, turn].map(|vector| square(&vector).sqrt());
+                size = size + force * (slide + arm * turn) + moment * turn;
             }
             sum.abs() <= S::constant(FREE) * size
         })
+    }
+
+    /// What arms lose by round-off, generously: a row may take a motion that far from the joint for one that it forbids.
+    fn round_off_of_arms(&self) -> S {
+        let places = 0..self.info.bodies.len();
+        let points = places.map(|place| M::joint_point(self.constants, self.joint, place));
+        let arms = points.map(|point| square(&point).sqrt());
+        let positions = self.state.coordinates().as_slice();
+        let extent = arms.fold(farthest(M::REPORT.bodies, positions), S::max);
+        S::EPSILON.sqrt() * extent
     }
 
     /// The angle with the turns that an element between the same bodies counts, from the angle without; `None` where none does.
@@ -505,4 +528,9 @@ fn plus<S: Real>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     let [a1, a2, a3] = *a;
     let [b1, b2, b3] = *b;
     [a1 + b1, a2 + b2, a3 + b3]
+}
+
+fn dot<S: Real>(a: &[S; 3], b: &[S; 3]) -> S {
+    let pairs = a.iter().zip(b);
+    pairs.fold(S::zero(), |sum, (&a, &b)| a.fused(b, sum))
 }

@@ -172,7 +172,7 @@ where
 impl<'a, S, M, F, I, A> Simulation<'a, S, M, F, I, Normalised, A>
 where
     S: Real,
-    M: JointCoordinates,
+    M: Mechanism,
     F: Formulation<S>,
     I: Integrator<S>,
 {
@@ -184,7 +184,10 @@ where
     /// States go in and come out as those of the bodies; reports, reactions, projection (of the joints that close loops) and watch are the same. The watch
     /// evaluates the equations of the bodies once a step, which takes more time than the step itself: see [`Simulation::unwatched`].
     #[must_use]
-    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, A, Joints> {
+    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, A, Joints>
+    where
+        M: JointCoordinates,
+    {
         self.exchange(|forces| forces)
     }
 }

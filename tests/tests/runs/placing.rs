@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use holonom::joints::{Cylindrical, Prismatic, Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{Array, BodyHandle, View};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -271,4 +272,88 @@ fn what_closes_a_loop_is_not_set() {
     println!("assembled at {first} and {shaft} rad");
     assert!(first > 0.0 && first < 0.3, "{first}");
     assert!((shaft + 2.0 * first).abs() < 1e-12, "{shaft}");
+}
+
+/// Nothing lies along anything: what vanishes in the rows of the joints does so to round-off only.
+#[derive(Mechanism)]
+struct Askew {
+    #[body(
+        mass = 0.8,
+        inertia = [[0.02, 0.003, 0.001], [0.003, 0.03, -0.002], [0.001, -0.002, 0.025]],
+        position = [0.0, 0.5, 0.0],
+        orientation = rotation([1.0, 0.0, 1.0], 0.4)
+    )]
+    first: Body,
+    #[body(
+        mass = 1.5,
+        inertia = [[0.02, 1e-8, 0.0], [1e-8, 0.03, 0.0], [0.0, 0.0, 0.025]],
+        position = [0.0, 1.5, 0.0]
+    )]
+    second: Body,
+    #[body(mass = 1.5, inertia = [0.02, 0.03, 0.025], position = [0.0, 2.5, 0.0], orientation = rotation([0.0, 0.0, 1.0], 0.3))]
+    third: Body,
+    #[body(mass = 1.5, inertia = [0.02, 0.03, 0.025], position = [0.0, 3.5, 0.0])]
+    fourth: Body,
+    #[body(mass = 1.0, inertia = [0.02, 0.03, 0.025], position = [0.0, 4.5, 0.0], orientation = rotation([1.0, 2.0, 3.0], 1.0))]
+    fifth: Body,
+    #[joint(between = [ground, first], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    sleeve: Cylindrical,
+    #[joint(between = [first, second], point = [0.0, 1.0, 0.0], axis = [1.0, 1.0, 0.0])]
+    slide: Prismatic,
+    #[joint(between = [second, third], point = [0.0, 2.0, 0.0])]
+    ball: Spherical,
+    #[joint(between = [fourth, third], point = [0.0, 3.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    hinge: Revolute,
+    #[joint(between = [fourth, fifth], point = [0.0, 4.0, 0.0], axis = [1.0, 0.2, 0.3])]
+    other: Revolute,
+}
+
+#[test]
+fn what_lies_askew_is_set_like_anything_else() {
+    let askew = Askew::default();
+    let constants = askew.constants::<f64>().expect("literal");
+    let handles = Askew::HANDLES;
+    let mut state = askew.described_state::<f64>().expect("closed");
+    for round in 0..8 {
+        let value = 0.3 + 0.4 * f64::from(round);
+        askew
+            .set_displacement(&mut state, handles.sleeve, -value)
+            .expect("free");
+        askew
+            .set_angle(&mut state, handles.sleeve, value)
+            .expect("free");
+        askew
+            .set_displacement(&mut state, handles.slide, value)
+            .expect("free");
+        askew
+            .set_displacement_rate(&mut state, handles.slide, -value)
+            .expect("free");
+        let orientation = *UnitQuaternion::from_euler_angles(value, 0.2, -value).quaternion();
+        askew
+            .set_relative_orientation(&mut state, handles.ball, orientation)
+            .expect("free");
+        askew
+            .set_angle(&mut state, handles.hinge, -0.4 * value)
+            .expect("free");
+        askew
+            .set_angle_rate(&mut state, handles.hinge, value)
+            .expect("free");
+        askew
+            .set_angle(&mut state, handles.other, 0.5 * value)
+            .expect("free");
+        askew
+            .set_angle_rate(&mut state, handles.other, -value)
+            .expect("free");
+        let view = View::<f64, Askew>::new(&constants, 0.0, &state);
+        closed(&view);
+        let near =
+            |read: f64, set: f64| assert!((read - set).sin().abs() < 1e-13, "{read} for {set}");
+        near(view.displacement(handles.sleeve), -value);
+        near(view.angle(handles.sleeve), value);
+        near(view.displacement(handles.slide), value);
+        near(view.angle(handles.hinge), -0.4 * value);
+        near(view.angle_rate(handles.hinge), value);
+        near(view.angle(handles.other), 0.5 * value);
+        near(view.angle_rate(handles.other), -value);
+    }
 }

@@ -214,8 +214,10 @@ impl Reader<'_, '_> {
         };
         let norm = values.iter().map(|e| e * e).sum::<f64>().sqrt();
         if norm == 0.0 {
-            self.faults
-                .at(expr, "Euler parameters are of unit length; these are zero");
+            self.faults.at(
+                expr,
+                "Euler parameters may be of any length but zero; these are zero",
+            );
             return None;
         }
         Some(values.map(|e| Number::Literal(e / norm)))

@@ -4,9 +4,9 @@ use std::cell::Cell;
 
 use proc_macro2::Ident;
 use quote::ToTokens;
-use syn::{BinOp, Expr, Lit, Member, UnOp};
+use syn::{BinOp, Expr, Member, UnOp};
 
-use super::number::in_range;
+use super::number::{in_range, literal};
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{ElementKind, Extent, Function, Parameter, ParameterKind, Term};
 use crate::syntax::ungroup;
@@ -176,15 +176,10 @@ impl Context<'_> {
 
     fn any(&self, expr: &Expr, faults: &mut Faults) -> Option<Shaped> {
         match ungroup(expr) {
-            Expr::Lit(literal) => match &literal.lit {
-                Lit::Float(f) => faults.accept(f.base10_parse()),
-                Lit::Int(i) => faults.accept(i.base10_parse()),
-                other => {
-                    faults.at(other, "expected a number");
-                    None
-                }
+            Expr::Lit(found) => {
+                let value = faults.accept(literal(&found.lit))?;
+                Some(Shaped::scalar(Term::Number(value)))
             }
-            .map(|value| Shaped::scalar(Term::Number(value))),
             Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
                 let inner = self.expression(&unary.expr, faults)?;
                 let terms = inner

@@ -214,9 +214,10 @@ impl<'a> Numbers<'a> {
 
     fn value(&mut self, expr: &Expr, faults: &mut Faults) -> Option<Value> {
         match ungroup(expr) {
-            Expr::Lit(literal) => match &literal.lit {
-                Lit::Float(float) => faults.accept(float.base10_parse()).map(Value::Literal),
-                Lit::Int(int) => faults.accept(int.base10_parse::<f64>()).map(Value::Literal),
+            Expr::Lit(found) => match &found.lit {
+                Lit::Float(_) | Lit::Int(_) => {
+                    faults.accept(literal(&found.lit)).map(Value::Literal)
+                }
                 _ => self.refuse(expr, faults),
             },
             Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
@@ -433,6 +434,28 @@ impl<'a> Numbers<'a> {
         );
         None
     }
+}
+
+/// A number as it is written.
+///
+/// # Errors
+/// A sentence at what is no number, and at one with a unit behind it, which would count for nothing.
+pub fn literal(lit: &Lit) -> syn::Result<f64> {
+    let (suffix, value) = match lit {
+        Lit::Float(float) => (float.suffix(), float.base10_parse()),
+        Lit::Int(int) => (int.suffix(), int.base10_parse()),
+        other => return Err(syn::Error::new_spanned(other, "expected a number")),
+    };
+    if matches!(suffix, "" | "f64") {
+        return value;
+    }
+    let found = code(lit);
+    Err(syn::Error::new_spanned(
+        lit,
+        format!(
+            "`{found}` ends in `{suffix}`; a number stands alone, in m, kg, s and rad (degrees are `deg(30.0)`)"
+        ),
+    ))
 }
 
 /// Whether numbers of an attribute must be positive.

@@ -14,7 +14,7 @@ pub fn integer(expr: &Expr) -> syn::Result<i64> {
         Expr::Lit(ExprLit {
             lit: Lit::Int(literal),
             ..
-        }) => Some(literal.base10_parse()?),
+        }) if matches!(literal.suffix(), "" | "usize") => Some(literal.base10_parse()?),
         Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
             integer(&unary.expr)?.checked_neg()
         }

@@ -62,6 +62,13 @@ struct Numbers {
     bead: Particle,
 }
 
+/// A unit behind a number would count for nothing.
+#[derive(Mechanism)]
+struct Units {
+    #[body(mass = 2000g, inertia = [0.1f64, 0.1f32, 1_kg], position = [0.0, 500mm, 0.0], orientation = rotation([1.0, 0.0, 0.0], 30deg), free)]
+    rod: Body,
+}
+
 const J: f64 = 1.0;
 
 fn main() {}

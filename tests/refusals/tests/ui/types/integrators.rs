@@ -1,4 +1,4 @@
-//! A run takes a method with its steps, a stepper one without.
+//! A run takes a method with its steps, a stepper one without; joint coordinates are asked for at the mechanism.
 
 use holonom::DormandPrince5;
 use holonom::prelude::*;
@@ -15,4 +15,5 @@ fn main() {
     let _ = Simulation::new(&model, StandardLagrange, DormandPrince5);
     let _ = Stepper::new(&model, StandardLagrange, Rk4::every(0.01));
     let _ = Stepper::new(&model, StandardLagrange, DormandPrince::new(Tolerance { relative: 1e-6, absolute: 1e-9 }));
+    let _ = Simulation::new(&model, StandardLagrange, Rk4::every(0.01)).joint_coordinates();
 }
