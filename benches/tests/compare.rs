@@ -62,7 +62,7 @@ fn every_right_hand_side_has_its_numbers() {
         for text in ["scene", "coordinates", "formulation", "scalar", "build"] {
             assert!(object[text].is_string(), "{text}");
         }
-        for count in ["n", "operations", "path"] {
+        for count in ["n", "operations", "stage_operations", "path"] {
             assert!(object[count].as_u64().unwrap() > 0, "{count}");
         }
         for time in [
@@ -112,6 +112,8 @@ fn counts_are_those_of_the_reports() {
         let reported = kernels.filter(|kernel| kernel.name == "evaluate penalty");
         let reported: Vec<_> = reported.map(|kernel| kernel.operations.total()).collect();
         assert_eq!(reported, [row.operations]);
+        let row = self::row(&rows, ["four-bar", "joints", "standard", scalar]);
+        assert!(row.stage_operations < row.operations, "{row:?}");
     }
     // Several solutions of one factorisation, two at least.
     let iterated = row(&rows, ["pendulum", "bodies", "augmented-lagrangian", "f64"]);

@@ -67,6 +67,19 @@ pub trait JointCoordinates: Mechanism {
         multipliers: &mut Self::ClosingMultipliers<S>,
     ) -> Pivot<S>;
 
+    /// The slope of the state alone, with the same pivot: what only the multipliers need is not computed.
+    #[inline(always)]
+    fn joint_rates_into<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        time: S,
+        state: &Self::JointState<S>,
+        rates: &mut Self::JointState<S>,
+    ) -> Pivot<S> {
+        let multipliers = &mut Array::zeros();
+        Self::evaluate_joints_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
+    }
+
     /// Factorises the matrix of the equations of motion; with compliance where `T::COMPLIANT`. Its pivots are those of the evaluation of the same `T`.
     fn factor_joints<S: Scalar, T: Terms>(
         constants: &Self::JointConstants<S>,
@@ -171,7 +184,7 @@ pub struct JointReport {
     pub motions: &'static [JointMotion],
     /// The joint of each equation that remains.
     pub closing: &'static [&'static str],
-    /// What the evaluations cost; one alone where no equation remains.
+    /// What the evaluations cost, and `rates ..` without the multipliers, which is what a step takes; one alone where no equation remains.
     pub kernels: &'static [Kernel],
     /// The places of Euler parameters among the further coordinates.
     pub euler_parameters: &'static [usize],

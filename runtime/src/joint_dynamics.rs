@@ -226,6 +226,22 @@ where
     /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation may iterate.
     const IN_PARTS: bool = A::PRESENT || F::ITERATED;
 
+    /// The kernel of a step: without multipliers, unless it goes on from them.
+    #[inline(always)]
+    fn slope(
+        &self,
+        time: S,
+        state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+        multipliers: &mut M::ClosingMultipliers<S>,
+    ) -> Pivot<S> {
+        if Self::IN_PARTS {
+            return self.straight(time, state, rates, multipliers);
+        }
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        M::joint_rates_into::<S, F::Terms>(constants, coefficients, time, state, rates)
+    }
+
     /// Adds applied forces to what an evaluation gives, and lets the formulation iterate; returns how often the system was solved.
     #[inline(never)]
     fn completed(
@@ -356,11 +372,25 @@ where
         }
     }
 
+    /// Why a stage is not sound, of which a fault of the formulation may be known.
+    #[cold]
+    #[inline(never)]
+    fn refused(&self, time: S, state: &M::JointState<S>, known: Option<Fault>) -> Fault {
+        let mut rates = M::JointState::<S>::zeros();
+        let mut multipliers = M::ClosingMultipliers::<S>::zeros();
+        let pivot = self.slope(time, state, &mut rates, &mut multipliers);
+        let is_sound = rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative);
+        match known {
+            Some(fault) if is_sound && !matches!(fault, Fault::RatesNotFinite { .. }) => fault,
+            _ => self.fault(time, state, &pivot),
+        }
+    }
+
     /// The first body with a motion whose rate is not finite.
     fn first_of_rates(&self, time: S, state: &M::JointState<S>) -> NotFinite {
         let mut rates = M::JointState::<S>::zeros();
         let mut multipliers = M::ClosingMultipliers::<S>::zeros();
-        self.straight(time, state, &mut rates, &mut multipliers);
+        self.slope(time, state, &mut rates, &mut multipliers);
         let mut left = rates.rates_slice().iter();
         let motion = M::JOINT_REPORT.motions.iter().find(|motion| {
             let count = match motion.freedom {
@@ -388,9 +418,7 @@ where
         let mut rates = M::JointState::<S>::zeros();
         match self.stage(time, state, &mut rates) {
             Ok(()) if rates.is_finite() => Ok(rates),
-            _ => self
-                .evaluate(time, state)
-                .map(|evaluation| evaluation.rates),
+            outcome => Err(self.refused(time, state, outcome.err())),
         }
     }
 
@@ -402,7 +430,7 @@ where
         rates: &mut M::JointState<S>,
     ) -> Result<(), Fault> {
         let mut multipliers = Array::zeros();
-        let pivot = self.straight(time, state, rates, &mut multipliers);
+        let pivot = self.slope(time, state, rates, &mut multipliers);
         if vanishes::<S, F::Terms>(pivot.relative) {
             // Why is asked when the step is refused.
             return Err(Fault::StateNotFinite);

@@ -451,6 +451,35 @@ fn single_precision_in_both_descriptions() {
     }
 }
 
+/// What a stage takes is what an evaluation gives, which has the multipliers besides.
+fn stages<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulation: F, step: f64) {
+    use holonom::System;
+    let mut dynamics = JointDynamics::<f64, _, _>::new(mechanism, formulation).expect("acceptable");
+    let mut state = dynamics.initial_state().expect("consistent");
+    for number in 0..50 {
+        let time = step * f64::from(number);
+        let evaluation = dynamics.evaluate(time, &state).expect("regular");
+        let rates = dynamics.rates(time, &state).expect("regular");
+        assert_eq!(rates, evaluation.rates);
+        let multipliers = evaluation.multipliers.as_slice();
+        assert!(!multipliers.is_empty() && multipliers.iter().any(|x| x.abs() > 1e-6));
+        Rk4.step(&mut dynamics, time, &mut state, step)
+            .expect("regular");
+    }
+}
+
+#[test]
+fn a_stage_computes_what_an_evaluation_does() {
+    let bars = FourBar::default();
+    stages(&bars, StandardLagrange, 2e-3);
+    stages(&bars, Baumgarte::default(), 2e-3);
+    stages(&bars, Penalty::default(), 2e-3);
+    stages(&bars, AugmentedLagrangian::default(), 2e-3);
+    let linkage = holonom_models::SqueezingMechanism::default();
+    stages(&linkage, StandardLagrange, 1e-5);
+    stages(&linkage, Baumgarte::default(), 1e-5);
+}
+
 /// Both descriptions step on from where the other one is.
 #[test]
 fn descriptions_take_turns() {

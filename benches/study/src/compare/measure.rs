@@ -182,6 +182,8 @@ pub struct Case {
     pub precision: Precision,
     /// The operations of a whole evaluation, multipliers of the remaining equations included; their `depth` is the longest path.
     pub operations: Operations,
+    /// Those of a stage of a step, which asks for no multipliers in joint coordinates.
+    pub stage: Operations,
     /// What can be timed.
     pub contestants: Contestants,
 }
@@ -279,16 +281,20 @@ impl Scene {
                 Some(operations) => operations,
                 None => counted_by_bodies::<M>(method, &self.states)?,
             };
-            Ok((operations, contestants(bodies, start, step)?))
+            Ok(([operations; 2], contestants(bodies, start, step)?))
         });
         self.take(which, Coordinates::Bodies, method, bodies);
         let joints = Joints::<S, M, F>::new(formulation).and_then(|joints| {
             let start = joints.dynamics.initial_state()?;
-            let operations = match reported(M::JOINT_REPORT.kernels, method) {
+            let kernels = M::JOINT_REPORT.kernels;
+            let operations = match reported(kernels, method) {
                 Some(operations) => operations,
                 None => iterated_by_joints::<M>(&self.states)?,
             };
-            Ok((operations, contestants(joints, start, step)?))
+            let rates = format!("rates {}", method.key());
+            let stage = kernels.iter().find(|kernel| kernel.name == rates);
+            let stage = stage.map_or(operations, |kernel| kernel.operations);
+            Ok(([operations, stage], contestants(joints, start, step)?))
         });
         self.take(which, Coordinates::Joints, method, joints);
     }
@@ -298,16 +304,17 @@ impl Scene {
         (scene, n, precision): (&'static str, usize, Precision),
         coordinates: Coordinates,
         method: Method,
-        outcome: Result<(Operations, Contestants), Fault>,
+        outcome: Result<([Operations; 2], Contestants), Fault>,
     ) {
         match outcome {
-            Ok((operations, contestants)) => self.cases.push(Case {
+            Ok(([operations, stage], contestants)) => self.cases.push(Case {
                 scene,
                 n,
                 coordinates,
                 method,
                 precision,
                 operations,
+                stage,
                 contestants,
             }),
             Err(fault) => self.refused.push(Refused {

@@ -24,6 +24,8 @@ pub struct Row {
     pub operations: usize,
     /// The longest chain of dependent operations among them.
     pub path: usize,
+    /// Operations of a stage of a step, which asks for no multipliers in joint coordinates.
+    pub stage_operations: usize,
     /// An evaluation through the public interface, at states that do not depend on each other.
     pub nanoseconds_throughput: f64,
     /// The same at states that the evaluation before has a part in.

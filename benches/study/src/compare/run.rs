@@ -54,6 +54,7 @@ pub fn run(
         method: Method::Standard,
         precision: Precision::Double,
         operations: yardstick.operations,
+        stage: yardstick.operations,
         contestants: yardstick.contestants,
     };
     let cases = scenes.into_iter().flat_map(|scene| scene.cases);
@@ -97,6 +98,7 @@ pub fn run(
             scalar: entry.precision.key().into(),
             operations: entry.operations.total(),
             path: entry.operations.depth,
+            stage_operations: entry.stage.total(),
             nanoseconds_throughput: throughput,
             nanoseconds_dependent: dependent,
             rk4_step_nanoseconds: step,
@@ -117,6 +119,7 @@ struct Entry {
     method: Method,
     precision: Precision,
     operations: Operations,
+    stage: Operations,
     /// Where throughput, dependent evaluations and steps stand among the contestants.
     places: [usize; 3],
     kernel: Option<usize>,
@@ -144,6 +147,7 @@ impl Entry {
             method: case.method,
             precision: case.precision,
             operations: case.operations,
+            stage: case.stage,
             kernel,
         }
     }

@@ -72,6 +72,7 @@ pub fn cost(rows: &[Row], method: Method) -> Table {
         vec![
             name(row),
             row.operations.to_string(),
+            row.stage_operations.to_string(),
             row.path.to_string(),
             time(row.nanoseconds_throughput),
             ratio(row.yardsticks),
@@ -83,7 +84,7 @@ pub fn cost(rows: &[Row], method: Method) -> Table {
     let lines = chosen(rows, method, Precision::Double).map(line);
     let note = match method {
         Method::Standard => {
-            "Time: of evaluations that do not depend on each other; waiting: of evaluations that do; step: of Runge-Kutta, four evaluations. Operations of the whole right-hand side, multipliers of the remaining equations included; a fused multiply-add is two. The path is the longest chain \
+            "Time: of evaluations that do not depend on each other; waiting: of evaluations that do; step: of Runge-Kutta, four evaluations. Operations of the whole right-hand side, multipliers of the remaining equations included; a stage of a step does without these in joint coordinates. A fused multiply-add is two. The path is the longest chain \
              of dependent operations. The assembler is that of the mechanism by its bodies, in its cheapest form; it computes in f64 alone."
         }
         Method::AugmentedLagrangian => {
@@ -96,6 +97,7 @@ pub fn cost(rows: &[Row], method: Method) -> Table {
         columns: columns(&[
             "",
             "operations",
+            "in a stage",
             "path",
             "time (ns)",
             "in T",

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::parts::{Frame, write_in_parts};
-use super::report::{evaluation_name, kernel};
+use super::report::{evaluation_name, kernel, terms_name};
 use super::rows::{WIDTH, array, pack};
 use super::solution::{inline, name, verdict};
 use super::store::{BackSubstitution, Store, load_input};
@@ -219,9 +219,18 @@ impl Writer<'_> {
         let inline = inline(&evaluation.kernel.arena, &evaluation.kernel.outputs);
         let unpack = Self::unpack();
         let (rates, forces) = (local("rates"), local("multipliers"));
+        let (generic, wanted) = if multipliers.is_empty() {
+            (TokenStream::new(), TokenStream::new())
+        } else {
+            // What they alone need is then left out by the compiler.
+            (
+                quote!(, const __MULTIPLIERS: bool),
+                quote!(if __MULTIPLIERS),
+            )
+        };
         quote! {
             #inline
-            fn #function<__S: #facade::Scalar>(
+            fn #function<__S: #facade::Scalar #generic>(
                 #arguments
                 #rates: &mut <#model as #facade::JointCoordinates>::JointState<__S>,
                 #forces: &mut <#model as #facade::JointCoordinates>::ClosingMultipliers<__S>,
@@ -233,7 +242,9 @@ impl Writer<'_> {
                     [#(#coordinates),*],
                     [#(#velocities),*],
                 );
-                *#forces = [#(#multipliers),*];
+                #wanted {
+                    *#forces = [#(#multipliers),*];
+                }
                 #pivot
             }
         }
@@ -252,18 +263,41 @@ impl Writer<'_> {
         let [constants, coefficients, time, state, rates, multipliers] = names.map(local);
         let passed = quote!(#constants, #coefficients, #time, #state, #rates, #multipliers);
         let [plain, stabilised, compliant] = Terms::ALL.map(function);
-        let body = if self.kernels.rows.is_empty() {
-            quote!(#plain(#passed))
-        } else {
+        let has_rows = !self.kernels.rows.is_empty();
+        let choice = |wanted: bool| {
             quote! {
                 match (__T::STABILISED, __T::COMPLIANT) {
-                    (_, true) => #compliant(#passed),
-                    (true, false) => #stabilised(#passed),
-                    (false, false) => #plain(#passed),
+                    (_, true) => #compliant::<__S, #wanted>(#passed),
+                    (true, false) => #stabilised::<__S, #wanted>(#passed),
+                    (false, false) => #plain::<__S, #wanted>(#passed),
                 }
             }
         };
+        let body = if has_rows {
+            choice(true)
+        } else {
+            quote!(#plain(#passed))
+        };
+        let rates_alone = has_rows.then(|| {
+            let body = choice(false);
+            let rows = self.kernels.rows.len();
+            quote! {
+                #[inline(always)]
+                fn joint_rates_into<__S: #facade::Scalar, __T: #facade::Terms>(
+                    #constants: &Self::JointConstants<__S>,
+                    #coefficients: &Self::JointCoefficients<__S>,
+                    #time: __S,
+                    #state: &Self::JointState<__S>,
+                    #rates: &mut Self::JointState<__S>,
+                ) -> #facade::Pivot<__S> {
+                    let #multipliers = &mut [__S::constant(0.0); #rows];
+                    #body
+                }
+            }
+        });
         quote! {
+            #rates_alone
+
             #[inline(always)]
             fn evaluate_joints_into<__S: #facade::Scalar, __T: #facade::Terms>(
                 #constants: &Self::JointConstants<__S>,
@@ -518,13 +552,24 @@ impl Writer<'_> {
         quote!(#[doc = #text])
     }
 
-    /// Name and cost of each evaluation.
-    fn counts(&self) -> impl Iterator<Item = (String, Count)> + '_ {
-        self.kernels.evaluations.iter().map(|evaluation| {
+    /// Name and cost of each evaluation, and then of each without multipliers, if there are any.
+    fn counts(&self) -> Vec<(String, Count)> {
+        let kernels = self.kernels;
+        let rates = kernels.turns + kernels.rest + kernels.velocities;
+        let rows = kernels.rows.len();
+        let evaluations = kernels.evaluations.iter().map(|evaluation| {
             let Kernel { arena, outputs } = &evaluation.kernel;
             let name = evaluation_name(evaluation.terms, Normalisation::Raw);
             (name, count(arena, outputs, Stage::State))
-        })
+        });
+        let with_rows = kernels.evaluations.iter().filter(|_| rows > 0);
+        let alone = with_rows.map(|evaluation| {
+            let Kernel { arena, outputs } = &evaluation.kernel;
+            let needed = [&outputs[..rates], &outputs[rates + rows..]].concat();
+            let name = format!("rates {}", terms_name(evaluation.terms));
+            (name, count(arena, &needed, Stage::State))
+        });
+        evaluations.chain(alone).collect()
     }
 
     fn report(&self) -> TokenStream {
@@ -546,9 +591,8 @@ impl Writer<'_> {
             }
         });
         let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
-        let counts = self
-            .counts()
-            .map(|(name, count)| kernel(&name, count, facade));
+        let counts = self.counts().into_iter();
+        let counts = counts.map(|(name, count)| kernel(&name, count, facade));
         let balls = &kernels.balls;
         let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
         quote! {

@@ -58,14 +58,19 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
 /// The name of an evaluation in the report.
 #[must_use]
 pub fn evaluation_name(terms: Terms, normalisation: Normalisation) -> String {
-    let terms = match terms {
-        Terms::Plain => "standard",
-        Terms::Stabilised => "baumgarte",
-        Terms::Compliant => "penalty",
-    };
+    let terms = terms_name(terms);
     match normalisation {
         Normalisation::Raw => format!("evaluate {terms}"),
         Normalisation::Normalised => format!("evaluate {terms}, normalised"),
+    }
+}
+
+/// The first formulation that has these terms.
+pub(super) const fn terms_name(terms: Terms) -> &'static str {
+    match terms {
+        Terms::Plain => "standard",
+        Terms::Stabilised => "baumgarte",
+        Terms::Compliant => "penalty",
     }
 }
 
