@@ -48,6 +48,7 @@ mod integrate;
 mod joint_coordinates;
 mod joint_dynamics;
 mod joint_state;
+mod joint_stepper;
 mod kinematics;
 mod load;
 mod mechanism;
@@ -200,6 +201,7 @@ pub use joint_coordinates::{
 };
 pub use joint_dynamics::JointDynamics;
 pub use joint_state::JointState;
+pub use joint_stepper::JointStepper;
 pub use kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
 pub use mechanism::{

@@ -149,13 +149,7 @@ where
     /// Why the step could not be done. State and time are then as before.
     pub fn step(&mut self, state: &mut M::State<S>, dt: S) -> Result<(), Fault> {
         let time = self.time();
-        if positive("step", dt)? < time.ulp() && M::REPORT.time.is_anywhere() {
-            return Err(Fault::StepTooShort {
-                step: dt.to_f64(),
-                time: time.to_f64(),
-            });
-        }
-        let clock = self.clock.after(dt);
+        let clock = end_of_step::<S, M>(&self.clock, dt)?;
         check_state::<S, M>(state)?;
         let mut next = *state;
         self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
@@ -167,4 +161,19 @@ where
         self.clock = clock;
         Ok(())
     }
+}
+
+/// The clock after a step, if that is one.
+pub(crate) fn end_of_step<S: Real, M: Mechanism>(
+    clock: &Clock<S>,
+    dt: S,
+) -> Result<Clock<S>, Fault> {
+    let time = clock.time();
+    if positive("step", dt)? < time.ulp() && M::REPORT.time.is_anywhere() {
+        return Err(Fault::StepTooShort {
+            step: dt.to_f64(),
+            time: time.to_f64(),
+        });
+    }
+    Ok(clock.after(dt))
 }
