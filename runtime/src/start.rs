@@ -89,7 +89,7 @@ fn add_products<S: Scalar>(blocks: &[Block], jacobian: &[S], velocities: &[S], s
         let entries = jacobian.get(block.offset..).unwrap_or(&[]);
         let of_body = velocities.get(block.column..).unwrap_or(&[]);
         let sums = sums.iter_mut().skip(block.row).take(block.rows);
-        for (sum, row) in sums.zip(entries.chunks_exact(block.columns)) {
+        for (sum, row) in sums.zip(entries.chunks_exact(block.columns.max(1))) {
             for (&entry, &u) in row.iter().zip(of_body) {
                 *sum = entry.fused(u, *sum);
             }

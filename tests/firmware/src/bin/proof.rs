@@ -1,0 +1,93 @@
+//! Everything that a loop of a controller calls, in all formulations and both methods of a fixed step. It links only if nothing of it can panic.
+
+#![no_std]
+#![no_main]
+#![forbid(unsafe_code)]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
+use holonom::prelude::*;
+use holonom::{DormandPrince5, JointStepper, Scalar, Scheme};
+use holonom_firmware::Number;
+use holonom_firmware::trials::{
+    PendulumByBodies, PendulumByJoints, Swing, SwingByBodies, SwingByJoints, Ur5ByJoints, run,
+};
+
+/// Steps and read-outs of a four-bar by its bodies.
+fn by_bodies<F: Formulation<Number>, K: Scheme<Number>>(
+    formulation: F,
+    scheme: K,
+) -> Result<(), Fault> {
+    let plant = Swing::default();
+    let mut stepper = Stepper::new(&plant, formulation, scheme)?;
+    let mut state = plant.described_state()?;
+    for _ in 0..10 {
+        stepper.update(&plant)?;
+        stepper.step(&mut state, Number::constant(1e-3))?;
+    }
+    let view = stepper.view(&state);
+    black_box((
+        view.energy(),
+        view.violation(),
+        view.angle(Swing::HANDLES.foot),
+    ));
+    Ok(())
+}
+
+/// The same by its joints.
+fn by_joints<F: Formulation<Number>, K: Scheme<Number>>(
+    formulation: F,
+    scheme: K,
+) -> Result<(), Fault> {
+    let plant = Swing::default();
+    let mut stepper = JointStepper::<Number, Swing, _, _>::new(&plant, formulation, scheme)?;
+    let mut state = stepper.initial_state()?;
+    for _ in 0..10 {
+        stepper.update(&plant)?;
+        stepper.step(&mut state, Number::constant(1e-3))?;
+    }
+    let bodies = stepper.bodies(&state);
+    let view = stepper.view(&bodies);
+    black_box((
+        view.energy(),
+        view.violation(),
+        view.angle(Swing::HANDLES.foot),
+    ));
+    Ok(())
+}
+
+fn formulations<K: Scheme<Number>>(scheme: K) -> Result<(), Fault> {
+    by_bodies(StandardLagrange, scheme)?;
+    by_bodies(Baumgarte::default(), scheme)?;
+    by_bodies(Penalty::default(), scheme)?;
+    by_bodies(AugmentedLagrangian::default(), scheme)?;
+    by_joints(StandardLagrange, scheme)?;
+    by_joints(Baumgarte::default(), scheme)?;
+    by_joints(Penalty::default(), scheme)?;
+    by_joints(AugmentedLagrangian::default(), scheme)
+}
+
+fn all() -> Result<(), Fault> {
+    formulations(Rk4)?;
+    formulations(DormandPrince5)?;
+    black_box(run::<Number, PendulumByBodies<_>>()?);
+    black_box(run::<Number, PendulumByJoints<_>>()?);
+    black_box(run::<Number, SwingByBodies<_>>()?);
+    black_box(run::<Number, SwingByJoints<_>>()?);
+    black_box(run::<Number, Ur5ByJoints<_>>()?);
+    Ok(())
+}
+
+#[entry]
+fn main() -> ! {
+    debug::exit(if all().is_ok() {
+        EXIT_SUCCESS
+    } else {
+        EXIT_FAILURE
+    });
+    loop {
+        cortex_m::asm::wfi();
+    }
+}

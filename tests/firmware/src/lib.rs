@@ -1,0 +1,100 @@
+//! Mechanisms at 1 kHz on a Cortex-M: what they take is counted, and what they compute is checked against the host.
+
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(not(feature = "explain"))]
+use panic_never as _;
+#[cfg(feature = "explain")]
+use panic_semihosting as _;
+
+pub mod reference;
+pub mod trials;
+
+use core::hint::black_box;
+
+use cortex_m::peripheral::SYST;
+use cortex_m::peripheral::syst::SystClkSource;
+use cortex_m_semihosting::hprintln;
+use holonom::{Fault, Real};
+
+use trials::Trial;
+
+/// What the firmware computes with.
+#[cfg(feature = "single")]
+pub type Number = f32;
+/// What the firmware computes with.
+#[cfg(not(feature = "single"))]
+pub type Number = f64;
+
+/// Instructions of a tick of the timer, with `-icount shift=0`: an instruction takes 1 ns there, and the boards' clock 40.
+const INSTRUCTIONS_PER_TICK: u32 = 40;
+
+/// How often what is counted is done.
+const REPETITIONS: u32 = 1000;
+
+/// The timer, for [`instructions`].
+pub fn start(mut timer: SYST) {
+    timer.set_clock_source(SystClkSource::Core);
+    timer.set_reload(0x00ff_ffff);
+    timer.clear_current();
+    timer.enable_counter();
+}
+
+/// The instructions of some work, on average.
+fn instructions(mut work: impl FnMut()) -> u32 {
+    let begin = SYST::get_current();
+    for _ in 0..REPETITIONS {
+        work();
+    }
+    let ticks = begin.wrapping_sub(SYST::get_current()) & 0x00ff_ffff;
+    ticks * INSTRUCTIONS_PER_TICK / REPETITIONS
+}
+
+/// How far the readings may be from those of the host in `f64`: of the angle (rad), and of the force relative to its size.
+const TOLERANCE: f64 = if cfg!(feature = "single") {
+    1e-3
+} else {
+    1e-12
+};
+
+/// Runs a trial, and prints what it takes and how far it is from the host: name, type of numbers, instructions of an evaluation and of a step, bytes of stack of a
+/// step, differences. Whether these are small enough.
+///
+/// # Errors
+/// Those of the trial.
+pub fn report<T: Trial<Number>>([angle, force]: [f64; 2]) -> Result<bool, Fault> {
+    let (mut trial, mut state) = T::new()?;
+    let evaluation = instructions(|| {
+        let _ = black_box(trial.evaluate(black_box(&state)));
+    });
+    let mut number = 0;
+    let mut copy = state;
+    let step = instructions(|| {
+        let _ = black_box(trial.tick(&mut copy, number));
+        number += 1;
+    });
+    (trial, state) = T::new()?;
+    let before = cortex_m_stack::current_stack_in_use();
+    cortex_m_stack::repaint_stack();
+    for number in 0..T::PERIODS {
+        trial.tick(&mut state, number)?;
+    }
+    let stack = cortex_m_stack::stack_size() - cortex_m_stack::stack_painted() - before;
+    let [read_angle, read_force] = trial.read(&state)?.map(Real::to_f64);
+    let off = [
+        (read_angle - angle).abs(),
+        ((read_force - force) / force).abs(),
+    ];
+    hprintln!(
+        "{} | {} | {} | {} | {} | {:.1e} | {:.1e}",
+        T::NAME,
+        core::any::type_name::<Number>(),
+        evaluation,
+        step,
+        stack,
+        off[0],
+        off[1]
+    );
+    Ok(off.iter().all(|&off| off < TOLERANCE))
+}

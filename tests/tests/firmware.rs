@@ -1,0 +1,61 @@
+//! What the firmware computes, computed here: the references that it is compared with on a controller (`tests/firmware/run`).
+
+#[allow(unreachable_pub, reason = "the firmware is a crate of its own")]
+#[path = "../firmware/src/reference.rs"]
+mod reference;
+#[allow(
+    dead_code,
+    unreachable_pub,
+    reason = "the firmware counts evaluations, and is a crate of its own"
+)]
+#[path = "../firmware/src/trials.rs"]
+mod trials;
+
+use holonom::Real;
+use reference::{
+    FOUR_BAR_BY_BODIES, FOUR_BAR_BY_JOINTS, PENDULUM_BY_BODIES, PENDULUM_BY_JOINTS, UR5_BY_JOINTS,
+};
+use trials::{
+    PendulumByBodies, PendulumByJoints, SwingByBodies, SwingByJoints, Trial, Ur5ByJoints, run,
+};
+
+/// How far the readings are from the reference: angle (rad), and force relative to its size.
+fn off<S: Real, T: Trial<S>>([angle, force]: [f64; 2]) -> [f64; 2] {
+    let [read_angle, read_force] = run::<S, T>().expect("regular").map(Real::to_f64);
+    let off = [
+        (read_angle - angle).abs(),
+        ((read_force - force) / force).abs(),
+    ];
+    println!("{}: {read_angle:?} {read_force:?}, off by {off:?}", T::NAME);
+    off
+}
+
+fn below([angle, force]: [f64; 2], bound: f64) {
+    assert!(angle < bound && force < bound);
+}
+
+/// Digits differ where a processor fuses multiplications and additions.
+#[test]
+fn references() {
+    below(off::<f64, PendulumByBodies<_>>(PENDULUM_BY_BODIES), 1e-12);
+    below(off::<f64, PendulumByJoints<_>>(PENDULUM_BY_JOINTS), 1e-12);
+    below(off::<f64, SwingByBodies<_>>(FOUR_BAR_BY_BODIES), 1e-12);
+    below(off::<f64, SwingByJoints<_>>(FOUR_BAR_BY_JOINTS), 1e-12);
+    below(off::<f64, Ur5ByJoints<_>>(UR5_BY_JOINTS), 1e-12);
+}
+
+/// Both err by their steps of 1 ms.
+#[test]
+fn bodies_move_like_joints() {
+    below(off::<f64, PendulumByBodies<_>>(PENDULUM_BY_JOINTS), 1e-6);
+    below(off::<f64, SwingByBodies<_>>(FOUR_BAR_BY_JOINTS), 1e-6);
+}
+
+#[test]
+fn single_precision() {
+    below(off::<f32, PendulumByBodies<_>>(PENDULUM_BY_BODIES), 1e-3);
+    below(off::<f32, PendulumByJoints<_>>(PENDULUM_BY_JOINTS), 1e-3);
+    below(off::<f32, SwingByBodies<_>>(FOUR_BAR_BY_BODIES), 1e-3);
+    below(off::<f32, SwingByJoints<_>>(FOUR_BAR_BY_JOINTS), 1e-3);
+    below(off::<f32, Ur5ByJoints<_>>(UR5_BY_JOINTS), 1e-3);
+}
