@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod accuracy;
 mod chapter15;
 mod dependent;
 mod descriptions;

@@ -4,7 +4,10 @@ mod data;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{BodyHandle, Dynamics, JointCoordinates, JointHandle, Pose, StateParts};
+use holonom::{
+    BodyHandle, Dynamics, JointCoordinates, JointDynamics, JointHandle, JointParts, Pose,
+    StateParts,
+};
 use holonom_models::{Panda, Ur5};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
@@ -194,6 +197,10 @@ fn moves_as_given<M: Arm<N>, const N: usize>() {
         let error = relative(&accelerations, &given.accelerations);
         println!("accelerations: {error:e}");
         assert!(error < 1e-12, "{accelerations:?}");
+        let accelerations = by_joints::<M, N>(&arm, &state);
+        let error = relative(&accelerations, &given.accelerations);
+        println!("accelerations by joints: {error:e}");
+        assert!(error < 1e-12, "{accelerations:?}");
 
         let reaction = view
             .reaction(&evaluation.multipliers, M::JOINTS[0], M::LINKS[0])
@@ -205,6 +212,20 @@ fn moves_as_given<M: Arm<N>, const N: usize>() {
         let error = relative(moment.as_slice(), &given.moment);
         assert!(error < 1e-10, "{error:e}: {moment:?}");
     }
+}
+
+/// The accelerations of the angles in joint coordinates.
+fn by_joints<M: Arm<N>, const N: usize>(arm: &M, state: &M::State<f64>) -> [f64; N] {
+    let dynamics = JointDynamics::new(arm, StandardLagrange).expect("sound");
+    let state = dynamics.joints(state).expect("closed");
+    let evaluation = dynamics.evaluate(0.0, &state).expect("regular");
+    // The rates of angles are linear in the velocities of the joints, whatever these are counted against.
+    let mut rates = state;
+    let accelerations = evaluation.rates.rates_slice();
+    rates.rates_slice_mut().copy_from_slice(accelerations);
+    let bodies = dynamics.bodies(&rates);
+    let view = dynamics.of_bodies().view(0.0, &bodies);
+    M::JOINTS.map(|joint| view.angle_rate(joint))
 }
 
 fn falls_as_given<M: Arm<N>, F: Formulation<f64>, const N: usize>(method: F) {
