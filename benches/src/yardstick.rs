@@ -197,9 +197,14 @@ impl<S: Real> Subject<S> for Written {
         &mut self.0
     }
 
+    fn place(&self) -> Self::Evaluation {
+        ([S::zero(); 13], [S::zero(); 5])
+    }
+
     #[inline(always)]
-    fn evaluate(&self, state: &State<S>) -> Result<(State<S>, [S; 5]), Fault> {
-        Ok(evaluate(state))
+    fn evaluate(&self, state: &State<S>, place: &mut Self::Evaluation) -> Result<(), Fault> {
+        *place = evaluate(state);
+        Ok(())
     }
 
     #[inline(always)]

@@ -126,6 +126,18 @@ pub struct JointEvaluation<S: Scalar, M: JointCoordinates> {
     pub multipliers: M::ClosingMultipliers<S>,
 }
 
+impl<S: Scalar, M: JointCoordinates> JointEvaluation<S, M> {
+    /// A place for results, see [`JointDynamics::evaluate_into`](crate::JointDynamics::evaluate_into).
+    #[inline(always)]
+    #[must_use]
+    pub fn zeros() -> Self {
+        Self {
+            rates: M::JointState::zeros(),
+            multipliers: Array::zeros(),
+        }
+    }
+}
+
 /// Access to the parts of a [`JointState`], for code that is generic over the mechanism.
 pub trait JointParts<S: Scalar>: Vector<S> + Copy + Debug + PartialEq {
     /// Nothing turned, nothing moved; of a slope, nothing that moves.

@@ -305,21 +305,17 @@ where
         time: S,
         state: &M::JointState<S>,
     ) -> Result<JointEvaluation<S, M>, Fault> {
-        // Written where it is returned: a copy takes as long as a short kernel.
-        let mut outcome = Ok(JointEvaluation {
-            rates: M::JointState::<S>::zeros(),
-            multipliers: M::ClosingMultipliers::<S>::zeros(),
-        });
-        if let Ok(evaluation) = &mut outcome
-            && let Err(fault) = self.evaluate_into(time, state, evaluation)
-        {
-            outcome = Err(fault);
-        }
-        outcome
+        let mut evaluation = JointEvaluation::zeros();
+        self.evaluate_into(time, state, &mut evaluation)?;
+        Ok(evaluation)
     }
 
+    /// The same, written into a place ([`JointEvaluation::zeros`] makes one): nothing is copied, which counts beside a short kernel. What stands there after a fault is of no use.
+    ///
+    /// # Errors
+    /// As [`Dynamics::evaluate`].
     #[inline(always)]
-    fn evaluate_into(
+    pub fn evaluate_into(
         &self,
         time: S,
         state: &M::JointState<S>,

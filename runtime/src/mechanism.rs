@@ -278,9 +278,10 @@ pub struct Evaluation<S: Scalar, M: Mechanism> {
 }
 
 impl<S: Scalar, M: Mechanism> Evaluation<S, M> {
-    /// A place for results.
+    /// A place for results, see [`Dynamics::evaluate_into`](crate::Dynamics::evaluate_into).
     #[inline(always)]
-    pub(crate) fn zeros() -> Self {
+    #[must_use]
+    pub fn zeros() -> Self {
         Self {
             rates: M::State::from_parts(Array::zeros(), Array::zeros()),
             multipliers: Array::zeros(),

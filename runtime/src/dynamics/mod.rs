@@ -164,24 +164,37 @@ where
         time: S,
         state: &M::State<S>,
     ) -> Result<(Evaluation<S, M>, usize), Fault> {
+        let mut evaluation = Evaluation::<S, M>::zeros();
+        let iterations = self.evaluate_into(time, state, &mut evaluation)?;
+        Ok((evaluation, iterations))
+    }
+
+    /// The same, written into a place ([`Evaluation::zeros`] makes one): nothing is copied, which counts beside a short kernel. What stands there after a fault is of no use.
+    ///
+    /// # Errors
+    /// As [`Dynamics::evaluate`].
+    #[inline(always)]
+    pub fn evaluate_into(
+        &self,
+        time: S,
+        state: &M::State<S>,
+        evaluation: &mut Evaluation<S, M>,
+    ) -> Result<usize, Fault> {
         if Self::IN_PARTS {
             let parts = self.evaluate_in_parts(time, state)?;
-            Ok((parts.evaluation, parts.iterations))
+            *evaluation = parts.evaluation;
+            return Ok(parts.iterations);
+        }
+        let Evaluation {
+            rates,
+            multipliers,
+            pivot,
+        } = evaluation;
+        *pivot = self.straight(time, state, rates, multipliers);
+        if sound::<S, M, F::Terms>(evaluation) {
+            Ok(1)
         } else {
-            // Written where it is returned: a copy takes as long as a short kernel.
-            let mut outcome = Ok((Evaluation::<S, M>::zeros(), 1));
-            if let Ok((evaluation, _)) = &mut outcome {
-                let Evaluation {
-                    rates,
-                    multipliers,
-                    pivot,
-                } = evaluation;
-                *pivot = self.straight(time, state, rates, multipliers);
-                if !sound::<S, M, F::Terms>(evaluation) {
-                    outcome = Err(self.fault(time, state, None));
-                }
-            }
-            outcome
+            Err(self.fault(time, state, None))
         }
     }
 

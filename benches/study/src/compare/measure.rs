@@ -29,7 +29,7 @@ const UNINTERRUPTED: f64 = 2e-5;
 pub trait Subject<S: Real> {
     /// What integrators move.
     type System: System<S>;
-    /// What an evaluation returns: rates and multipliers.
+    /// What an evaluation computes: rates and multipliers.
     type Evaluation;
 
     /// Whether one kernel is the whole right-hand side.
@@ -38,11 +38,15 @@ pub trait Subject<S: Real> {
     /// The system.
     fn system(&mut self) -> &mut Self::System;
 
+    /// A place for an evaluation.
+    fn place(&self) -> Self::Evaluation;
+
     /// The evaluation that users call.
     ///
     /// # Errors
     /// Those of the evaluation.
-    fn evaluate(&self, state: &StateOf<S, Self>) -> Result<Self::Evaluation, Fault>;
+    fn evaluate(&self, state: &StateOf<S, Self>, place: &mut Self::Evaluation)
+    -> Result<(), Fault>;
 
     /// The rates of an evaluation.
     fn rates(evaluation: &Self::Evaluation) -> &StateOf<S, Self>;
@@ -74,7 +78,7 @@ impl<S: Real, M: Mechanism + Default, F: Formulation<S>> Bodies<S, M, F> {
 
 impl<S: Real, M: Mechanism, F: Formulation<S>> Subject<S> for Bodies<S, M, F> {
     type System = Dynamics<S, M, F>;
-    type Evaluation = (Evaluation<S, M>, usize);
+    type Evaluation = Evaluation<S, M>;
 
     const IS_ONE_KERNEL: bool = !F::ITERATED;
 
@@ -83,13 +87,18 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Subject<S> for Bodies<S, M, F> {
         &mut self.dynamics
     }
 
-    #[inline(always)]
-    fn evaluate(&self, state: &M::State<S>) -> Result<Self::Evaluation, Fault> {
-        self.dynamics.evaluate(S::zero(), state)
+    fn place(&self) -> Self::Evaluation {
+        Evaluation::zeros()
     }
 
     #[inline(always)]
-    fn rates((evaluation, _): &Self::Evaluation) -> &M::State<S> {
+    fn evaluate(&self, state: &M::State<S>, place: &mut Self::Evaluation) -> Result<(), Fault> {
+        let outcome = self.dynamics.evaluate_into(S::zero(), state, place);
+        outcome.map(|_| ())
+    }
+
+    #[inline(always)]
+    fn rates(evaluation: &Self::Evaluation) -> &M::State<S> {
         &evaluation.rates
     }
 
@@ -143,9 +152,17 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> Subject<S> for Joints<S, M
         &mut self.dynamics
     }
 
+    fn place(&self) -> Self::Evaluation {
+        JointEvaluation::zeros()
+    }
+
     #[inline(always)]
-    fn evaluate(&self, state: &M::JointState<S>) -> Result<JointEvaluation<S, M>, Fault> {
-        self.dynamics.evaluate(S::zero(), state)
+    fn evaluate(
+        &self,
+        state: &M::JointState<S>,
+        place: &mut JointEvaluation<S, M>,
+    ) -> Result<(), Fault> {
+        self.dynamics.evaluate_into(S::zero(), state, place)
     }
 
     #[inline(always)]
@@ -449,8 +466,10 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
     let (shared, places) = (subject.clone(), states.clone());
     let throughput = contestant(count, move || {
         let subject = shared.borrow();
+        let mut evaluation = subject.place();
         for state in &*places {
-            black_box(&subject.evaluate(black_box(state))?);
+            subject.evaluate(black_box(state), &mut evaluation)?;
+            black_box(&evaluation);
         }
         Ok(())
     })?;
@@ -460,10 +479,11 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
         let subject = shared.borrow();
         // Nothing is added, but the next evaluation waits for this one.
         let nothing = black_box(S::zero());
-        let mut last = places[0].clone();
+        let mut last = subject.place();
+        subject.evaluate(&places[0], &mut last)?;
         for state in &*places {
-            let at = state.zip(&last, |x, rate| rate.fused(nothing, x));
-            last = Y::rates(&subject.evaluate(&at)?).clone();
+            let at = state.zip(Y::rates(&last), |x, rate| rate.fused(nothing, x));
+            subject.evaluate(&at, &mut last)?;
         }
         black_box(&last);
         Ok(())
