@@ -15,6 +15,7 @@ use core::hint::black_box;
 
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
+use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hprintln;
 use holonom::{Fault, Real};
 
@@ -33,12 +34,20 @@ const INSTRUCTIONS_PER_TICK: u32 = 40;
 /// How often what is counted is done.
 const REPETITIONS: u32 = 1000;
 
-/// The timer, for [`instructions`].
-pub fn start(mut timer: SYST) {
-    timer.set_clock_source(SystClkSource::Core);
-    timer.set_reload(0x00ff_ffff);
-    timer.clear_current();
-    timer.enable_counter();
+/// Starts the timer for [`instructions`], does what there is to do, and leaves the emulator: with success if all of it was right.
+pub fn main(work: impl FnOnce() -> bool) -> ! {
+    let is_right = cortex_m::Peripherals::take().is_some_and(|peripherals| {
+        let mut timer = peripherals.SYST;
+        timer.set_clock_source(SystClkSource::Core);
+        timer.set_reload(0x00ff_ffff);
+        timer.clear_current();
+        timer.enable_counter();
+        work()
+    });
+    debug::exit(if is_right { EXIT_SUCCESS } else { EXIT_FAILURE });
+    loop {
+        cortex_m::asm::wfi();
+    }
 }
 
 /// The instructions of some work, on average.

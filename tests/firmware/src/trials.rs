@@ -97,23 +97,24 @@ impl Driven for Ur5 {
 /// One millisecond.
 const PERIOD: f64 = 1e-3;
 
-macro_rules! by_bodies {
-    ($trial:ident = $name:literal: $mechanism:ident, $formulation:ty = $value:expr, $joint:ident, $body:ident, $component:ident, $periods:literal) => {
+macro_rules! trial {
+    ($trial:ident = $name:literal: $mechanism:ident, $stepper:ident, $formulation:ty = $value:expr, $state:ty,
+     $start:expr, $bodies:expr, $evaluate:expr, $joint:ident, $body:ident, $component:ident, $periods:literal) => {
         #[doc = concat!("The ", $name, ".")]
         pub struct $trial<S: Real> {
             plant: $mechanism,
-            stepper: Stepper<S, $mechanism, $formulation, Rk4>,
+            stepper: $stepper<S, $mechanism, $formulation, Rk4>,
         }
 
         impl<S: Real> Trial<S> for $trial<S> {
             const NAME: &'static str = $name;
             const PERIODS: u32 = $periods;
-            type State = <$mechanism as Mechanism>::State<S>;
+            type State = $state;
 
             fn new() -> Result<(Self, Self::State), Fault> {
                 let plant = $mechanism::default();
-                let stepper = Stepper::new(&plant, $value, Rk4)?;
-                let state = plant.described_state()?;
+                let stepper = $stepper::new(&plant, $value, Rk4)?;
+                let state = $start(&plant, &stepper)?;
                 Ok((Self { plant, stepper }, state))
             }
 
@@ -127,21 +128,17 @@ macro_rules! by_bodies {
 
             #[inline(never)]
             fn evaluate(&self, state: &Self::State) -> Result<(), Fault> {
-                let evaluation = self
-                    .stepper
-                    .dynamics()
-                    .evaluate(self.stepper.time(), state)?;
+                let time = self.stepper.time();
+                let evaluation = self.stepper.dynamics().evaluate(time, state)?;
                 core::hint::black_box(&evaluation);
                 Ok(())
             }
 
             #[inline(never)]
             fn read(&self, state: &Self::State) -> Result<[S; 2], Fault> {
-                let (evaluation, _) = self
-                    .stepper
-                    .dynamics()
-                    .evaluate(self.stepper.time(), state)?;
-                let view = self.stepper.view(state);
+                let bodies = $bodies(&self.stepper, state);
+                let (evaluation, _) = $evaluate(&self.stepper, &bodies)?;
+                let view = self.stepper.view(&bodies);
                 let handles = $mechanism::HANDLES;
                 let wrench =
                     view.reaction(&evaluation.multipliers, handles.$joint, handles.$body)?;
@@ -151,55 +148,23 @@ macro_rules! by_bodies {
     };
 }
 
-macro_rules! by_joints {
-    ($trial:ident = $name:literal: $mechanism:ident, $formulation:ty = $value:expr, $joint:ident, $body:ident, $component:ident, $periods:literal) => {
-        #[doc = concat!("The ", $name, ".")]
-        pub struct $trial<S: Real> {
-            plant: $mechanism,
-            stepper: JointStepper<S, $mechanism, $formulation, Rk4>,
+macro_rules! by_bodies {
+    ($trial:ident = $name:literal: $mechanism:ident, $formulation:ty = $value:expr, $($read:tt)*) => {
+        trial! {
+            $trial = $name: $mechanism, Stepper, $formulation = $value, <$mechanism as Mechanism>::State<S>,
+            |plant: &$mechanism, _: &_| plant.described_state(), |_: &_, state: &Self::State| *state,
+            |stepper: &Stepper<S, $mechanism, $formulation, Rk4>, bodies: &_| stepper.dynamics().evaluate(stepper.time(), bodies),
+            $($read)*
         }
+    };
+}
 
-        impl<S: Real> Trial<S> for $trial<S> {
-            const NAME: &'static str = $name;
-            const PERIODS: u32 = $periods;
-            type State = <$mechanism as JointCoordinates>::JointState<S>;
-
-            fn new() -> Result<(Self, Self::State), Fault> {
-                let plant = $mechanism::default();
-                let stepper = JointStepper::new(&plant, $value, Rk4)?;
-                let state = stepper.initial_state()?;
-                Ok((Self { plant, stepper }, state))
-            }
-
-            #[inline(never)]
-            fn tick(&mut self, state: &mut Self::State, number: u32) -> Result<(), Fault> {
-                if self.plant.drive(number) {
-                    self.stepper.update(&self.plant)?;
-                }
-                self.stepper.step(state, S::constant(PERIOD))
-            }
-
-            #[inline(never)]
-            fn evaluate(&self, state: &Self::State) -> Result<(), Fault> {
-                let evaluation = self
-                    .stepper
-                    .dynamics()
-                    .evaluate(self.stepper.time(), state)?;
-                core::hint::black_box(&evaluation);
-                Ok(())
-            }
-
-            #[inline(never)]
-            fn read(&self, state: &Self::State) -> Result<[S; 2], Fault> {
-                let bodies = self.stepper.bodies(state);
-                let dynamics = self.stepper.dynamics().of_bodies();
-                let (evaluation, _) = dynamics.evaluate(self.stepper.time(), &bodies)?;
-                let view = self.stepper.view(&bodies);
-                let handles = $mechanism::HANDLES;
-                let wrench =
-                    view.reaction(&evaluation.multipliers, handles.$joint, handles.$body)?;
-                Ok([view.angle(handles.$joint), wrench.force.$component])
-            }
+macro_rules! by_joints {
+    ($trial:ident = $name:literal: $mechanism:ident, $formulation:ty = $value:expr, $($read:tt)*) => {
+        trial! {
+            $trial = $name: $mechanism, JointStepper, $formulation = $value, <$mechanism as JointCoordinates>::JointState<S>,
+            |_: &_, stepper: &JointStepper<S, $mechanism, $formulation, Rk4>| stepper.initial_state(), JointStepper::bodies,
+            |stepper: &JointStepper<S, $mechanism, $formulation, Rk4>, bodies: &_| stepper.dynamics().of_bodies().evaluate(stepper.time(), bodies), $($read)*
         }
     };
 }

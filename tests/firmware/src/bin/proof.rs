@@ -6,8 +6,6 @@
 
 use core::hint::black_box;
 
-use cortex_m_rt::entry;
-use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use holonom::prelude::*;
 use holonom::{DormandPrince5, JointStepper, Scalar, Scheme};
 use holonom_firmware::Number;
@@ -80,14 +78,7 @@ fn all() -> Result<(), Fault> {
     Ok(())
 }
 
-#[entry]
+#[cortex_m_rt::entry]
 fn main() -> ! {
-    debug::exit(if all().is_ok() {
-        EXIT_SUCCESS
-    } else {
-        EXIT_FAILURE
-    });
-    loop {
-        cortex_m::asm::wfi();
-    }
+    holonom_firmware::main(|| all().is_ok())
 }
