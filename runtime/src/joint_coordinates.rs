@@ -49,6 +49,12 @@ pub trait JointCoordinates: Mechanism {
     /// Computes once what depends on parameters only.
     fn prepare_joints<S: Scalar>(parameters: &Self::Parameters<S>) -> Self::JointConstants<S>;
 
+    /// Computes again what depends on inputs, and leaves what does not.
+    fn take_joint_inputs<S: Scalar>(
+        parameters: &Self::Parameters<S>,
+        constants: &mut Self::JointConstants<S>,
+    );
+
     /// Computes once what depends on the coefficients of a formulation, with a compliance for each equation that remains.
     fn joint_coefficients<S: Scalar>(
         constants: &Self::JointConstants<S>,

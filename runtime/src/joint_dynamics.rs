@@ -63,7 +63,7 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
-        Self::with(mechanism, Dynamics::new(mechanism, formulation)?)
+        Self::with(Dynamics::new(mechanism, formulation)?)
     }
 }
 
@@ -90,11 +90,22 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        let constants = M::prepare_joints(&mechanism.parameters()?);
         self.bodies.update(mechanism)?;
+        let constants = M::prepare_joints(self.bodies.parameters());
         self.coefficients =
             M::joint_coefficients(&constants, &self.stabilisation, &self.compliances);
         self.constants = constants;
+        Ok(())
+    }
+
+    /// Takes these inputs, and leaves the parameters, see [`Dynamics::set_inputs`].
+    ///
+    /// # Errors
+    /// An input that is not finite; the former ones then stay.
+    #[inline]
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+        self.bodies.set_inputs(inputs)?;
+        M::take_joint_inputs(self.bodies.parameters(), &mut self.constants);
         Ok(())
     }
 
@@ -113,12 +124,9 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     }
 
     /// The same system by its joints.
-    pub(crate) fn with(
-        mechanism: &M,
-        bodies: Dynamics<S, M, F, Normalised, A>,
-    ) -> Result<Self, Fault> {
+    pub(crate) fn with(bodies: Dynamics<S, M, F, Normalised, A>) -> Result<Self, Fault> {
         let stabilisation = bodies.formulation().stabilisation()?;
-        let constants = M::prepare_joints(&mechanism.parameters()?);
+        let constants = M::prepare_joints(bodies.parameters());
         let mut compliances = M::ClosingMultipliers::<S>::zeros();
         compliances.as_mut_slice().fill(stabilisation.compliance);
         Ok(Self {

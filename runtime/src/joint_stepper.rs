@@ -112,6 +112,15 @@ where
         self.dynamics.update(mechanism)
     }
 
+    /// Takes these inputs, to be called between steps: in the number type of the run, at the cost of what depends on inputs.
+    ///
+    /// # Errors
+    /// An input that is not finite; the former ones then stay.
+    #[inline]
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+        self.dynamics.set_inputs(inputs)
+    }
+
     /// The state that the attributes of the bodies describe.
     ///
     /// # Errors
@@ -171,5 +180,20 @@ where
             .step(&mut self.dynamics, self.clock.time(), state, dt)?;
         self.clock = clock;
         Ok(())
+    }
+
+    /// The same with these inputs over the step, which stay until others are set.
+    ///
+    /// # Errors
+    /// As [`Self::step`], and an input that is not finite. State and time are then as before.
+    #[inline]
+    pub fn step_with(
+        &mut self,
+        state: &mut M::JointState<S>,
+        inputs: &M::Inputs<S>,
+        dt: S,
+    ) -> Result<(), Fault> {
+        self.set_inputs(inputs)?;
+        self.step(state, dt)
     }
 }

@@ -6,7 +6,7 @@ use crate::array::{Array, StateParts};
 use crate::error::ParameterError;
 use crate::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::report::Report;
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// A mechanism whose kernels were generated at compile time.
 ///
@@ -40,8 +40,10 @@ pub trait Mechanism: Sized + 'static {
     type Multipliers<S: Scalar>: Array<S>;
     /// The blocks of the Jacobian one after the other, see [`Report::blocks`].
     type Jacobian<S: Scalar>: Array<S>;
-    /// Values that are set once per mechanism.
+    /// Values that are set once per mechanism, and inputs.
     type Parameters<S: Scalar>: Copy + Debug;
+    /// A struct with the fields that are inputs (`#[input]`), under their names; `()` without any. Zero by default.
+    type Inputs<S: Scalar>: Copy + Debug + Default + PartialEq;
     /// What depends on parameters alone; without elements where everything folds at compile time.
     type Constants<S: Scalar>: Copy + Debug;
     /// What depends on constants and on the coefficients of the formulation.
@@ -64,8 +66,31 @@ pub trait Mechanism: Sized + 'static {
     /// A mass or an inertia that is not positive, an axis of length zero, a number that is not finite.
     fn parameters<S: Scalar>(&self) -> Result<Self::Parameters<S>, ParameterError>;
 
-    /// Computes once what depends on parameters only.
+    /// The inputs of this value.
+    fn inputs<S: Scalar>(&self) -> Self::Inputs<S>;
+
+    /// Puts inputs among the parameters.
+    ///
+    /// # Errors
+    /// An input that is not finite; the parameters are then as before.
+    #[inline]
+    fn put_inputs<S: Real>(
+        _inputs: &Self::Inputs<S>,
+        _parameters: &mut Self::Parameters<S>,
+    ) -> Result<(), ParameterError> {
+        Ok(())
+    }
+
+    /// Computes once what depends on parameters and inputs only.
     fn prepare<S: Scalar>(parameters: &Self::Parameters<S>) -> Self::Constants<S>;
+
+    /// Computes again what depends on inputs, and leaves what does not.
+    #[inline]
+    fn take_inputs<S: Scalar>(
+        _parameters: &Self::Parameters<S>,
+        _constants: &mut Self::Constants<S>,
+    ) {
+    }
 
     /// Computes once what depends on the coefficients of a formulation, with one compliance for all rows.
     fn coefficients<S: Scalar>(

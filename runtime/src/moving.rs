@@ -31,7 +31,7 @@ pub trait Description<S: Real, M: Mechanism, F: Formulation<S>, P, A> {
 
     /// Prepares it.
     #[doc(hidden)]
-    fn moving(mechanism: &M, dynamics: Dynamics<S, M, F, P, A>) -> Result<Self::Moving, Fault>;
+    fn moving(dynamics: Dynamics<S, M, F, P, A>) -> Result<Self::Moving, Fault>;
 }
 
 /// A system whose states say how the bodies of a mechanism stand.
@@ -70,7 +70,7 @@ where
     const HAS_EXACT_JOINTS: bool = false;
     type Moving = Dynamics<S, M, F, P, A>;
 
-    fn moving(_mechanism: &M, dynamics: Dynamics<S, M, F, P, A>) -> Result<Self::Moving, Fault> {
+    fn moving(dynamics: Dynamics<S, M, F, P, A>) -> Result<Self::Moving, Fault> {
         Ok(dynamics)
     }
 }
@@ -122,11 +122,8 @@ where
     const HAS_EXACT_JOINTS: bool = true;
     type Moving = JointDynamics<S, M, F, A>;
 
-    fn moving(
-        mechanism: &M,
-        dynamics: Dynamics<S, M, F, Normalised, A>,
-    ) -> Result<Self::Moving, Fault> {
-        JointDynamics::with(mechanism, dynamics)
+    fn moving(dynamics: Dynamics<S, M, F, Normalised, A>) -> Result<Self::Moving, Fault> {
+        JointDynamics::with(dynamics)
     }
 }
 

@@ -4,9 +4,10 @@ pub use holonom_macros::{assemble, force_impl, joint_impl};
 
 use crate::array::StateParts;
 use crate::dynamics::stabilised;
+use crate::error::{ParameterError, ParameterFault};
 use crate::mechanism::{Mechanism, Orientation, Pivot, Terms};
 use crate::rotation::{scale_euler_rates, with_unit_orientations};
-use crate::scalar::{Scalar, elementary};
+use crate::scalar::{Real, Scalar, elementary};
 
 /// [`Mechanism::evaluate_into`] from the other kernels, with the gains of `Phi'` and of `Phi`.
 #[inline]
@@ -37,6 +38,32 @@ pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
     *rates = M::State::from_parts(coordinate_rates, accelerations);
     *multipliers = solved;
     pivot
+}
+
+/// [`Mechanism::put_inputs`] of inputs with their places among the run-time values and their names.
+///
+/// # Errors
+/// An input that is not finite; nothing is then put.
+#[inline]
+pub fn put_inputs<S: Real>(
+    inputs: &[(usize, &'static str, S)],
+    parameters: &mut [S],
+) -> Result<(), ParameterError> {
+    for &(_, field, value) in inputs {
+        if !value.is_finite() {
+            return Err(ParameterError {
+                field,
+                attribute: "value",
+                fault: ParameterFault::NotFinite,
+            });
+        }
+    }
+    for &(place, _, value) in inputs {
+        if let Some(parameter) = parameters.get_mut(place) {
+            *parameter = value;
+        }
+    }
+    Ok(())
 }
 
 /// Square root.

@@ -262,7 +262,7 @@ where
             .is_watched
             .then(|| Watch::new(&constants, start, &state).over(&self.integrator));
         let run = Run {
-            moving: C::moving(self.mechanism, dynamics)?,
+            moving: C::moving(dynamics)?,
             projection: self.projection,
             schedule,
             breaks: self.breaks,

@@ -112,6 +112,15 @@ where
         self.dynamics.update(mechanism)
     }
 
+    /// Takes these inputs, to be called between steps: in the number type of the run, at the cost of what depends on inputs.
+    ///
+    /// # Errors
+    /// An input that is not finite; the former ones then stay.
+    #[inline]
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+        self.dynamics.set_inputs(inputs)
+    }
+
     /// Readable access to a state at the time that was reached.
     #[must_use]
     pub fn view<'a>(&'a self, state: &'a M::State<S>) -> View<'a, S, M> {
@@ -160,6 +169,21 @@ where
         *state = next;
         self.clock = clock;
         Ok(())
+    }
+
+    /// The same with these inputs over the step, which stay until others are set.
+    ///
+    /// # Errors
+    /// As [`Self::step`], and an input that is not finite. State and time are then as before.
+    #[inline]
+    pub fn step_with(
+        &mut self,
+        state: &mut M::State<S>,
+        inputs: &M::Inputs<S>,
+        dt: S,
+    ) -> Result<(), Fault> {
+        self.set_inputs(inputs)?;
+        self.step(state, dt)
     }
 }
 

@@ -124,7 +124,7 @@ fn elements_are_what_single_fields_are() {
     }
 }
 
-/// All generated functions but those that take the values of parameters over from the struct.
+/// All generated functions but those that take the values of parameters and inputs over from a struct.
 fn functions(file: File) -> Vec<(String, String)> {
     let mut functions = Vec::new();
     let mut blocks: Vec<Block> = Vec::new();
@@ -157,10 +157,13 @@ fn functions(file: File) -> Vec<(String, String)> {
     }
     let functions = functions.into_iter();
     functions
-        .filter(|(name, _)| name != "parameters" && name != "new")
+        .filter(|(name, _)| !OF_FIELDS.contains(&name.as_str()))
         .map(|(name, code)| (name, code.to_string()))
         .collect()
 }
+
+/// The functions that name fields of a struct.
+const OF_FIELDS: [&str; 5] = ["parameters", "new", "inputs", "put_inputs", "default"];
 
 /// The handles and what takes values over from the struct.
 #[test]
@@ -171,6 +174,8 @@ fn arrays_are_arrays_in_generated_code() {
         "pub pins : [:: holonom :: JointHandle < Chain , Revolute > ; 5usize]",
         "pub fn new (lengths : [f64 ; 5usize])",
         "thrusts : [0.0 ; 2usize]",
+        "pub thrusts : [__S ; 2usize]",
+        "(5 , \"thrusts[0]\" , __inputs . thrusts [0])",
         "let __element_of_lengths_3 : f64 = self . lengths [3] ;",
         "field : \"lengths[3]\"",
     ] {

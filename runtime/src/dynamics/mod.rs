@@ -4,7 +4,6 @@ mod watched;
 
 use core::marker::PhantomData;
 
-use crate::access::MechanismExt;
 use crate::array::{Array, StateParts, Vector};
 use crate::compliance::compliances;
 use crate::error::Fault;
@@ -28,6 +27,7 @@ use crate::watch::Seen;
 ///
 /// `P` says how Euler parameters are read, `A` which forces come on top of those of the description.
 pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A = NoForces> {
+    parameters: M::Parameters<S>,
     constants: M::Constants<S>,
     coefficients: M::Coefficients<S>,
     stabilisation: Stabilisation<S>,
@@ -57,9 +57,11 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
         let stabilisation = formulation.stabilisation()?;
-        let constants = mechanism.constants::<S>()?;
+        let parameters = mechanism.parameters()?;
+        let constants = M::prepare(&parameters);
         let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation)?;
         Ok(Self {
+            parameters,
             constants,
             coefficients: M::coefficients_by_row(&constants, &stabilisation, &compliances),
             stabilisation,
@@ -94,6 +96,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
         forces: impl FnOnce(A) -> A2,
     ) -> Dynamics<S, M, F, P2, A2> {
         Dynamics {
+            parameters: self.parameters,
             constants: self.constants,
             coefficients: self.coefficients,
             stabilisation: self.stabilisation,
@@ -111,12 +114,30 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        let constants = mechanism.constants()?;
+        let parameters = mechanism.parameters()?;
+        let constants = M::prepare(&parameters);
         self.compliances = compliances::<S, M, F::Terms>(&constants, &self.stabilisation)?;
         self.coefficients =
             M::coefficients_by_row(&constants, &self.stabilisation, &self.compliances);
+        self.parameters = parameters;
         self.constants = constants;
         Ok(())
+    }
+
+    /// Takes these inputs, and leaves the parameters: in the number type of the run, at the cost of what depends on inputs.
+    ///
+    /// # Errors
+    /// An input that is not finite; the former ones then stay.
+    #[inline]
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+        M::put_inputs(inputs, &mut self.parameters)?;
+        M::take_inputs(&self.parameters, &mut self.constants);
+        Ok(())
+    }
+
+    /// The values that the constants are made of.
+    pub(crate) fn parameters(&self) -> &M::Parameters<S> {
+        &self.parameters
     }
 
     /// What depends on the parameters of the mechanism alone.

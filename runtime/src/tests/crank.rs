@@ -67,6 +67,7 @@ impl Mechanism for Crank {
     type Multipliers<S: Scalar> = [S; 6];
     type Jacobian<S: Scalar> = [S; 36];
     type Parameters<S: Scalar> = [S; 3];
+    type Inputs<S: Scalar> = ();
     type Constants<S: Scalar> = Constants<S>;
     type Coefficients<S: Scalar> = (Stabilisation<S>, [S; 6]);
     type Factors<S: Scalar> = dense::Factors<S, 36, 6>;
@@ -107,6 +108,8 @@ impl Mechanism for Crank {
         },
         ..Rod::REPORT
     };
+
+    fn inputs<S: Scalar>(&self) {}
 
     fn parameters<S: Scalar>(&self) -> Result<[S; 3], ParameterError> {
         Ok([self.start, self.speed, self.acceleration].map(S::constant))

@@ -59,6 +59,7 @@ impl Mechanism for Rod {
     type Multipliers<S: Scalar> = [S; 5];
     type Jacobian<S: Scalar> = [S; 30];
     type Parameters<S: Scalar> = S;
+    type Inputs<S: Scalar> = ();
     type Constants<S: Scalar> = [S; 6];
     type Coefficients<S: Scalar> = (Stabilisation<S>, [S; 5]);
     type Factors<S: Scalar> = Factors<S>;
@@ -116,6 +117,8 @@ impl Mechanism for Rod {
         kernels: &[],
         plan: "",
     };
+
+    fn inputs<S: Scalar>(&self) {}
 
     fn parameters<S: Scalar>(&self) -> Result<S, ParameterError> {
         let fault = if !self.mass.is_finite() {

@@ -7,7 +7,9 @@ mod chapter15;
 mod dependent;
 mod descriptions;
 mod faults;
+
 mod forces;
+mod inputs;
 mod kinematics;
 mod observer;
 mod order;

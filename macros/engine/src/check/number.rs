@@ -63,6 +63,8 @@ struct Later {
     /// The same over `S`, where it depends on run-time values.
     scalar: Option<TokenStream>,
     is_const: bool,
+    /// Whether it depends on inputs.
+    is_varying: bool,
 }
 
 impl Value {
@@ -92,6 +94,10 @@ impl Value {
                 quote!(__S::constant(#value))
             }
         }
+    }
+
+    fn is_varying(&self) -> bool {
+        matches!(self, Self::Later(later) if later.is_varying)
     }
 
     /// Whether it depends on run-time values.
@@ -124,7 +130,13 @@ impl<'a> Numbers<'a> {
                 expression,
                 scalar,
                 is_const,
+                is_varying,
             }) => {
+                let number = if is_varying {
+                    Number::Varying
+                } else {
+                    Number::Symbol
+                };
                 // A constant of another type, or an unknown one, is refused by the compiler: with one sentence, wherever the
                 // expression is used. The call changes nothing; it tells the type where that of the constant is not known.
                 let value = local("value");
@@ -132,7 +144,7 @@ impl<'a> Numbers<'a> {
                     ::core::convert::identity::<f64>({ let #value: f64 = #expression; #value })
                 };
                 if let Some(known) = self.known(&expression) {
-                    return Some(Number::Symbol(known));
+                    return Some(number(known));
                 }
                 let place = u32::try_from(self.symbols.len()).ok()?;
                 let name = local(&format!("CONSTANT_{place}"));
@@ -150,7 +162,7 @@ impl<'a> Numbers<'a> {
                     field: self.field.clone(),
                     attribute: self.attribute.clone(),
                 });
-                Some(Number::Symbol(place))
+                Some(number(place))
             }
         }
     }
@@ -227,10 +239,12 @@ impl<'a> Numbers<'a> {
                         expression,
                         scalar,
                         is_const,
+                        is_varying,
                     }) => Value::Later(Later {
                         expression: quote!((-(#expression))),
                         scalar: scalar.map(|scalar| quote!((-(#scalar)))),
                         is_const,
+                        is_varying,
                     }),
                 })
             }
@@ -265,6 +279,7 @@ impl<'a> Numbers<'a> {
                         expression: quote!((#x #op #y)),
                         scalar,
                         is_const: left.is_const() && right.is_const(),
+                        is_varying: left.is_varying() || right.is_varying(),
                     })
                 }))
             }
@@ -282,6 +297,7 @@ impl<'a> Numbers<'a> {
                         expression,
                         scalar: None,
                         is_const: true,
+                        is_varying: false,
                     })
                 }),
                 Found::Refused => None,
@@ -373,6 +389,7 @@ impl<'a> Numbers<'a> {
             expression: quote!(#name),
             scalar: Some(quote!(#parameters[#place])),
             is_const: false,
+            is_varying: value.is_input,
         })
     }
 
@@ -404,7 +421,10 @@ impl<'a> Numbers<'a> {
         Some(match self.value(argument, faults)? {
             Value::Literal(value) => Value::Literal(function(value)),
             Value::Later(Later {
-                expression, scalar, ..
+                expression,
+                scalar,
+                is_varying,
+                ..
             }) => {
                 let (facade, function) = (self.facade, quote::format_ident!("{name}"));
                 let scalar = scalar.map(|x| match *name {
@@ -419,6 +439,7 @@ impl<'a> Numbers<'a> {
                     expression: quote!(#facade::__private::#function(#expression)),
                     scalar,
                     is_const: false,
+                    is_varying,
                 })
             }
         })

@@ -56,7 +56,7 @@ fn anywhere(links: &Links, input: Input, seed: usize) -> Option<f64> {
         }
         Input::Coordinate(place) => Some(number(place as usize) - 0.4),
         Input::Velocity(place) => Some(number(place as usize + 13) - 0.6),
-        Input::Symbol(place) => Some(number(place as usize + 29) + 0.5),
+        Input::Symbol(place) | Input::Varying(place) => Some(number(place as usize + 29) + 0.5),
         Input::Time => Some(number(41)),
         _ => None,
     }

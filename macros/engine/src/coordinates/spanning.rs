@@ -126,7 +126,7 @@ impl Spanning {
 fn able(model: &Model) -> Vec<bool> {
     let mut seen = model.clone();
     let any = |number: &mut Number| {
-        if let Number::Symbol(symbol) = *number {
+        if let Number::Symbol(symbol) | Number::Varying(symbol) = *number {
             // Numbers without a pattern: the golden ratio's multiples.
             *number = Number::Literal(0.5 + (f64::from(symbol) * 0.618_033_988_749_895).fract());
         }

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::inputs::taken;
 use super::parts::{Frame, write_in_parts};
 use super::report::{evaluation_name, kernel, terms_name};
 use super::rows::{WIDTH, array, pack};
@@ -104,6 +105,7 @@ impl Writer<'_> {
         let bodies = self.bodies();
         let joints = self.joints();
         let coefficients = self.store.write_coefficients();
+        let taken = taken(model, &mut self.store);
         let prepared = self.store.write_constants(&model.symbols);
         let (c, k) = (self.store.constants(), self.store.coefficients());
         let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
@@ -133,6 +135,14 @@ impl Writer<'_> {
                 ) -> Self::JointConstants<__S> {
                     #constant_statements
                     [#(#constant_outputs),*]
+                }
+
+                #[inline]
+                fn take_joint_inputs<__S: #facade::Scalar>(
+                    #given: &Self::Parameters<__S>,
+                    #constants: &mut Self::JointConstants<__S>,
+                ) {
+                    #taken
                 }
 
                 fn joint_coefficients<__S: #facade::Scalar>(

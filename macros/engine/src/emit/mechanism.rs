@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::documentation::documentation;
+use super::inputs::{Inputs, inputs_of, taken};
 use super::parameters;
 use super::parts::{Frame, write_in_parts};
 use super::report::report;
@@ -80,10 +81,16 @@ impl Writer<'_> {
         let coefficients = self.store.write_coefficients();
         let (coefficient_statements, coefficient_outputs) =
             (coefficients.statements, coefficients.outputs);
+        let taken = taken(model, &mut self.store);
         let prepared = self.store.write_constants(&model.symbols);
         let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
         let (c, k) = (self.store.constants(), self.store.coefficients());
         let parameters = parameters::parameters(model, facade);
+        let Inputs {
+            declared: inputs_type,
+            kind: inputs_kind,
+            functions: inputs,
+        } = inputs_of(model, facade);
         let assertions = parameters::assertions(model, facade);
         let construction = parameters::construction(model, facade);
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
@@ -108,6 +115,7 @@ impl Writer<'_> {
                 use #facade::{Array as _, Scalar as _, StateParts as _};
 
                 #handles_type
+                #inputs_type
                 #assertions
 
                 #[automatically_derived]
@@ -118,6 +126,7 @@ impl Writer<'_> {
                     type Multipliers<__S: #facade::Scalar> = [__S; #m];
                     type Jacobian<__S: #facade::Scalar> = [__S; #jacobian_size];
                     type Parameters<__S: #facade::Scalar> = [__S; #values];
+                    type Inputs<__S: #facade::Scalar> = #inputs_kind;
                     type Constants<__S: #facade::Scalar> = [__S; #c];
                     type Coefficients<__S: #facade::Scalar> = [__S; #k];
                     type Factors<__S: #facade::Scalar> = #factors;
@@ -128,12 +137,21 @@ impl Writer<'_> {
                     const VECTOR_ROWS: &'static [usize] = &[#(#vector_rows),*];
 
                     #parameters
+                    #inputs
 
                     fn prepare<__S: #facade::Scalar>(
                         #given: &Self::Parameters<__S>,
                     ) -> Self::Constants<__S> {
                         #constant_statements
                         [#(#constant_outputs),*]
+                    }
+
+                    #[inline]
+                    fn take_inputs<__S: #facade::Scalar>(
+                        #given: &Self::Parameters<__S>,
+                        #constants: &mut Self::Constants<__S>,
+                    ) {
+                        #taken
                     }
 
                     #[inline]

@@ -3,6 +3,7 @@
 mod coordinates;
 pub mod documentation;
 pub mod fallback;
+mod inputs;
 pub mod joint;
 pub mod mechanism;
 pub mod parameters;

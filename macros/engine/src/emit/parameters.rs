@@ -62,7 +62,9 @@ fn positive_symbols(model: &Model) -> impl Iterator<Item = &Symbol> {
             .into_iter()
             .chain(body.inertia)
             .filter_map(|number| match number {
-                Number::Symbol(place) => Some(&model.symbols[place as usize]),
+                Number::Symbol(place) | Number::Varying(place) => {
+                    Some(&model.symbols[place as usize])
+                }
                 Number::Literal(_) => None,
             })
     })
@@ -215,7 +217,9 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
 fn number(model: &Model, number: Number) -> TokenStream {
     match number {
         Number::Literal(value) => quote!(#value),
-        Number::Symbol(place) => model.symbols[place as usize].expression.clone(),
+        Number::Symbol(place) | Number::Varying(place) => {
+            model.symbols[place as usize].expression.clone()
+        }
     }
 }
 

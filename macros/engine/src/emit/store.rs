@@ -29,7 +29,7 @@ impl Store {
     pub fn load(&mut self, arena: &Arena, value: Expr) -> TokenStream {
         let stage = arena.stage(value);
         let value = self.import(arena, value);
-        let is_coefficient = stage > Stage::Parameter;
+        let is_coefficient = stage == Stage::Coefficient;
         let (slots, array) = if is_coefficient {
             (&mut self.coefficients, local("coefficients"))
         } else {
@@ -88,6 +88,21 @@ impl Store {
         )
     }
 
+    /// The body of `take_inputs`: what it writes to the constants that depend on inputs, and their places. May ask for further constants.
+    pub fn write_inputs(&mut self, symbols: &[Symbol]) -> (StraightLine, Vec<usize>) {
+        let arena = self.arena.clone();
+        let constants = self.constants.iter().copied().enumerate();
+        let (places, outputs): (Vec<usize>, Vec<Expr>) = constants
+            .filter(|(_, value)| arena.stage(*value) == Stage::Input)
+            .unzip();
+        let mut inputs = Inputs {
+            store: self,
+            symbols,
+        };
+        let line = write(&arena, &outputs, Stage::Input, &mut inputs);
+        (line, places)
+    }
+
     /// The body of `prepare`.
     #[must_use]
     pub fn write_constants(&self, symbols: &[Symbol]) -> StraightLine {
@@ -143,7 +158,9 @@ pub(super) fn load_input(input: Input) -> TokenStream {
         Input::RateGain => return field("rate"),
         Input::PositionGain => return field("position"),
         Input::Compliance(place) => ("compliances", place),
-        Input::Symbol(_) => unreachable!("symbols are constants: only `prepare` reads them"),
+        Input::Symbol(_) | Input::Varying(_) => {
+            unreachable!("symbols are constants: `prepare` and `take_inputs` read them")
+        }
     };
     let (array, place) = (local(array), place as usize);
     quote!(#array[#place])
@@ -161,21 +178,42 @@ struct Preparation<'a> {
 
 impl Environment for Preparation<'_> {
     fn input(&mut self, input: Input) -> TokenStream {
-        match input {
-            Input::Symbol(place) => {
-                let symbol = &self.symbols[place as usize];
-                let expression = &symbol.expression;
-                match &symbol.scalar {
-                    Some(scalar) => scalar.clone(),
-                    None => quote!(__S::constant(#expression)),
-                }
-            }
-            other => load_input(other),
-        }
+        written(self.symbols, input)
     }
 
     fn earlier(&mut self, _: &Arena, _: Expr) -> Value {
         unreachable!("nothing is earlier than a parameter but literals, which are written in place")
+    }
+}
+
+/// A symbol as it was written.
+fn written(symbols: &[Symbol], input: Input) -> TokenStream {
+    match input {
+        Input::Symbol(place) | Input::Varying(place) => {
+            let symbol = &symbols[place as usize];
+            let expression = &symbol.expression;
+            match &symbol.scalar {
+                Some(scalar) => scalar.clone(),
+                None => quote!(__S::constant(#expression)),
+            }
+        }
+        other => load_input(other),
+    }
+}
+
+/// The environment of `take_inputs`: symbols as they were written, what does not depend on inputs from the constants.
+struct Inputs<'a> {
+    store: &'a mut Store,
+    symbols: &'a [Symbol],
+}
+
+impl Environment for Inputs<'_> {
+    fn input(&mut self, input: Input) -> TokenStream {
+        written(self.symbols, input)
+    }
+
+    fn earlier(&mut self, arena: &Arena, value: Expr) -> Value {
+        Value::Expression(self.store.load(arena, value))
     }
 }
 

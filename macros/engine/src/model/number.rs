@@ -9,8 +9,10 @@ use super::name::Name;
 pub enum Number {
     /// Evaluated by the macro.
     Literal(f64),
-    /// An entry of the table of symbols.
+    /// An entry of the table of symbols, the same for a whole run.
     Symbol(u32),
+    /// An entry that depends on inputs, which change from step to step.
+    Varying(u32),
 }
 
 impl Number {
@@ -24,7 +26,7 @@ impl Number {
     pub const fn literal(self) -> Option<f64> {
         match self {
             Self::Literal(value) => Some(value),
-            Self::Symbol(_) => None,
+            Self::Symbol(_) | Self::Varying(_) => None,
         }
     }
 }

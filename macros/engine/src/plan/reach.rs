@@ -162,7 +162,9 @@ impl State {
         match input {
             Input::Coordinate(place) => self.coordinates.get(place as usize).copied(),
             Input::Time => Some(0.37),
-            Input::Symbol(place) => Some(spread(0x51 + u64::from(place)).abs() + 0.5),
+            Input::Symbol(place) | Input::Varying(place) => {
+                Some(spread(0x51 + u64::from(place)).abs() + 0.5)
+            }
             _ => None,
         }
     }

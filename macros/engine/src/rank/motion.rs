@@ -188,7 +188,7 @@ impl Constraints {
             Input::Velocity(place) => {
                 Some(velocities.get(place as usize).copied().unwrap_or_default())
             }
-            Input::Symbol(_) => None,
+            Input::Symbol(_) | Input::Varying(_) => None,
             // Nothing that is evaluated here depends on the others.
             Input::RateGain
             | Input::PositionGain

@@ -173,7 +173,7 @@ impl Arena {
         let (mut latest, mut without_number) = (Stage::Literal, false);
         let mut see = |operand: Option<Expr>| {
             if let Some(operand) = operand {
-                latest = latest.max(self.stage(operand));
+                latest = latest.with(self.stage(operand));
                 without_number |= self.is_without_number(operand);
             }
         };

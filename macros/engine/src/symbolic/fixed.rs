@@ -13,6 +13,7 @@ pub fn number(arena: &mut Arena, number: Number) -> Expr {
     match number {
         Number::Literal(value) => arena.constant(value),
         Number::Symbol(symbol) => arena.input(Input::Symbol(symbol)),
+        Number::Varying(symbol) => arena.input(Input::Varying(symbol)),
     }
 }
 

@@ -60,6 +60,8 @@ impl std::ops::Neg for Expr {
 pub enum Input {
     /// A number of the description that the macro cannot see.
     Symbol(u32),
+    /// One that depends on inputs of the mechanism.
+    Varying(u32),
     /// `2 a`, the factor of `Phi'` in `gamma*`.
     RateGain,
     /// `b^2`, the factor of `Phi` in `gamma*`.
@@ -85,12 +87,26 @@ pub enum Stage {
     Literal,
     /// Once per mechanism, in `prepare`.
     Parameter,
-    /// Once per formulation, in `coefficients`.
+    /// Whenever inputs are set, in `take_inputs`.
+    Input,
+    /// Once per formulation, in `coefficients`; of what depends on inputs too, at every evaluation.
     Coefficient,
     /// At every evaluation.
     State,
     /// With the right-hand side, after the factorisation.
     RightHandSide,
+}
+
+impl Stage {
+    /// When what is made of two values is known. What depends on inputs and on coefficients is left to the evaluation, so that either can change by itself.
+    #[inline(always)]
+    pub(super) const fn with(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Input, Self::Coefficient) | (Self::Coefficient, Self::Input) => Self::State,
+            _ if (self as u8) < other as u8 => other,
+            _ => self,
+        }
+    }
 }
 
 impl Input {
@@ -106,6 +122,7 @@ impl Input {
             Self::Velocity(place) => (6, place),
             Self::Upper(place) => (7, place),
             Self::Lower(place) => (8, place),
+            Self::Varying(place) => (9, place),
         }
     }
 
@@ -114,6 +131,7 @@ impl Input {
     pub const fn stage(self) -> Stage {
         match self {
             Self::Symbol(_) => Stage::Parameter,
+            Self::Varying(_) => Stage::Input,
             Self::RateGain | Self::PositionGain | Self::Compliance(_) => Stage::Coefficient,
             Self::Time | Self::Coordinate(_) | Self::Velocity(_) => Stage::State,
             Self::Upper(_) | Self::Lower(_) => Stage::RightHandSide,

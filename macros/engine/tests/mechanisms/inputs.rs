@@ -99,7 +99,7 @@ impl Inputs {
     pub(crate) fn values(&self, arena: &Arena, outputs: &[Expr]) -> Vec<f64> {
         let at = |values: &[f64], place: u32| values.get(place as usize).copied();
         let values = evaluate(arena, outputs, |input| match input {
-            Input::Symbol(place) => at(&self.symbols, place),
+            Input::Symbol(place) | Input::Varying(place) => at(&self.symbols, place),
             Input::RateGain => Some(self.coefficients.rate_gain),
             Input::PositionGain => Some(self.coefficients.position_gain),
             Input::Compliance(_) => Some(self.coefficients.compliance),

@@ -245,7 +245,9 @@ impl Comparison<'_> {
             match input {
                 Input::Coordinate(k) => at(&inputs.coordinates, &moving, k),
                 Input::Velocity(k) => at(&inputs.velocities, &second, k),
-                Input::Symbol(k) => Some((*inputs.symbols.get(k as usize)?, 0.0)),
+                Input::Symbol(k) | Input::Varying(k) => {
+                    Some((*inputs.symbols.get(k as usize)?, 0.0))
+                }
                 _ => None,
             }
         };

@@ -88,7 +88,7 @@ impl State {
             Input::Velocity(place) => self.velocities.get(place as usize).copied(),
             Input::Time => Some(0.3),
             Input::Compliance(_) => Some(COMPLIANCE),
-            Input::Symbol(_) => Some(SYMBOL),
+            Input::Symbol(_) | Input::Varying(_) => Some(SYMBOL),
             _ => None,
         });
         values

@@ -51,7 +51,7 @@ fn judge(text: &str) {
                 Input::Velocity(place) => state.velocities.get(place as usize).copied(),
                 Input::Upper(place) => upper.get(place as usize).copied(),
                 Input::Lower(place) => lower.get(place as usize).copied(),
-                Input::Symbol(_) => Some(SYMBOL),
+                Input::Symbol(_) | Input::Varying(_) => Some(SYMBOL),
                 _ => None,
             });
             let given: Vec<f64> = given

@@ -113,3 +113,17 @@ fn a_product_is_as_late_as_its_latest_factor() {
     assert_eq!(arena.stage(product), Stage::State);
     assert_eq!(arena.stage(gain), Stage::Coefficient);
 }
+
+#[test]
+fn inputs_and_coefficients_change_by_themselves() {
+    let mut arena = Arena::new();
+    let [gain, current, size] =
+        [Input::RateGain, Input::Varying(0), Input::Symbol(1)].map(|input| arena.input(input));
+    let scaled = arena.mul(size, current);
+    let moment = arena.reciprocal(scaled);
+    assert_eq!(arena.stage(moment), Stage::Input);
+    let known = arena.mul(size, gain);
+    assert_eq!(arena.stage(known), Stage::Coefficient);
+    let both = arena.mul(moment, gain);
+    assert_eq!(arena.stage(both), Stage::State);
+}
