@@ -35,6 +35,8 @@ impl core::error::Error for ParameterError {}
 pub enum Fault {
     /// The state holds NaN or infinity.
     StateNotFinite,
+    /// The state of a system is not made of coordinates and velocities, which the method needs.
+    NoVelocities,
     /// The Euler parameters of a body in the state have the length zero: no orientation.
     ZeroOrientation {
         /// The body's field.

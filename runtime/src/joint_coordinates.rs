@@ -111,6 +111,13 @@ pub trait JointCoordinates: Mechanism {
         lower: &Self::ClosingMultipliers<S>,
     ) -> (Self::JointVelocities<S>, Self::ClosingMultipliers<S>);
 
+    /// The rates of the coordinates at the velocities of a state; those of the velocities are zero.
+    fn joint_coordinate_rates<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        time: S,
+        state: &Self::JointState<S>,
+    ) -> Self::JointState<S>;
+
     /// How the bodies stand and move.
     fn body_motions<S: Scalar>(
         constants: &Self::JointConstants<S>,

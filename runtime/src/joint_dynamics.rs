@@ -451,6 +451,28 @@ where
     }
 
     #[inline]
+    fn with_new_velocities(
+        &mut self,
+        time: S,
+        state: &M::JointState<S>,
+        step: S,
+        rates: &mut M::JointState<S>,
+    ) -> Result<(), Fault> {
+        let mut end = *state;
+        let velocities = end.rates_slice_mut().iter_mut();
+        for (velocity, &rate) in velocities.zip(rates.rates_slice()) {
+            *velocity = rate.fused(step, *velocity);
+        }
+        let mut of_coordinates = M::joint_coordinate_rates(&self.constants, time, &end);
+        let places = of_coordinates.rates_slice_mut().iter_mut();
+        for (place, &rate) in places.zip(rates.rates_slice()) {
+            *place = rate;
+        }
+        *rates = of_coordinates;
+        Ok(())
+    }
+
+    #[inline]
     fn settle(&mut self, state: &mut M::JointState<S>, mut rates: Option<&mut M::JointState<S>>) {
         for &place in M::JOINT_REPORT.euler_parameters {
             let p: [S; 4] = read(state.rest_slice(), place);

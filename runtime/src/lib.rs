@@ -193,8 +193,8 @@ pub use handle::{
 };
 pub use integrate::{
     AdaptiveCourse, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages,
-    FixedCourse, FixedStep, Integrator, Rk4, Rk4Stages, Scheme, Span, Start, StepLimits, Stride,
-    System, Tolerance,
+    FixedCourse, FixedStep, Heun, Integrator, Midpoint, NoStages, Rk4, Scheme, SemiImplicitEuler,
+    Span, Start, StepLimits, Stride, System, Tolerance,
 };
 pub use joint_coordinates::{
     Freedom, JointCoordinates, JointEvaluation, JointMotion, JointParts, JointReport,

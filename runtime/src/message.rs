@@ -28,6 +28,10 @@ impl fmt::Debug for ParameterError {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
+            Self::NoVelocities => write!(
+                f,
+                "the method moves coordinates by velocities, and the system does not say which are which (`System::with_new_velocities`)"
+            ),
             Self::StateNotFinite => write!(f, "the state holds a number that is not finite"),
             Self::ZeroOrientation { body } => {
                 write!(f, "the Euler parameters of body `{body}` have no length")

@@ -496,6 +496,27 @@ where
     }
 
     #[inline]
+    fn with_new_velocities(
+        &mut self,
+        _time: S,
+        state: &M::State<S>,
+        step: S,
+        rates: &mut M::State<S>,
+    ) -> Result<(), Fault> {
+        let mut end = Self::read(state);
+        let velocities = end.velocities_mut().as_mut_slice().iter_mut();
+        for (velocity, &rate) in velocities.zip(rates.velocities().as_slice()) {
+            *velocity = rate.fused(step, *velocity);
+        }
+        let mut coordinate_rates = M::coordinate_rates(&self.constants, &end);
+        if P::NORMALISED && !P::NORMALISED_RATES {
+            scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
+        }
+        *rates.coordinates_mut() = coordinate_rates;
+        Ok(())
+    }
+
+    #[inline]
     fn settle(&mut self, state: &mut M::State<S>, rates: Option<&mut M::State<S>>) {
         let stretch = if P::NORMALISED && !P::NORMALISED_RATES {
             bring_to_unit_length::<S, M>(state, rates)

@@ -44,7 +44,7 @@ pub struct AugmentedLagrangian<S> {
     pub omega: S,
     /// `mu`, positive: the damping ratio of the violation, 1 for critical damping.
     pub mu: S,
-    /// The change of the accelerations, relative to `1 + |u'|`, that ends the iteration; positive.
+    /// The change of the accelerations, relative to `1 + |u'|`, that ends the iteration; zero if nothing is to end it, see [`AugmentedLagrangian::exactly`].
     pub tolerance: S,
     /// How often the system may be solved in one evaluation; at least 2. Near singular configurations it is solved as often.
     pub max_iterations: usize,
@@ -67,6 +67,19 @@ impl<S: Real> AugmentedLagrangian<S> {
             max_iterations: 20,
         }
     }
+
+    /// The same with a number of solutions that does not depend on data, for a step whose cost is known in advance; at least 2.
+    ///
+    /// What is left of the bias of the penalty is not looked at: a part `(e / (e + s))^(solutions - 1)` of it, see above. [`Dynamics::inconsistency`](crate::Dynamics::inconsistency)
+    /// says how much that is at a state.
+    #[must_use]
+    pub fn exactly(self, solutions: usize) -> Self {
+        Self {
+            tolerance: S::zero(),
+            max_iterations: solutions,
+            ..self
+        }
+    }
 }
 
 /// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15.
@@ -86,7 +99,9 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
     }
 
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault> {
-        positive("tolerance of the augmented Lagrangian", self.tolerance)?;
+        if self.tolerance != S::zero() {
+            positive("tolerance of the augmented Lagrangian", self.tolerance)?;
+        }
         if self.max_iterations < 2 {
             let name = "max_iterations of the augmented Lagrangian, less 1";
             return Err(Fault::Setting {
@@ -102,6 +117,13 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
         saddle: &Saddle<'_, S, M, Compliant>,
     ) -> Result<Solution<S, M>, Fault> {
         let mut last = saddle.solve();
+        if self.tolerance == S::zero() {
+            for _ in 1..self.max_iterations {
+                last = saddle.solve_after(&last.multipliers);
+            }
+            last.iterations = self.max_iterations;
+            return Ok(last);
+        }
         let mut change = S::zero();
         let mut worst = 0;
         for iterations in 2..=self.max_iterations {

@@ -131,6 +131,13 @@ impl<S: Real> AugmentedLagrangian<S> {
         if last.multipliers.as_slice().is_empty() {
             return Ok(last);
         }
+        if self.tolerance == S::zero() {
+            for _ in 1..self.max_iterations {
+                last = saddle.solve_after(&last.multipliers);
+            }
+            last.iterations = self.max_iterations;
+            return Ok(last);
+        }
         let mut missing = saddle.yielded(&last.multipliers);
         let mut direction = Change::<S, M>::nothing();
         // What the direction changes of what is missing, with the other sign: `S` times it.

@@ -2,6 +2,8 @@
 //!
 //! | what a user writes | method | evaluations |
 //! |---|---|---|
+//! | [`SemiImplicitEuler::every(h)`](SemiImplicitEuler::every) | semi-implicit Euler of order 1, fixed step | 1 a step |
+//! | [`Midpoint::every(h)`](Midpoint::every), [`Heun::every(h)`](Heun::every) | Runge-Kutta methods of order 2, fixed step | 2 a step |
 //! | [`Rk4::every(h)`](Rk4::every) | classical Runge-Kutta of order 4, fixed step | 4 a step |
 //! | [`DormandPrince::every(h)`](DormandPrince::every) | Dormand-Prince of order 5, fixed step | 6 a step |
 //! | [`DormandPrince::new(tolerance)`](DormandPrince::new) | Dormand-Prince 5(4), the step control of MATLAB's `ode45` | 6 a trial, and 1 |
@@ -14,7 +16,9 @@ mod controller;
 mod dense;
 mod dormand_prince;
 mod fixed;
+mod rk2;
 mod rk4;
+mod semi_implicit;
 mod tableau;
 #[cfg(test)]
 mod tests;
@@ -23,7 +27,9 @@ pub use adaptive::AdaptiveCourse;
 pub use controller::Tolerance;
 pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages, StepLimits};
 pub use fixed::{FixedCourse, FixedStep};
-pub use rk4::{Rk4, Rk4Stages};
+pub use rk2::{Heun, Midpoint};
+pub use rk4::Rk4;
+pub use semi_implicit::SemiImplicitEuler;
 
 use core::fmt::Debug;
 
@@ -78,6 +84,21 @@ pub trait System<S: Real> {
     ) -> Result<(), Fault> {
         *rates = self.rates(time, state)?;
         Ok(())
+    }
+
+    /// Puts the rates of the coordinates at the velocities at the end of a step in the place of those at its start: at the velocities that the other rates lead to.
+    ///
+    /// # Errors
+    /// [`Fault::NoVelocities`] of a system whose state is not made of coordinates and velocities, which is what stands here.
+    #[inline(always)]
+    fn with_new_velocities(
+        &mut self,
+        _time: S,
+        _state: &Self::State,
+        _step: S,
+        _rates: &mut Self::State,
+    ) -> Result<(), Fault> {
+        Err(Fault::NoVelocities)
     }
 
     /// Brings a state that a step has led to into its normal form, and its rates, where they are known, with it.
@@ -225,6 +246,10 @@ pub trait Scheme<S: Real>: Copy + Debug {
     }
 }
 
+/// No memory: inner slopes are not needed after the step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NoStages;
+
 /// Where a step starts.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<'a, S, X> {
@@ -336,6 +361,16 @@ impl<S: Real, X: Vector<S>> System<S> for Checked<'_, S, X> {
     fn rates(&mut self, time: S, state: &X) -> Result<X, Fault> {
         self.system.rates(time, state)
     }
+
+    fn with_new_velocities(
+        &mut self,
+        time: S,
+        state: &X,
+        step: S,
+        rates: &mut X,
+    ) -> Result<(), Fault> {
+        self.system.with_new_velocities(time, state, step, rates)
+    }
 }
 
 /// A system that counts its evaluations.
@@ -357,6 +392,17 @@ impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
     fn stage(&mut self, time: S, state: &Y::State, rates: &mut Y::State) -> Result<(), Fault> {
         self.counts.evaluations += 1;
         self.system.stage(time, state, rates)
+    }
+
+    #[inline(always)]
+    fn with_new_velocities(
+        &mut self,
+        time: S,
+        state: &Y::State,
+        step: S,
+        rates: &mut Y::State,
+    ) -> Result<(), Fault> {
+        self.system.with_new_velocities(time, state, step, rates)
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method.
 
-use super::{FixedStep, Scheme, Start, Stride, System, dense};
+use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
 use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
@@ -23,15 +23,11 @@ impl Rk4 {
     }
 }
 
-/// No memory: the inner slopes are not needed after the step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rk4Stages;
-
 impl<S: Real> Scheme<S> for Rk4 {
-    type Stages<X: Vector<S>> = Rk4Stages;
+    type Stages<X: Vector<S>> = NoStages;
 
-    fn stages<X: Vector<S>>(&self, _like: &X) -> Rk4Stages {
-        Rk4Stages
+    fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
+        NoStages
     }
 
     #[inline]
@@ -40,7 +36,7 @@ impl<S: Real> Scheme<S> for Rk4 {
         system: &mut Y,
         start: Start<'_, S, Y::State>,
         step: S,
-        _stages: &mut Rk4Stages,
+        _stages: &mut NoStages,
     ) -> Result<Y::State, Fault> {
         let Start {
             time,
@@ -79,7 +75,7 @@ impl<S: Real> Scheme<S> for Rk4 {
         Ok(next.plus([(sixth, &slope)]))
     }
 
-    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Rk4Stages>, theta: S) -> X {
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
         dense::cubic(&stride, theta)
     }
 }

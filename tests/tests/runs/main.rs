@@ -11,6 +11,7 @@ mod faults;
 mod forces;
 mod inputs;
 mod kinematics;
+mod low_order;
 mod observer;
 mod order;
 mod pendulum;

@@ -5,18 +5,15 @@ use quote::{format_ident, quote};
 
 use super::inputs::taken;
 use super::parts::{Frame, write_in_parts};
-use super::report::{evaluation_name, kernel, terms_name};
 use super::rows::{WIDTH, array, pack};
 use super::solution::{inline, name, verdict};
 use super::store::{BackSubstitution, Store, load_input};
 use super::straight_line::{Environment, Given, StraightLine, Value};
-use crate::coordinates::kernels::{Evaluation, JointKernels, Meaning, Solver};
+use crate::coordinates::kernels::{Evaluation, JointKernels, Solver};
 use crate::model::Model;
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
-use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
-use crate::symbolic::scene::Normalisation;
 use crate::syntax::words::local;
 
 /// The environment of a kernel that reads a state in joint coordinates.
@@ -50,10 +47,10 @@ impl Environment for Arguments<'_> {
     }
 }
 
-struct Writer<'a> {
-    model: &'a Model,
-    kernels: &'a JointKernels,
-    facade: &'a TokenStream,
+pub(super) struct Writer<'a> {
+    pub(super) model: &'a Model,
+    pub(super) kernels: &'a JointKernels,
+    pub(super) facade: &'a TokenStream,
     store: Store,
     /// The functions that long kernels are written in.
     parts: TokenStream,
@@ -104,6 +101,7 @@ impl Writer<'_> {
         let solving = self.solving();
         let bodies = self.bodies();
         let joints = self.joints();
+        let coordinate_rates = self.coordinate_rates();
         let coefficients = self.store.write_coefficients();
         let taken = taken(model, &mut self.store);
         let prepared = self.store.write_constants(&model.symbols);
@@ -158,6 +156,7 @@ impl Writer<'_> {
                 #solving
                 #bodies
                 #joints
+                #coordinate_rates
             }
 
             #evaluations
@@ -318,6 +317,53 @@ impl Writer<'_> {
                 #multipliers: &mut Self::ClosingMultipliers<__S>,
             ) -> #facade::Pivot<__S> {
                 #body
+            }
+        }
+    }
+
+    /// The rates of the coordinates alone, which a method needs that moves them by velocities of the end of a step.
+    fn coordinate_rates(&mut self) -> TokenStream {
+        let (name, facade, kernels) = (&self.model.name, self.facade, self.kernels);
+        let [constants, time, state] = ["constants", "time", "state"].map(local);
+        let [plain, ..] = &kernels.evaluations[..] else {
+            unreachable!("there is an evaluation without stabilisation")
+        };
+        let kernel = Kernel {
+            arena: plain.kernel.arena.clone(),
+            outputs: plain.kernel.outputs[..kernels.turns + kernels.rest].to_vec(),
+        };
+        let unpack = Self::unpack();
+        let frame = Frame {
+            name: "__joint_coordinate_rates".into(),
+            facade: facade.clone(),
+            declared: quote! {
+                #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
+                #time: __S,
+                #state: &<#name as #facade::JointCoordinates>::JointState<__S>,
+            },
+            passed: quote!(#constants, #time, #state,),
+            unpack: unpack.clone(),
+        };
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line(&kernel, &frame);
+        let (angles, others) = outputs.split_at(kernels.turns);
+        let velocities = kernels.velocities;
+        quote! {
+            #[inline]
+            fn joint_coordinate_rates<__S: #facade::Scalar>(
+                #constants: &Self::JointConstants<__S>,
+                #time: __S,
+                #state: &Self::JointState<__S>,
+            ) -> Self::JointState<__S> {
+                #unpack
+                #statements
+                #facade::JointState::from_parts(
+                    [#([#angles, __S::constant(0.0)]),*],
+                    [#(#others),*],
+                    [__S::constant(0.0); #velocities],
+                )
             }
         }
     }
@@ -526,93 +572,6 @@ impl Writer<'_> {
                 #unpack
                 #statements
                 #facade::JointState::from_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
-            }
-        }
-    }
-
-    /// The coordinates, what remains of the joints, and what an evaluation costs.
-    fn documentation(&self) -> TokenStream {
-        let (model, kernels) = (self.model, self.kernels);
-        let joint = |joint: usize| model.joints[joint].name.to_string();
-        let mut text = String::from("| body | joint | moves by |\n|---|---|---|\n");
-        for link in &kernels.links {
-            let by = link
-                .joint
-                .map_or("moves freely".into(), |place| format!("`{}`", joint(place)));
-            let motion = match link.meaning {
-                Meaning::Turn(_) => "a turn",
-                Meaning::Slide => "a slide",
-                Meaning::Ball => "every rotation",
-            };
-            let body = &model.bodies[link.body].name;
-            text += &format!("| `{body}` | {by} | {motion} |\n");
-        }
-        let mut closing: Vec<String> = kernels.rows.iter().map(|&row| joint(row)).collect();
-        closing.dedup();
-        if !closing.is_empty() {
-            let rows = kernels.rows.len();
-            let names: Vec<String> = closing.iter().map(|name| format!("`{name}`")).collect();
-            let names = names.join(", ");
-            text += &format!("\nEquations that remain: {rows}, of {names}.\n");
-        }
-        text += "\n| kernel | operations | longest chain |\n|---|---|---|\n";
-        for (name, count) in self.counts() {
-            text += &format!("| {name} | {} | {} |\n", count.total(), count.depth);
-        }
-        quote!(#[doc = #text])
-    }
-
-    /// Name and cost of each evaluation, and then of each without multipliers, if there are any.
-    fn counts(&self) -> Vec<(String, Count)> {
-        let kernels = self.kernels;
-        let rates = kernels.turns + kernels.rest + kernels.velocities;
-        let rows = kernels.rows.len();
-        let evaluations = kernels.evaluations.iter().map(|evaluation| {
-            let Kernel { arena, outputs } = &evaluation.kernel;
-            let name = evaluation_name(evaluation.terms, Normalisation::Raw);
-            (name, count(arena, outputs, Stage::State))
-        });
-        let with_rows = kernels.evaluations.iter().filter(|_| rows > 0);
-        let alone = with_rows.map(|evaluation| {
-            let Kernel { arena, outputs } = &evaluation.kernel;
-            let needed = [&outputs[..rates], &outputs[rates + rows..]].concat();
-            let name = format!("rates {}", terms_name(evaluation.terms));
-            (name, count(arena, &needed, Stage::State))
-        });
-        evaluations.chain(alone).collect()
-    }
-
-    fn report(&self) -> TokenStream {
-        let (facade, kernels) = (self.facade, self.kernels);
-        let joint = |joint: Option<usize>| {
-            let joints = &self.model.joints;
-            joint.map_or(String::new(), |joint| joints[joint].name.to_string())
-        };
-        let links = kernels.links.iter().map(|link| {
-            let joint = joint(link.joint);
-            let body = self.model.bodies[link.body].name.to_string();
-            let motion = match link.meaning {
-                Meaning::Turn(is_reversed) => quote!(Turn { is_reversed: #is_reversed }),
-                Meaning::Slide => quote!(Slide),
-                Meaning::Ball => quote!(Ball),
-            };
-            quote! {
-                #facade::JointMotion { joint: #joint, body: #body, freedom: #facade::Freedom::#motion }
-            }
-        });
-        let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
-        let counts = self.counts().into_iter();
-        let counts = counts.map(|(name, count)| kernel(&name, count, facade));
-        let balls = &kernels.balls;
-        let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
-        quote! {
-            #facade::JointReport {
-                motions: &[#(#links),*],
-                closing: &[#(#closing),*],
-                kernels: &[#(#counts),*],
-                euler_parameters: &[#(#balls),*],
-                auxiliaries: #auxiliaries,
-                recounts: #recounts,
             }
         }
     }

@@ -5,6 +5,7 @@ pub mod documentation;
 pub mod fallback;
 mod inputs;
 pub mod joint;
+mod joint_report;
 pub mod mechanism;
 pub mod parameters;
 mod parts;

@@ -298,3 +298,92 @@ fn the_cubic_of_plain_vectors_is_one_sum() {
         assert_eq!(dense::cubic(&stride, theta), expected);
     }
 }
+
+#[test]
+fn midpoint_and_heun_have_order_two_at_and_within_steps() {
+    for [coarse, fine] in [
+        [errors(Midpoint::every(0.02)), errors(Midpoint::every(0.01))],
+        [errors(Heun::every(0.02)), errors(Heun::every(0.01))],
+    ] {
+        let orders = [order((coarse.0, fine.0)), order((coarse.1, fine.1))];
+        assert!(
+            orders.iter().all(|order| (order - 2.0).abs() < 0.1),
+            "{orders:?}"
+        );
+    }
+}
+
+/// With `z` half the angle of a step, both multiply `|p|^2` by `1 + z^4 / 4`, and semi-implicit Euler, where velocities stay, by `1 + z^2`.
+#[test]
+fn euler_parameters_gain_length_by_methods_of_low_order() {
+    let half = 5.0;
+    let mut system =
+        equation(|_, &[a, b, c, d]: &[f64; 4]| [-half * b, half * a, half * d, -half * c]);
+    let z: f64 = half * 0.05;
+    let [mut first, mut second] = [[0.6, 0.0, 0.8, 0.0]; 2];
+    Midpoint.step(&mut system, 0.0, &mut first, 0.05).unwrap();
+    Heun.step(&mut system, 0.0, &mut second, 0.05).unwrap();
+    for p in [first, second] {
+        let square: f64 = p.iter().map(|e| e * e).sum();
+        assert!((square - 1.0 - z.powi(4) / 4.0).abs() < 1e-15, "{square}");
+    }
+}
+
+/// `q'' = -q`.
+struct Spring;
+
+impl System<f64> for Spring {
+    type State = [f64; 2];
+
+    fn rates(&mut self, _time: f64, &[q, u]: &[f64; 2]) -> Result<[f64; 2], Fault> {
+        Ok([u, -q])
+    }
+
+    fn with_new_velocities(
+        &mut self,
+        _time: f64,
+        state: &[f64; 2],
+        step: f64,
+        rates: &mut [f64; 2],
+    ) -> Result<(), Fault> {
+        rates[0] = state[1] + step * rates[1];
+        Ok(())
+    }
+}
+
+/// `q^2 + u^2 - h q u` stays what it is: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, IX.3.
+#[test]
+fn semi_implicit_euler_keeps_its_energy_and_has_order_one() {
+    let at = |step: f64, steps: u32| {
+        let mut state = [1.0, 0.0];
+        for _ in 0..steps {
+            SemiImplicitEuler
+                .step(&mut Spring, 0.0, &mut state, step)
+                .unwrap();
+            let [q, u] = state;
+            let energy = q * q + u * u - step * q * u;
+            assert!((energy - 1.0).abs() < 1e-12, "{energy}");
+        }
+        state
+    };
+    at(0.1, 100_000);
+    let error = |[q, u]: [f64; 2]| distance([q, u], [1.0_f64.cos(), -(1.0_f64.sin())]);
+    let found = order((error(at(0.01, 100)), error(at(0.005, 200))));
+    assert!((found - 1.0).abs() < 0.05, "{found}");
+    let mut course = SemiImplicitEuler::every(0.01)
+        .start(&mut Spring, span(1.0, 1.0), [1.0, 0.0])
+        .unwrap();
+    while course.time() < 1.0 {
+        course.advance(&mut Spring).unwrap();
+    }
+    assert!(distance(*course.state(), at(0.01, 100)) < 1e-14);
+    assert_eq!(course.counts().evaluations, 100);
+}
+
+#[test]
+fn semi_implicit_euler_wants_velocities() {
+    let mut system = equation(curved);
+    let mut state = curve(0.0);
+    let refused = SemiImplicitEuler.step(&mut system, 0.0, &mut state, 0.1);
+    assert_eq!((refused, state), (Err(Fault::NoVelocities), curve(0.0)));
+}

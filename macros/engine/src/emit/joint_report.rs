@@ -1,0 +1,101 @@
+//! What is told of a mechanism in joint coordinates: its coordinates, what remains of the joints, and what an evaluation costs.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::coordinates::Writer;
+use super::report::{evaluation_name, kernel, terms_name};
+use crate::coordinates::kernels::Meaning;
+use crate::symbolic::arena::Stage;
+use crate::symbolic::count::{Count, count};
+use crate::symbolic::equations::Kernel;
+use crate::symbolic::scene::Normalisation;
+
+impl Writer<'_> {
+    /// The coordinates, what remains of the joints, and what an evaluation costs.
+    pub(super) fn documentation(&self) -> TokenStream {
+        let (model, kernels) = (self.model, self.kernels);
+        let joint = |joint: usize| model.joints[joint].name.to_string();
+        let mut text = String::from("| body | joint | moves by |\n|---|---|---|\n");
+        for link in &kernels.links {
+            let by = link
+                .joint
+                .map_or("moves freely".into(), |place| format!("`{}`", joint(place)));
+            let motion = match link.meaning {
+                Meaning::Turn(_) => "a turn",
+                Meaning::Slide => "a slide",
+                Meaning::Ball => "every rotation",
+            };
+            let body = &model.bodies[link.body].name;
+            text += &format!("| `{body}` | {by} | {motion} |\n");
+        }
+        let mut closing: Vec<String> = kernels.rows.iter().map(|&row| joint(row)).collect();
+        closing.dedup();
+        if !closing.is_empty() {
+            let rows = kernels.rows.len();
+            let names: Vec<String> = closing.iter().map(|name| format!("`{name}`")).collect();
+            let names = names.join(", ");
+            text += &format!("\nEquations that remain: {rows}, of {names}.\n");
+        }
+        text += "\n| kernel | operations | longest chain |\n|---|---|---|\n";
+        for (name, count) in self.counts() {
+            text += &format!("| {name} | {} | {} |\n", count.total(), count.depth);
+        }
+        quote!(#[doc = #text])
+    }
+
+    /// Name and cost of each evaluation, and then of each without multipliers, if there are any.
+    fn counts(&self) -> Vec<(String, Count)> {
+        let kernels = self.kernels;
+        let rates = kernels.turns + kernels.rest + kernels.velocities;
+        let rows = kernels.rows.len();
+        let evaluations = kernels.evaluations.iter().map(|evaluation| {
+            let Kernel { arena, outputs } = &evaluation.kernel;
+            let name = evaluation_name(evaluation.terms, Normalisation::Raw);
+            (name, count(arena, outputs, Stage::State))
+        });
+        let with_rows = kernels.evaluations.iter().filter(|_| rows > 0);
+        let alone = with_rows.map(|evaluation| {
+            let Kernel { arena, outputs } = &evaluation.kernel;
+            let needed = [&outputs[..rates], &outputs[rates + rows..]].concat();
+            let name = format!("rates {}", terms_name(evaluation.terms));
+            (name, count(arena, &needed, Stage::State))
+        });
+        evaluations.chain(alone).collect()
+    }
+
+    pub(super) fn report(&self) -> TokenStream {
+        let (facade, kernels) = (self.facade, self.kernels);
+        let joint = |joint: Option<usize>| {
+            let joints = &self.model.joints;
+            joint.map_or(String::new(), |joint| joints[joint].name.to_string())
+        };
+        let links = kernels.links.iter().map(|link| {
+            let joint = joint(link.joint);
+            let body = self.model.bodies[link.body].name.to_string();
+            let motion = match link.meaning {
+                Meaning::Turn(is_reversed) => quote!(Turn { is_reversed: #is_reversed }),
+                Meaning::Slide => quote!(Slide),
+                Meaning::Ball => quote!(Ball),
+            };
+            quote! {
+                #facade::JointMotion { joint: #joint, body: #body, freedom: #facade::Freedom::#motion }
+            }
+        });
+        let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
+        let counts = self.counts().into_iter();
+        let counts = counts.map(|(name, count)| kernel(&name, count, facade));
+        let balls = &kernels.balls;
+        let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
+        quote! {
+            #facade::JointReport {
+                motions: &[#(#links),*],
+                closing: &[#(#closing),*],
+                kernels: &[#(#counts),*],
+                euler_parameters: &[#(#balls),*],
+                auxiliaries: #auxiliaries,
+                recounts: #recounts,
+            }
+        }
+    }
+}

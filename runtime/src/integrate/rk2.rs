@@ -1,0 +1,101 @@
+//! Runge-Kutta methods of order 2.
+
+use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
+use crate::array::Vector;
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// The explicit midpoint method of order 2, of Runge: two evaluations a step, no estimate of the error.
+///
+/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, (II.1.4). Output within a step is by the cubic through states and slopes at
+/// both ends.
+///
+/// A step of Euler parameters at a constant angular velocity `w` multiplies `|p|^2` by `1 + z^4 / 4` with `z = |w| h / 2`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Midpoint;
+
+/// The method of Heun of order 2, the trapezoidal rule with a predictor: two evaluations a step, at its start and at its end, no estimate of the error.
+///
+/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, exercise II.1.1. Output within a step is by the cubic through states and slopes at
+/// both ends; Euler parameters lose their length as with [`Midpoint`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Heun;
+
+impl Midpoint {
+    /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
+    #[must_use]
+    pub const fn every<S>(step: S) -> FixedStep<S, Self> {
+        FixedStep { step, scheme: Self }
+    }
+}
+
+impl Heun {
+    /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
+    #[must_use]
+    pub const fn every<S>(step: S) -> FixedStep<S, Self> {
+        FixedStep { step, scheme: Self }
+    }
+}
+
+/// The ratio of `z^3 / 6`, by which an angle is off after a step, and `z^4 / 8`, by which `|p|` is, for steps of half a radian: `z` is half the angle.
+const TURNING_ERROR: f64 = 16.0 / 3.0;
+
+impl<S: Real> Scheme<S> for Midpoint {
+    type Stages<X: Vector<S>> = NoStages;
+
+    fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
+        NoStages
+    }
+
+    #[inline]
+    fn stride<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        Start { time, state, slope }: Start<'_, S, Y::State>,
+        step: S,
+        _stages: &mut NoStages,
+    ) -> Result<Y::State, Fault> {
+        let half = S::constant(0.5) * step;
+        let mut middle = slope.clone();
+        system.stage(time + half, &state.plus([(half, slope)]), &mut middle)?;
+        Ok(state.plus([(step, &middle)]))
+    }
+
+    fn turning_error(&self) -> f64 {
+        TURNING_ERROR
+    }
+
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
+        dense::cubic(&stride, theta)
+    }
+}
+
+impl<S: Real> Scheme<S> for Heun {
+    type Stages<X: Vector<S>> = NoStages;
+
+    fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
+        NoStages
+    }
+
+    #[inline]
+    fn stride<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        Start { time, state, slope }: Start<'_, S, Y::State>,
+        step: S,
+        _stages: &mut NoStages,
+    ) -> Result<Y::State, Fault> {
+        let half = S::constant(0.5) * step;
+        let mut last = slope.clone();
+        system.stage(time + step, &state.plus([(step, slope)]), &mut last)?;
+        Ok(state.plus([(half, slope), (half, &last)]))
+    }
+
+    fn turning_error(&self) -> f64 {
+        TURNING_ERROR
+    }
+
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
+        dense::cubic(&stride, theta)
+    }
+}

@@ -1,0 +1,53 @@
+//! The semi-implicit Euler method.
+
+use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
+use crate::array::Vector;
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// The semi-implicit (symplectic) Euler method of order 1: velocities by the accelerations at the start of the step, then coordinates by the velocities at its end. One
+/// evaluation a step, no estimate of the error.
+///
+/// The energy of a conservative mechanism swings with an amplitude of the order of the step, but does not drift as with the explicit method of Euler, where neither forces nor
+/// masses depend on velocities: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, (I.1.9). It moves states of coordinates and velocities alone: a [`System`] of
+/// one's own offers [`System::with_new_velocities`], or is refused with [`Fault::NoVelocities`]. Output within a step is by the cubic through states and slopes at both ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SemiImplicitEuler;
+
+impl SemiImplicitEuler {
+    /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
+    #[must_use]
+    pub const fn every<S>(step: S) -> FixedStep<S, Self> {
+        FixedStep { step, scheme: Self }
+    }
+}
+
+impl<S: Real> Scheme<S> for SemiImplicitEuler {
+    type Stages<X: Vector<S>> = NoStages;
+
+    fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
+        NoStages
+    }
+
+    #[inline]
+    fn stride<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        Start { time, state, slope }: Start<'_, S, Y::State>,
+        step: S,
+        _stages: &mut NoStages,
+    ) -> Result<Y::State, Fault> {
+        let mut slope = slope.clone();
+        system.with_new_velocities(time, state, step, &mut slope)?;
+        Ok(state.plus([(step, &slope)]))
+    }
+
+    /// `|p|` grows by `z^2 / 2` and an angle is off by `z^3 / 3`: less than `|p|`, for steps below a radian.
+    fn turning_error(&self) -> f64 {
+        1.0
+    }
+
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
+        dense::cubic(&stride, theta)
+    }
+}
