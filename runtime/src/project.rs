@@ -92,7 +92,8 @@ impl<S: Real> Projection<S> {
         self.correct_by::<M>(Measure::Whole, constants, time, state)
     }
 
-    /// [`Projection::correct`] for a state on its way, which may keep a violation that is nearly a state of self-stress.
+    /// [`Projection::correct`] for a state on its way, which may keep a violation that is nearly a state of self-stress. Not part of a step: its stack would be that of every step.
+    #[inline(never)]
     pub(crate) fn correct_in_motion<M: Mechanism>(
         &self,
         constants: &M::Constants<S>,

@@ -164,7 +164,10 @@ where
         self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
         let end = clock.time();
         if let Some(projection) = self.projection {
-            projection.correct_in_motion::<M>(self.dynamics.constants(), end, &mut next)?;
+            // A copy, so that a state that is not corrected need not be in memory.
+            let mut corrected = next;
+            projection.correct_in_motion::<M>(self.dynamics.constants(), end, &mut corrected)?;
+            next = corrected;
         }
         *state = next;
         self.clock = clock;
