@@ -57,6 +57,22 @@ pub struct JointDynamics<S: Real, M: JointCoordinates, F: Formulation<S>, A = No
     pivot: S,
 }
 
+impl<S: Real, M: JointCoordinates, F: Formulation<S>, A: Clone> Clone
+    for JointDynamics<S, M, F, A>
+{
+    fn clone(&self) -> Self {
+        Self {
+            bodies: self.bodies.clone(),
+            constants: self.constants,
+            coefficients: self.coefficients,
+            stabilisation: self.stabilisation,
+            compliances: self.compliances,
+            iterations: self.iterations,
+            pivot: self.pivot,
+        }
+    }
+}
+
 impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     /// Prepares the kernels.
     ///

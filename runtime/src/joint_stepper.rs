@@ -52,6 +52,18 @@ pub struct JointStepper<S: Real, M: JointCoordinates, F: Formulation<S>, K, A = 
     clock: Clock<S>,
 }
 
+impl<S: Real, M: JointCoordinates, F: Formulation<S>, K: Copy, A: Clone> Clone
+    for JointStepper<S, M, F, K, A>
+{
+    fn clone(&self) -> Self {
+        Self {
+            dynamics: self.dynamics.clone(),
+            scheme: self.scheme,
+            clock: self.clock,
+        }
+    }
+}
+
 impl<S: Real, M: JointCoordinates, F: Formulation<S>, K: Scheme<S>> JointStepper<S, M, F, K> {
     /// Prepares the kernels; the time begins at zero.
     ///

@@ -23,6 +23,19 @@ pub struct Stepper<S: Real, M: Mechanism, F: Formulation<S>, K, P = Normalised, 
     projection: Option<Projection<S>>,
 }
 
+impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, P, A: Clone> Clone
+    for Stepper<S, M, F, K, P, A>
+{
+    fn clone(&self) -> Self {
+        Self {
+            dynamics: self.dynamics.clone(),
+            scheme: self.scheme,
+            clock: self.clock,
+            projection: self.projection,
+        }
+    }
+}
+
 impl<S: Real, M: Mechanism, F: Formulation<S>, K: Scheme<S>> Stepper<S, M, F, K> {
     /// Prepares the kernels; the time begins at zero.
     ///

@@ -59,3 +59,32 @@ fn single_precision() {
     below(off::<f32, SwingByJoints<_>>(FOUR_BAR_BY_JOINTS), 1e-3);
     below(off::<f32, Ur5ByJoints<_>>(UR5_BY_JOINTS), 1e-3);
 }
+
+/// The page of the guide shows the files of `tests/firmware/balancer`, which `tests/firmware/run` builds and runs.
+#[test]
+fn the_guide_shows_what_runs() {
+    let here = env!("CARGO_MANIFEST_DIR");
+    let read = |path: &str| std::fs::read_to_string(format!("{here}/{path}")).expect("a file");
+    let page = read("../runtime/src/guide/embedded.md");
+    let published = |manifest: String| {
+        let by_path = "{ path = \"../../../runtime\",";
+        assert!(manifest.contains(by_path));
+        manifest
+            .replace(by_path, "{ version = \"0.1\",")
+            .replace("\n[workspace]\n", "")
+    };
+    for (file, kind) in [
+        ("Cargo.toml", "toml"),
+        (".cargo/config.toml", "toml"),
+        ("memory.x", "text"),
+        ("build.rs", "text"),
+        ("src/main.rs", "text"),
+    ] {
+        let mut text = read(&format!("firmware/balancer/{file}"));
+        if file == "Cargo.toml" {
+            text = published(text);
+        }
+        let block = format!("```{kind}\n{}\n```", text.trim_end());
+        assert!(page.contains(&block), "the guide shows another `{file}`");
+    }
+}

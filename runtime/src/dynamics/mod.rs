@@ -75,6 +75,23 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
     }
 }
 
+impl<S: Real, M: Mechanism, F: Formulation<S>, P, A: Clone> Clone for Dynamics<S, M, F, P, A> {
+    fn clone(&self) -> Self {
+        Self {
+            parameters: self.parameters,
+            constants: self.constants,
+            coefficients: self.coefficients,
+            stabilisation: self.stabilisation,
+            compliances: self.compliances,
+            formulation: self.formulation,
+            forces: self.forces.clone(),
+            iterations: self.iterations,
+            seen: self.seen,
+            orientation: PhantomData,
+        }
+    }
+}
+
 impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M, F, P, A> {
     /// The same with Euler parameters read in another way.
     #[must_use]

@@ -16,6 +16,14 @@ pub(crate) struct Seen<S: Scalar, M: Mechanism> {
     pub(crate) stretch: S,
 }
 
+impl<S: Scalar, M: Mechanism> Clone for Seen<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Seen<S, M> {}
+
 impl<S: Real, M: Mechanism> Seen<S, M> {
     pub(crate) fn nothing() -> Self {
         Self {
