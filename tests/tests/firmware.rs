@@ -16,7 +16,8 @@ use reference::{
     FOUR_BAR_BY_BODIES, FOUR_BAR_BY_JOINTS, PENDULUM_BY_BODIES, PENDULUM_BY_JOINTS, UR5_BY_JOINTS,
 };
 use trials::{
-    PendulumByBodies, PendulumByJoints, SwingByBodies, SwingByJoints, Trial, Ur5ByJoints, run,
+    PendulumByBodies, PendulumByJoints, Plant, SwingByBodies, SwingByJoints, Trial, Ur5ByJoints,
+    run,
 };
 
 /// How far the readings are from the reference: angle (rad), and force relative to its size.
@@ -26,7 +27,8 @@ fn off<S: Real, T: Trial<S>>([angle, force]: [f64; 2]) -> [f64; 2] {
         (read_angle - angle).abs(),
         ((read_force - force) / force).abs(),
     ];
-    println!("{}: {read_angle:?} {read_force:?}, off by {off:?}", T::NAME);
+    let (name, description) = (T::Plant::NAME, T::DESCRIPTION);
+    println!("{name}, {description}: {read_angle:?} {read_force:?}, off by {off:?}");
     off
 }
 

@@ -2,7 +2,7 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{JointCoordinates, JointStepper, Real};
+use holonom::{JointCoordinates, JointStepper, Real, View};
 
 // Not by the crate of the models, which has many more to compile.
 #[path = "../../../models/src/rod_pendulum.rs"]
@@ -10,7 +10,7 @@ mod rod_pendulum;
 #[path = "../../../models/src/ur5.rs"]
 mod ur5;
 
-use rod_pendulum::RodPendulum;
+pub use rod_pendulum::RodPendulum;
 use ur5::Ur5;
 
 /// A four-bar of unequal rods that swings under the weight, far from any line of its links.
@@ -33,14 +33,128 @@ pub struct Swing {
     other_foot: Revolute,
 }
 
-/// A mechanism in a loop of a controller.
-pub trait Trial<S: Real>: Sized {
-    /// Mechanism and description.
+/// A mechanism in a loop of a controller, and what is read of it.
+pub trait Plant: JointCoordinates + Default {
+    /// What it is called.
     const NAME: &'static str;
     /// Periods of 1 ms that the reference is given after.
     const PERIODS: u32;
+
+    /// Sets what an actuator is told for the period of a number. Whether anything was set.
+    fn drive(&mut self, _number: u32) -> bool {
+        false
+    }
+
+    /// An angle (rad), and a component of a reaction (N).
+    fn read<S: Real>(
+        view: &View<'_, S, Self>,
+        multipliers: &Self::Multipliers<S>,
+    ) -> Result<[S; 2], Fault>;
+}
+
+impl Plant for RodPendulum {
+    const NAME: &'static str = "pendulum";
+    const PERIODS: u32 = 10_000;
+
+    fn read<S: Real>(
+        view: &View<'_, S, Self>,
+        multipliers: &Self::Multipliers<S>,
+    ) -> Result<[S; 2], Fault> {
+        let on = Self::HANDLES;
+        let wrench = view.reaction(multipliers, on.pivot, on.rod)?;
+        Ok([view.angle(on.pivot), wrench.force.z])
+    }
+}
+
+impl Plant for Swing {
+    const NAME: &'static str = "four-bar";
+    const PERIODS: u32 = 10_000;
+
+    fn read<S: Real>(
+        view: &View<'_, S, Self>,
+        multipliers: &Self::Multipliers<S>,
+    ) -> Result<[S; 2], Fault> {
+        let on = Self::HANDLES;
+        let wrench = view.reaction(multipliers, on.foot, on.left)?;
+        Ok([view.angle(on.foot), wrench.force.y])
+    }
+}
+
+impl Plant for Ur5 {
+    const NAME: &'static str = "UR5";
+    const PERIODS: u32 = 200;
+
+    /// About what holds the arm out, and a shake.
+    fn drive(&mut self, number: u32) -> bool {
+        let shake = f64::from(number % 50) / 50.0 - 0.5;
+        self.pan_torque = 4.0 * shake;
+        self.lift_torque = -50.0 - 10.0 * shake;
+        self.elbow_torque = -12.0;
+        self.wrist_1_torque = 0.5 * shake;
+        true
+    }
+
+    fn read<S: Real>(
+        view: &View<'_, S, Self>,
+        multipliers: &Self::Multipliers<S>,
+    ) -> Result<[S; 2], Fault> {
+        let on = Self::HANDLES;
+        let wrench = view.reaction(multipliers, on.elbow, on.forearm)?;
+        Ok([view.angle(on.elbow), wrench.force.z])
+    }
+}
+
+/// A formulation with the coefficients that it is tried with.
+pub trait Tried<S: Real>: Formulation<S> {
+    /// What it is called.
+    const NAME: &'static str;
+
+    /// With these coefficients.
+    fn tried() -> Self;
+}
+
+impl<S: Real> Tried<S> for StandardLagrange {
+    const NAME: &'static str = "StandardLagrange";
+
+    fn tried() -> Self {
+        Self
+    }
+}
+
+impl<S: Real> Tried<S> for Baumgarte<S> {
+    const NAME: &'static str = "Baumgarte";
+
+    fn tried() -> Self {
+        Self::new(S::constant(20.0), S::constant(20.0))
+    }
+}
+
+impl<S: Real> Tried<S> for Penalty<S> {
+    const NAME: &'static str = "Penalty";
+
+    fn tried() -> Self {
+        Self::default()
+    }
+}
+
+impl<S: Real> Tried<S> for AugmentedLagrangian<S> {
+    const NAME: &'static str = "AugmentedLagrangian";
+
+    fn tried() -> Self {
+        Self::default()
+    }
+}
+
+/// A mechanism, described in one of two ways, in one formulation.
+pub trait Trial<S: Real>: Sized {
+    /// The mechanism.
+    type Plant: Plant;
+    /// The formulation.
+    type Formulation: Tried<S>;
     /// What is stepped.
     type State: Copy;
+    /// What the mechanism is described by.
+    const DESCRIPTION: &'static str;
 
     /// The mechanism as it is described.
     fn new() -> Result<(Self, Self::State), Fault>;
@@ -51,126 +165,117 @@ pub trait Trial<S: Real>: Sized {
     /// The right-hand side alone.
     fn evaluate(&self, state: &Self::State) -> Result<(), Fault>;
 
-    /// An angle (rad), and a component of a reaction (N).
+    /// What is read of the mechanism.
     fn read(&self, state: &Self::State) -> Result<[S; 2], Fault>;
 }
 
 /// All periods, and what is read at the end.
 pub fn run<S: Real, T: Trial<S>>() -> Result<[S; 2], Fault> {
     let (mut trial, mut state) = T::new()?;
-    for number in 0..T::PERIODS {
+    for number in 0..T::Plant::PERIODS {
         trial.tick(&mut state, number)?;
     }
     trial.read(&state)
 }
 
-/// Sets what an actuator is told for the period of a number.
-trait Driven {
-    /// Whether anything was set.
-    fn drive(&mut self, number: u32) -> bool;
-}
-
-impl Driven for RodPendulum {
-    fn drive(&mut self, _number: u32) -> bool {
-        false
-    }
-}
-
-impl Driven for Swing {
-    fn drive(&mut self, _number: u32) -> bool {
-        false
-    }
-}
-
-impl Driven for Ur5 {
-    /// About what holds the arm out, and a shake.
-    fn drive(&mut self, number: u32) -> bool {
-        let shake = f64::from(number % 50) / 50.0 - 0.5;
-        self.pan_torque = 4.0 * shake;
-        self.lift_torque = -50.0 - 10.0 * shake;
-        self.elbow_torque = -12.0;
-        self.wrist_1_torque = 0.5 * shake;
-        true
-    }
-}
-
 /// One millisecond.
 const PERIOD: f64 = 1e-3;
 
-macro_rules! trial {
-    ($trial:ident = $name:literal: $mechanism:ident, $stepper:ident, $formulation:ty = $value:expr, $state:ty,
-     $start:expr, $bodies:expr, $evaluate:expr, $joint:ident, $body:ident, $component:ident, $periods:literal) => {
-        #[doc = concat!("The ", $name, ".")]
-        pub struct $trial<S: Real> {
-            plant: $mechanism,
-            stepper: $stepper<S, $mechanism, $formulation, Rk4>,
-        }
-
-        impl<S: Real> Trial<S> for $trial<S> {
-            const NAME: &'static str = $name;
-            const PERIODS: u32 = $periods;
-            type State = $state;
-
-            fn new() -> Result<(Self, Self::State), Fault> {
-                let plant = $mechanism::default();
-                let stepper = $stepper::new(&plant, $value, Rk4)?;
-                let state = $start(&plant, &stepper)?;
-                Ok((Self { plant, stepper }, state))
-            }
-
-            #[inline(never)]
-            fn tick(&mut self, state: &mut Self::State, number: u32) -> Result<(), Fault> {
-                if self.plant.drive(number) {
-                    self.stepper.update(&self.plant)?;
-                }
-                self.stepper.step(state, S::constant(PERIOD))
-            }
-
-            #[inline(never)]
-            fn evaluate(&self, state: &Self::State) -> Result<(), Fault> {
-                let time = self.stepper.time();
-                let evaluation = self.stepper.dynamics().evaluate(time, state)?;
-                core::hint::black_box(&evaluation);
-                Ok(())
-            }
-
-            #[inline(never)]
-            fn read(&self, state: &Self::State) -> Result<[S; 2], Fault> {
-                let bodies = $bodies(&self.stepper, state);
-                let (evaluation, _) = $evaluate(&self.stepper, &bodies)?;
-                let view = self.stepper.view(&bodies);
-                let handles = $mechanism::HANDLES;
-                let wrench =
-                    view.reaction(&evaluation.multipliers, handles.$joint, handles.$body)?;
-                Ok([view.angle(handles.$joint), wrench.force.$component])
-            }
-        }
-    };
+/// By its bodies.
+pub struct ByBodies<S: Real, M: Plant, F: Tried<S>> {
+    plant: M,
+    stepper: Stepper<S, M, F, Rk4>,
 }
 
-macro_rules! by_bodies {
-    ($trial:ident = $name:literal: $mechanism:ident, $formulation:ty = $value:expr, $($read:tt)*) => {
-        trial! {
-            $trial = $name: $mechanism, Stepper, $formulation = $value, <$mechanism as Mechanism>::State<S>,
-            |plant: &$mechanism, _: &_| plant.described_state(), |_: &_, state: &Self::State| *state,
-            |stepper: &Stepper<S, $mechanism, $formulation, Rk4>, bodies: &_| stepper.dynamics().evaluate(stepper.time(), bodies),
-            $($read)*
+impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
+    type Plant = M;
+    type Formulation = F;
+    type State = M::State<S>;
+    const DESCRIPTION: &'static str = "bodies";
+
+    fn new() -> Result<(Self, Self::State), Fault> {
+        let plant = M::default();
+        let stepper = Stepper::new(&plant, F::tried(), Rk4)?;
+        let state = plant.described_state()?;
+        Ok((Self { plant, stepper }, state))
+    }
+
+    #[inline(never)]
+    fn tick(&mut self, state: &mut Self::State, number: u32) -> Result<(), Fault> {
+        if self.plant.drive(number) {
+            self.stepper.update(&self.plant)?;
         }
-    };
+        self.stepper.step(state, S::constant(PERIOD))
+    }
+
+    #[inline(never)]
+    fn evaluate(&self, state: &Self::State) -> Result<(), Fault> {
+        let time = self.stepper.time();
+        let evaluation = self.stepper.dynamics().evaluate(time, state)?;
+        core::hint::black_box(&evaluation);
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn read(&self, state: &Self::State) -> Result<[S; 2], Fault> {
+        let time = self.stepper.time();
+        let (evaluation, _) = self.stepper.dynamics().evaluate(time, state)?;
+        M::read(&self.stepper.view(state), &evaluation.multipliers)
+    }
 }
 
-macro_rules! by_joints {
-    ($trial:ident = $name:literal: $mechanism:ident, $formulation:ty = $value:expr, $($read:tt)*) => {
-        trial! {
-            $trial = $name: $mechanism, JointStepper, $formulation = $value, <$mechanism as JointCoordinates>::JointState<S>,
-            |_: &_, stepper: &JointStepper<S, $mechanism, $formulation, Rk4>| stepper.initial_state(), JointStepper::bodies,
-            |stepper: &JointStepper<S, $mechanism, $formulation, Rk4>, bodies: &_| stepper.dynamics().of_bodies().evaluate(stepper.time(), bodies), $($read)*
-        }
-    };
+/// By its joints.
+pub struct ByJoints<S: Real, M: Plant, F: Tried<S>> {
+    plant: M,
+    stepper: JointStepper<S, M, F, Rk4>,
 }
 
-by_bodies! { PendulumByBodies = "pendulum, bodies": RodPendulum, Baumgarte<S> = Baumgarte::new(S::constant(20.0), S::constant(20.0)), pivot, rod, z, 10_000 }
-by_joints! { PendulumByJoints = "pendulum, joints": RodPendulum, StandardLagrange = StandardLagrange, pivot, rod, z, 10_000 }
-by_bodies! { SwingByBodies = "four-bar, bodies": Swing, Baumgarte<S> = Baumgarte::new(S::constant(20.0), S::constant(20.0)), foot, left, y, 10_000 }
-by_joints! { SwingByJoints = "four-bar, joints": Swing, Baumgarte<S> = Baumgarte::new(S::constant(20.0), S::constant(20.0)), foot, left, y, 10_000 }
-by_joints! { Ur5ByJoints = "UR5, joints": Ur5, StandardLagrange = StandardLagrange, elbow, forearm, z, 200 }
+impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByJoints<S, M, F> {
+    type Plant = M;
+    type Formulation = F;
+    type State = M::JointState<S>;
+    const DESCRIPTION: &'static str = "joints";
+
+    fn new() -> Result<(Self, Self::State), Fault> {
+        let plant = M::default();
+        let stepper = JointStepper::new(&plant, F::tried(), Rk4)?;
+        let state = stepper.initial_state()?;
+        Ok((Self { plant, stepper }, state))
+    }
+
+    #[inline(never)]
+    fn tick(&mut self, state: &mut Self::State, number: u32) -> Result<(), Fault> {
+        if self.plant.drive(number) {
+            self.stepper.update(&self.plant)?;
+        }
+        self.stepper.step(state, S::constant(PERIOD))
+    }
+
+    #[inline(never)]
+    fn evaluate(&self, state: &Self::State) -> Result<(), Fault> {
+        let time = self.stepper.time();
+        let evaluation = self.stepper.dynamics().evaluate(time, state)?;
+        core::hint::black_box(&evaluation);
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn read(&self, state: &Self::State) -> Result<[S; 2], Fault> {
+        let time = self.stepper.time();
+        let bodies = self.stepper.bodies(state);
+        let dynamics = self.stepper.dynamics().of_bodies();
+        let (evaluation, _) = dynamics.evaluate(time, &bodies)?;
+        M::read(&self.stepper.view(&bodies), &evaluation.multipliers)
+    }
+}
+
+/// The pendulum by its bodies, as it is checked.
+pub type PendulumByBodies<S> = ByBodies<S, RodPendulum, Baumgarte<S>>;
+/// The pendulum by its joints. No equations remain, and all formulations are the same.
+pub type PendulumByJoints<S> = ByJoints<S, RodPendulum, StandardLagrange>;
+/// The four-bar by its bodies, as it is checked.
+pub type SwingByBodies<S> = ByBodies<S, Swing, Baumgarte<S>>;
+/// The four-bar by its joints, as it is checked.
+pub type SwingByJoints<S> = ByJoints<S, Swing, Baumgarte<S>>;
+/// The UR5 by its joints. No equations remain.
+pub type Ur5ByJoints<S> = ByJoints<S, Ur5, StandardLagrange>;

@@ -4,15 +4,15 @@
 #![no_main]
 #![forbid(unsafe_code)]
 
+use holonom_firmware::check;
 use holonom_firmware::reference::{PENDULUM_BY_BODIES, PENDULUM_BY_JOINTS};
-use holonom_firmware::report;
 use holonom_firmware::trials::{PendulumByBodies, PendulumByJoints};
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
     holonom_firmware::main(|| {
-        let bodies = report::<PendulumByBodies<_>>(PENDULUM_BY_BODIES);
-        let joints = report::<PendulumByJoints<_>>(PENDULUM_BY_JOINTS);
+        let bodies = check::<PendulumByBodies<_>>(PENDULUM_BY_BODIES);
+        let joints = check::<PendulumByJoints<_>>(PENDULUM_BY_JOINTS);
         bodies == Ok(true) && joints == Ok(true)
     })
 }
