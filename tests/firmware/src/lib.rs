@@ -1,24 +1,22 @@
-//! Mechanisms at 1 kHz on a Cortex-M: what they take is counted, and what they compute is checked against the host.
+//! Mechanisms at 1 kHz on a controller: what they take is counted, and what they compute is checked against the host.
 
 #![no_std]
 #![forbid(unsafe_code)]
 
-#[cfg(not(feature = "explain"))]
-use panic_never as _;
-#[cfg(feature = "explain")]
-use panic_semihosting as _;
-
+#[cfg_attr(target_arch = "arm", path = "board/cortex_m.rs")]
+#[cfg_attr(target_arch = "riscv32", path = "board/riscv.rs")]
+mod board;
 pub mod reference;
 pub mod trials;
 
 use core::hint::black_box;
+use core::panic::PanicInfo;
 
-use cortex_m::peripheral::SYST;
-use cortex_m::peripheral::syst::SystClkSource;
-use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
-use cortex_m_semihosting::{hprint, hprintln};
 use holonom::{Fault, Real};
+use semihosting::process::ExitCode;
+use semihosting::{print, println};
 
+pub use board::entry;
 use trials::{ByBodies, ByJoints, Plant, RodPendulum, Swing, Trial, Tried};
 
 /// What the firmware computes with.
@@ -28,36 +26,34 @@ pub type Number = f32;
 #[cfg(not(feature = "single"))]
 pub type Number = f64;
 
-/// Instructions of a tick of the timer, with `-icount shift=0`: an instruction takes 1 ns there, and the boards' clock 40.
-const INSTRUCTIONS_PER_TICK: u32 = 40;
-
 /// How often what is counted is done.
 const REPETITIONS: u32 = 1000;
 
-/// Starts the timer for [`instructions`], does what there is to do, and leaves the emulator: with success if all of it was right.
+/// Does what there is to do, and leaves the emulator: with success if all of it was right.
 pub fn main(work: impl FnOnce() -> bool) -> ! {
-    let is_right = cortex_m::Peripherals::take().is_some_and(|peripherals| {
-        let mut timer = peripherals.SYST;
-        timer.set_clock_source(SystClkSource::Core);
-        timer.set_reload(0x00ff_ffff);
-        timer.clear_current();
-        timer.enable_counter();
-        work()
-    });
-    debug::exit(if is_right { EXIT_SUCCESS } else { EXIT_FAILURE });
-    loop {
-        cortex_m::asm::wfi();
-    }
+    let is_right = board::with_timer(work);
+    let code = if is_right {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    };
+    code.exit_process()
+}
+
+/// What programs that print do in a panic; what the others call cannot panic.
+pub fn explain(info: &PanicInfo<'_>) -> ! {
+    println!("{info}");
+    ExitCode::FAILURE.exit_process()
 }
 
 /// The instructions of some work, on average.
 fn instructions(mut work: impl FnMut()) -> u32 {
-    let begin = SYST::get_current();
-    for _ in 0..REPETITIONS {
-        work();
-    }
-    let ticks = begin.wrapping_sub(SYST::get_current()) & 0x00ff_ffff;
-    ticks * INSTRUCTIONS_PER_TICK / REPETITIONS
+    let all = board::instructions(|| {
+        for _ in 0..REPETITIONS {
+            work();
+        }
+    });
+    all / REPETITIONS
 }
 
 /// How far the readings may be from those of the host in `f64`: of the angle (rad), and of the force relative to its size.
@@ -82,13 +78,13 @@ fn counted<T: Trial<Number>>(periods: u32) -> Result<(T, T::State), Fault> {
     });
     // Once more, as not to count what looks for faults.
     (trial, state) = T::new()?;
-    let before = cortex_m_stack::current_stack_in_use();
-    cortex_m_stack::repaint_stack();
+    let before = board::current_stack_in_use();
+    board::repaint_stack();
     for number in 0..periods {
         trial.tick(&mut state, number)?;
     }
-    let stack = cortex_m_stack::stack_size() - cortex_m_stack::stack_painted() - before;
-    hprint!(
+    let stack = board::stack_size() - board::stack_painted() - before;
+    print!(
         "{}, {} | {} | {} | {} | {} | {} | ",
         T::Plant::NAME,
         T::DESCRIPTION,
@@ -113,7 +109,7 @@ pub fn count_all<F: Tried<Number>>() -> Result<(), Fault> {
 
 fn count<T: Trial<Number>>() -> Result<(), Fault> {
     counted::<T>(REPETITIONS)?;
-    hprintln!(" | ");
+    println!(" | ");
     Ok(())
 }
 
@@ -128,6 +124,6 @@ pub fn check<T: Trial<Number>>([angle, force]: [f64; 2]) -> Result<bool, Fault> 
         (read_angle - angle).abs(),
         ((read_force - force) / force).abs(),
     ];
-    hprintln!("{:.1e} | {:.1e}", off[0], off[1]);
+    println!("{:.1e} | {:.1e}", off[0], off[1]);
     Ok(off.iter().all(|&off| off < TOLERANCE))
 }

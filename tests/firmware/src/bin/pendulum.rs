@@ -4,11 +4,18 @@
 #![no_main]
 #![forbid(unsafe_code)]
 
+use core::panic::PanicInfo;
+
 use holonom_firmware::check;
 use holonom_firmware::reference::{PENDULUM_BY_BODIES, PENDULUM_BY_JOINTS};
 use holonom_firmware::trials::{PendulumByBodies, PendulumByJoints};
 
-#[cortex_m_rt::entry]
+#[panic_handler]
+fn panic(info: &PanicInfo<'_>) -> ! {
+    holonom_firmware::explain(info)
+}
+
+#[holonom_firmware::entry]
 fn main() -> ! {
     holonom_firmware::main(|| {
         let bodies = check::<PendulumByBodies<_>>(PENDULUM_BY_BODIES);

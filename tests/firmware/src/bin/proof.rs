@@ -12,6 +12,7 @@ use holonom_firmware::Number;
 use holonom_firmware::trials::{
     PendulumByBodies, PendulumByJoints, Swing, SwingByBodies, SwingByJoints, Ur5ByJoints, run,
 };
+use panic_never as _;
 
 /// Steps and read-outs of a four-bar by its bodies.
 fn by_bodies<F: Formulation<Number>, K: Scheme<Number>>(
@@ -78,7 +79,7 @@ fn all() -> Result<(), Fault> {
     Ok(())
 }
 
-#[cortex_m_rt::entry]
+#[holonom_firmware::entry]
 fn main() -> ! {
     holonom_firmware::main(|| all().is_ok())
 }
