@@ -127,3 +127,16 @@ pub fn check<T: Trial<Number>>([angle, force]: [f64; 2]) -> Result<bool, Fault> 
     println!("{:.1e} | {:.1e}", off[0], off[1]);
     Ok(off.iter().all(|&off| off < TOLERANCE))
 }
+
+/// Starts a trial and takes its steps, as a controller does.
+///
+/// # Errors
+/// Those of the trial.
+pub fn repeat<T: Trial<Number>>() -> Result<(), Fault> {
+    let (mut trial, mut state) = T::new()?;
+    for number in 0..REPETITIONS {
+        trial.tick(&mut state, number)?;
+    }
+    black_box(state);
+    Ok(())
+}
