@@ -89,4 +89,7 @@ fn the_guide_shows_what_runs() {
         let block = format!("```{kind}\n{}\n```", text.trim_end());
         assert!(page.contains(&block), "the guide shows another `{file}`");
     }
+    let printed = read("firmware/balancer/expected");
+    let first: Vec<&str> = printed.lines().take(4).collect();
+    assert!(page.contains(&format!("```text\n{}\n```", first.join("\n"))));
 }

@@ -9,15 +9,16 @@ mod board;
 pub mod reference;
 pub mod trials;
 
+use core::fmt::Display;
 use core::hint::black_box;
 use core::panic::PanicInfo;
 
-use holonom::{Fault, Real};
+use holonom::{Fault, Real, Scalar};
 use semihosting::process::ExitCode;
 use semihosting::{print, println};
 
 pub use board::entry;
-use trials::{ByBodies, ByJoints, Plant, RodPendulum, Swing, Trial, Tried};
+use trials::{ByBodies, ByJoints, PERIOD, Plant, RodPendulum, Swing, Trial, Tried};
 
 /// What the firmware computes with.
 #[cfg(feature = "single")]
@@ -56,6 +57,14 @@ fn instructions(mut work: impl FnMut()) -> u32 {
     all / REPETITIONS
 }
 
+/// The bytes of stack of some work, as the crates of the boards count them.
+fn stack(work: &mut dyn FnMut()) -> impl Display + use<> {
+    let before = board::current_stack_in_use();
+    board::repaint_stack();
+    work();
+    board::stack_size() - board::stack_painted() - before
+}
+
 /// How far the readings may be from those of the host in `f64`: of the angle (rad), and of the force relative to its size.
 const TOLERANCE: f64 = if cfg!(feature = "single") {
     1e-3
@@ -63,36 +72,60 @@ const TOLERANCE: f64 = if cfg!(feature = "single") {
     1e-12
 };
 
-/// Counts what a trial takes, and prints it: mechanism and description, formulation, type of numbers, instructions of an evaluation and of a step, bytes of stack of a
-/// step. Gives what there is after so many periods.
+/// A second, which turns joints by more than the series for small angles take, and a time after which nothing is finite: the longest ways that a step can go.
+const LONG: [f64; 2] = [
+    1.0,
+    if cfg!(feature = "single") {
+        1e30
+    } else {
+        1e200
+    },
+];
+
+/// Counts what a trial takes, and prints it: mechanism and description, formulation, type of numbers, instructions of an evaluation, of a step and of the longest, bytes of stack
+/// of a step and of the deepest. Gives what there is after so many periods.
 fn counted<T: Trial<Number>>(periods: u32) -> Result<(T, T::State), Fault> {
     let (mut trial, mut state) = T::new()?;
     let evaluation = instructions(|| {
         let _ = black_box(trial.evaluate(black_box(&state)));
     });
+    let period = Number::constant(PERIOD);
     let mut number = 0;
     let mut copy = state;
     let step = instructions(|| {
-        let _ = black_box(trial.tick(&mut copy, number));
+        let _ = black_box(trial.tick(&mut copy, number, period));
         number += 1;
     });
-    // Once more, as not to count what looks for faults.
+    let longest = LONG.map(|step| {
+        instructions(|| {
+            let _ = black_box(trial.tick(&mut { state }, 0, Number::constant(step)));
+        })
+    });
+    let longest = longest.into_iter().fold(step, u32::max);
+    let deepest = stack(&mut || {
+        for step in LONG {
+            let _ = black_box(trial.tick(&mut { state }, 0, Number::constant(step)));
+        }
+    });
     (trial, state) = T::new()?;
-    let before = board::current_stack_in_use();
-    board::repaint_stack();
-    for number in 0..periods {
-        trial.tick(&mut state, number)?;
-    }
-    let stack = board::stack_size() - board::stack_painted() - before;
+    let mut outcome = Ok(());
+    let stack = stack(&mut || {
+        for number in 0..periods {
+            outcome = outcome.and(trial.tick(&mut state, number, period));
+        }
+    });
+    outcome?;
     print!(
-        "{}, {} | {} | {} | {} | {} | {} | ",
+        "{}, {} | {} | {} | {} | {} | {} | {} | {} | ",
         T::Plant::NAME,
         T::DESCRIPTION,
         T::Formulation::NAME,
         core::any::type_name::<Number>(),
         evaluation,
         step,
+        longest,
         stack,
+        deepest,
     );
     Ok((trial, state))
 }
@@ -135,7 +168,7 @@ pub fn check<T: Trial<Number>>([angle, force]: [f64; 2]) -> Result<bool, Fault> 
 pub fn repeat<T: Trial<Number>>() -> Result<(), Fault> {
     let (mut trial, mut state) = T::new()?;
     for number in 0..REPETITIONS {
-        trial.tick(&mut state, number)?;
+        trial.tick(&mut state, number, Number::constant(PERIOD))?;
     }
     black_box(state);
     Ok(())

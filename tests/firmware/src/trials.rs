@@ -40,9 +40,9 @@ pub trait Plant: JointCoordinates + Default {
     /// Periods of 1 ms that the reference is given after.
     const PERIODS: u32;
 
-    /// Sets what an actuator is told for the period of a number. Whether anything was set.
-    fn drive(&mut self, _number: u32) -> bool {
-        false
+    /// What actuators are told for the period of a number.
+    fn told<S: Real>(_number: u32) -> Self::Inputs<S> {
+        Self::Inputs::default()
     }
 
     /// An angle (rad), and a component of a reaction (N).
@@ -85,13 +85,15 @@ impl Plant for Ur5 {
     const PERIODS: u32 = 200;
 
     /// About what holds the arm out, and a shake.
-    fn drive(&mut self, number: u32) -> bool {
-        let shake = f64::from(number % 50) / 50.0 - 0.5;
-        self.pan_torque = 4.0 * shake;
-        self.lift_torque = -50.0 - 10.0 * shake;
-        self.elbow_torque = -12.0;
-        self.wrist_1_torque = 0.5 * shake;
-        true
+    fn told<S: Real>(number: u32) -> Self::Inputs<S> {
+        let shake = S::constant(if number % 50 < 25 { 0.5 } else { -0.5 });
+        Self::Inputs {
+            pan_torque: S::constant(4.0) * shake,
+            lift_torque: S::constant(-50.0) - S::constant(10.0) * shake,
+            elbow_torque: S::constant(-12.0),
+            wrist_1_torque: S::constant(0.5) * shake,
+            ..Default::default()
+        }
     }
 
     fn read<S: Real>(
@@ -138,10 +140,10 @@ impl<S: Real> Tried<S> for Penalty<S> {
 }
 
 impl<S: Real> Tried<S> for AugmentedLagrangian<S> {
-    const NAME: &'static str = "AugmentedLagrangian";
+    const NAME: &'static str = "AugmentedLagrangian, 3 solutions";
 
     fn tried() -> Self {
-        Self::default()
+        Self::default().exactly(3)
     }
 }
 
@@ -159,8 +161,8 @@ pub trait Trial<S: Real>: Sized {
     /// The mechanism as it is described.
     fn new() -> Result<(Self, Self::State), Fault>;
 
-    /// Inputs for the period of this number, and a step.
-    fn tick(&mut self, state: &mut Self::State, number: u32) -> Result<(), Fault>;
+    /// Inputs for the period of this number, and a step (s).
+    fn tick(&mut self, state: &mut Self::State, number: u32, step: S) -> Result<(), Fault>;
 
     /// The right-hand side alone.
     fn evaluate(&self, state: &Self::State) -> Result<(), Fault>;
@@ -173,17 +175,16 @@ pub trait Trial<S: Real>: Sized {
 pub fn run<S: Real, T: Trial<S>>() -> Result<[S; 2], Fault> {
     let (mut trial, mut state) = T::new()?;
     for number in 0..T::Plant::PERIODS {
-        trial.tick(&mut state, number)?;
+        trial.tick(&mut state, number, S::constant(PERIOD))?;
     }
     trial.read(&state)
 }
 
 /// One millisecond.
-const PERIOD: f64 = 1e-3;
+pub const PERIOD: f64 = 1e-3;
 
 /// By its bodies.
 pub struct ByBodies<S: Real, M: Plant, F: Tried<S>> {
-    plant: M,
     stepper: Stepper<S, M, F, Rk4>,
 }
 
@@ -197,15 +198,12 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
         let plant = M::default();
         let stepper = Stepper::new(&plant, F::tried(), Rk4)?;
         let state = plant.described_state()?;
-        Ok((Self { plant, stepper }, state))
+        Ok((Self { stepper }, state))
     }
 
     #[inline(never)]
-    fn tick(&mut self, state: &mut Self::State, number: u32) -> Result<(), Fault> {
-        if self.plant.drive(number) {
-            self.stepper.update(&self.plant)?;
-        }
-        self.stepper.step(state, S::constant(PERIOD))
+    fn tick(&mut self, state: &mut Self::State, number: u32, step: S) -> Result<(), Fault> {
+        self.stepper.step_with(state, &M::told(number), step)
     }
 
     #[inline(never)]
@@ -226,7 +224,6 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
 
 /// By its joints.
 pub struct ByJoints<S: Real, M: Plant, F: Tried<S>> {
-    plant: M,
     stepper: JointStepper<S, M, F, Rk4>,
 }
 
@@ -237,18 +234,14 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByJoints<S, M, F> {
     const DESCRIPTION: &'static str = "joints";
 
     fn new() -> Result<(Self, Self::State), Fault> {
-        let plant = M::default();
-        let stepper = JointStepper::new(&plant, F::tried(), Rk4)?;
+        let stepper = JointStepper::new(&M::default(), F::tried(), Rk4)?;
         let state = stepper.initial_state()?;
-        Ok((Self { plant, stepper }, state))
+        Ok((Self { stepper }, state))
     }
 
     #[inline(never)]
-    fn tick(&mut self, state: &mut Self::State, number: u32) -> Result<(), Fault> {
-        if self.plant.drive(number) {
-            self.stepper.update(&self.plant)?;
-        }
-        self.stepper.step(state, S::constant(PERIOD))
+    fn tick(&mut self, state: &mut Self::State, number: u32, step: S) -> Result<(), Fault> {
+        self.stepper.step_with(state, &M::told(number), step)
     }
 
     #[inline(never)]

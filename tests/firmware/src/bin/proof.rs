@@ -1,4 +1,4 @@
-//! Everything that a loop of a controller calls, in all formulations and both methods of a fixed step. It links only if nothing of it can panic.
+//! Everything that a loop of a controller calls, in all formulations, by all methods of a fixed step. It links only if nothing of it can panic.
 
 #![no_std]
 #![no_main]
@@ -7,7 +7,7 @@
 use core::hint::black_box;
 
 use holonom::prelude::*;
-use holonom::{DormandPrince5, JointStepper, Scalar, Scheme};
+use holonom::{DormandPrince5, Heun, JointStepper, Midpoint, Scalar, Scheme, SemiImplicitEuler};
 use holonom_firmware::Number;
 use holonom_firmware::trials::{
     PendulumByBodies, PendulumByJoints, Swing, SwingByBodies, SwingByJoints, Ur5ByJoints, run,
@@ -25,6 +25,9 @@ fn by_bodies<F: Formulation<Number>, K: Scheme<Number>>(
     for _ in 0..10 {
         stepper.update(&plant)?;
         stepper.step(&mut state, Number::constant(1e-3))?;
+        stepper
+            .clone()
+            .step(&mut { state }, Number::constant(1e-3))?;
     }
     let view = stepper.view(&state);
     black_box((
@@ -46,6 +49,9 @@ fn by_joints<F: Formulation<Number>, K: Scheme<Number>>(
     for _ in 0..10 {
         stepper.update(&plant)?;
         stepper.step(&mut state, Number::constant(1e-3))?;
+        stepper
+            .clone()
+            .step(&mut { state }, Number::constant(1e-3))?;
     }
     let bodies = stepper.bodies(&state);
     let view = stepper.view(&bodies);
@@ -71,6 +77,12 @@ fn formulations<K: Scheme<Number>>(scheme: K) -> Result<(), Fault> {
 fn all() -> Result<(), Fault> {
     formulations(Rk4)?;
     formulations(DormandPrince5)?;
+    by_bodies(Baumgarte::default(), SemiImplicitEuler)?;
+    by_joints(Baumgarte::default(), SemiImplicitEuler)?;
+    by_bodies(Baumgarte::default(), Midpoint)?;
+    by_joints(Baumgarte::default(), Midpoint)?;
+    by_bodies(Baumgarte::default(), Heun)?;
+    by_joints(Baumgarte::default(), Heun)?;
     black_box(run::<Number, PendulumByBodies<_>>()?);
     black_box(run::<Number, PendulumByJoints<_>>()?);
     black_box(run::<Number, SwingByBodies<_>>()?);
