@@ -173,16 +173,15 @@ where
         let time = self.time();
         let clock = end_of_step::<S, M>(&self.clock, dt)?;
         check_state::<S, M>(state)?;
-        let mut next = *state;
-        self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
-        let end = clock.time();
         if let Some(projection) = self.projection {
-            // A copy, so that a state that is not corrected need not be in memory.
-            let mut corrected = next;
-            projection.correct_in_motion::<M>(self.dynamics.constants(), end, &mut corrected)?;
-            next = corrected;
+            let mut next = *state;
+            self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
+            let constants = self.dynamics.constants();
+            projection.correct_in_motion::<M>(constants, clock.time(), &mut next)?;
+            *state = next;
+        } else {
+            self.scheme.step(&mut self.dynamics, time, state, dt)?;
         }
-        *state = next;
         self.clock = clock;
         Ok(())
     }

@@ -227,22 +227,8 @@ pub trait Scheme<S: Real>: Copy + Debug {
         state: &mut Y::State,
         step: S,
     ) -> Result<(), Fault> {
-        let mut slope = state.clone();
-        let outcome = match system.stage(time, state, &mut slope) {
-            Ok(()) => {
-                let slope = &slope;
-                let start = Start { time, state, slope };
-                self.stride(system, start, step, &mut self.stages(slope))
-            }
-            Err(fault) => Err(fault),
-        };
-        let mut next = match outcome {
-            Ok(next) if next.is_finite() => next,
-            outcome => return Err(refused(self, system, (time, state), step, outcome.err())),
-        };
-        system.settle(&mut next, None);
-        *state = next;
-        Ok(())
+        attempt(self, system, (time, state), step)
+            .map_err(|fault| refused(self, system, (time, state), step, fault))
     }
 }
 
@@ -321,6 +307,31 @@ impl Counts {
             rejected: self.rejected.saturating_add(more.rejected),
         }
     }
+}
+
+/// A step, if it leads to a state that is finite; else why not, if that is known. No part of its caller: its stack is free again where a step is looked into that was
+/// refused.
+#[inline(never)]
+fn attempt<S: Real, K: Scheme<S>, Y: System<S>>(
+    scheme: &K,
+    system: &mut Y,
+    (time, state): (S, &mut Y::State),
+    step: S,
+) -> Result<(), Option<Fault>> {
+    let mut slope = state.clone();
+    system.stage(time, state, &mut slope)?;
+    let start = Start {
+        time,
+        state,
+        slope: &slope,
+    };
+    let mut next = scheme.stride(system, start, step, &mut scheme.stages(&slope))?;
+    if !next.is_finite() {
+        return Err(None);
+    }
+    system.settle(&mut next, None);
+    *state = next;
+    Ok(())
 }
 
 /// Why a step failed, or led to a state that is not finite.
