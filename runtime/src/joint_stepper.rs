@@ -161,6 +161,20 @@ where
         self.dynamics.of_bodies().view(self.time(), bodies)
     }
 
+    /// The multipliers of all joints in a state of the bodies, at the time that was reached and with the inputs of the last step: what [`View::reaction`] asks for. One evaluation
+    /// of the bodies, which costs more than a step.
+    ///
+    /// # Errors
+    /// As [`Dynamics::evaluate`](crate::Dynamics::evaluate).
+    pub fn multipliers(&self, bodies: &M::State<S>) -> Result<M::Multipliers<S>, Fault>
+    where
+        A: AppliedForces<S, M>,
+    {
+        let of_bodies = self.dynamics.of_bodies();
+        let (evaluation, _) = of_bodies.evaluate(self.time(), bodies)?;
+        Ok(evaluation.multipliers)
+    }
+
     /// The prepared dynamics, for evaluations outside a step.
     #[must_use]
     pub fn dynamics(&self) -> &JointDynamics<S, M, F, A> {
@@ -194,7 +208,7 @@ where
         Ok(())
     }
 
-    /// The same with these inputs over the step, which stay until others are set.
+    /// The same with these inputs over the step, which stay until others are set: also where the step is refused for another reason than they.
     ///
     /// # Errors
     /// As [`Self::step`], and an input that is not finite. State and time are then as before.

@@ -256,7 +256,7 @@ macro_rules! __stub_mechanism {
     (@handle [$length:expr] $kind:ident $($path:path)?) => { [$crate::__stub_mechanism!(@handle $kind $($path)?); $length] };
     (@value [$length:expr] $kind:ident $($path:path)?) => { [$crate::__stub_mechanism!(@value $kind $($path)?); $length] };
     (
-        [$($declared:tt)*] [$mechanism:ty] [$($bounds:tt)*]
+        [$($declared:tt)*] [$mechanism:ty] [$($bounds:tt)*] [$inputs:ty]
         $($field:ident: $([$length:expr])? $kind:ident $($path:path)?,)*
     ) => {
         #[allow(warnings, clippy::all, clippy::pedantic)]
@@ -283,6 +283,7 @@ macro_rules! __stub_mechanism {
                 type Multipliers<__S: $crate::Scalar> = [__S; 0];
                 type Jacobian<__S: $crate::Scalar> = [__S; 0];
                 type Parameters<__S: $crate::Scalar> = ();
+                type Inputs<__S: $crate::Scalar> = $inputs;
                 type Constants<__S: $crate::Scalar> = [__S; 0];
                 type Coefficients<__S: $crate::Scalar> = [__S; 0];
                 type Factors<__S: $crate::Scalar> = [__S; 0];
@@ -311,6 +312,7 @@ macro_rules! __stub_mechanism {
                     plan: "",
                 };
                 fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<(), $crate::ParameterError> { loop {} }
+                fn inputs<__S: $crate::Scalar>(&self) -> Self::Inputs<__S> { loop {} }
                 fn prepare<__S: $crate::Scalar>(_: &()) -> [__S; 0] { [] }
                 fn coefficients_by_row<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
                 fn initial_state<__S: $crate::Scalar>(_: &[__S; 0]) -> Self::State<__S> { loop {} }

@@ -140,6 +140,18 @@ where
         self.dynamics.view(self.time(), state)
     }
 
+    /// The multipliers of all joints in a state, at the time that was reached and with the inputs of the last step: what [`View::reaction`] asks for. One evaluation.
+    ///
+    /// # Errors
+    /// As [`Dynamics::evaluate`].
+    pub fn multipliers(&self, state: &M::State<S>) -> Result<M::Multipliers<S>, Fault>
+    where
+        A: AppliedForces<S, M>,
+    {
+        let (evaluation, _) = self.dynamics.evaluate(self.time(), state)?;
+        Ok(evaluation.multipliers)
+    }
+
     /// The prepared dynamics, for evaluations outside a step.
     #[must_use]
     pub fn dynamics(&self) -> &Dynamics<S, M, F, P, A> {
@@ -186,7 +198,7 @@ where
         Ok(())
     }
 
-    /// The same with these inputs over the step, which stay until others are set.
+    /// The same with these inputs over the step, which stay until others are set: also where the step is refused for another reason than they.
     ///
     /// # Errors
     /// As [`Self::step`], and an input that is not finite. State and time are then as before.

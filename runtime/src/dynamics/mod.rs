@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 
 use crate::array::{Array, StateParts, Vector};
 use crate::compliance::compliances;
-use crate::error::Fault;
+use crate::error::{Fault, ParameterError};
 use crate::formulation::{Formulation, Saddle, inconsistency};
 use crate::integrate::System;
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
@@ -39,6 +39,13 @@ pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A 
     orientation: PhantomData<P>,
 }
 
+/// The parameters and inputs of a mechanism; inputs are finite in the number type of the run, too.
+fn parameters<S: Real, M: Mechanism>(mechanism: &M) -> Result<M::Parameters<S>, ParameterError> {
+    let mut parameters = mechanism.parameters()?;
+    M::put_inputs(&mechanism.inputs(), &mut parameters)?;
+    Ok(parameters)
+}
+
 /// How often the augmented Lagrangian solved its system.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Iterations {
@@ -57,7 +64,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
         let stabilisation = formulation.stabilisation()?;
-        let parameters = mechanism.parameters()?;
+        let parameters = parameters(mechanism)?;
         let constants = M::prepare(&parameters);
         let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation)?;
         Ok(Self {
@@ -131,7 +138,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        let parameters = mechanism.parameters()?;
+        let parameters = parameters(mechanism)?;
         let constants = M::prepare(&parameters);
         self.compliances = compliances::<S, M, F::Terms>(&constants, &self.stabilisation)?;
         self.coefficients =

@@ -50,7 +50,8 @@ pub struct AugmentedLagrangian<S> {
     pub max_iterations: usize,
 }
 
-/// The largest `|D u' - gamma*|` of an evaluation that did not converge, relative to the terms of its row.
+/// The largest `|D u' - gamma*|` of an evaluation that did not converge, relative to the terms of its row; and the largest change by the last of an exact number of solutions,
+/// relative to the accelerations.
 const EXCUSED: f64 = 1e-2;
 
 impl<S: Real> AugmentedLagrangian<S> {
@@ -70,8 +71,9 @@ impl<S: Real> AugmentedLagrangian<S> {
 
     /// The same with a number of solutions that does not depend on data, for a step whose cost is known in advance; at least 2.
     ///
-    /// What is left of the bias of the penalty is not looked at: a part `(e / (e + s))^(solutions - 1)` of it, see above. [`Dynamics::inconsistency`](crate::Dynamics::inconsistency)
-    /// says how much that is at a state.
+    /// The tolerance is zero then, and no solution ends the iteration: a part `(e / (e + s))^(solutions - 1)` of the bias of the penalty is left, see above.
+    /// [`Dynamics::inconsistency`](crate::Dynamics::inconsistency) says how much that is at a state. Where the last solution still changes the accelerations by more than a hundredth, the
+    /// evaluation is refused, [`Fault::NotConverged`]: `alpha` is too small for the masses.
     #[must_use]
     pub fn exactly(self, solutions: usize) -> Self {
         Self {
@@ -103,7 +105,7 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
             positive("tolerance of the augmented Lagrangian", self.tolerance)?;
         }
         if self.max_iterations < 2 {
-            let name = "max_iterations of the augmented Lagrangian, less 1";
+            let name = "solutions of the augmented Lagrangian beyond the first";
             return Err(Fault::Setting {
                 name,
                 value: self.max_iterations as f64 - 1.0,
@@ -118,10 +120,17 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
     ) -> Result<Solution<S, M>, Fault> {
         let mut last = saddle.solve();
         if self.tolerance == S::zero() {
+            let mut before = last;
             for _ in 1..self.max_iterations {
+                before = last;
                 last = saddle.solve_after(&last.multipliers);
             }
             last.iterations = self.max_iterations;
+            let size = square(last.accelerations.as_slice()).sqrt();
+            self.ended(
+                norm_of_difference(&last.accelerations, &before.accelerations),
+                size,
+            )?;
             return Ok(last);
         }
         let mut change = S::zero();
@@ -170,6 +179,19 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
 }
 
 impl<S: Real> AugmentedLagrangian<S> {
+    /// Refuses an exact number of solutions that are not enough by far.
+    pub(super) fn ended(&self, change: S, size: S) -> Result<(), Fault> {
+        if change > S::constant(EXCUSED) * (S::one() + size) {
+            return Err(Fault::NotConverged {
+                iterations: self.max_iterations,
+                residual: change.to_f64(),
+                joint: None,
+                alpha: Some(self.alpha.to_f64()),
+            });
+        }
+        Ok(())
+    }
+
     /// Whether a change of the accelerations ends the iteration.
     fn small<M: Mechanism>(&self, change: S, solution: &Solution<S, M>) -> bool {
         let size = square(solution.accelerations.as_slice()).sqrt();

@@ -132,10 +132,16 @@ impl<S: Real> AugmentedLagrangian<S> {
             return Ok(last);
         }
         if self.tolerance == S::zero() {
+            let mut before = last;
             for _ in 1..self.max_iterations {
+                before = last;
                 last = saddle.solve_after(&last.multipliers);
             }
             last.iterations = self.max_iterations;
+            let change = Change::between(&last, &before);
+            let [change, size] = [&change.accelerations, &last.accelerations]
+                .map(|vector| square(vector.as_slice()).sqrt());
+            self.ended(change, size)?;
             return Ok(last);
         }
         let mut missing = saddle.yielded(&last.multipliers);

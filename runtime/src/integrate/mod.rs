@@ -186,7 +186,7 @@ const TURNING_ERROR: f64 = 10.0;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not take single steps",
     label = "no one-step method",
-    note = "a `Stepper` takes a method without a step, `Rk4` or `DormandPrince5`, and the step with every `step(&mut state, dt)`"
+    note = "a `Stepper` takes a method without a step, such as `Rk4`, and the step with every `step(&mut state, dt)`"
 )]
 pub trait Scheme<S: Real>: Copy + Debug {
     /// The memory of a step: slopes at the inner stages.

@@ -216,9 +216,8 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
 
     #[inline(never)]
     fn read(&self, state: &Self::State) -> Result<[S; 2], Fault> {
-        let time = self.stepper.time();
-        let (evaluation, _) = self.stepper.dynamics().evaluate(time, state)?;
-        M::read(&self.stepper.view(state), &evaluation.multipliers)
+        let multipliers = self.stepper.multipliers(state)?;
+        M::read(&self.stepper.view(state), &multipliers)
     }
 }
 
@@ -254,11 +253,9 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByJoints<S, M, F> {
 
     #[inline(never)]
     fn read(&self, state: &Self::State) -> Result<[S; 2], Fault> {
-        let time = self.stepper.time();
         let bodies = self.stepper.bodies(state);
-        let dynamics = self.stepper.dynamics().of_bodies();
-        let (evaluation, _) = dynamics.evaluate(time, &bodies)?;
-        M::read(&self.stepper.view(&bodies), &evaluation.multipliers)
+        let multipliers = self.stepper.multipliers(&bodies)?;
+        M::read(&self.stepper.view(&bodies), &multipliers)
     }
 }
 

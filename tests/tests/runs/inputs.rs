@@ -163,3 +163,19 @@ fn parameters_stay_what_they_are() {
         .expect("regular");
     assert_eq!(states[0], states[1]);
 }
+
+/// What `f64` holds and `f32` does not is no number of a run in `f32`.
+#[test]
+fn an_input_beyond_the_range_of_the_run_is_refused() {
+    let mut crane = crane();
+    crane.thrust = 1e300;
+    assert!(Stepper::<f64, _, _, _>::new(&crane, StandardLagrange, Rk4).is_ok());
+    let fault = Stepper::<f32, _, _, _>::new(&crane, StandardLagrange, Rk4).err();
+    let Some(Fault::Parameter(error)) = fault else {
+        panic!("{fault:?}")
+    };
+    assert_eq!(
+        (error.field, error.fault),
+        ("thrust", ParameterFault::NotFinite)
+    );
+}

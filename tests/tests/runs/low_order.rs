@@ -154,5 +154,23 @@ fn an_augmented_lagrangian_of_a_known_cost() {
         }
     }
     let fault = evaluate(formulation.exactly(1)).expect_err("a penalty");
-    assert!(matches!(fault, Fault::Setting { .. }), "{fault}");
+    assert_eq!(
+        fault.to_string(),
+        "`solutions of the augmented Lagrangian beyond the first` must be finite and positive, not 0"
+    );
+    // Not converged by far, in either description.
+    let weak = AugmentedLagrangian::new(1.0, 10.0, 1.0).exactly(2);
+    let dynamics = Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, weak).expect("acceptable");
+    let fault = dynamics.evaluate(0.0, &state).err();
+    assert!(
+        matches!(fault, Some(Fault::NotConverged { iterations: 2, .. })),
+        "{fault:?}"
+    );
+    let joints = JointDynamics::<f64, DrivenSliderCrank, _>::new(&crank, weak).expect("acceptable");
+    let start = joints.joints(&state).expect("consistent");
+    let fault = joints.evaluate(0.0, &start).err();
+    assert!(
+        matches!(fault, Some(Fault::NotConverged { iterations: 2, .. })),
+        "{fault:?}"
+    );
 }

@@ -45,6 +45,18 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
             }
         })
         .collect::<Vec<_>>();
+    let inputs: Vec<TokenStream> = fields
+        .iter()
+        .filter(|field| matches!(field.role, Some((Role::Input, _))))
+        .map(|field| {
+            let name = &field.name;
+            match array(&field.written).map(|array| &array.len) {
+                Some(length) => quote!(pub #name: [__S; #length]),
+                None => quote!(pub #name: __S),
+            }
+        })
+        .collect();
+    let (inputs_kind, inputs_type) = inputs_of(&inputs, facade);
     let construction = (!parameters.is_empty()).then(|| {
         quote! {
             impl #declared #name #arguments #clause {
@@ -59,8 +71,30 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     });
     quote! {
         #construction
-        #facade::__stub_mechanism! { [#declared] [#name #arguments] [#bounds] #(#handles)* }
+        const _: () = {
+            #inputs_type
+            #facade::__stub_mechanism! { [#declared] [#name #arguments] [#bounds] [#inputs_kind] #(#handles)* }
+        };
     }
+}
+
+/// The type of the inputs, and its declaration.
+fn inputs_of(fields: &[TokenStream], facade: &TokenStream) -> (TokenStream, TokenStream) {
+    if fields.is_empty() {
+        return (quote!(()), TokenStream::new());
+    }
+    let declared = quote! {
+        #[allow(warnings, missing_docs)]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+        pub struct __Inputs<__S> { #(#fields),* }
+
+        impl<__S: #facade::Scalar> ::core::default::Default for __Inputs<__S> {
+            fn default() -> Self {
+                loop {}
+            }
+        }
+    };
+    (quote!(__Inputs<__S>), declared)
 }
 
 /// `body`, `joint` or `force` with its type, or `joint` or `force` where the type is none.
