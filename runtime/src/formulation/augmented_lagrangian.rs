@@ -44,10 +44,12 @@ pub struct AugmentedLagrangian<S> {
     pub omega: S,
     /// `mu`, positive: the damping ratio of the violation, 1 for critical damping.
     pub mu: S,
-    /// The change of the accelerations, relative to `1 + |u'|`, that ends the iteration; zero if nothing is to end it, see [`AugmentedLagrangian::exactly`].
+    /// The change of the accelerations, relative to `1 + |u'|`, that ends the iteration; positive.
     pub tolerance: S,
     /// How often the system may be solved in one evaluation; at least 2. Near singular configurations it is solved as often.
     pub max_iterations: usize,
+    /// Whether it is always solved as often, see [`AugmentedLagrangian::exactly`].
+    pub is_exact: bool,
 }
 
 /// The largest `|D u' - gamma*|` of an evaluation that did not converge, relative to the terms of its row; and the largest change by the last of an exact number of solutions,
@@ -66,19 +68,20 @@ impl<S: Real> AugmentedLagrangian<S> {
             mu,
             tolerance,
             max_iterations: 20,
+            is_exact: false,
         }
     }
 
     /// The same with a number of solutions that does not depend on data, for a step whose cost is known in advance; at least 2.
     ///
-    /// The tolerance is zero then, and no solution ends the iteration: a part `(e / (e + s))^(solutions - 1)` of the bias of the penalty is left, see above.
+    /// The tolerance is not looked at then: a part `(e / (e + s))^(solutions - 1)` of the bias of the penalty is left, see above.
     /// [`Dynamics::inconsistency`](crate::Dynamics::inconsistency) says how much that is at a state. Where the last solution still changes the accelerations by more than a hundredth, the
     /// evaluation is refused, [`Fault::NotConverged`]: `alpha` is too small for the masses.
     #[must_use]
     pub fn exactly(self, solutions: usize) -> Self {
         Self {
-            tolerance: S::zero(),
             max_iterations: solutions,
+            is_exact: true,
             ..self
         }
     }
@@ -101,11 +104,10 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
     }
 
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault> {
-        if self.tolerance != S::zero() {
-            positive("tolerance of the augmented Lagrangian", self.tolerance)?;
-        }
+        positive("tolerance of the augmented Lagrangian", self.tolerance)?;
         if self.max_iterations < 2 {
-            let name = "solutions of the augmented Lagrangian beyond the first";
+            let name =
+                "solutions of the augmented Lagrangian beyond the first (max_iterations - 1)";
             return Err(Fault::Setting {
                 name,
                 value: self.max_iterations as f64 - 1.0,
@@ -119,7 +121,7 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
         saddle: &Saddle<'_, S, M, Compliant>,
     ) -> Result<Solution<S, M>, Fault> {
         let mut last = saddle.solve();
-        if self.tolerance == S::zero() {
+        if self.is_exact {
             let mut before = last;
             for _ in 1..self.max_iterations {
                 before = last;

@@ -131,7 +131,7 @@ impl<S: Real> AugmentedLagrangian<S> {
         if last.multipliers.as_slice().is_empty() {
             return Ok(last);
         }
-        if self.tolerance == S::zero() {
+        if self.is_exact {
             let mut before = last;
             for _ in 1..self.max_iterations {
                 before = last;

@@ -70,6 +70,7 @@ fn augmented<M: Scene>(alpha: f64) -> (f64, f64) {
         mu: MU,
         tolerance: TOLERANCE,
         max_iterations: ITERATIONS,
+        is_exact: false,
     };
     deviation::<M, _>(
         method,

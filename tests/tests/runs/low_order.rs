@@ -156,7 +156,7 @@ fn an_augmented_lagrangian_of_a_known_cost() {
     let fault = evaluate(formulation.exactly(1)).expect_err("a penalty");
     assert_eq!(
         fault.to_string(),
-        "`solutions of the augmented Lagrangian beyond the first` must be finite and positive, not 0"
+        "`solutions of the augmented Lagrangian beyond the first (max_iterations - 1)` must be finite and positive, not 0"
     );
     // Not converged by far, in either description.
     let weak = AugmentedLagrangian::new(1.0, 10.0, 1.0).exactly(2);

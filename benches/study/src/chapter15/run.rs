@@ -85,6 +85,7 @@ impl Settings {
             mu,
             tolerance,
             max_iterations,
+            is_exact: false,
         }
     }
 }
