@@ -110,6 +110,11 @@ impl<S: Real> Balance<S> {
         self.relative(self.last)
     }
 
+    /// What no force accounts for (J), where it was largest.
+    pub(super) fn unaccounted(&self) -> S {
+        self.worst.0
+    }
+
     /// The same where it is largest, and its time.
     pub(super) fn worst(&self) -> (S, S) {
         (self.relative(self.worst.0), self.worst.1)

@@ -413,6 +413,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         tells.then(|| self.balance.drift())
     }
 
+    /// The change of energy (J) that no force and no driver accounts for, where it was largest, as the work of forces, summed from step to step, is known.
+    #[must_use]
+    pub fn unaccounted_energy(&self) -> S {
+        self.balance.unaccounted()
+    }
+
     /// The largest `| |p| - 1 |` of Euler parameters at the end of a step, before they were brought to length 1.
     #[must_use]
     pub fn orientation_drift(&self) -> S {
