@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use holonom::{
-    Counts, Course as _, Fault, Formulation, Integrator, Iterations, Mechanism, Orientation,
+    Counts, Course as _, Fault, Formulation, Integrator, Iterations, Mechanism, Orientation, Real,
     Sample, Simulation, Span, System, every,
 };
 
@@ -78,16 +78,17 @@ where
 }
 
 /// A bare run over `span`, with dense output at the reporting times, as a contestant of a [race](crate::timing::race).
-pub fn contestant<'a, Y, I>(
+pub fn contestant<'a, S, Y, I>(
     name: impl Into<String>,
     mut system: Y,
     integrator: I,
-    span: Span<f64>,
+    span: Span<S>,
     start: Y::State,
 ) -> Contestant<'a>
 where
-    Y: System<f64> + 'a,
-    I: Integrator<f64> + 'a,
+    S: Real + 'a,
+    Y: System<S> + 'a,
+    I: Integrator<S> + 'a,
 {
     let name = name.into();
     Contestant::new(name.clone(), move || {
@@ -114,16 +115,17 @@ where
 ///
 /// # Errors
 /// A fault of the system or of the integrator.
-pub fn integrate<Y, I>(
+pub fn integrate<S, Y, I>(
     system: &mut Y,
     integrator: &I,
-    span: Span<f64>,
+    span: Span<S>,
     state: Y::State,
-    mut report: impl FnMut(f64, &Y::State),
+    mut report: impl FnMut(S, &Y::State),
 ) -> Result<Counts, Fault>
 where
-    Y: System<f64>,
-    I: Integrator<f64>,
+    S: Real,
+    Y: System<S>,
+    I: Integrator<S>,
 {
     report(span.start, &state);
     let mut course = integrator.start(system, span, state)?;
@@ -131,7 +133,12 @@ where
     while course.time() < span.end {
         course.advance(system)?;
         while let Some(time) = reporting_time(&span, reports).filter(|&t| t <= course.time()) {
-            report(time, &course.at(system, time)?);
+            // The end of a step is no matter of interpolation, which may take an evaluation.
+            if time < course.time() {
+                report(time, &course.at(system, time)?);
+            } else {
+                report(time, course.state());
+            }
             reports += 1;
         }
     }
@@ -139,10 +146,10 @@ where
 }
 
 /// The time of a report by its number, the start being number zero; `None` after the end.
-fn reporting_time(span: &Span<f64>, number: u32) -> Option<f64> {
+fn reporting_time<S: Real>(span: &Span<S>, number: u32) -> Option<S> {
     // The end is reported once, also where round-off puts a multiple beside it.
-    let margin = 1e-9 * span.first_output;
-    let time = |number: u32| span.start + f64::from(number) * span.first_output;
+    let margin = S::constant(1e-9) * span.first_output + S::constant(8.0) * span.end.ulp();
+    let time = |number: u32| span.start + S::constant(f64::from(number)) * span.first_output;
     if time(number) < span.end - margin {
         Some(time(number))
     } else {
