@@ -5,4 +5,5 @@
 pub mod compare;
 pub mod opponents;
 pub mod terminal;
+pub mod trade;
 pub mod yardstick;

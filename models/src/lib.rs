@@ -18,10 +18,13 @@
 //! | [`HeavyChain`] | 1000 kg on a chain of grams | a ratio of masses of 1e6 | own data |
 //!
 //! IFToMM: the library of benchmark problems of its Technical Committee for Multibody Dynamics. Models that move in a
-//! plane are made of spatial bodies and joints. What follows from the initial configuration (a distance of points, an
+//! plane are made of spatial bodies and joints. With the feature `problems`, `problems` has their motions with known answers. What follows from the initial configuration (a distance of points, an
 //! axis on a body) is not written twice.
 #![no_std]
 #![forbid(unsafe_code)]
+
+#[cfg(feature = "problems")]
+extern crate std;
 
 mod bricard;
 mod cart_pole;
@@ -31,6 +34,8 @@ mod four_bar;
 mod heavy_chain;
 mod heavy_top;
 mod panda;
+#[cfg(feature = "problems")]
+pub mod problems;
 mod rod_pendulum;
 mod simple_pendulum;
 mod slider_crank;

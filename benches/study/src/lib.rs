@@ -29,5 +29,6 @@ pub mod run;
 pub mod statistics;
 pub mod target;
 pub mod timing;
+pub mod trade;
 
 pub use error::StudyError;

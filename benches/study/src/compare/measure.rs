@@ -349,7 +349,7 @@ impl Scene {
 /// What a report says of the evaluation with Euler parameters normalised inside, which runs use by default. Without equations all formulations are one.
 ///
 /// Nothing of a formulation that iterates: the report knows the pieces only.
-fn reported(kernels: &[Kernel], method: Method) -> Option<Operations> {
+pub(crate) fn reported(kernels: &[Kernel], method: Method) -> Option<Operations> {
     if method == Method::AugmentedLagrangian {
         return None;
     }

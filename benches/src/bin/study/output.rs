@@ -1,0 +1,44 @@
+//! What the studies print, and how far they are.
+
+use std::error::Error;
+use std::io::{self, Write as _};
+use std::path::PathBuf;
+
+use holonom_benches::terminal;
+use holonom_study::document::Document;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Prints a document, writes its files and prints their names.
+pub(crate) fn show_all<E: Error + 'static>(
+    document: &Document,
+    write: impl FnOnce() -> Result<Vec<PathBuf>, E>,
+) -> Result<(), Box<dyn Error>> {
+    show(&terminal::text(document, terminal::width())?)?;
+    for path in write()? {
+        show(&format!("\n{}", path.display()))?;
+    }
+    show("\n")?;
+    Ok(())
+}
+
+/// A bar that says how far a study is, and how long it will take.
+pub(crate) fn bar(length: u64, message: &'static str) -> Result<ProgressBar, Box<dyn Error>> {
+    let bar = ProgressBar::new(length);
+    bar.set_style(ProgressStyle::with_template(
+        "{msg} {wide_bar} {percent} %, {eta} left",
+    )?);
+    bar.set_message(message);
+    Ok(bar)
+}
+
+/// Writes to the terminal. A reader that has seen enough, such as `head`, is no fault.
+pub(crate) fn show(text: &str) -> io::Result<()> {
+    let mut terminal = io::stdout().lock();
+    match terminal
+        .write_all(text.as_bytes())
+        .and_then(|()| terminal.flush())
+    {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}

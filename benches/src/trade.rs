@@ -1,0 +1,91 @@
+//! The problems of `study trade`.
+
+#[cfg(feature = "large")]
+use holonom_models::problems::{
+    Chain, Crank, DoubleParallelogram, Governor, Leaf, LongPendulum, Ring, Slide, Squeezer, Top,
+};
+use holonom_models::problems::{Parallelogram, Pendulum};
+use holonom_study::StudyError;
+use holonom_study::compare::measure::contestants;
+use holonom_study::timing::Contestant;
+use holonom_study::trade::{Both, Subject};
+
+use crate::opponents::START;
+use crate::yardstick::Written;
+
+/// All of them, two without the feature `large`: every one is compiled for two descriptions, four formulations and two number types.
+#[must_use]
+pub fn problems() -> Vec<Box<dyn Subject>> {
+    vec![
+        Box::new(Both(Pendulum::default())),
+        Box::new(Both(Parallelogram::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(DoubleParallelogram::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(LongPendulum::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Squeezer::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Ring::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Governor::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Top::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Slide::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Crank::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Chain::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(Leaf::default())),
+    ]
+}
+
+/// Their names.
+#[must_use]
+pub fn names() -> Vec<String> {
+    let problems = problems();
+    problems
+        .iter()
+        .map(|problem| problem.facts().name)
+        .collect()
+}
+
+/// The problem of a name.
+///
+/// # Errors
+/// The names that there are.
+pub fn problem(name: &str) -> Result<Box<dyn Subject>, String> {
+    let mut problems = problems();
+    match problems
+        .iter()
+        .position(|problem| problem.facts().name == name)
+    {
+        Some(place) => Ok(problems.swap_remove(place)),
+        None => {
+            let more = if cfg!(feature = "large") {
+                ""
+            } else {
+                "; more with --features large"
+            };
+            Err(format!(
+                "there is no problem `{name}` here; there are {}{more}",
+                names().join(", ")
+            ))
+        }
+    }
+}
+
+/// The yardstick, whose evaluations are timed beside every run.
+///
+/// # Errors
+/// [`StudyError::Run`], were it not to run.
+pub fn yardstick() -> Result<Contestant<'static>, StudyError> {
+    let contestants = contestants::<f64, _>(Written::default(), START, 1e-3);
+    let contestants = contestants.map_err(|fault| StudyError::Run {
+        name: "yardstick".into(),
+        reason: fault.to_string(),
+    })?;
+    Ok(contestants.throughput)
+}

@@ -1,0 +1,131 @@
+//! Which settings a problem is run with.
+
+use super::integration::{Family, Integration};
+use super::setting::{Formulated, Setting, Treatment};
+use super::subject::Facts;
+use crate::chapter15::Method;
+use crate::compare::{Coordinates, Precision};
+
+/// Which settings: every combination of these, but those that are the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Descriptions.
+    pub coordinates: Vec<Coordinates>,
+    /// Formulations, with their coefficients.
+    pub formulations: Vec<Formulated>,
+    /// What is done after steps.
+    pub treatments: Vec<Treatment>,
+    /// Methods of integration.
+    pub families: Vec<Family>,
+    /// Number types.
+    pub scalars: Vec<Precision>,
+    /// Fixed steps, of two digits, begin with a quarter of [`Facts::time_scale`]; two of them make a half, as long as a run has no more steps than this.
+    pub most_steps: f64,
+    /// Relative tolerances, of two digits, begin with a hundredth; two of them make a tenth, down to this.
+    pub least_tolerance: f64,
+}
+
+impl Default for Grid {
+    fn default() -> Self {
+        Self {
+            coordinates: vec![Coordinates::Bodies, Coordinates::Joints],
+            formulations: Method::ALL.map(Formulated::default_of).into(),
+            treatments: Treatment::ALL.into(),
+            families: Family::ALL.into(),
+            scalars: vec![Precision::Double, Precision::Single],
+            most_steps: 50_000.0,
+            least_tolerance: 1e-13,
+        }
+    }
+}
+
+/// Below it, a relative tolerance asks for more than the numbers have.
+const LEAST_OF_SINGLE: f64 = 1e-5;
+
+impl Grid {
+    /// The settings for a problem, those that are cheap first where they differ in step or tolerance alone.
+    ///
+    /// Where no equations remain in joint coordinates, all formulations are the same and there is nothing to correct: one stands for all. Without joint coordinates there are no settings by joints.
+    #[must_use]
+    pub fn settings(&self, facts: &Facts) -> Vec<Setting> {
+        let mut settings = Vec::new();
+        for &scalar in &self.scalars {
+            for &coordinates in &self.coordinates {
+                let equations = match coordinates {
+                    Coordinates::Bodies => Some(facts.equations),
+                    Coordinates::Joints => facts.closing,
+                };
+                let Some(equations) = equations else { continue };
+                let different = if equations == 0 { 1 } else { usize::MAX };
+                for &formulation in self.formulations.iter().take(different) {
+                    for &treatment in self.treatments.iter().take(different) {
+                        for integration in self.integrations(facts, scalar) {
+                            settings.push(Setting {
+                                coordinates,
+                                formulation,
+                                treatment,
+                                integration,
+                                scalar,
+                            });
+                        }
+                    }
+                }
+            }
+        }
+        settings
+    }
+
+    fn integrations(&self, facts: &Facts, scalar: Precision) -> Vec<Integration> {
+        let duration = facts.span.end - facts.span.start;
+        let mut integrations = Vec::new();
+        for &family in &self.families {
+            let with = |step_or_tolerance| Integration {
+                family,
+                step_or_tolerance,
+            };
+            if family.is_adaptive() {
+                let least = match scalar {
+                    Precision::Double => self.least_tolerance,
+                    Precision::Single => self.least_tolerance.max(LEAST_OF_SINGLE),
+                };
+                let tolerances =
+                    (4..).map(|half_digits| 10.0_f64.powf(-0.5 * f64::from(half_digits)));
+                let tolerances = tolerances.map(two_digits);
+                let enough = tolerances.take_while(|&tolerance| tolerance >= 0.99 * least);
+                integrations.extend(enough.map(with));
+            } else {
+                let first = 0.25 * facts.time_scale;
+                let steps = (0..).map(|k| two_digits(first * 2.0_f64.powf(-0.5 * f64::from(k))));
+                let few = steps.take_while(|&step| duration <= self.most_steps * step);
+                integrations.extend(few.map(with));
+            }
+        }
+        integrations
+    }
+}
+
+/// A positive number to two digits, as one would write it.
+pub(super) fn two_digits(value: f64) -> f64 {
+    let exponent = value.log10().floor() as i32 - 1;
+    let digits = (value / 10.0_f64.powi(exponent)).round();
+    // Powers of ten that are no numbers of the machine go into the divisor.
+    if exponent < 0 {
+        digits / 10.0_f64.powi(-exponent)
+    } else {
+        digits * 10.0_f64.powi(exponent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::two_digits;
+
+    #[test]
+    fn steps_are_numbers_that_one_would_write() {
+        assert_eq!(two_digits(0.483_388), 0.48);
+        assert_eq!(two_digits(3.162_277e-7), 3.2e-7);
+        assert_eq!(two_digits(0.001), 0.001);
+        assert_eq!(two_digits(9.96), 10.0);
+        assert_eq!(two_digits(1234.0), 1200.0);
+    }
+}

@@ -1,0 +1,170 @@
+//! The runs of a trade.
+
+use std::path::Path;
+use std::time::Duration;
+
+use super::grid::Grid;
+use super::journal::Journal;
+use super::record::{Entry, Key, Row, Stopped, Time};
+use super::reference::Reference;
+use super::setting::Setting;
+use super::subject::{Facts, Start, Subject};
+use crate::error::StudyError;
+use crate::target::Target;
+use crate::timing::{Contestant, Schedule, race};
+
+/// What was measured of a problem.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trade {
+    /// The problem.
+    pub facts: Facts,
+    /// What errors are against.
+    pub reference: Reference,
+    /// The runs that came to their end, in the order of the grid.
+    pub rows: Vec<Row>,
+    /// The others.
+    pub stopped: Vec<Stopped>,
+    /// The time of an evaluation of the yardstick (s), the median of all that were measured beside the runs; `None` without a yardstick.
+    pub yardstick: Option<f64>,
+}
+
+/// How runs are timed.
+#[derive(Clone, Copy)]
+pub struct Timing<'a> {
+    /// How often, and for how long.
+    pub schedule: Schedule,
+    /// What is timed in turn with every run, so that a machine whose speed changes is no part of the ratio.
+    pub yardstick: Option<&'a dyn Fn() -> Contestant<'static>>,
+}
+
+/// Five rounds of 2 ms, without a yardstick.
+impl Default for Timing<'_> {
+    fn default() -> Self {
+        Self {
+            schedule: Schedule {
+                rounds: 5,
+                turn: Duration::from_millis(2),
+            },
+            yardstick: None,
+        }
+    }
+}
+
+/// Runs a problem with all settings of a grid. Every run is written down in `journal` at once, so that an interrupted study goes on where it was; the file stays, and
+/// another study in the same folder under the same conditions takes from it what is there.
+///
+/// `progress` is called with the runs done and their number.
+///
+/// # Errors
+/// [`StudyError`] where the reference cannot be computed or the journal cannot be written. A run that stops is no error, see [`Trade::stopped`].
+pub fn measure(
+    subject: &dyn Subject,
+    grid: &Grid,
+    timing: Timing<'_>,
+    journal: &Path,
+    mut progress: impl FnMut(usize, usize),
+) -> Result<Trade, StudyError> {
+    let facts = subject.facts();
+    let start = subject.start()?;
+    let reference = Reference::of(subject, None)?;
+    let mut journal = Journal::<Entry>::open(journal, &conditions(&facts, &start)?)?;
+    let settings = grid.settings(&facts);
+    let (mut rows, mut stopped) = (Vec::new(), Vec::new());
+    for (done, setting) in settings.iter().enumerate() {
+        progress(done, settings.len());
+        let key = Key::from(setting);
+        let known = journal
+            .entries()
+            .iter()
+            .find(|entry| *entry.setting() == key);
+        let entry = match known {
+            Some(entry) => entry.clone(),
+            None => {
+                let entry = measured(subject, setting, &start, &reference, timing)?;
+                journal.add(entry.clone())?;
+                entry
+            }
+        };
+        match entry {
+            Entry::Row(row) => rows.push(row),
+            Entry::Stopped(entry) => stopped.push(entry),
+        }
+    }
+    progress(settings.len(), settings.len());
+    let mut yardsticks: Vec<_> = rows
+        .iter()
+        .filter_map(|row| Some(row.seconds / row.yardsticks?))
+        .collect();
+    yardsticks.sort_by(f64::total_cmp);
+    Ok(Trade {
+        facts,
+        reference,
+        rows,
+        stopped,
+        yardstick: yardsticks.get(yardsticks.len() / 2).copied(),
+    })
+}
+
+/// Under which conditions entries of a journal are those of this study, in one line.
+fn conditions(facts: &Facts, start: &Start) -> Result<String, StudyError> {
+    let span = facts.span;
+    Ok(serde_json::to_string(&(
+        env!("CARGO_PKG_VERSION"),
+        Target::CURRENT.to_string(),
+        &facts.name,
+        [span.start, span.end, span.first_output],
+        &start.0,
+        (facts.equations, facts.closing),
+    ))?)
+}
+
+/// One setting.
+pub(super) fn measured(
+    subject: &dyn Subject,
+    setting: &Setting,
+    start: &Start,
+    reference: &Reference,
+    timing: Timing<'_>,
+) -> Result<Entry, StudyError> {
+    let stopped = |reason: String| Ok(Entry::Stopped(Stopped::new(setting, reason)));
+    let run = match subject.observe(setting, start) {
+        Ok(run) => run,
+        Err(StudyError::Run { reason, .. }) => return stopped(reason),
+        Err(error) => return Err(error),
+    };
+    let error = reference.error_of(subject, &run);
+    let numbers = [error, run.energy_drift];
+    let mut numbers = numbers.iter().chain(&run.violations);
+    if !numbers.all(|number| number.is_finite()) {
+        return stopped("a reading, an energy or a violation is not a finite number".into());
+    }
+    match time(subject, setting, start, timing) {
+        Ok(time) => Ok(Entry::Row(Row::new(setting, &run, error, time))),
+        Err(StudyError::Run { reason, .. }) => stopped(reason),
+        Err(error) => Err(error),
+    }
+}
+
+/// The time of one run.
+fn time(
+    subject: &dyn Subject,
+    setting: &Setting,
+    start: &Start,
+    timing: Timing<'_>,
+) -> Result<Time, StudyError> {
+    let run = subject.contestant(setting, start)?;
+    let mut contestants = vec![run];
+    contestants.extend(timing.yardstick.map(|yardstick| yardstick()));
+    let timings = race(&mut contestants, timing.schedule, |_| ())?;
+    let seconds = |place: usize| {
+        let timing = timings.get(place)?;
+        Some(1e-9 * timing.time.median)
+    };
+    let run = timings.first().map_or(f64::NAN, |run| {
+        1e-9 * run.time.median * run.evaluations as f64
+    });
+    Ok(Time {
+        seconds: run,
+        yardsticks: seconds(1).map(|yardstick| run / yardstick),
+    })
+}

@@ -1,0 +1,133 @@
+//! What readings are compared with.
+
+use super::integration::{Family, Integration};
+use super::setting::{Formulated, Setting, Treatment};
+use super::subject::{Observation, Start, Subject};
+use crate::compare::{Coordinates, Precision};
+use crate::error::StudyError;
+
+/// What should be read at some times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// The times (s), growing, and what should be read.
+    instants: Vec<(f64, Vec<f64>)>,
+    /// By how much it may be off: of two integrations the one against the other; zero of a closed form and of published values, which say themselves how good they are.
+    pub error: f64,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// Where a reference comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The problem: a closed form, or published values.
+    Problem,
+    /// Two integrations of the study.
+    Integrated,
+}
+
+/// Tolerances of the two integrations.
+const TIGHT: [f64; 2] = [1e-12, 1e-13];
+
+impl Reference {
+    /// The reference of a problem from a start: its own where it starts as described and something is known, else two integrations with tight tolerances, which differ in description or, where there
+    /// is but one, in formulation and correction.
+    ///
+    /// # Errors
+    /// [`StudyError::Run`] where an integration stops.
+    pub fn of(subject: &dyn Subject, start: Option<&Start>) -> Result<Self, StudyError> {
+        let facts = subject.facts();
+        if start.is_none() {
+            let known: Vec<_> = times(&facts.span)
+                .filter_map(|time| Some((time, subject.reference(time)?)))
+                .collect();
+            if !known.is_empty() {
+                return Ok(Self {
+                    instants: known,
+                    error: 0.0,
+                    source: Source::Problem,
+                });
+            }
+        }
+        let own;
+        let start = match start {
+            Some(start) => start,
+            None => {
+                own = subject.start()?;
+                &own
+            }
+        };
+        let other = match facts.closing {
+            Some(_) => Coordinates::Joints,
+            None => Coordinates::Bodies,
+        };
+        let ways = [
+            (Coordinates::Bodies, Treatment::Projection, TIGHT[0]),
+            (other, Treatment::None, TIGHT[1]),
+        ];
+        let [first, last] = ways.map(|(coordinates, treatment, tolerance)| {
+            let setting = Setting {
+                coordinates,
+                formulation: Formulated::Standard,
+                treatment,
+                integration: Integration {
+                    family: Family::DormandPrince,
+                    step_or_tolerance: tolerance,
+                },
+                scalar: Precision::Double,
+            };
+            subject.observe(&setting, start)
+        });
+        let (first, last) = (first?, last?);
+        let reference = Self {
+            instants: last.times.into_iter().zip(last.values).collect(),
+            error: 0.0,
+            source: Source::Integrated,
+        };
+        let error = reference.error_of(subject, &first);
+        Ok(Self { error, ..reference })
+    }
+
+    /// The largest error of a run at the times of the reference. NaN where a reading is, or where none is compared.
+    #[must_use]
+    pub fn error_of(&self, subject: &dyn Subject, run: &Observation) -> f64 {
+        let mut largest = f64::NAN;
+        for (time, values) in run.times.iter().zip(&run.values) {
+            let Some(expected) = self.at(subject, *time) else {
+                continue;
+            };
+            let error = subject.difference(values, &expected);
+            if error.is_nan() {
+                return error;
+            }
+            largest = largest.max(error);
+        }
+        largest
+    }
+
+    /// What should be read at a time of a run, whose numbers may be less exact than those of the reference.
+    fn at(&self, subject: &dyn Subject, time: f64) -> Option<Vec<f64>> {
+        /// Of single precision, with some to spare.
+        const SAME: f64 = 1e-6;
+        let near = |then: f64| (then - time).abs() <= SAME * then.abs().max(time.abs());
+        let place = self
+            .instants
+            .partition_point(|&(then, _)| then < time && !near(then));
+        let (then, values) = self.instants.get(place).filter(|&&(then, _)| near(then))?;
+        // A closed form is known at the very time.
+        let exact = match self.source {
+            Source::Problem => subject.reference(time),
+            Source::Integrated => None,
+        };
+        let _ = then;
+        Some(exact.unwrap_or_else(|| values.clone()))
+    }
+}
+
+/// The reporting times of a span.
+fn times(span: &holonom::Span<f64>) -> impl Iterator<Item = f64> + use<> {
+    let span = *span;
+    let whole = ((span.end - span.start) / span.first_output - 1e-9).floor() as u32;
+    let multiples = (0..=whole).map(move |k| span.start + f64::from(k) * span.first_output);
+    multiples.chain([span.end])
+}

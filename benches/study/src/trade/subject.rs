@@ -1,0 +1,536 @@
+//! A problem without its mechanism in the type: what all the rest of the study is about.
+
+use std::ops::ControlFlow;
+
+use holonom::{
+    Array as _, AugmentedLagrangian, Baumgarte, BodyKind, Description, Dynamics, Fault,
+    Formulation, JointCoordinates, JointDynamics, Kernel, Mechanism, NoForces, Normalised, Penalty,
+    Projection, Real, Sample, Simulation, Span, StandardLagrange, StateParts, System, every,
+};
+
+use super::integration::{Integration, with_own_type};
+use super::problem::{BodiesAlone, Both, InBoth, Problem, Quantity};
+use super::setting::{Formulated, Setting, Treatment, augmented_lagrangian, baumgarte, penalty};
+use crate::compare::measure::reported;
+use crate::compare::{Coordinates, Precision};
+use crate::error::StudyError;
+use crate::run::contestant;
+use crate::timing::Contestant;
+
+/// What is known of a problem before anything runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Its name, see [`Problem::name`].
+    pub name: String,
+    /// A sentence for the reader.
+    pub title: String,
+    /// From when to when, and the reports (s).
+    pub span: Span<f64>,
+    /// See [`Problem::time_scale`] (s).
+    pub time_scale: f64,
+    /// What an error is of.
+    pub quantity: Quantity,
+    /// Equations of the joints, by the bodies.
+    pub equations: usize,
+    /// Equations that remain in joint coordinates; `None` where the mechanism has none.
+    pub closing: Option<usize>,
+}
+
+/// A state in `f64`: coordinates, then velocities, as [`Mechanism::State`] has them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start(pub Vec<f64>);
+
+/// What was read of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Observation {
+    /// Evaluations of the equations of motion.
+    pub evaluations: u64,
+    /// Steps that were accepted.
+    pub accepted: u64,
+    /// Steps that were tried and rejected.
+    pub rejected: u64,
+    /// The reporting times (s).
+    pub times: Vec<f64>,
+    /// What [`Problem::read`] says at these.
+    pub values: Vec<Vec<f64>>,
+    /// `|Phi|` at these, all rows together, in m and rad.
+    pub violations: Vec<f64>,
+    /// Kinetic and potential energy (J) at these.
+    pub energies: Vec<f64>,
+    /// The largest change of energy (J) that no force accounts for.
+    pub energy_drift: f64,
+    /// What the run's watch doubts, in words.
+    pub doubts: Vec<String>,
+}
+
+/// A problem without its mechanism in the type.
+pub trait Subject {
+    /// What is known of it.
+    fn facts(&self) -> Facts;
+
+    /// See [`Problem::reference`].
+    fn reference(&self, time: f64) -> Option<Vec<f64>>;
+
+    /// See [`Problem::difference`].
+    fn difference(&self, read: &[f64], reference: &[f64]) -> f64;
+
+    /// Where it starts.
+    ///
+    /// # Errors
+    /// Why the mechanism does not stand.
+    fn start(&self) -> Result<Start, StudyError>;
+
+    /// A start nearby, corrected onto the constraints: positions are moved by up to `size` times the largest of them, orientations by so many radians, velocities by that part of the largest or
+    /// of what the lengths and the time scale give. The same number gives the same start.
+    ///
+    /// # Errors
+    /// Why the mechanism does not stand there.
+    fn start_near(&self, size: f64, number: u64) -> Result<Start, StudyError>;
+
+    /// Operations of a stage of a step; `None` where they depend on the state, or where states are corrected after steps.
+    fn operations(&self, setting: &Setting) -> Option<usize>;
+
+    /// One run with the watch, read at the reporting times.
+    ///
+    /// # Errors
+    /// [`StudyError::Run`] with what stopped it.
+    fn observe(&self, setting: &Setting, start: &Start) -> Result<Observation, StudyError>;
+
+    /// The same run bare, to be timed: without watch and readings, its dense output at the reporting times included.
+    ///
+    /// # Errors
+    /// [`StudyError::Run`] with why it cannot start.
+    fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError>;
+}
+
+macro_rules! subject {
+    ($([$($bound:tt)*] $own:ident => $joints:ident;)*) => {$(
+        impl<P: $($bound)*> Subject for $own<P> {
+            fn facts(&self) -> Facts {
+                facts::<P, $joints>(&self.0)
+            }
+
+            fn reference(&self, time: f64) -> Option<Vec<f64>> {
+                self.0.reference(time)
+            }
+
+            fn difference(&self, read: &[f64], reference: &[f64]) -> f64 {
+                self.0.difference(read, reference)
+            }
+
+            fn start(&self) -> Result<Start, StudyError> {
+                let named = |fault: Fault| stopped(&self.0, &fault);
+                Ok(flat::<P::Mechanism>(&self.0.start().map_err(named)?))
+            }
+
+            fn start_near(&self, size: f64, number: u64) -> Result<Start, StudyError> {
+                start_near(&self.0, size, number).map_err(|fault| stopped(&self.0, &fault))
+            }
+
+            fn operations(&self, setting: &Setting) -> Option<usize> {
+                operations::<P, $joints>(setting)
+            }
+
+            fn observe(&self, setting: &Setting, start: &Start) -> Result<Observation, StudyError> {
+                let observe = Observe { problem: &self.0, setting, start };
+                with_formulation::<$joints, P, _>(observe, setting)
+            }
+
+            fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError> {
+                let time = Time { problem: &self.0, setting: *setting, start };
+                with_formulation::<$joints, P, _>(time, setting)
+            }
+        }
+    )*};
+}
+
+subject! {
+    [InBoth] Both => WithJoints;
+    [Problem] BodiesAlone => WithoutJoints;
+}
+
+fn stopped<P: Problem>(problem: &P, reason: &dyn std::fmt::Display) -> StudyError {
+    StudyError::Run {
+        name: problem.name().into(),
+        reason: reason.to_string(),
+    }
+}
+
+fn facts<P: Problem, J: JointsOf<P>>(problem: &P) -> Facts {
+    Facts {
+        name: problem.name().into(),
+        title: problem.title(),
+        span: problem.span(),
+        time_scale: problem.time_scale(),
+        quantity: problem.quantity(),
+        equations: P::Mechanism::REPORT.equations,
+        closing: J::CLOSING,
+    }
+}
+
+fn operations<P: Problem, J: JointsOf<P>>(setting: &Setting) -> Option<usize> {
+    if setting.treatment != Treatment::None {
+        return None;
+    }
+    let method = setting.formulation.method();
+    let kernels = match setting.coordinates {
+        Coordinates::Bodies => P::Mechanism::REPORT.kernels,
+        Coordinates::Joints => J::KERNELS,
+    };
+    let stage = format!("rates {}", method.key());
+    let stage = kernels.iter().find(|kernel| kernel.name == stage);
+    let operations = stage.map(|kernel| kernel.operations);
+    let operations = operations.or_else(|| reported(kernels, method));
+    operations.map(|operations| operations.total())
+}
+
+fn flat<M: Mechanism>(state: &M::State<f64>) -> Start {
+    let (q, u) = (state.coordinates(), state.velocities());
+    Start(q.as_slice().iter().chain(u.as_slice()).copied().collect())
+}
+
+fn state<S: Real, M: Mechanism>(start: &Start) -> M::State<S> {
+    let mut state = M::State::<S>::from_parts(holonom::Array::zeros(), holonom::Array::zeros());
+    let mut numbers = start.0.iter();
+    for place in state.coordinates_mut().as_mut_slice() {
+        *place = S::constant(numbers.next().copied().unwrap_or(f64::NAN));
+    }
+    for place in state.velocities_mut().as_mut_slice() {
+        *place = S::constant(numbers.next().copied().unwrap_or(f64::NAN));
+    }
+    state
+}
+
+fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, Fault> {
+    // SplitMix64 (Steele, Lea and Flood 2014).
+    let mut random = number;
+    let mut next = || {
+        random = random.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (random ^ (random >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let mut state = problem.start()?;
+    let bodies = P::Mechanism::REPORT.bodies;
+    // Where positions, orientations, velocities and angular velocities stand.
+    let (q, u) = (
+        state.coordinates().as_slice(),
+        state.velocities().as_slice(),
+    );
+    let largest =
+        |places: &mut dyn Iterator<Item = f64>| places.fold(0.0, |a: f64, b| a.max(b.abs()));
+    let length = largest(
+        &mut bodies
+            .iter()
+            .flat_map(|body| &q[body.coordinate..][..3])
+            .copied(),
+    );
+    let speed = largest(
+        &mut bodies
+            .iter()
+            .flat_map(|body| &u[body.velocity..][..3])
+            .copied(),
+    );
+    let rigid = || bodies.iter().filter(|body| body.kind == BodyKind::Rigid);
+    let spin = largest(
+        &mut rigid()
+            .flat_map(|body| &u[body.velocity + 3..][..3])
+            .copied(),
+    );
+    let speed = speed.max(length / problem.time_scale());
+    let spin = spin.max(1.0 / problem.time_scale());
+    for body in bodies {
+        let q = &mut state.coordinates_mut().as_mut_slice()[body.coordinate..];
+        q[..3].iter_mut().for_each(|x| *x += size * length * next());
+        let is_rigid = body.kind == BodyKind::Rigid;
+        if is_rigid {
+            q[3..7].iter_mut().for_each(|x| *x += 0.5 * size * next());
+        }
+        let u = &mut state.velocities_mut().as_mut_slice()[body.velocity..];
+        u[..3].iter_mut().for_each(|x| *x += size * speed * next());
+        if is_rigid {
+            u[3..6].iter_mut().for_each(|x| *x += size * spin * next());
+        }
+    }
+    let mechanism = problem.mechanism();
+    let constants = P::Mechanism::prepare(&mechanism.parameters()?);
+    let time = problem.span().start;
+    Projection::default().correct::<P::Mechanism>(&constants, time, &mut state)?;
+    Ok(flat::<P::Mechanism>(&state))
+}
+
+/// Something to be done with a mechanism, once it is known with which numbers, which formulation and which description.
+trait Task<P: Problem> {
+    type Outcome;
+
+    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
+        self,
+        formulation: F,
+    ) -> Result<Self::Outcome, StudyError>;
+
+    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
+        self,
+        formulation: F,
+    ) -> Result<Self::Outcome, StudyError>
+    where
+        P: InBoth;
+}
+
+/// Whether a problem can be run by its joints.
+trait JointsOf<P: Problem> {
+    const CLOSING: Option<usize>;
+    const KERNELS: &'static [Kernel];
+
+    fn run<S: Real + 'static, F: Formulation<S> + 'static, T: Task<P>>(
+        task: T,
+        formulation: F,
+    ) -> Result<T::Outcome, StudyError>;
+}
+
+struct WithJoints;
+
+impl<P: InBoth> JointsOf<P> for WithJoints {
+    const CLOSING: Option<usize> = Some(
+        <P::Mechanism as JointCoordinates>::JOINT_REPORT
+            .closing
+            .len(),
+    );
+    const KERNELS: &'static [Kernel] = <P::Mechanism as JointCoordinates>::JOINT_REPORT.kernels;
+
+    fn run<S: Real + 'static, F: Formulation<S> + 'static, T: Task<P>>(
+        task: T,
+        formulation: F,
+    ) -> Result<T::Outcome, StudyError> {
+        task.by_joints::<S, F>(formulation)
+    }
+}
+
+struct WithoutJoints;
+
+impl<P: Problem> JointsOf<P> for WithoutJoints {
+    const CLOSING: Option<usize> = None;
+    const KERNELS: &'static [Kernel] = &[];
+
+    fn run<S: Real + 'static, F: Formulation<S> + 'static, T: Task<P>>(
+        _task: T,
+        _formulation: F,
+    ) -> Result<T::Outcome, StudyError> {
+        Err(StudyError::Run {
+            name: "joints".into(),
+            reason: "the mechanism is not described by joint coordinates: write #[mechanism(coordinates = \"both\")]".into(),
+        })
+    }
+}
+
+fn with_formulation<J: JointsOf<P>, P: Problem, T: Task<P>>(
+    task: T,
+    setting: &Setting,
+) -> Result<T::Outcome, StudyError> {
+    match setting.scalar {
+        Precision::Double => with_numbers::<f64, J, P, T>(task, setting),
+        Precision::Single => with_numbers::<f32, J, P, T>(task, setting),
+    }
+}
+
+fn with_numbers<S: Real + 'static, J: JointsOf<P>, P: Problem, T: Task<P>>(
+    task: T,
+    setting: &Setting,
+) -> Result<T::Outcome, StudyError> {
+    let by = setting.coordinates;
+    match &setting.formulation {
+        Formulated::Standard => described::<S, J, P, T, _>(task, by, StandardLagrange),
+        Formulated::Baumgarte(of) => {
+            let formulation: Baumgarte<S> = baumgarte(of);
+            described::<S, J, P, T, _>(task, by, formulation)
+        }
+        Formulated::Penalty(of) => {
+            let formulation: Penalty<S> = penalty(of);
+            described::<S, J, P, T, _>(task, by, formulation)
+        }
+        Formulated::AugmentedLagrangian(of) => {
+            let formulation: AugmentedLagrangian<S> = augmented_lagrangian(of);
+            described::<S, J, P, T, _>(task, by, formulation)
+        }
+    }
+}
+
+fn described<
+    S: Real + 'static,
+    J: JointsOf<P>,
+    P: Problem,
+    T: Task<P>,
+    F: Formulation<S> + 'static,
+>(
+    task: T,
+    by: Coordinates,
+    formulation: F,
+) -> Result<T::Outcome, StudyError> {
+    match by {
+        Coordinates::Bodies => task.by_bodies::<S, F>(formulation),
+        Coordinates::Joints => J::run::<S, F, T>(task, formulation),
+    }
+}
+
+fn span_of<S: Real>(span: &Span<f64>) -> Span<S> {
+    Span {
+        start: S::constant(span.start),
+        end: S::constant(span.end),
+        first_output: S::constant(span.first_output),
+    }
+}
+
+/// A simulation with a setting, before it is told its description.
+fn simulation<'a, S: Real, P: Problem, F: Formulation<S> + 'static>(
+    problem: &'a P,
+    formulation: F,
+    setting: &Setting,
+    start: &Start,
+) -> Simulation<'a, S, P::Mechanism, F, Integration> {
+    let simulation = Simulation::new(problem.mechanism(), formulation, setting.integration);
+    let simulation = simulation.initial_state(state::<S, P::Mechanism>(start));
+    match setting.treatment {
+        Treatment::None => simulation,
+        Treatment::Projection => simulation.projection(Projection::default()),
+    }
+}
+
+struct Observe<'a, P> {
+    problem: &'a P,
+    setting: &'a Setting,
+    start: &'a Start,
+}
+
+impl<P: Problem> Task<P> for Observe<'_, P> {
+    type Outcome = Observation;
+
+    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
+        self,
+        formulation: F,
+    ) -> Result<Observation, StudyError> {
+        let run = simulation::<S, P, F>(self.problem, formulation, self.setting, self.start);
+        observed(self.problem, &run)
+    }
+
+    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
+        self,
+        formulation: F,
+    ) -> Result<Observation, StudyError>
+    where
+        P: InBoth,
+    {
+        let run = simulation::<S, P, F>(self.problem, formulation, self.setting, self.start);
+        observed(self.problem, &run.joint_coordinates())
+    }
+}
+
+type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, Integration, Normalised, NoForces, C>;
+
+fn observed<S: Real, P: Problem, F: Formulation<S>, C>(
+    problem: &P,
+    run: &Run<'_, S, P::Mechanism, F, C>,
+) -> Result<Observation, StudyError>
+where
+    C: for<'f> Description<S, P::Mechanism, F, Normalised, &'f NoForces>,
+{
+    let span = span_of::<S>(&problem.span());
+    let mut seen = Observation::default();
+    let mut look = |sample: &Sample<'_, S, P::Mechanism>| {
+        seen.times.push(sample.time().to_f64());
+        seen.values.push(problem.read(sample));
+        seen.violations.push(sample.violation().to_f64().sqrt());
+        seen.energies.push(sample.energy().to_f64());
+        ControlFlow::Continue(())
+    };
+    let report = run
+        .run(span.start..=span.end, every(span.first_output), &mut look)
+        .map_err(|error| stopped(problem, &error))?;
+    let watch = report.watch.as_ref();
+    Ok(Observation {
+        evaluations: report.evaluations as u64,
+        accepted: report.accepted as u64,
+        rejected: report.rejected as u64,
+        energy_drift: watch.map_or(f64::NAN, |watch| watch.unaccounted_energy().to_f64().abs()),
+        doubts: report
+            .doubts()
+            .into_iter()
+            .map(|doubt| doubt.to_string())
+            .collect(),
+        ..seen
+    })
+}
+
+struct Time<'a, 's, P> {
+    problem: &'a P,
+    setting: Setting,
+    start: &'s Start,
+}
+
+impl<'a, P: Problem> Time<'a, '_, P> {
+    fn bare<S: Real + 'a, Y: System<S> + 'a>(&self, system: Y, start: Y::State) -> Contestant<'a> {
+        let (span, name) = (span_of::<S>(&self.problem.span()), self.setting.name());
+        let integration = self.setting.integration;
+        if P::IS_INLINED {
+            with_own_type!(integration, integrator => contestant(name, system, integrator, span, start))
+        } else {
+            contestant(name, system, integration, span, start)
+        }
+    }
+
+    fn corrected<S: Real + 'a, F: Formulation<S> + 'a, C>(
+        &self,
+        run: Run<'a, S, P::Mechanism, F, C>,
+    ) -> Contestant<'a>
+    where
+        C: for<'f> Description<S, P::Mechanism, F, Normalised, &'f NoForces> + 'a,
+    {
+        let span = span_of::<S>(&self.problem.span());
+        let run = run.unwatched();
+        let name = self.problem.name();
+        Contestant::new(self.setting.name(), move || {
+            let report = run.run(span.start..=span.end, every(span.first_output), |sample| {
+                std::hint::black_box(sample.state());
+                ControlFlow::Continue(())
+            });
+            let report = report.map_err(|error| StudyError::Run {
+                name: name.into(),
+                reason: error.to_string(),
+            })?;
+            Ok(report.evaluations as u64)
+        })
+    }
+}
+
+impl<'a, P: Problem> Task<P> for Time<'a, '_, P> {
+    type Outcome = Contestant<'a>;
+
+    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
+        self,
+        formulation: F,
+    ) -> Result<Contestant<'a>, StudyError> {
+        if self.setting.treatment != Treatment::None {
+            let run = simulation::<S, P, F>(self.problem, formulation, &self.setting, self.start);
+            return Ok(self.corrected(run));
+        }
+        let dynamics = Dynamics::<S, _, _>::new(self.problem.mechanism(), formulation);
+        let dynamics = dynamics.map_err(|fault| stopped(self.problem, &fault))?;
+        Ok(self.bare(dynamics, state::<S, P::Mechanism>(self.start)))
+    }
+
+    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
+        self,
+        formulation: F,
+    ) -> Result<Contestant<'a>, StudyError>
+    where
+        P: InBoth,
+    {
+        if self.setting.treatment != Treatment::None {
+            let run = simulation::<S, P, F>(self.problem, formulation, &self.setting, self.start);
+            return Ok(self.corrected(run.joint_coordinates()));
+        }
+        let dynamics = JointDynamics::<S, _, _>::new(self.problem.mechanism(), formulation);
+        let dynamics = dynamics.map_err(|fault| stopped(self.problem, &fault))?;
+        let start = dynamics.joints(&state::<S, P::Mechanism>(self.start));
+        let start = start.map_err(|fault| stopped(self.problem, &fault))?;
+        Ok(self.bare(dynamics, start))
+    }
+}
