@@ -21,6 +21,7 @@ pub mod counted;
 pub mod document;
 pub mod elliptic;
 mod error;
+pub mod extremes;
 pub mod files;
 pub mod format;
 pub mod page;
