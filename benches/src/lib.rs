@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod compare;
+pub mod extremes;
 pub mod opponents;
 pub mod terminal;
 pub mod trade;

@@ -1,10 +1,11 @@
 //! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores (2015), `study compare` shows what an evaluation costs,
-//! `study trade` what accuracy costs, and `study recommend` which setting does.
+//! `study trade` what accuracy costs, `study recommend` which setting does, and `study extremes` where the numerics stop to hold.
 
 #![forbid(unsafe_code)]
 
 mod chapter15;
 mod comparison;
+mod extremes;
 mod output;
 mod trade;
 
@@ -33,6 +34,8 @@ enum Study {
     Trade(trade::Trade),
     /// The cheapest setting for an error, or the most exact one for a time, that does so from ten starts nearby as well, and the lines of Rust that run it.
     Recommend(trade::Recommend),
+    /// Where the numerics stop to hold: motions with closed forms, swept to where they break. An interrupted map goes on with the same command.
+    Extremes(extremes::Extremes),
 }
 
 fn main() -> ExitCode {
@@ -42,6 +45,7 @@ fn main() -> ExitCode {
         Some(Study::Compare(arguments)) => comparison::study(arguments),
         Some(Study::Trade(arguments)) => trade::study(arguments),
         Some(Study::Recommend(arguments)) => trade::recommend(arguments),
+        Some(Study::Extremes(arguments)) => extremes::study(arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -10,9 +10,9 @@ use crate::trade::{Observation, Reference, Setting, Subject};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// The error is within [`HOLDS`] times of what is promised.
+    /// The error is within [`HOLDS`] times of what is promised, and below [`WRONG`].
     Holds,
-    /// It is larger, and the run's watch says so, or it is below [`WRONG`].
+    /// It is larger, and the run's watch says so; or it is below [`WRONG`], but not what is promised.
     Drifts,
     /// The run ended with an error that says why.
     Fails,
@@ -92,8 +92,7 @@ pub fn judge(
 }
 
 fn judged(error: f64, promised: f64, run: &Observation) -> Verdict {
-    let is_silent = run.doubts.is_empty();
-    let (outcome, reason) = if error <= HOLDS * promised && (error <= WRONG || !is_silent) {
+    let (outcome, reason) = if error <= (HOLDS * promised).min(WRONG) {
         (Outcome::Holds, String::new())
     } else if let Some(doubt) = run.doubts.first() {
         (Outcome::Drifts, doubt.clone())

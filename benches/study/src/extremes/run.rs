@@ -61,8 +61,8 @@ pub struct Row {
     pub reason: String,
     /// The error over the motion's scale; `null` where the run failed.
     pub error: Option<f64>,
-    /// What was promised.
-    pub promised: f64,
+    /// What was promised; `null` where that is no number, as for an input that is none.
+    pub promised: Option<f64>,
 }
 
 /// Runs all cells, on as many processors as there are; in their order. Every one is written down in `journal` at once, so that an interrupted map goes on where it was.
@@ -142,7 +142,7 @@ fn row(axis: &Axis, cell: &Cell, journal: &Mutex<Journal<Row>>) -> Result<Row, S
         outcome: verdict.outcome,
         reason: verdict.reason,
         error: verdict.error,
-        promised: verdict.promised,
+        promised: verdict.promised.is_finite().then_some(verdict.promised),
     };
     lock(journal).add(row.clone())?;
     Ok(row)

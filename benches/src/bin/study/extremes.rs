@@ -1,0 +1,59 @@
+//! `study extremes`.
+
+use std::error::Error;
+use std::path::PathBuf;
+
+use clap::Args;
+use holonom_benches::extremes;
+use holonom_study::StudyError;
+use holonom_study::extremes::{report, run};
+
+use crate::output::{bar, show_all};
+
+#[derive(Debug, Args)]
+pub(crate) struct Extremes {
+    /// Where the page and extremes.json go.
+    #[arg(long, value_name = "DIR", default_value = "target/study/extremes")]
+    out: PathBuf,
+    /// Sweep this axis alone; may be given more than once.
+    #[arg(long, value_name = "AXIS")]
+    axis: Vec<String>,
+}
+
+pub(crate) fn study(arguments: &Extremes) -> Result<(), Box<dyn Error>> {
+    let (axes, mut cells) = extremes::map();
+    for name in &arguments.axis {
+        if !axes.iter().any(|axis| axis.name == name) {
+            let names: Vec<_> = axes.iter().map(|axis| axis.name).collect();
+            return Err(format!(
+                "there is no axis `{name}` here; there are {}",
+                names.join(", ")
+            )
+            .into());
+        }
+    }
+    if !arguments.axis.is_empty() {
+        cells.retain(|cell| {
+            arguments
+                .axis
+                .iter()
+                .any(|name| name == axes[cell.axis].name)
+        });
+    }
+    let journal = arguments.out.join("extremes.journal");
+    let bar = bar(cells.len() as u64, "runs")?;
+    let rows = run::run(&axes, &cells, &journal, |done| {
+        bar.set_position(done as u64)
+    });
+    bar.finish_and_clear();
+    let rows = rows?;
+    let document = report::document(&axes, &rows);
+    show_all(&document, || {
+        let written = report::write(&document, &rows, &arguments.out)?;
+        std::fs::remove_file(&journal).map_err(|source| StudyError::Write {
+            path: journal.clone(),
+            source,
+        })?;
+        Ok::<_, StudyError>(written)
+    })
+}

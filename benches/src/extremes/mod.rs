@@ -1,0 +1,429 @@
+//! The map of `study extremes`: motions with closed forms, and the axes along which they are swept.
+
+pub mod case;
+#[cfg(feature = "large")]
+pub mod others;
+pub mod rod;
+
+use holonom::{AugmentedLagrangian, Baumgarte, Penalty};
+use holonom_study::chapter15::Method;
+use holonom_study::compare::{Coordinates, Precision};
+use holonom_study::extremes::{Axis, Cell, Motion};
+use holonom_study::trade::{Both, Family, Formulated, Integration, Setting, Subject, Treatment};
+
+use case::{Case, ClosedForm};
+use rod::Rod;
+
+/// The step of Runge-Kutta for a motion, where the axis is not the step: a two-hundredth of its period.
+const STEPS: f64 = 200.0;
+/// The tolerance of Dormand-Prince, where the axis is not the tolerance: the default.
+const TOLERANCE: f64 = 1e-6;
+
+/// All parameters of the map are positive and finite.
+const ACCEPTABLE: &str = "positive and finite";
+
+const BOTH: [Precision; 2] = [Precision::Double, Precision::Single];
+
+/// A description with a formulation and a treatment.
+type Way = (Coordinates, Formulated, Treatment);
+
+/// By bodies in all formulations, by joints in one, as they are for a tree.
+fn ways_of_tree() -> Vec<Way> {
+    let by_bodies = Method::ALL.map(|method| {
+        (
+            Coordinates::Bodies,
+            Formulated::default_of(method),
+            Treatment::None,
+        )
+    });
+    let mut ways = Vec::from(by_bodies);
+    ways.push((Coordinates::Joints, Formulated::Standard, Treatment::None));
+    ways
+}
+
+/// By bodies and by joints in all formulations, as they are where equations remain.
+fn ways_of_loop(treatments: &[Treatment]) -> Vec<Way> {
+    let mut ways = Vec::new();
+    for by in [Coordinates::Bodies, Coordinates::Joints] {
+        for method in Method::ALL {
+            for &treatment in treatments {
+                ways.push((by, Formulated::default_of(method), treatment));
+            }
+        }
+    }
+    ways
+}
+
+/// The axes and cells under construction.
+#[derive(Default)]
+struct Map {
+    axes: Vec<Axis>,
+    cells: Vec<Cell>,
+}
+
+/// Where on an axis, and what is known of the motion there.
+#[derive(Clone, Copy)]
+struct Place {
+    value: f64,
+    motion: Motion,
+    scale: f64,
+}
+
+impl Map {
+    fn axis(&mut self, name: &'static str, unit: &'static str, title: &str) {
+        self.axes.push(Axis {
+            name,
+            title: title.into(),
+            unit,
+        });
+    }
+
+    fn add<M>(&mut self, place: Place, case: Case<M>, settings: impl IntoIterator<Item = Setting>)
+    where
+        M: ClosedForm + Copy + Send + Sync + 'static,
+    {
+        let model = std::any::type_name::<M>()
+            .rsplit("::")
+            .next()
+            .unwrap_or_default();
+        self.add_subject(place, model, settings, move || Box::new(Both(case)));
+    }
+
+    fn add_subject<B>(
+        &mut self,
+        Place {
+            value,
+            motion,
+            scale,
+        }: Place,
+        model: &'static str,
+        settings: impl IntoIterator<Item = Setting>,
+        subject: B,
+    ) where
+        B: Fn() -> Box<dyn Subject> + Send + Sync + Clone + 'static,
+    {
+        for setting in settings {
+            self.cells.push(Cell {
+                axis: self.axes.len() - 1,
+                model,
+                value,
+                setting,
+                motion,
+                scale,
+                subject: Box::new(subject.clone()),
+            });
+        }
+    }
+}
+
+/// Every way with these integrators and both number types.
+fn settings(ways: &[Way], integrations: &[Integration]) -> Vec<Setting> {
+    let mut settings = Vec::new();
+    for scalar in BOTH {
+        for &(coordinates, formulation, treatment) in ways {
+            for &integration in integrations {
+                settings.push(Setting {
+                    coordinates,
+                    formulation,
+                    treatment,
+                    integration,
+                    scalar,
+                });
+            }
+        }
+    }
+    settings
+}
+
+const fn rk4(step: f64) -> Integration {
+    Integration {
+        family: Family::Rk4,
+        step_or_tolerance: step,
+    }
+}
+
+const fn dormand_prince(tolerance: f64) -> Integration {
+    Integration {
+        family: Family::DormandPrince,
+        step_or_tolerance: tolerance,
+    }
+}
+
+/// Both, at what they are by default for a motion of this period.
+fn usual(period: f64) -> [Integration; 2] {
+    [rk4(period / STEPS), dormand_prince(TOLERANCE)]
+}
+
+/// `10^from` to `10^to`.
+fn decades(from: i32, to: i32) -> impl Iterator<Item = f64> {
+    (from..=to).map(|exponent| {
+        if exponent < 0 {
+            1.0 / 10.0_f64.powi(-exponent)
+        } else {
+            10.0_f64.powi(exponent)
+        }
+    })
+}
+
+/// The rod, and what is known of its motion.
+fn swing(length: f64, mass: f64, place: f64, periods: f64) -> (Case<Rod>, Motion) {
+    let rod = Rod::new(length, mass, place).expect(ACCEPTABLE);
+    let period = rod.period();
+    let end = periods * period;
+    let case = Case {
+        mechanism: rod,
+        end,
+        period,
+        displaced: 0.0,
+    };
+    let motion = Motion {
+        frequency: std::f64::consts::TAU / period,
+        duration: end,
+        reach: (1.0 + place / length).max(1.0),
+        size: length.min(1.0),
+        mass,
+        violation: 0.0,
+    };
+    (case, motion)
+}
+
+/// All cells of the map, with their axes; without the feature `large` those of a rod and of a four-bar.
+#[must_use]
+pub fn map() -> (Vec<Axis>, Vec<Cell>) {
+    let mut map = Map::default();
+    rods(&mut map);
+    coefficients(&mut map);
+    loops(&mut map);
+    #[cfg(feature = "large")]
+    others::sweep(&mut map);
+    (map.axes, map.cells)
+}
+
+/// What is swept of a rod on a hinge.
+fn rods(map: &mut Map) {
+    let tree = ways_of_tree();
+    map.axis("step", "s", "The step, of a rod of 1 m that swings for two seconds, and the tolerance that stands for it");
+    for step in decades(-6, 0)
+        .flat_map(|step| [step, 3.0 * step])
+        .filter(|&step| step <= 1.0)
+    {
+        let (case, motion) = swing(1.0, 1.0, 0.0, 1.0);
+        let place = Place {
+            value: step,
+            motion,
+            scale: 1.0,
+        };
+        let families = [
+            Family::SemiImplicitEuler,
+            Family::Midpoint,
+            Family::Rk4,
+            Family::DormandPrinceFixed,
+        ];
+        // What takes a million steps is done by one of them.
+        let families = if step < 1e-5 {
+            &families[2..3]
+        } else {
+            &families[..]
+        };
+        let integrations: Vec<_> = families
+            .iter()
+            .map(|&family| Integration {
+                family,
+                step_or_tolerance: step,
+            })
+            .collect();
+        map.add(place, case, settings(&tree, &integrations));
+    }
+    map.axis(
+        "tolerance",
+        "1",
+        "The relative tolerance, of a rod of 1 m that swings once",
+    );
+    for tolerance in decades(-14, -1) {
+        let (case, motion) = swing(1.0, 1.0, 0.0, 1.0);
+        let place = Place {
+            value: tolerance,
+            motion,
+            scale: 1.0,
+        };
+        map.add(place, case, settings(&tree, &[dormand_prince(tolerance)]));
+    }
+    map.axis(
+        "size",
+        "m",
+        "The length of a rod of 1 kg, which swings twice",
+    );
+    for length in decades(-6, 3) {
+        let (case, motion) = swing(length, 1.0, 0.0, 2.0);
+        let place = Place {
+            value: length,
+            motion,
+            scale: 1.0,
+        };
+        map.add(place, case, settings(&tree, &usual(case.period)));
+    }
+    map.axis("mass", "kg", "The mass of a rod of 1 m, which swings twice");
+    for mass in decades(-6, 6) {
+        let (case, motion) = swing(1.0, mass, 0.0, 2.0);
+        let place = Place {
+            value: mass,
+            motion,
+            scale: 1.0,
+        };
+        map.add(place, case, settings(&tree, &usual(case.period)));
+    }
+    map.axis("small and light", "m", "The length of a rod of its own density: a cubic metre weighs a tonne, a rod is a tenth as thick as long");
+    for length in decades(-6, 3) {
+        let (case, motion) = swing(length, 10.0 * length * length * length, 0.0, 2.0);
+        let place = Place {
+            value: length,
+            motion,
+            scale: 1.0,
+        };
+        map.add(place, case, settings(&tree, &usual(case.period)));
+    }
+    map.axis(
+        "distance",
+        "m",
+        "The distance of a rod of 1 m from the origin along all axes, which swings twice",
+    );
+    for distance in decades(-1, 6) {
+        let (case, motion) = swing(1.0, 1.0, distance, 2.0);
+        let place = Place {
+            value: distance,
+            motion,
+            scale: 1.0,
+        };
+        map.add(place, case, settings(&tree, &usual(case.period)));
+    }
+    map.axis("run", "s", "How long a rod of 1 m swings");
+    for end in decades(0, 4) {
+        let (case, motion) = swing(1.0, 1.0, 0.0, 1.0);
+        let (case, motion) = (
+            Case { end, ..case },
+            Motion {
+                duration: end,
+                ..motion
+            },
+        );
+        let place = Place {
+            value: end,
+            motion,
+            scale: 1.0,
+        };
+        let ways: Vec<_> = tree
+            .iter()
+            .copied()
+            .filter(|(_, formulation, _)| {
+                end < 5e3 || formulation.method() != Method::AugmentedLagrangian
+            })
+            .collect();
+        map.add(
+            place,
+            case,
+            settings(&ways, &[rk4(0.01), dormand_prince(TOLERANCE)]),
+        );
+    }
+    map.axis(
+        "start",
+        "1",
+        "How far from its hinge a rod of 1 m starts, over its length; it swings twice",
+    );
+    for violation in decades(-12, -1) {
+        let (case, motion) = swing(1.0, 1.0, 0.0, 2.0);
+        let case = Case {
+            displaced: violation,
+            ..case
+        };
+        let motion = Motion {
+            violation,
+            ..motion
+        };
+        let place = Place {
+            value: violation,
+            motion,
+            scale: 1.0,
+        };
+        map.add(place, case, settings(&tree, &usual(case.period)));
+    }
+}
+
+/// The coefficients of formulations.
+fn coefficients(map: &mut Map) {
+    let only = |formulation| [(Coordinates::Bodies, formulation, Treatment::None)];
+    map.axis("penalty", "kg", "The factor alpha of penalty and augmented Lagrangian, of a rod of 1 m and 1 kg that swings twice");
+    for alpha in decades(0, 16) {
+        let (case, motion) = swing(1.0, 1.0, 0.0, 2.0);
+        let place = Place {
+            value: alpha,
+            motion,
+            scale: 1.0,
+        };
+        let penalty = Penalty {
+            alpha,
+            ..Penalty::default()
+        };
+        let augmented = AugmentedLagrangian {
+            alpha,
+            ..AugmentedLagrangian::default()
+        };
+        for formulation in [
+            Formulated::Penalty(penalty),
+            Formulated::AugmentedLagrangian(augmented),
+        ] {
+            map.add(
+                place,
+                case,
+                settings(&only(formulation), &usual(case.period)),
+            );
+        }
+    }
+    map.axis("baumgarte", "1", "Baumgarte's alpha and beta, which are equal, times the step of Runge-Kutta; theory has it stable below 2.785");
+    for part in [
+        0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 1.5, 2.0, 2.5, 2.7, 2.8, 2.9, 3.0, 5.0, 10.0, 100.0,
+    ] {
+        let (case, motion) = swing(1.0, 1.0, 0.0, 2.0);
+        let place = Place {
+            value: part,
+            motion,
+            scale: 1.0,
+        };
+        for steps in [50.0, 500.0] {
+            let step = case.period / steps;
+            let terms = Baumgarte {
+                alpha: part / step,
+                beta: part / step,
+            };
+            map.add(
+                place,
+                case,
+                settings(&only(Formulated::Baumgarte(terms)), &[rk4(step)]),
+            );
+        }
+    }
+}
+
+/// A loop.
+fn loops(map: &mut Map) {
+    map.axis("singular", "1", "A parallelogram that passes through its singular configurations ten times in ten seconds, by the relative tolerance");
+    for tolerance in decades(-12, -3) {
+        let motion = Motion {
+            frequency: 6.0,
+            duration: 10.0,
+            reach: 1.0,
+            size: 1.0,
+            mass: 3.0,
+            violation: 0.0,
+        };
+        let place = Place {
+            value: tolerance,
+            motion,
+            scale: 6.0,
+        };
+        let ways = ways_of_loop(&Treatment::ALL);
+        let settings = settings(&ways, &[dormand_prince(tolerance)]);
+        map.add_subject(place, "FourBar", settings, || {
+            Box::new(Both(holonom_models::problems::Parallelogram::default()))
+        });
+    }
+}
