@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use holonom_benches::trade::{problem, yardstick};
+use holonom_benches::trade::{names, problem, yardstick};
 use holonom_study::StudyError;
 use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
+use holonom_study::page::write_page;
 use holonom_study::timing::{Contestant, Schedule};
 use holonom_study::trade::{
     self, Family, Formulated, Grid, Processor, Subject, Timing, Treatment, Wish, measure, report,
@@ -20,9 +21,6 @@ use crate::output::{bar, show, show_all};
 /// Which part of the grid.
 #[derive(Debug, Args)]
 pub(crate) struct Part {
-    /// The motion; --problem help lists them.
-    #[arg(long, value_name = "NAME")]
-    problem: String,
     /// This description alone; may be given more than once, as all that follow.
     #[arg(long, value_parser = keys([Coordinates::Bodies, Coordinates::Joints], Coordinates::key))]
     coordinates: Vec<Coordinates>,
@@ -117,6 +115,9 @@ fn beside() -> Result<impl Fn() -> Contestant<'static>, StudyError> {
 
 #[derive(Debug, Args)]
 pub(crate) struct Trade {
+    /// The motion; may be given more than once, and `all` are all of them.
+    #[arg(long, value_name = "NAME", required = true)]
+    problem: Vec<String>,
     #[command(flatten)]
     part: Part,
     /// Where the numbers and the page go.
@@ -125,18 +126,31 @@ pub(crate) struct Trade {
 }
 
 pub(crate) fn study(arguments: &Trade) -> Result<(), Box<dyn Error>> {
-    let name = &arguments.part.problem;
-    let subject = problem(name)?;
-    let journal = arguments.out.join(format!("{name}.journal"));
-    let trade = arguments.part.measured(&*subject, &journal)?;
-    let courses = report::courses(&*subject)?;
-    let document = report::document(&trade, &courses, &command(name));
-    show_all(&document, || {
-        let written = report::write(&trade, &document, &arguments.out)?;
-        // The next study measures anew; a recommendation takes what was measured.
-        rename(&journal, &measured(&arguments.out, name))?;
-        Ok::<_, StudyError>(written)
-    })
+    let problems = match &arguments.problem[..] {
+        [all] if all == "all" => names(),
+        some => some.to_vec(),
+    };
+    let mut trades = Vec::new();
+    for name in &problems {
+        let subject = problem(name)?;
+        let journal = arguments.out.join(format!("{name}.journal"));
+        let trade = arguments.part.measured(&*subject, &journal)?;
+        let courses = report::courses(&*subject)?;
+        let document = report::document(&trade, &courses, &command(name));
+        let write = || {
+            let written = report::write(&trade, &document, &arguments.out)?;
+            // The next study measures anew; a recommendation takes what was measured.
+            rename(&journal, &measured(&arguments.out, name))?;
+            Ok::<_, StudyError>(written)
+        };
+        if problems.len() == 1 {
+            return show_all(&document, write);
+        }
+        write()?;
+        trades.push(trade);
+    }
+    let document = report::summary(&trades, &command("all"));
+    show_all(&document, || write_page(&document, &arguments.out))
 }
 
 /// What a trade has measured, for recommendations.
@@ -165,6 +179,9 @@ fn rename(from: &Path, to: &Path) -> Result<(), StudyError> {
 
 #[derive(Debug, Args)]
 pub(crate) struct Recommend {
+    /// The motion.
+    #[arg(long, value_name = "NAME")]
+    problem: String,
     #[command(flatten)]
     part: Part,
     /// The error that no run may exceed, in the unit of the problem (rad for angles, m for places).
@@ -205,13 +222,13 @@ fn duration(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn recommend(arguments: &Recommend) -> Result<(), Box<dyn Error>> {
-    let subject = problem(&arguments.part.problem)?;
+    let subject = problem(&arguments.problem)?;
     let wish = match (arguments.error, arguments.budget) {
         (Some(error), _) => Wish::Error(error),
         (None, Some(seconds)) => Wish::Budget(seconds),
         (None, None) => return Err("neither --error nor --budget is given".into()),
     };
-    let journal = measured(&arguments.out, &arguments.part.problem);
+    let journal = measured(&arguments.out, &arguments.problem);
     let trade = arguments.part.measured(&*subject, &journal)?;
     let settings = arguments.part.grid().settings(&trade.facts);
     let bar = bar(0, "starts nearby")?;

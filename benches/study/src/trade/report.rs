@@ -157,6 +157,31 @@ pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
     }
 }
 
+/// Several trades in two tables: of each problem the most exact setting, and the cheapest for an error of a millionth.
+#[must_use]
+pub fn summary(trades: &[Trade], command: &str) -> Document {
+    Document {
+        title: "What accuracy costs".into(),
+        lead: vec![
+            "Problems with known answers, each run with every description, formulation, treatment after steps, integrator, step or tolerance and number type. Settings whose runs are doubted are left out.".into(),
+        ],
+        sections: vec![
+            Section {
+                heading: "The most exact settings".into(),
+                blocks: vec![Block::Table(tables::most_exact(trades))],
+            },
+            Section {
+                heading: "The cheapest settings for an error".into(),
+                blocks: vec![Block::Table(tables::cheapest_of(trades))],
+            },
+        ],
+        colophon: vec![
+            format!("Compiled for {}.", Target::CURRENT),
+            format!("holonom {}. Repeat with: {command}. Each problem has a page of its own beside this one.", env!("CARGO_PKG_VERSION")),
+        ],
+    }
+}
+
 /// What did not come to its end, one sentence for each reason and kind.
 fn stopped(trade: &Trade) -> String {
     let mut kinds: Vec<(String, usize, &str)> = Vec::new();

@@ -152,3 +152,76 @@ pub fn limits(trade: &Trade) -> Table {
         note: "Of all integrators and steps of the grid. Below it, smaller steps give more round-off, or the formulation has an error of its own.".into(),
     }
 }
+
+/// Of each problem the setting with the least error.
+#[must_use]
+pub fn most_exact(trades: &[Trade]) -> Table {
+    let lines = trades.iter().filter_map(|trade| {
+        let trusted = trade.rows.iter().filter(|row| row.is_trusted());
+        let row = trusted.min_by(|a, b| a.error.total_cmp(&b.error))?;
+        Some(of_problem(trade, String::new(), row))
+    });
+    Table {
+        caption: "The least error of any setting".into(),
+        columns: of_problems(),
+        rows: lines.collect(),
+        note: "Errors against closed forms, and against published or integrated values that are themselves known to 1e-11 or better.".into(),
+    }
+}
+
+/// Of each problem the cheapest settings for three errors.
+#[must_use]
+pub fn cheapest_of(trades: &[Trade]) -> Table {
+    let mut rows = Vec::new();
+    for trade in trades {
+        for asked in [1e-3, 1e-6, 1e-9] {
+            let enough = trade
+                .rows
+                .iter()
+                .filter(|row| row.is_trusted() && row.error <= asked);
+            if let Some(row) = enough.min_by(|a, b| a.seconds.total_cmp(&b.seconds)) {
+                rows.push(of_problem(
+                    trade,
+                    format!(", {}", scientific(asked, 0)),
+                    row,
+                ));
+            }
+        }
+    }
+    Table {
+        caption: "The cheapest setting for an error".into(),
+        columns: of_problems(),
+        rows,
+        note: String::new(),
+    }
+}
+
+fn of_problems() -> Vec<String> {
+    columns(&[
+        "",
+        "setting",
+        "error",
+        "steps",
+        "evaluations",
+        "time (s)",
+        "in T",
+        "energy (J)",
+        "violation",
+    ])
+}
+
+fn of_problem(trade: &Trade, asked: String, row: &Row) -> Vec<String> {
+    let facts = &trade.facts;
+    vec![
+        format!("{}{asked}", facts.name),
+        name(&row.setting),
+        format!("{} {}", scientific(row.error, 1), facts.quantity.unit),
+        row.steps[0].to_string(),
+        row.evaluations.to_string(),
+        scientific(row.seconds, 2),
+        row.yardsticks
+            .map_or_else(|| "\u{2013}".into(), |x| fixed(x, 0)),
+        scientific(row.energy_drift_joule, 1),
+        scientific(row.max_violation, 1),
+    ]
+}
