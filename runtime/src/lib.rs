@@ -192,9 +192,10 @@ pub use handle::{
     JointHandle,
 };
 pub use integrate::{
-    AdaptiveCourse, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages,
-    FixedCourse, FixedStep, Heun, Integrator, Midpoint, NoStages, Rk4, Scheme, SemiImplicitEuler,
-    Span, Start, StepLimits, Stride, System, Tolerance,
+    Adaptive, AdaptiveCourse, BogackiShampine, BogackiShampine3, BogackiShampineStages, Counts,
+    Course, DormandPrince, DormandPrince5, DormandPrince8, DormandPrince8Stages, DormandPrince853,
+    DormandPrinceStages, EmbeddedPair, Ends, FixedCourse, FixedStep, Heun, Integrator, Midpoint,
+    NoStages, Rk4, Scheme, SemiImplicitEuler, Span, Start, StepLimits, Stride, System, Tolerance,
 };
 pub use joint_coordinates::{
     Freedom, JointCoordinates, JointEvaluation, JointMotion, JointParts, JointReport,

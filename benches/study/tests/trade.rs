@@ -114,11 +114,13 @@ fn errors_go_with_the_order_of_the_integrator() {
                 let run = subject.observe(&setting(by, family, step), &start).unwrap();
                 reference.error_of(&subject, &run)
             };
-            let order = (error(0.004) / error(0.002)).log2();
-            println!("{} by {}: {order}", family.key(), by.key());
+            // Where round-off is far below.
+            let step = if family.order() > 5 { 0.025 } else { 0.004 };
+            let order = (error(step) / error(0.5 * step)).log2();
             let off = order - f64::from(family.order());
+            // The leading coefficients of order 8 are small: higher orders show.
             assert!(
-                off.abs() < 0.35,
+                off > -0.35 && (off < 0.35 || family.order() > 5),
                 "{} by {}: {order}",
                 family.key(),
                 by.key()

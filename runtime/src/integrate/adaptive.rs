@@ -1,19 +1,19 @@
-//! Dormand-Prince under the control of `ode45`.
+//! An embedded pair under the control of its steps.
 
 use core::mem::{replace, swap};
 
 use super::controller::Controller;
 use super::{
-    Checked, Counted, Counts, Course, DormandPrince, DormandPrince5, DormandPrinceStages, Scheme,
-    Span, Start, Stride, System, named,
+    Adaptive, Checked, Counted, Counts, Course, EmbeddedPair, Ends, Span, Start, Stride, System,
+    named,
 };
 use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
 
-/// An integration with [`DormandPrince`](super::DormandPrince) under way.
-#[derive(Clone, Debug)]
-pub struct AdaptiveCourse<S, X> {
+/// An integration with an [`Adaptive`] method under way.
+pub struct AdaptiveCourse<S: Real, X: Vector<S>, K: EmbeddedPair<S>> {
+    pair: K,
     controller: Controller<S>,
     end: S,
     /// The size of the next step.
@@ -29,7 +29,22 @@ pub struct AdaptiveCourse<S, X> {
     step: S,
     from: X,
     first: X,
-    stages: DormandPrinceStages<X>,
+    stages: K::Stages<X>,
+    /// Whether the interpolant has what it needs besides these.
+    prepared: bool,
+}
+
+impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Clone for AdaptiveCourse<S, X, K> {
+    fn clone(&self) -> Self {
+        Self {
+            state: self.state.clone(),
+            last: self.last.clone(),
+            from: self.from.clone(),
+            first: self.first.clone(),
+            stages: self.stages.clone(),
+            ..*self
+        }
+    }
 }
 
 /// What a trial ended with.
@@ -38,9 +53,9 @@ enum Trial<S, X> {
     Rejected { error: S },
 }
 
-impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
+impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
     pub(super) fn start<Y: System<S, State = X>>(
-        method: &DormandPrince<S>,
+        method: &Adaptive<S, K>,
         system: &mut Y,
         span: Span<S>,
         state: X,
@@ -54,6 +69,7 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
         .rates(span.start, &state)?;
         let slope = state.relative_norm(&state, controller.floor, [(S::one(), &last)]);
         Ok(Self {
+            pair: method.pair,
             controller,
             end: span.end,
             next_step: controller.first(&span, slope),
@@ -64,7 +80,8 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
             step: S::zero(),
             from: state.clone(),
             first: last.clone(),
-            stages: DormandPrince5.stages(&last),
+            stages: method.pair.stages(&last),
+            prepared: false,
             state,
             last,
         })
@@ -87,7 +104,8 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
             state: &self.state,
             slope: &self.first,
         };
-        let outcome = DormandPrince5
+        let outcome = self
+            .pair
             .stride(&mut counted, start, step, &mut self.stages)
             .and_then(|state| {
                 counted.stage(end, &state, &mut self.last)?;
@@ -100,10 +118,15 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
                 return Err(named.unwrap_or(fault));
             }
         };
-        let terms = self.stages.error_terms(step, &self.first, &self.last);
-        let error = self
-            .state
-            .relative_norm(&state, self.controller.floor, terms);
+        let stride = Stride {
+            step,
+            from: &self.state,
+            first: &self.first,
+            stages: &self.stages,
+            to: &state,
+            last: &self.last,
+        };
+        let error = self.pair.error(&stride, self.controller.floor);
         if !(error.is_finite() && state.is_finite()) {
             return match self.refused(system, step, end, None) {
                 Some(fault) => Err(fault),
@@ -134,13 +157,15 @@ impl<S: Real, X: Vector<S>> AdaptiveCourse<S, X> {
                 state: &self.state,
                 slope: &self.first,
             };
-            let state = DormandPrince5.stride(&mut system, start, step, &mut self.stages)?;
+            let state = self
+                .pair
+                .stride(&mut system, start, step, &mut self.stages)?;
             system.rates(end, &state)
         })
     }
 }
 
-impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
+impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<S, X, K> {
     fn time(&self) -> S {
         self.time
     }
@@ -177,6 +202,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
             if let Ok(Trial::Accepted { mut state, error }) = outcome {
                 system.settle(&mut state, Some(&mut self.last));
                 self.counts.accepted += 1;
+                self.prepared = false;
                 self.start = self.time;
                 self.step = end - self.time;
                 self.time = end;
@@ -212,7 +238,22 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
         }
     }
 
-    fn at<Y: System<S, State = X>>(&mut self, _system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
+        if !self.prepared {
+            let mut counted = Counted {
+                system,
+                counts: &mut self.counts,
+            };
+            let ends = Ends {
+                step: self.step,
+                from: &self.from,
+                first: &self.first,
+                last: &self.last,
+            };
+            self.pair
+                .prepare(&mut counted, self.start, ends, &mut self.stages)?;
+            self.prepared = true;
+        }
         let theta = (time - self.start).quotient(self.step);
         let stride = Stride {
             step: self.step,
@@ -222,7 +263,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdaptiveCourse<S, X> {
             to: &self.state,
             last: &self.last,
         };
-        Ok(DormandPrince5.interpolate(stride, theta))
+        Ok(self.pair.interpolate(stride, theta))
     }
 
     fn replace(&mut self, state: X) {

@@ -1,6 +1,6 @@
-//! The step control of MATLAB's `ode45`, as pure functions.
+//! The step control of MATLAB's `ode45` and `ode23`, as pure functions.
 
-use super::{DormandPrince, Span, positive};
+use super::{Adaptive, EmbeddedPair, Span, positive};
 use crate::error::Fault;
 use crate::scalar::Real;
 
@@ -28,6 +28,8 @@ impl<S: Real> Default for Tolerance<S> {
 /// The settings of the control.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Controller<S> {
+    /// One over the power of the step that the error goes with.
+    exponent: f64,
     relative: S,
     /// `absolute / relative`: the element below which the absolute tolerance counts.
     pub(super) floor: S,
@@ -37,8 +39,13 @@ pub(super) struct Controller<S> {
 }
 
 impl<S: Real> Controller<S> {
-    pub(super) fn new(method: &DormandPrince<S>, span: &Span<S>) -> Result<Self, Fault> {
-        let DormandPrince { tolerance, limits } = method;
+    pub(super) fn new<K: EmbeddedPair<S>>(
+        method: &Adaptive<S, K>,
+        span: &Span<S>,
+    ) -> Result<Self, Fault> {
+        let Adaptive {
+            tolerance, limits, ..
+        } = method;
         let relative = positive("relative tolerance", tolerance.relative)?;
         let absolute = positive("absolute tolerance", tolerance.absolute)?;
         let duration = span.duration()?;
@@ -48,6 +55,7 @@ impl<S: Real> Controller<S> {
         let largest = set("largest step", limits.largest)?;
         let least = set("least step", limits.least)?.unwrap_or(S::zero());
         Ok(Self {
+            exponent: 1.0 / K::POWER,
             relative,
             floor: absolute.quotient(relative),
             first: set("first step", limits.first)?,
@@ -71,7 +79,7 @@ impl<S: Real> Controller<S> {
         if let Some(first) = self.first {
             return self.limited(span.start, first);
         }
-        let rate = slope.quotient(S::constant(0.8) * self.relative.powf(0.2));
+        let rate = slope.quotient(S::constant(0.8) * self.relative.powf(self.exponent));
         let step = self.largest.min(span.first_output);
         let step = if step * rate > S::one() {
             rate.reciprocal()
@@ -93,7 +101,7 @@ impl<S: Real> Controller<S> {
 
     /// The step after an accepted one that had not been rejected before.
     pub(super) fn grown(&self, step: S, error: S) -> S {
-        let factor = S::constant(1.25) * error.quotient(self.relative).powf(0.2);
+        let factor = S::constant(1.25) * error.quotient(self.relative).powf(self.exponent);
         if factor > S::constant(0.2) {
             step.quotient(factor)
         } else {
@@ -103,7 +111,7 @@ impl<S: Real> Controller<S> {
 
     /// The step after a first rejection.
     pub(super) fn shrunk(&self, step: S, error: S) -> S {
-        let factor = S::constant(0.8) * self.relative.quotient(error).powf(0.2);
+        let factor = S::constant(0.8) * self.relative.quotient(error).powf(self.exponent);
         let least = S::constant(0.1);
         // An error of NaN or infinity takes the least factor.
         step * if factor > least { factor } else { least }

@@ -1,7 +1,7 @@
 //! A scheme at a fixed step.
 
 use super::{
-    Checked, Counted, Counts, Course, Integrator, Scheme, Span, Start, Stride, System, named,
+    Checked, Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named,
     positive, refused,
 };
 use crate::array::Vector;
@@ -51,6 +51,7 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
             known: true,
             start: span.start,
             step: S::zero(),
+            prepared: false,
         })
     }
 
@@ -81,6 +82,8 @@ pub struct FixedCourse<S: Real, X: Vector<S>, K: Scheme<S>> {
     from: X,
     first: X,
     stages: K::Stages<X>,
+    /// Whether the interpolant has what it needs besides these.
+    prepared: bool,
 }
 
 impl<S: Real, X: Vector<S>, K: Scheme<S>> FixedCourse<S, X, K> {
@@ -152,11 +155,27 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
         self.from = core::mem::replace(&mut self.state, state);
         self.start = core::mem::replace(&mut self.time, end);
         self.step = step;
+        self.prepared = false;
         Ok(())
     }
 
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
         self.slope(system)?;
+        if !self.prepared {
+            let mut counted = Counted {
+                system,
+                counts: &mut self.counts,
+            };
+            let ends = Ends {
+                step: self.step,
+                from: &self.from,
+                first: &self.first,
+                last: &self.last,
+            };
+            self.scheme
+                .prepare(&mut counted, self.start, ends, &mut self.stages)?;
+            self.prepared = true;
+        }
         let theta = (time - self.start).quotient(self.time - self.start);
         let stride = Stride {
             step: self.step,

@@ -6,26 +6,36 @@
 //! | [`Midpoint::every(h)`](Midpoint::every), [`Heun::every(h)`](Heun::every) | Runge-Kutta methods of order 2, fixed step | 2 a step |
 //! | [`Rk4::every(h)`](Rk4::every) | classical Runge-Kutta of order 4, fixed step | 4 a step |
 //! | [`DormandPrince::every(h)`](DormandPrince::every) | Dormand-Prince of order 5, fixed step | 6 a step |
+//! | [`BogackiShampine::every(h)`](BogackiShampine::every), [`DormandPrince853::every(h)`](DormandPrince853::every) | the methods of order 3 and 8 of the pairs below, fixed step | 3, 12 a step |
+//! | [`BogackiShampine::new(tolerance)`](BogackiShampine::new) | Bogacki-Shampine 3(2), the step control of MATLAB's `ode23` | 3 a trial, and 1 |
 //! | [`DormandPrince::new(tolerance)`](DormandPrince::new) | Dormand-Prince 5(4), the step control of MATLAB's `ode45` | 6 a trial, and 1 |
+//! | [`DormandPrince853::new(tolerance)`](DormandPrince853::new) | Dormand-Prince 8(5,3), the same control | 12 a trial, and 1; 3 for each step with output within |
 //!
 //! [`Scheme::step`] takes one step at a time, for loops that somebody else owns; [`Integrator::start`] begins a
 //! [`Course`] over an interval, with output at any time within the last step.
 
 mod adaptive;
+mod bogacki_shampine;
 mod controller;
 mod dense;
 mod dormand_prince;
+mod dormand_prince_8;
+mod embedded;
 mod fixed;
 mod rk2;
 mod rk4;
 mod semi_implicit;
 mod tableau;
+mod tableau_853;
 #[cfg(test)]
 mod tests;
 
 pub use adaptive::AdaptiveCourse;
+pub use bogacki_shampine::{BogackiShampine, BogackiShampine3, BogackiShampineStages};
 pub use controller::Tolerance;
-pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages, StepLimits};
+pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
+pub use dormand_prince_8::{DormandPrince8, DormandPrince8Stages, DormandPrince853};
+pub use embedded::{Adaptive, EmbeddedPair, StepLimits};
 pub use fixed::{FixedCourse, FixedStep};
 pub use rk2::{Heun, Midpoint};
 pub use rk4::Rk4;
@@ -190,7 +200,7 @@ const TURNING_ERROR: f64 = 10.0;
 )]
 pub trait Scheme<S: Real>: Copy + Debug {
     /// The memory of a step: slopes at the inner stages.
-    type Stages<X: Vector<S>>;
+    type Stages<X: Vector<S>>: Clone;
 
     /// Memory for states like this one.
     fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X>;
@@ -210,6 +220,21 @@ pub trait Scheme<S: Real>: Copy + Debug {
     /// See [`Integrator::turning_error`].
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
+    }
+
+    /// Evaluates what [`Scheme::interpolate`] needs besides the slopes of a step that began at `time`, once for each step that is looked into.
+    ///
+    /// # Errors
+    /// A fault of the system.
+    #[inline]
+    fn prepare<Y: System<S>>(
+        &self,
+        _system: &mut Y,
+        _time: S,
+        _ends: Ends<'_, S, Y::State>,
+        _stages: &mut Self::Stages<Y::State>,
+    ) -> Result<(), Fault> {
+        Ok(())
     }
 
     /// The state at the fraction `theta` (from 0 to 1) of a step.
@@ -245,6 +270,19 @@ pub struct Start<'a, S, X> {
     pub state: &'a X,
     /// The rates of the state.
     pub slope: &'a X,
+}
+
+/// A step that was done, without the slopes within it.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<'a, S, X> {
+    /// The size of the step.
+    pub step: S,
+    /// The state at its start.
+    pub from: &'a X,
+    /// The slope at its start.
+    pub first: &'a X,
+    /// The slope at its end.
+    pub last: &'a X,
 }
 
 /// A step that was done, as the interpolant sees it.

@@ -12,6 +12,22 @@ pub(super) fn scaled<S: Scalar, const N: usize>(row: [f64; N], step: S) -> [S; N
     weights
 }
 
+/// The pair of Bogacki and Shampine, order 3 with an embedded order 2.
+///
+/// Bogacki and Shampine, *A 3(2) pair of Runge-Kutta formulas*, Appl. Math. Lett. 2 (1989), 321-325. Slope 4 is that at the end of the step.
+pub(super) mod bogacki_shampine {
+    /// Times of the stages 2 and 3.
+    pub(crate) const TIMES: [f64; 2] = [1.0 / 2.0, 3.0 / 4.0];
+    /// Stage 2 from slope 1.
+    pub(crate) const STAGE_2: [f64; 1] = [1.0 / 2.0];
+    /// Stage 3 from slope 2.
+    pub(crate) const STAGE_3: [f64; 1] = [3.0 / 4.0];
+    /// The result, from slopes 1, 2, 3.
+    pub(crate) const RESULT: [f64; 3] = [2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0];
+    /// The result less that of order 2, from slopes 1, 2, 3, 4.
+    pub(crate) const ERROR: [f64; 4] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
+}
+
 /// The pair of Dormand and Prince, order 5 with an embedded order 4, and its free interpolant of order 4.
 ///
 /// Dormand and Prince, *A family of embedded Runge-Kutta formulae*, J. Comp. Appl. Math. 6 (1980), 19-26; Hairer,

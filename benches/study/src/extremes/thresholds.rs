@@ -23,8 +23,10 @@ fn of_step(family: Family, x: f64) -> [f64; 2] {
         Family::Midpoint | Family::Heun => [0.0, x.powi(2) / 6.0],
         Family::Rk4 => [0.0, x.powi(4) / 120.0],
         Family::DormandPrinceFixed => [0.0, x.powi(5) / 360.0],
+        // Its error coefficients are at least as small, with the step to the eighth power.
+        Family::DormandPrince853Fixed => [0.0, x.powi(8) / 360.0],
         // Of step control: the tolerance in every step, steps of about a third of a radian at usual tolerances.
-        Family::DormandPrince => [0.0, 3.0],
+        Family::BogackiShampine | Family::DormandPrince | Family::DormandPrince853 => [0.0, 3.0],
     }
 }
 

@@ -45,50 +45,73 @@ pub fn fronts(trade: &Trade) -> Option<Figure> {
     )
 }
 
-/// Error over time of the integrators, one picture for each description.
-#[must_use]
-pub fn integrators(trade: &Trade, by: Coordinates) -> Option<Figure> {
-    let families = Family::ALL.into_iter().take(SLOTS).enumerate();
-    let series = families.map(|(slot, family)| {
+/// Whether integrators choose their steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steps {
+    /// They do not.
+    Fixed,
+    /// They do, by a tolerance.
+    Chosen,
+}
+
+impl Steps {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Fixed, Self::Chosen];
+
+    const fn key(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Chosen => "chosen",
+        }
+    }
+}
+
+/// Error over the price of integrators.
+fn of_integrators(
+    trade: &Trade,
+    (by, steps): (Coordinates, Steps),
+    (name, title): (&str, &str),
+    x: Axis,
+    price: impl Fn(&Row) -> f64 + Copy,
+) -> Option<Figure> {
+    let families = Family::ALL.into_iter();
+    let families = families.filter(|family| family.is_adaptive() == (steps == Steps::Chosen));
+    let series = families.take(SLOTS).enumerate().map(|(slot, family)| {
         let rows = trade
             .rows
             .iter()
             .filter(|row| row.is(by, Precision::Double) && row.setting.integrator == family.key());
-        curve(trade, family.key().into(), slot, &front(rows))
+        let rows = front_by(rows, price);
+        let points = rows.iter().map(|row| (price(row), row.error));
+        line(family.key().into(), slot, points.collect())
     });
     figure(
         trade,
-        &format!("integrators-{}", by.key()),
-        &format!("Integrators, by {}", by.key()),
-        time_axis(),
+        &format!("{name}-{}-{}", by.key(), steps.key()),
+        &format!("{title}, by {}, steps {}", by.key(), steps.key()),
+        x,
         series.collect(),
         "f64; of each integrator the best formulation and treatment.",
         false,
     )
 }
 
+/// Error over time of the integrators, one picture for each description.
+#[must_use]
+pub fn integrators(trade: &Trade, by: Coordinates, steps: Steps) -> Option<Figure> {
+    let duration = trade.facts.span.end - trade.facts.span.start;
+    let what = ("integrators", "Integrators over time");
+    of_integrators(trade, (by, steps), what, time_axis(), |row| {
+        row.seconds / duration
+    })
+}
+
 /// Error over evaluations of the integrators, one picture for each description.
 #[must_use]
-pub fn evaluations(trade: &Trade, by: Coordinates) -> Option<Figure> {
-    let families = Family::ALL.into_iter().take(SLOTS).enumerate();
-    let series = families.map(|(slot, family)| {
-        let rows = trade
-            .rows
-            .iter()
-            .filter(|row| row.is(by, Precision::Double) && row.setting.integrator == family.key());
-        let rows = front_by(rows, |row| row.evaluations as f64);
-        let points = rows.iter().map(|row| (row.evaluations as f64, row.error));
-        line(family.key().into(), slot, points.collect())
-    });
-    figure(
-        trade,
-        &format!("evaluations-{}", by.key()),
-        &format!("Integrators over evaluations, by {}", by.key()),
-        Axis::logarithmic("evaluations", "1"),
-        series.collect(),
-        "f64; of each integrator the best formulation and treatment.",
-        false,
-    )
+pub fn evaluations(trade: &Trade, by: Coordinates, steps: Steps) -> Option<Figure> {
+    let axis = Axis::logarithmic("evaluations", "1");
+    let what = ("evaluations", "Integrators over evaluations");
+    of_integrators(trade, (by, steps), what, axis, |row| row.evaluations as f64)
 }
 
 /// Error over time of the formulations with one integrator.

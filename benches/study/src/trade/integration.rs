@@ -1,9 +1,12 @@
 //! An integrator that is chosen at run time, as one type: what is compiled for a mechanism does not grow with the number of integrators.
 
 use holonom::{
-    AdaptiveCourse, Counts, Course, DormandPrince, DormandPrince5, Fault, FixedCourse, Heun,
-    Integrator, Midpoint, Real, Rk4, SemiImplicitEuler, Span, System, Tolerance, Vector,
+    AdaptiveCourse, BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, Fault,
+    FixedCourse, Heun, Integrator, Midpoint, Real, Rk4, SemiImplicitEuler, Span, System, Tolerance,
+    Vector,
 };
+
+use super::grid::two_digits;
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -18,19 +21,28 @@ pub enum Family {
     Rk4,
     /// Dormand and Prince at a fixed step, order 5.
     DormandPrinceFixed,
+    /// Dormand and Prince at a fixed step, order 8.
+    DormandPrince853Fixed,
+    /// Bogacki and Shampine 3(2) under the control of `ode23`.
+    BogackiShampine,
     /// Dormand and Prince 5(4) under the control of `ode45`.
     DormandPrince,
+    /// Dormand and Prince 8(5,3) under the same control.
+    DormandPrince853,
 }
 
 impl Family {
     /// All of them, those of fixed steps first.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::SemiImplicitEuler,
         Self::Midpoint,
         Self::Heun,
         Self::Rk4,
         Self::DormandPrinceFixed,
+        Self::DormandPrince853Fixed,
+        Self::BogackiShampine,
         Self::DormandPrince,
+        Self::DormandPrince853,
     ];
 
     /// The name in JSON and on the command line, and for a reader.
@@ -42,7 +54,10 @@ impl Family {
             Self::Heun => "heun",
             Self::Rk4 => "rk4",
             Self::DormandPrinceFixed => "dormand-prince-fixed",
+            Self::DormandPrince853Fixed => "dormand-prince-853-fixed",
+            Self::BogackiShampine => "bogacki-shampine",
             Self::DormandPrince => "dormand-prince",
+            Self::DormandPrince853 => "dormand-prince-853",
         }
     }
 
@@ -55,7 +70,10 @@ impl Family {
     /// Whether it chooses its steps by a tolerance.
     #[must_use]
     pub const fn is_adaptive(self) -> bool {
-        matches!(self, Self::DormandPrince)
+        matches!(
+            self,
+            Self::BogackiShampine | Self::DormandPrince | Self::DormandPrince853
+        )
     }
 
     /// The power of the step that the error of a motion goes with.
@@ -64,19 +82,10 @@ impl Family {
         match self {
             Self::SemiImplicitEuler => 1,
             Self::Midpoint | Self::Heun => 2,
+            Self::BogackiShampine => 3,
             Self::Rk4 => 4,
             Self::DormandPrinceFixed | Self::DormandPrince => 5,
-        }
-    }
-
-    /// Evaluations of a step.
-    #[must_use]
-    pub const fn stages(self) -> u32 {
-        match self {
-            Self::SemiImplicitEuler => 1,
-            Self::Midpoint | Self::Heun => 2,
-            Self::Rk4 => 4,
-            Self::DormandPrinceFixed | Self::DormandPrince => 6,
+            Self::DormandPrince853Fixed | Self::DormandPrince853 => 8,
         }
     }
 }
@@ -99,11 +108,11 @@ impl Integration {
         S::constant(self.step_or_tolerance)
     }
 
-    pub(crate) fn dormand_prince<S: Real>(self) -> DormandPrince<S> {
-        DormandPrince::new(Tolerance {
+    pub(crate) fn tolerance_of<S: Real>(self) -> Tolerance<S> {
+        Tolerance {
             relative: S::constant(self.step_or_tolerance),
             absolute: S::constant(FLOOR * self.step_or_tolerance),
-        })
+        }
     }
 
     /// As a user writes it.
@@ -116,11 +125,17 @@ impl Integration {
             Family::Heun => format!("Heun::every({value:e})"),
             Family::Rk4 => format!("Rk4::every({value:e})"),
             Family::DormandPrinceFixed => format!("DormandPrince::every({value:e})"),
-            Family::DormandPrince => format!(
-                "DormandPrince::new(Tolerance {{ relative: {value:e}, absolute: {:e} }})",
-                FLOOR * value
-            ),
+            Family::DormandPrince853Fixed => format!("DormandPrince853::every({value:e})"),
+            Family::BogackiShampine => self.adaptive_code("BogackiShampine"),
+            Family::DormandPrince => self.adaptive_code("DormandPrince"),
+            Family::DormandPrince853 => self.adaptive_code("DormandPrince853"),
         }
+    }
+
+    fn adaptive_code(self, method: &str) -> String {
+        let relative = self.step_or_tolerance;
+        let absolute = two_digits(FLOOR * relative);
+        format!("{method}::new(Tolerance {{ relative: {relative:e}, absolute: {absolute:e} }})")
     }
 }
 
@@ -149,8 +164,20 @@ macro_rules! with_own_type {
                 let $integrator = holonom::DormandPrince::every(integration.step());
                 $then
             }
+            $crate::trade::Family::DormandPrince853Fixed => {
+                let $integrator = holonom::DormandPrince853::every(integration.step());
+                $then
+            }
+            $crate::trade::Family::BogackiShampine => {
+                let $integrator = holonom::BogackiShampine::new(integration.tolerance_of());
+                $then
+            }
             $crate::trade::Family::DormandPrince => {
-                let $integrator = integration.dormand_prince();
+                let $integrator = holonom::DormandPrince::new(integration.tolerance_of());
+                $then
+            }
+            $crate::trade::Family::DormandPrince853 => {
+                let $integrator = holonom::DormandPrince853::new(integration.tolerance_of());
                 $then
             }
         }
@@ -196,13 +223,16 @@ pub enum AnyCourse<S: Real, X: Vector<S>> {
     Heun(FixedCourse<S, X, Heun>),
     Rk4(FixedCourse<S, X, Rk4>),
     DormandPrinceFixed(FixedCourse<S, X, DormandPrince5>),
-    DormandPrince(AdaptiveCourse<S, X>),
+    DormandPrince853Fixed(FixedCourse<S, X, DormandPrince8>),
+    BogackiShampine(AdaptiveCourse<S, X, BogackiShampine3>),
+    DormandPrince(AdaptiveCourse<S, X, DormandPrince5>),
+    DormandPrince853(AdaptiveCourse<S, X, DormandPrince8>),
 }
 
 macro_rules! from_courses {
-    ($($scheme:ident => $variant:ident),*) => {$(
-        impl<S: Real, X: Vector<S>> From<FixedCourse<S, X, $scheme>> for AnyCourse<S, X> {
-            fn from(course: FixedCourse<S, X, $scheme>) -> Self {
+    ($($course:ident<$scheme:ident> => $variant:ident),*) => {$(
+        impl<S: Real, X: Vector<S>> From<$course<S, X, $scheme>> for AnyCourse<S, X> {
+            fn from(course: $course<S, X, $scheme>) -> Self {
                 Self::$variant(course)
             }
         }
@@ -210,18 +240,16 @@ macro_rules! from_courses {
 }
 
 from_courses!(
-    SemiImplicitEuler => SemiImplicitEuler,
-    Midpoint => Midpoint,
-    Heun => Heun,
-    Rk4 => Rk4,
-    DormandPrince5 => DormandPrinceFixed
+    FixedCourse<SemiImplicitEuler> => SemiImplicitEuler,
+    FixedCourse<Midpoint> => Midpoint,
+    FixedCourse<Heun> => Heun,
+    FixedCourse<Rk4> => Rk4,
+    FixedCourse<DormandPrince5> => DormandPrinceFixed,
+    FixedCourse<DormandPrince8> => DormandPrince853Fixed,
+    AdaptiveCourse<BogackiShampine3> => BogackiShampine,
+    AdaptiveCourse<DormandPrince5> => DormandPrince,
+    AdaptiveCourse<DormandPrince8> => DormandPrince853
 );
-
-impl<S: Real, X: Vector<S>> From<AdaptiveCourse<S, X>> for AnyCourse<S, X> {
-    fn from(course: AdaptiveCourse<S, X>) -> Self {
-        Self::DormandPrince(course)
-    }
-}
 
 macro_rules! on_course {
     ($any:expr, $course:ident => $then:expr) => {
@@ -231,7 +259,10 @@ macro_rules! on_course {
             AnyCourse::Heun($course) => $then,
             AnyCourse::Rk4($course) => $then,
             AnyCourse::DormandPrinceFixed($course) => $then,
+            AnyCourse::DormandPrince853Fixed($course) => $then,
+            AnyCourse::BogackiShampine($course) => $then,
             AnyCourse::DormandPrince($course) => $then,
+            AnyCourse::DormandPrince853($course) => $then,
         }
     };
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::charts::{self, Course};
+use super::charts::{self, Course, Steps};
 use super::integration::{Family, Integration};
 use super::measure::Trade;
 use super::recommend::{Processor, Recommendation, STARTS, Wish};
@@ -65,6 +65,16 @@ pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
         figures.into_iter().flatten().map(Block::Figure).collect()
     };
     let both = [Coordinates::Joints, Coordinates::Bodies];
+    let kinds = both
+        .into_iter()
+        .flat_map(|by| Steps::BOTH.map(|steps| (by, steps)));
+    let integrators = kinds.flat_map(|(by, steps)| {
+        [
+            charts::integrators(trade, by, steps),
+            charts::evaluations(trade, by, steps),
+        ]
+    });
+    let integrators: Vec<_> = integrators.collect();
     let mut best = figures(vec![charts::fronts(trade)]);
     best.push(Block::Table(tables::best(trade)));
     let mut sections = vec![
@@ -73,19 +83,7 @@ pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
             "The cheapest for an error",
             vec![Block::Table(tables::cheapest(trade))],
         ),
-        section(
-            "Integrators",
-            figures(
-                both.iter()
-                    .flat_map(|&by| {
-                        [
-                            charts::integrators(trade, by),
-                            charts::evaluations(trade, by),
-                        ]
-                    })
-                    .collect(),
-            ),
-        ),
+        section("Integrators", figures(integrators)),
         section(
             "Formulations",
             figures(

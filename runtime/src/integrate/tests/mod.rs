@@ -1,5 +1,6 @@
 //! Order, counts and failures of the integrators on equations with closed solutions.
 
+mod embedded;
 mod failures;
 mod pairs;
 

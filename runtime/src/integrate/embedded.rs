@@ -1,0 +1,171 @@
+//! Embedded pairs of Runge-Kutta methods, and what a user says of their steps.
+
+use super::{
+    AdaptiveCourse, BogackiShampine3, DormandPrince5, DormandPrince8, FixedStep, Integrator,
+    Scheme, Span, Stride, System, Tolerance,
+};
+use crate::array::Vector;
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// A one-step method that estimates the error of its steps. Its last slope is that at the end of a step, and the first of the next one.
+pub trait EmbeddedPair<S: Real>: Scheme<S> + PartialEq {
+    /// The power of the step that its estimate goes with.
+    const POWER: f64;
+
+    /// The error of a step, relative element by element to the larger of both ends and `floor`.
+    fn error<X: Vector<S>>(&self, stride: &Stride<'_, S, X, Self::Stages<X>>, floor: S) -> S;
+}
+
+/// An [`EmbeddedPair`] with the step control of MATLAB's `ode45` and `ode23`.
+///
+/// First-same-as-last: an integration without faults takes `n k + 1` evaluations for `k` steps, accepted and rejected, of `n` evaluations each. The control
+/// (Shampine and Reichelt, *The MATLAB ODE Suite*, SIAM J. Sci. Comput. 18 (1997), 1-22, with later versions), with `p` the power of the step that the error goes with:
+///
+/// - first step `min(T / 10, time to the first output)`, made smaller to `0.8 rtol^(1/p) / max |y'| / max(|y|, atol / rtol)`;
+///   largest step `T / 10`, smallest `16 ulp(t)`;
+/// - error `h max |E| / max(|y|, |y new|, atol / rtol)`, accepted up to `rtol`;
+/// - after an acceptance `h / max(0.2, 1.25 (error / rtol)^(1/p))`, unchanged if the step had been rejected before;
+/// - after a rejection `h max(0.1, 0.8 (rtol / error)^(1/p))`, then halves;
+/// - the step is stretched to the end of the interval if `1.1 h` reaches it.
+///
+/// Beyond these: a trial whose rates cannot be computed counts as rejected and is tried again with half the step, and the
+/// integration ends with that fault only where the step gets too small.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptive<S, K> {
+    /// The error to be allowed in a step.
+    pub tolerance: Tolerance<S>,
+    /// What steps are held to besides.
+    pub limits: StepLimits<S>,
+    /// The method.
+    pub pair: K,
+}
+
+/// What a step control is held to besides its tolerance. Nothing of it is set by default but the budget.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepLimits<S> {
+    /// The first step (s), in the place of that of the control.
+    pub first: Option<S>,
+    /// The smallest step (s): where a smaller one would be needed, the integration ends with
+    /// [`Fault::StepSizeUnderflow`]. Never below the resolution of the time.
+    pub least: Option<S>,
+    /// The largest step (s), in the place of a tenth of the interval. What happens within a step and leaves no trace at its stages, such as a
+    /// short pulse of a force, is not seen: a step must not be longer than that.
+    pub largest: Option<S>,
+    /// How many evaluations a run may take, [`StepLimits::EVALUATIONS`] by default: then it ends with [`Fault::Budget`].
+    pub evaluations: usize,
+}
+
+impl<S> StepLimits<S> {
+    /// Ten million evaluations. What takes more is most often caught at a singular configuration, or stiff.
+    pub const EVALUATIONS: usize = 10_000_000;
+
+    /// No limits but the budget of evaluations.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            first: None,
+            least: None,
+            largest: None,
+            evaluations: Self::EVALUATIONS,
+        }
+    }
+}
+
+impl<S> Default for StepLimits<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S, K> Adaptive<S, K> {
+    /// Begins with this step (s).
+    #[must_use]
+    pub fn first_step(mut self, step: S) -> Self {
+        self.limits.first = Some(step);
+        self
+    }
+
+    /// Takes no step shorter than this (s); see [`StepLimits::least`].
+    #[must_use]
+    pub fn least_step(mut self, step: S) -> Self {
+        self.limits.least = Some(step);
+        self
+    }
+
+    /// Takes no step longer than this (s); see [`StepLimits::largest`].
+    #[must_use]
+    pub fn largest_step(mut self, step: S) -> Self {
+        self.limits.largest = Some(step);
+        self
+    }
+
+    /// Lets a run take so many evaluations; see [`StepLimits::evaluations`].
+    #[must_use]
+    pub fn budget(mut self, evaluations: usize) -> Self {
+        self.limits.evaluations = evaluations;
+        self
+    }
+}
+
+/// The constructors of a pair.
+macro_rules! constructors {
+    ($pair:ident) => {
+        impl<S> Adaptive<S, $pair> {
+            /// The method with a tolerance.
+            #[must_use]
+            pub const fn new(tolerance: Tolerance<S>) -> Self {
+                Self {
+                    tolerance,
+                    limits: StepLimits::new(),
+                    pair: $pair,
+                }
+            }
+
+            /// The same method at a fixed step (s), without control of the error.
+            #[must_use]
+            pub const fn every(step: S) -> FixedStep<S, $pair> {
+                FixedStep {
+                    step,
+                    scheme: $pair,
+                }
+            }
+        }
+
+        /// With the default [`Tolerance`].
+        impl<S: Real> Default for Adaptive<S, $pair> {
+            fn default() -> Self {
+                Self::new(Tolerance::default())
+            }
+        }
+    };
+}
+
+constructors!(BogackiShampine3);
+constructors!(DormandPrince5);
+constructors!(DormandPrince8);
+
+impl<S: Real, K: EmbeddedPair<S>> Integrator<S> for Adaptive<S, K> {
+    type Course<X: Vector<S>> = AdaptiveCourse<S, X, K>;
+
+    fn start<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        span: Span<S>,
+        state: Y::State,
+    ) -> Result<AdaptiveCourse<S, Y::State, K>, Fault> {
+        AdaptiveCourse::start(self, system, span, state)
+    }
+
+    fn budget(&self) -> Option<usize> {
+        Some(self.limits.evaluations)
+    }
+
+    fn turning_error(&self) -> f64 {
+        self.pair.turning_error()
+    }
+
+    fn tolerance(&self) -> Option<Tolerance<S>> {
+        Some(self.tolerance)
+    }
+}
