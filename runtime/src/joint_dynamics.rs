@@ -165,36 +165,7 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     /// How the bodies stand and move: exactly as the joints of the tree let them.
     #[must_use]
     pub fn bodies(&self, state: &M::JointState<S>) -> M::State<S> {
-        let motions = M::body_motions(&self.constants, state);
-        let mut parts = motions.as_slice();
-        let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
-        let mut next = |count: usize| {
-            let (first, rest) = parts.split_at_checked(count).unwrap_or((parts, &[]));
-            parts = rest;
-            first
-        };
-        for body in M::REPORT.bodies {
-            let linear = next(6);
-            let (position, velocity): ([S; 3], [S; 3]) = (read(linear, 0), read(linear, 3));
-            let coordinates = bodies.coordinates_mut().as_mut_slice();
-            write(coordinates, body.coordinate, position);
-            if body.kind == BodyKind::Rigid {
-                let angular = next(12);
-                let rows = [0, 3, 6].map(|place| read(angular, place));
-                write(coordinates, body.coordinate + 3, from_matrix(&rows));
-                let spin: [S; 3] = read(angular, 9);
-                let velocities = bodies.velocities_mut().as_mut_slice();
-                write(velocities, body.velocity + 3, spin);
-            }
-            let velocities = bodies.velocities_mut().as_mut_slice();
-            write(velocities, body.velocity, velocity);
-        }
-        let auxiliaries = next(M::REPORT.auxiliaries);
-        let coordinates = bodies.coordinates_mut().as_mut_slice();
-        for (place, &value) in auxiliaries.iter().enumerate() {
-            write(coordinates, M::REPORT.coordinates + place, [value]);
-        }
-        bodies
+        bodies_of::<S, M>(&self.constants, state)
     }
 
     /// The joint coordinates of bodies.
@@ -525,4 +496,41 @@ where
 /// `x = x + y`.
 fn add<S: Real>(x: &mut [S], y: &[S]) {
     x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x + y);
+}
+
+/// How the bodies of joint coordinates stand and move.
+pub(crate) fn bodies_of<S: Real, M: JointCoordinates>(
+    constants: &M::JointConstants<S>,
+    state: &M::JointState<S>,
+) -> M::State<S> {
+    let motions = M::body_motions(constants, state);
+    let mut parts = motions.as_slice();
+    let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
+    let mut next = |count: usize| {
+        let (first, rest) = parts.split_at_checked(count).unwrap_or((parts, &[]));
+        parts = rest;
+        first
+    };
+    for body in M::REPORT.bodies {
+        let linear = next(6);
+        let (position, velocity): ([S; 3], [S; 3]) = (read(linear, 0), read(linear, 3));
+        let coordinates = bodies.coordinates_mut().as_mut_slice();
+        write(coordinates, body.coordinate, position);
+        if body.kind == BodyKind::Rigid {
+            let angular = next(12);
+            let rows = [0, 3, 6].map(|place| read(angular, place));
+            write(coordinates, body.coordinate + 3, from_matrix(&rows));
+            let spin: [S; 3] = read(angular, 9);
+            let velocities = bodies.velocities_mut().as_mut_slice();
+            write(velocities, body.velocity + 3, spin);
+        }
+        let velocities = bodies.velocities_mut().as_mut_slice();
+        write(velocities, body.velocity, velocity);
+    }
+    let auxiliaries = next(M::REPORT.auxiliaries);
+    let coordinates = bodies.coordinates_mut().as_mut_slice();
+    for (place, &value) in auxiliaries.iter().enumerate() {
+        write(coordinates, M::REPORT.coordinates + place, [value]);
+    }
+    bodies
 }

@@ -75,6 +75,7 @@ mod self_stress;
 mod simulation;
 mod start;
 mod stepper;
+mod treatment;
 mod versine;
 mod view;
 mod watch;
@@ -226,6 +227,7 @@ pub use sample::Sample;
 pub use scalar::{Real, Scalar};
 pub use simulation::Simulation;
 pub use stepper::Stepper;
+pub use treatment::{Treatment, TreeRecovery, VelocityProjection};
 pub use view::View;
 pub use watch::{Doubt, Doubts, Excused, SmallestPivot, Violation, Watch};
 

@@ -103,6 +103,28 @@ impl<S: Real> Projection<S> {
         self.correct_by::<M>(Measure::Correctable, constants, time, state)
     }
 
+    /// Corrects velocities alone, of a state on its way; what was kept beyond the tolerance.
+    #[inline(never)]
+    pub(crate) fn correct_velocities<M: Mechanism>(
+        &self,
+        constants: &M::Constants<S>,
+        time: S,
+        state: &mut M::State<S>,
+    ) -> Result<S, Fault> {
+        positive("tolerance of the projection", self.tolerance)?;
+        check_state::<S, M>(state)?;
+        let mut given = with_unit_orientations::<S, M>(state);
+        M::recount(constants, &mut given);
+        let given = Iterate::<S, M>::positions(constants, time, &given).velocities(constants);
+        let limits = (self.tolerance, self.max_iterations);
+        let measure = Measure::Correctable;
+        let (velocities, excused) = self.corrected(measure, constants, given, |given, depth| {
+            given.velocities_corrected(constants, limits, depth)
+        })?;
+        *state = velocities.state;
+        Ok(excused)
+    }
+
     fn correct_by<M: Mechanism>(
         &self,
         measure: Measure,

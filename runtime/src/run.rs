@@ -7,18 +7,19 @@ use crate::formulation::Formulation;
 use crate::integrate::{Counts, Course, Integrator, Span};
 use crate::mechanism::Mechanism;
 use crate::moving::Moving;
-use crate::project::Projection;
 use crate::reporting::Schedule;
 use crate::run_report::RunReport;
 use crate::sample::Sample;
 use crate::scalar::Real;
+use crate::treatment::Treatment;
 use crate::watch::Watch;
 
 /// A run under way.
 pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
     /// What the integrator moves.
     pub(crate) moving: D,
-    pub(crate) projection: Option<Projection<S>>,
+    /// What is done to states after steps and before reports.
+    pub(crate) treatment: Option<&'r dyn Treatment<S, M>>,
     pub(crate) schedule: Schedule<S>,
     /// Instants (s) at which the integration begins anew, in any order, besides those of the description.
     pub(crate) breaks: &'r [S],
@@ -99,8 +100,8 @@ where
             while let Some(time) = self.schedule.within(course.time()) {
                 let state = course.at(&mut self.moving, time)?;
                 let mut state = self.moving.bodies(&state);
-                if let Some(projection) = self.projection {
-                    state = self.corrected(projection, time, state)?;
+                if let Some(treatment) = self.treatment {
+                    state = self.treated(treatment, time, state)?;
                 }
                 *last_good = (time, state);
                 self.show(time, &last_good.1);
@@ -111,8 +112,8 @@ where
             }
             let time = course.time();
             let mut state = self.moving.bodies(course.state());
-            if let Some(projection) = self.projection {
-                state = self.corrected(projection, time, state)?;
+            if let Some(treatment) = self.treatment {
+                state = self.treated(treatment, time, state)?;
                 course.replace(self.moving.of(&state));
             }
             if let Some(watch) = &mut self.watch {
@@ -138,18 +139,18 @@ where
         Ok(())
     }
 
-    /// A state brought onto the constraints.
+    /// A state after its treatment.
     #[inline(never)]
-    fn corrected(
+    fn treated(
         &mut self,
-        projection: Projection<S>,
+        treatment: &dyn Treatment<S, M>,
         time: S,
         mut state: M::State<S>,
     ) -> Result<M::State<S>, Fault> {
         let constants = self.moving.dynamics().constants();
-        let correction = projection.correct_in_motion::<M>(constants, time, &mut state)?;
+        let excused = treatment.treat(constants, time, &mut state)?;
         if let Some(watch) = &mut self.watch
-            && correction.excused > S::zero()
+            && excused > S::zero()
         {
             watch.excuse_correction(time);
         }

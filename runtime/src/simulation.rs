@@ -20,6 +20,7 @@ use crate::run_report::{RunReport, RunResult};
 use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::start::check_start;
+use crate::treatment::Treatment;
 use crate::watch::Watch;
 
 /// A mechanism, a formulation and an integrator, ready to run.
@@ -34,6 +35,7 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoFor
     initial: Option<M::State<S>>,
     assemble: Option<Projection<S>>,
     projection: Option<Projection<S>>,
+    treatment: Option<&'a dyn Treatment<S, M>>,
     breaks: &'a [S],
     accepts_any_start: bool,
     is_watched: bool,
@@ -54,6 +56,7 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<
             initial: None,
             assemble: None,
             projection: None,
+            treatment: None,
             breaks: &[],
             accepts_any_start: false,
             is_watched: true,
@@ -88,6 +91,15 @@ where
     #[must_use]
     pub fn projection(mut self, projection: Projection<S>) -> Self {
         self.projection = Some(projection);
+        self.treatment = None;
+        self
+    }
+
+    /// Treats the state after every step, and every state that is reported, in another way than by a [`Simulation::projection`], see [`Treatment`].
+    #[must_use]
+    pub fn treatment(mut self, treatment: &'a dyn Treatment<S, M>) -> Self {
+        self.treatment = Some(treatment);
+        self.projection = None;
         self
     }
 
@@ -126,6 +138,7 @@ where
             initial: self.initial,
             assemble: self.assemble,
             projection: self.projection,
+            treatment: self.treatment,
             breaks: self.breaks,
             accepts_any_start: self.accepts_any_start,
             is_watched: self.is_watched,
@@ -261,9 +274,11 @@ where
         let watch = self
             .is_watched
             .then(|| Watch::new(&constants, start, &state).over(&self.integrator));
+        let projection = self.projection.as_ref();
+        let projection = projection.map(|projection| projection as &dyn Treatment<S, M>);
         let run = Run {
             moving: C::moving(dynamics)?,
-            projection: self.projection,
+            treatment: self.treatment.or(projection),
             schedule,
             breaks: self.breaks,
             watch,

@@ -24,3 +24,4 @@ mod scales;
 mod single_precision;
 mod singular;
 mod steps;
+mod treatments;

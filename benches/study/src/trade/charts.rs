@@ -133,7 +133,7 @@ pub fn formulations(trade: &Trade, by: Coordinates) -> Option<Figure> {
             });
             let name = match treatment {
                 Treatment::None => method.name().to_owned(),
-                Treatment::Projection => format!("{}, projected", method.name()),
+                _ => format!("{}, {}", method.name(), treatment.key()),
             };
             curve(trade, name, slot, &front(rows))
         });

@@ -45,7 +45,8 @@ const LEAST_OF_SINGLE: f64 = 1e-5;
 impl Grid {
     /// The settings for a problem, those that are cheap first where they differ in step or tolerance alone.
     ///
-    /// Where no equations remain in joint coordinates, all formulations are the same and there is nothing to correct: one stands for all. Without joint coordinates there are no settings by joints.
+    /// Where no equations remain in joint coordinates, all formulations are the same and there is nothing to correct: one stands for all. Without joint coordinates there are no settings by joints, and no recovery
+    /// along the tree, which joint coordinates have done anyway.
     #[must_use]
     pub fn settings(&self, facts: &Facts) -> Vec<Setting> {
         let mut settings = Vec::new();
@@ -58,7 +59,11 @@ impl Grid {
                 let Some(equations) = equations else { continue };
                 let different = if equations == 0 { 1 } else { usize::MAX };
                 for &formulation in self.formulations.iter().take(different) {
-                    for &treatment in self.treatments.iter().take(different) {
+                    let treatments = self.treatments.iter().filter(|&&treatment| {
+                        treatment != Treatment::TreeRecovery
+                            || (coordinates == Coordinates::Bodies && facts.closing.is_some())
+                    });
+                    for &treatment in treatments.take(different) {
                         for integration in self.integrations(facts, scalar) {
                             settings.push(Setting {
                                 coordinates,

@@ -10,6 +10,7 @@
 //! | what is shown of it | [`tables`], [`charts`], [`report`] |
 
 pub mod charts;
+mod dispatch;
 mod front;
 mod grid;
 mod integration;

@@ -46,7 +46,7 @@ pub fn courses(subject: &dyn Subject) -> Result<Vec<Course>, StudyError> {
         };
         let name = match treatment {
             Treatment::None => method.name().to_owned(),
-            Treatment::Projection => format!("{}, projected", method.name()),
+            _ => format!("{}, {}", method.name(), treatment.key()),
         };
         let run = subject.observe(&setting, &start).ok()?;
         Some(Course { name, run })

@@ -117,11 +117,20 @@ pub enum Treatment {
     None,
     /// Positions and velocities are corrected onto the constraints, see [`holonom::Projection`].
     Projection,
+    /// Velocities alone are, see [`holonom::VelocityProjection`].
+    VelocityProjection,
+    /// Positions of bodies follow from the joints of a tree, see [`holonom::TreeRecovery`].
+    TreeRecovery,
 }
 
 impl Treatment {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::None, Self::Projection];
+    pub const ALL: [Self; 4] = [
+        Self::None,
+        Self::Projection,
+        Self::VelocityProjection,
+        Self::TreeRecovery,
+    ];
 
     /// The name in JSON and on the command line, and for a reader.
     #[must_use]
@@ -129,6 +138,8 @@ impl Treatment {
         match self {
             Self::None => "none",
             Self::Projection => "projection",
+            Self::VelocityProjection => "velocity-projection",
+            Self::TreeRecovery => "tree-recovery",
         }
     }
 
@@ -164,17 +175,24 @@ impl Setting {
             Precision::Double => "",
             Precision::Single => "::<f32, _, _, _>",
         };
+        let tree = match self.treatment {
+            Treatment::TreeRecovery => format!("let tree = TreeRecovery::new(&{mechanism})?;\n"),
+            _ => String::new(),
+        };
         let mut code = format!(
-            "let report = Simulation{numbers}::new(&{mechanism}, {}, {})\n",
+            "{tree}let report = Simulation{numbers}::new(&{mechanism}, {}, {})\n",
             self.formulation.code(),
             self.integration.code()
         );
         if self.coordinates == Coordinates::Joints {
             code.push_str("    .joint_coordinates()\n");
         }
-        if self.treatment == Treatment::Projection {
-            code.push_str("    .projection(Projection::default())\n");
-        }
+        code.push_str(match self.treatment {
+            Treatment::None => "",
+            Treatment::Projection => "    .projection(Projection::default())\n",
+            Treatment::VelocityProjection => "    .treatment(&VelocityProjection::default())\n",
+            Treatment::TreeRecovery => "    .treatment(&tree)\n",
+        });
         code.push_str("    .run(start..=end, every(interval), |sample| { .. })?;\n");
         code
     }
@@ -183,8 +201,8 @@ impl Setting {
     #[must_use]
     pub fn name(&self) -> String {
         let treatment = match self.treatment {
-            Treatment::None => "",
-            Treatment::Projection => ", projection",
+            Treatment::None => String::new(),
+            other => format!(", {}", other.key()),
         };
         format!(
             "{}, {}{treatment}, {} {:.1e}, {}",

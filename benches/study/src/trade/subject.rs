@@ -1,20 +1,13 @@
 //! A problem without its mechanism in the type: what all the rest of the study is about.
 
-use std::ops::ControlFlow;
+use holonom::{Array as _, BodyKind, Fault, Mechanism, Projection, Real, Span, StateParts};
 
-use holonom::{
-    Array as _, AugmentedLagrangian, Baumgarte, BodyKind, Description, Dynamics, Fault,
-    Formulation, JointCoordinates, JointDynamics, Kernel, Mechanism, NoForces, Normalised, Penalty,
-    Projection, Real, Sample, Simulation, Span, StandardLagrange, StateParts, System, every,
-};
-
-use super::integration::{Integration, with_own_type};
+use super::dispatch::{JointsOf, Observe, Time, WithJoints, WithoutJoints, with_formulation};
 use super::problem::{BodiesAlone, Both, InBoth, Problem, Quantity};
-use super::setting::{Formulated, Setting, Treatment, augmented_lagrangian, baumgarte, penalty};
+use super::setting::{Setting, Treatment};
+use crate::compare::Coordinates;
 use crate::compare::measure::reported;
-use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
-use crate::run::contestant;
 use crate::timing::Contestant;
 
 /// What is known of a problem before anything runs.
@@ -133,12 +126,12 @@ macro_rules! subject {
 
             fn observe(&self, setting: &Setting, start: &Start) -> Result<Observation, StudyError> {
                 let observe = Observe { problem: &self.0, setting, start };
-                with_formulation::<$joints, P, _>(observe, setting)
+                with_formulation::<$joints, P, _>(&self.0, observe, setting)
             }
 
             fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError> {
                 let time = Time { problem: &self.0, setting: *setting, start };
-                with_formulation::<$joints, P, _>(time, setting)
+                with_formulation::<$joints, P, _>(&self.0, time, setting)
             }
         }
     )*};
@@ -149,7 +142,7 @@ subject! {
     [Problem] BodiesAlone => WithoutJoints;
 }
 
-fn stopped<P: Problem>(problem: &P, reason: &dyn std::fmt::Display) -> StudyError {
+pub(super) fn stopped<P: Problem>(problem: &P, reason: &dyn std::fmt::Display) -> StudyError {
     StudyError::Run {
         name: problem.name().into(),
         reason: reason.to_string(),
@@ -189,7 +182,7 @@ fn flat<M: Mechanism>(state: &M::State<f64>) -> Start {
     Start(q.as_slice().iter().chain(u.as_slice()).copied().collect())
 }
 
-fn state<S: Real, M: Mechanism>(start: &Start) -> M::State<S> {
+pub(super) fn state<S: Real, M: Mechanism>(start: &Start) -> M::State<S> {
     let mut state = M::State::<S>::from_parts(holonom::Array::zeros(), holonom::Array::zeros());
     let mut numbers = start.0.iter();
     for place in state.coordinates_mut().as_mut_slice() {
@@ -257,280 +250,4 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
     let time = problem.span().start;
     Projection::default().correct::<P::Mechanism>(&constants, time, &mut state)?;
     Ok(flat::<P::Mechanism>(&state))
-}
-
-/// Something to be done with a mechanism, once it is known with which numbers, which formulation and which description.
-trait Task<P: Problem> {
-    type Outcome;
-
-    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
-        self,
-        formulation: F,
-    ) -> Result<Self::Outcome, StudyError>;
-
-    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
-        self,
-        formulation: F,
-    ) -> Result<Self::Outcome, StudyError>
-    where
-        P: InBoth;
-}
-
-/// Whether a problem can be run by its joints.
-trait JointsOf<P: Problem> {
-    const CLOSING: Option<usize>;
-    const KERNELS: &'static [Kernel];
-
-    fn run<S: Real + 'static, F: Formulation<S> + 'static, T: Task<P>>(
-        task: T,
-        formulation: F,
-    ) -> Result<T::Outcome, StudyError>;
-}
-
-struct WithJoints;
-
-impl<P: InBoth> JointsOf<P> for WithJoints {
-    const CLOSING: Option<usize> = Some(
-        <P::Mechanism as JointCoordinates>::JOINT_REPORT
-            .closing
-            .len(),
-    );
-    const KERNELS: &'static [Kernel] = <P::Mechanism as JointCoordinates>::JOINT_REPORT.kernels;
-
-    fn run<S: Real + 'static, F: Formulation<S> + 'static, T: Task<P>>(
-        task: T,
-        formulation: F,
-    ) -> Result<T::Outcome, StudyError> {
-        task.by_joints::<S, F>(formulation)
-    }
-}
-
-struct WithoutJoints;
-
-impl<P: Problem> JointsOf<P> for WithoutJoints {
-    const CLOSING: Option<usize> = None;
-    const KERNELS: &'static [Kernel] = &[];
-
-    fn run<S: Real + 'static, F: Formulation<S> + 'static, T: Task<P>>(
-        _task: T,
-        _formulation: F,
-    ) -> Result<T::Outcome, StudyError> {
-        Err(StudyError::Run {
-            name: "joints".into(),
-            reason: "the mechanism is not described by joint coordinates: write #[mechanism(coordinates = \"both\")]".into(),
-        })
-    }
-}
-
-fn with_formulation<J: JointsOf<P>, P: Problem, T: Task<P>>(
-    task: T,
-    setting: &Setting,
-) -> Result<T::Outcome, StudyError> {
-    match setting.scalar {
-        Precision::Double => with_numbers::<f64, J, P, T>(task, setting),
-        Precision::Single => with_numbers::<f32, J, P, T>(task, setting),
-    }
-}
-
-fn with_numbers<S: Real + 'static, J: JointsOf<P>, P: Problem, T: Task<P>>(
-    task: T,
-    setting: &Setting,
-) -> Result<T::Outcome, StudyError> {
-    let by = setting.coordinates;
-    match &setting.formulation {
-        Formulated::Standard => described::<S, J, P, T, _>(task, by, StandardLagrange),
-        Formulated::Baumgarte(of) => {
-            let formulation: Baumgarte<S> = baumgarte(of);
-            described::<S, J, P, T, _>(task, by, formulation)
-        }
-        Formulated::Penalty(of) => {
-            let formulation: Penalty<S> = penalty(of);
-            described::<S, J, P, T, _>(task, by, formulation)
-        }
-        Formulated::AugmentedLagrangian(of) => {
-            let formulation: AugmentedLagrangian<S> = augmented_lagrangian(of);
-            described::<S, J, P, T, _>(task, by, formulation)
-        }
-    }
-}
-
-fn described<
-    S: Real + 'static,
-    J: JointsOf<P>,
-    P: Problem,
-    T: Task<P>,
-    F: Formulation<S> + 'static,
->(
-    task: T,
-    by: Coordinates,
-    formulation: F,
-) -> Result<T::Outcome, StudyError> {
-    match by {
-        Coordinates::Bodies => task.by_bodies::<S, F>(formulation),
-        Coordinates::Joints => J::run::<S, F, T>(task, formulation),
-    }
-}
-
-fn span_of<S: Real>(span: &Span<f64>) -> Span<S> {
-    Span {
-        start: S::constant(span.start),
-        end: S::constant(span.end),
-        first_output: S::constant(span.first_output),
-    }
-}
-
-/// A simulation with a setting, before it is told its description.
-fn simulation<'a, S: Real, P: Problem, F: Formulation<S> + 'static>(
-    problem: &'a P,
-    formulation: F,
-    setting: &Setting,
-    start: &Start,
-) -> Simulation<'a, S, P::Mechanism, F, Integration> {
-    let simulation = Simulation::new(problem.mechanism(), formulation, setting.integration);
-    let simulation = simulation.initial_state(state::<S, P::Mechanism>(start));
-    match setting.treatment {
-        Treatment::None => simulation,
-        Treatment::Projection => simulation.projection(Projection::default()),
-    }
-}
-
-struct Observe<'a, P> {
-    problem: &'a P,
-    setting: &'a Setting,
-    start: &'a Start,
-}
-
-impl<P: Problem> Task<P> for Observe<'_, P> {
-    type Outcome = Observation;
-
-    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
-        self,
-        formulation: F,
-    ) -> Result<Observation, StudyError> {
-        let run = simulation::<S, P, F>(self.problem, formulation, self.setting, self.start);
-        observed(self.problem, &run)
-    }
-
-    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
-        self,
-        formulation: F,
-    ) -> Result<Observation, StudyError>
-    where
-        P: InBoth,
-    {
-        let run = simulation::<S, P, F>(self.problem, formulation, self.setting, self.start);
-        observed(self.problem, &run.joint_coordinates())
-    }
-}
-
-type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, Integration, Normalised, NoForces, C>;
-
-fn observed<S: Real, P: Problem, F: Formulation<S>, C>(
-    problem: &P,
-    run: &Run<'_, S, P::Mechanism, F, C>,
-) -> Result<Observation, StudyError>
-where
-    C: for<'f> Description<S, P::Mechanism, F, Normalised, &'f NoForces>,
-{
-    let span = span_of::<S>(&problem.span());
-    let mut seen = Observation::default();
-    let mut look = |sample: &Sample<'_, S, P::Mechanism>| {
-        seen.times.push(sample.time().to_f64());
-        seen.values.push(problem.read(sample));
-        seen.violations.push(sample.violation().to_f64().sqrt());
-        seen.energies.push(sample.energy().to_f64());
-        ControlFlow::Continue(())
-    };
-    let report = run
-        .run(span.start..=span.end, every(span.first_output), &mut look)
-        .map_err(|error| stopped(problem, &error))?;
-    let watch = report.watch.as_ref();
-    Ok(Observation {
-        evaluations: report.evaluations as u64,
-        accepted: report.accepted as u64,
-        rejected: report.rejected as u64,
-        energy_drift: watch.map_or(f64::NAN, |watch| watch.unaccounted_energy().to_f64().abs()),
-        doubts: report
-            .doubts()
-            .into_iter()
-            .map(|doubt| doubt.to_string())
-            .collect(),
-        ..seen
-    })
-}
-
-struct Time<'a, 's, P> {
-    problem: &'a P,
-    setting: Setting,
-    start: &'s Start,
-}
-
-impl<'a, P: Problem> Time<'a, '_, P> {
-    fn bare<S: Real + 'a, Y: System<S> + 'a>(&self, system: Y, start: Y::State) -> Contestant<'a> {
-        let (span, name) = (span_of::<S>(&self.problem.span()), self.setting.name());
-        let integration = self.setting.integration;
-        if P::IS_INLINED {
-            with_own_type!(integration, integrator => contestant(name, system, integrator, span, start))
-        } else {
-            contestant(name, system, integration, span, start)
-        }
-    }
-
-    fn corrected<S: Real + 'a, F: Formulation<S> + 'a, C>(
-        &self,
-        run: Run<'a, S, P::Mechanism, F, C>,
-    ) -> Contestant<'a>
-    where
-        C: for<'f> Description<S, P::Mechanism, F, Normalised, &'f NoForces> + 'a,
-    {
-        let span = span_of::<S>(&self.problem.span());
-        let run = run.unwatched();
-        let name = self.problem.name();
-        Contestant::new(self.setting.name(), move || {
-            let report = run.run(span.start..=span.end, every(span.first_output), |sample| {
-                std::hint::black_box(sample.state());
-                ControlFlow::Continue(())
-            });
-            let report = report.map_err(|error| StudyError::Run {
-                name: name.into(),
-                reason: error.to_string(),
-            })?;
-            Ok(report.evaluations as u64)
-        })
-    }
-}
-
-impl<'a, P: Problem> Task<P> for Time<'a, '_, P> {
-    type Outcome = Contestant<'a>;
-
-    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
-        self,
-        formulation: F,
-    ) -> Result<Contestant<'a>, StudyError> {
-        if self.setting.treatment != Treatment::None {
-            let run = simulation::<S, P, F>(self.problem, formulation, &self.setting, self.start);
-            return Ok(self.corrected(run));
-        }
-        let dynamics = Dynamics::<S, _, _>::new(self.problem.mechanism(), formulation);
-        let dynamics = dynamics.map_err(|fault| stopped(self.problem, &fault))?;
-        Ok(self.bare(dynamics, state::<S, P::Mechanism>(self.start)))
-    }
-
-    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
-        self,
-        formulation: F,
-    ) -> Result<Contestant<'a>, StudyError>
-    where
-        P: InBoth,
-    {
-        if self.setting.treatment != Treatment::None {
-            let run = simulation::<S, P, F>(self.problem, formulation, &self.setting, self.start);
-            return Ok(self.corrected(run.joint_coordinates()));
-        }
-        let dynamics = JointDynamics::<S, _, _>::new(self.problem.mechanism(), formulation);
-        let dynamics = dynamics.map_err(|fault| stopped(self.problem, &fault))?;
-        let start = dynamics.joints(&state::<S, P::Mechanism>(self.start));
-        let start = start.map_err(|fault| stopped(self.problem, &fault))?;
-        Ok(self.bare(dynamics, start))
-    }
 }

@@ -1,0 +1,150 @@
+//! What is done to states after steps: what it keeps, and what it must not cost.
+
+use core::f64::consts::FRAC_PI_2;
+
+use holonom::prelude::*;
+use holonom::{JointCoordinates, Treatment, TreeRecovery, VelocityProjection};
+use holonom_models::{FourBar, RodPendulum, SliderCrank};
+use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
+
+/// The largest errors (rad) of the angle of the rod of chapter 15 over ten seconds, read from its Euler parameters and from its position, and the largest `Phi^T Phi`.
+fn errors(treatment: Option<&dyn Treatment<f64, RodPendulum>>) -> [f64; 3] {
+    let rod = RodPendulum::default();
+    let mut run = Simulation::new(&rod, StandardLagrange, Rk4::every(0.01));
+    if let Some(treatment) = treatment {
+        run = run.treatment(treatment);
+    }
+    let mut largest = [0.0_f64; 3];
+    let handles = RodPendulum::HANDLES;
+    run.run(0.0..=10.0, every(0.5), |sample| {
+        let exact = RigidPendulum::CHAPTER_15.at(sample.time()).angle;
+        let position = sample.pose(handles.rod).position;
+        let found = [
+            from_vertical(sample.angle(handles.pivot), FRAC_PI_2),
+            position.y.atan2(-position.z),
+        ];
+        for (largest, found) in largest.iter_mut().zip(found) {
+            *largest = largest.max(wrapped(found - exact).abs());
+        }
+        largest[2] = largest[2].max(sample.violation());
+        ControlFlow::Continue(())
+    })
+    .expect("solvable");
+    largest
+}
+
+#[test]
+fn positions_are_as_good_as_orientations_along_the_tree() {
+    let tree = TreeRecovery::new(&RodPendulum::default()).expect("sound");
+    let [none, recovered] = [errors(None), errors(Some(&tree))];
+    println!("{none:?} {recovered:?}");
+    assert!(
+        recovered[0] <= 4e-7 && recovered[1] <= 4e-7,
+        "{recovered:?}"
+    );
+    assert!(recovered[2] < 1e-28, "{recovered:?}");
+    // Without it, positions drift: what is gained is no accident.
+    assert!(none[1] > 10.0 * recovered[1], "{none:?}");
+}
+
+#[test]
+fn velocities_alone_keep_the_joint_from_drifting_fast() {
+    let [none, velocities] = [errors(None), errors(Some(&VelocityProjection::default()))];
+    println!("{none:?} {velocities:?}");
+    assert!(velocities[2] < 0.1 * none[2], "{velocities:?} {none:?}");
+}
+
+/// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and its report.
+fn cranked<I: holonom::Integrator<f64>>(
+    treatment: &dyn Treatment<f64, SliderCrank>,
+    integrator: I,
+) -> [f64; 2] {
+    let crank = SliderCrank::default();
+    let mut largest = [0.0_f64; 2];
+    let report = Simulation::new(&crank, StandardLagrange, integrator)
+        .treatment(treatment)
+        .run(0.0..=0.1, every(0.005), |sample| {
+            largest[0] = largest[0].max(sample.violation());
+            largest[1] = largest[1].max(sample.velocity_violation());
+            ControlFlow::Continue(())
+        })
+        .expect("solvable");
+    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    largest
+}
+
+#[test]
+fn every_treatment_works_with_every_integrator() {
+    let tree = TreeRecovery::new(&SliderCrank::default()).expect("sound");
+    let tolerance = Tolerance {
+        relative: 1e-8,
+        absolute: 1e-10,
+    };
+    macro_rules! with_all {
+        ($treatment:expr) => {
+            [
+                cranked($treatment, Rk4::every(1e-4)),
+                cranked($treatment, holonom::Heun::every(1e-5)),
+                cranked($treatment, holonom::DormandPrince853::every(5e-4)),
+                cranked($treatment, holonom::BogackiShampine::new(tolerance)),
+                cranked($treatment, DormandPrince::new(tolerance)),
+                cranked($treatment, holonom::DormandPrince853::new(tolerance)),
+            ]
+        };
+    }
+    for [position, velocity] in with_all!(&Projection::default()) {
+        assert!(
+            position < 1e-20 && velocity < 1e-16,
+            "{position:e} {velocity:e}"
+        );
+    }
+    for [_, velocity] in with_all!(&VelocityProjection::default()) {
+        assert!(velocity < 1e-16, "{velocity:e}");
+    }
+    // The loop stays open by what the integrator leaves.
+    for [position, _] in with_all!(&tree) {
+        assert!(position < 1e-8, "{position:e}");
+    }
+}
+
+#[test]
+fn recovery_leaves_what_stands_as_it_stands() {
+    fn stays<M: JointCoordinates>(model: &M) {
+        let mut state = model.described_state::<f64>().expect("sound");
+        let before = state;
+        let constants = model.constants().expect("sound");
+        let tree = TreeRecovery::new(model).expect("sound");
+        assert_eq!(tree.treat(&constants, 0.0, &mut state), Ok(0.0));
+        let pairs = holonom::StateParts::coordinates(&before);
+        let after = holonom::StateParts::coordinates(&state);
+        let slices = [pairs, after].map(holonom::Array::as_slice);
+        for (a, b) in slices[0].iter().zip(slices[1]) {
+            assert!((a - b).abs() < 1e-14, "{a} {b}");
+        }
+    }
+    stays(&RodPendulum::default());
+    stays(&FourBar::default());
+    stays(&SliderCrank::default());
+}
+
+#[test]
+fn the_last_of_two_treatments_counts() {
+    let rod = RodPendulum::default();
+    let tree = TreeRecovery::new(&rod).expect("sound");
+    let end = |run: Simulation<'_, f64, _, _, _>| {
+        let report = run.run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
+        report.expect("solvable").state
+    };
+    let new = || Simulation::new(&rod, StandardLagrange, Rk4::every(0.02));
+    let alone = end(new().treatment(&tree));
+    assert_eq!(
+        end(new().projection(Projection::default()).treatment(&tree)),
+        alone
+    );
+    let projected = end(new().projection(Projection::default()));
+    assert_eq!(
+        end(new().treatment(&tree).projection(Projection::default())),
+        projected
+    );
+    assert_ne!(alone, projected);
+}
