@@ -203,9 +203,11 @@ pub fn map() -> (Vec<Axis>, Vec<Cell>) {
 fn rods(map: &mut Map) {
     let tree = ways_of_tree();
     map.axis("step", "s", "The step, of a rod of 1 m that swings for two seconds, and the tolerance that stands for it");
+    let thrice = [3e-6, 3e-5, 3e-4, 3e-3, 3e-2, 3e-1];
     for step in decades(-6, 0)
-        .flat_map(|step| [step, 3.0 * step])
-        .filter(|&step| step <= 1.0)
+        .zip(thrice.into_iter().map(Some).chain([None]))
+        .flat_map(|(step, more)| [Some(step), more])
+        .flatten()
     {
         let (case, motion) = swing(1.0, 1.0, 0.0, 1.0);
         let place = Place {

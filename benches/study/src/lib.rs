@@ -7,6 +7,8 @@
 //! | the closed form of a rigid pendulum | [`pendulum`], [`elliptic`] |
 //! | results as tables and charts, as a page and as files | [`document`], [`chart`], [`page`], [`files`] |
 //! | what an evaluation costs, in both descriptions, all formulations and both number types | [`compare`] |
+//! | what accuracy costs, and which setting does for an error | [`trade`] |
+//! | where the numerics stop to hold | [`extremes`] |
 //! | operations of a computation | [`counted`] |
 //! | chapter 15 of Flores (2015): four formulations on one pendulum | [`chapter15`] |
 //!

@@ -13,6 +13,7 @@
 //! | [`redundant`] | equations that follow from others, singular configurations, and joints that avoid both |
 //! | [`embedded`] | fixed steps without a heap and without the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
+//! | [`accuracy`] | what accuracy costs, measured; which setting does for an error; where the numerics stop to hold |
 //! | [`coordinates`] | bodies or joints: the two descriptions of a mechanism, and what each costs and gives |
 //!
 //! # A first program
@@ -99,6 +100,9 @@ pub mod embedded {}
 
 #[doc = include_str!("choosing.md")]
 pub mod choosing {}
+
+#[doc = include_str!("accuracy.md")]
+pub mod accuracy {}
 
 #[doc = include_str!("coordinates.md")]
 pub mod coordinates {}

@@ -2,7 +2,7 @@
 
 use holonom::{AugmentedLagrangian, Baumgarte, Penalty, Real};
 
-use super::integration::Integration;
+use super::integration::{Family, Integration};
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
 
@@ -168,7 +168,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// The lines of Rust that run it, for a mechanism in a variable of that name.
+    /// The lines of Rust that run it, for a mechanism in a variable of that name; interval, reports and what is read are the reader's.
     #[must_use]
     pub fn code(&self, mechanism: &str) -> String {
         let numbers = match self.scalar {
@@ -180,7 +180,8 @@ impl Setting {
             _ => String::new(),
         };
         let mut code = format!(
-            "{tree}let report = Simulation{numbers}::new(&{mechanism}, {}, {})\n",
+            "use holonom::prelude::*;\n{}\n{tree}let report = Simulation{numbers}::new(&{mechanism}, {}, {})\n",
+            self.names().concat(),
             self.formulation.code(),
             self.integration.code()
         );
@@ -193,8 +194,27 @@ impl Setting {
             Treatment::VelocityProjection => "    .treatment(&VelocityProjection::default())\n",
             Treatment::TreeRecovery => "    .treatment(&tree)\n",
         });
-        code.push_str("    .run(start..=end, every(interval), |sample| { .. })?;\n");
+        code.push_str("    .run(start..=end, every(interval), |sample| {\n        // sample.angle(..)\n        ControlFlow::Continue(())\n    })?;\n");
         code
+    }
+
+    /// What the lines need that is not in the prelude.
+    fn names(&self) -> [String; 2] {
+        let name = |name: &str| format!("use holonom::{name};\n");
+        let integrator = match self.integration.family {
+            Family::SemiImplicitEuler => name("SemiImplicitEuler"),
+            Family::Midpoint => name("Midpoint"),
+            Family::Heun => name("Heun"),
+            Family::DormandPrince853Fixed | Family::DormandPrince853 => name("DormandPrince853"),
+            Family::BogackiShampine => name("BogackiShampine"),
+            Family::Rk4 | Family::DormandPrinceFixed | Family::DormandPrince => String::new(),
+        };
+        let treatment = match self.treatment {
+            Treatment::None | Treatment::Projection => String::new(),
+            Treatment::VelocityProjection => name("VelocityProjection"),
+            Treatment::TreeRecovery => name("TreeRecovery"),
+        };
+        [integrator, treatment]
     }
 
     /// In words.
