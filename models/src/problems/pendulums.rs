@@ -52,7 +52,7 @@ problem! {
     "angle" ("rad");
     view => {
         let angle = view.angle(Door::HANDLES.lower_hinge);
-        [from_vertical(holonom::Real::to_f64(angle), -FRAC_PI_2)]
+        [from_vertical(holonom::Real::to_f64(angle), FRAC_PI_2)]
     };
     time => {
         // `phi'' = -w0^2 sin(phi)`, w0^2 = 3.19 1/s^2.
