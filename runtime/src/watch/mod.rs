@@ -241,9 +241,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.position.take(phi.as_slice(), factors, time);
         let phi_rate = M::constraint_rates(constants, time, state);
         self.velocity.take(phi_rate.as_slice(), factors, time);
+        let before = self.travel;
+        self.motion(time, state);
         if let Some(pivot) = pivot {
             let approach = self.approach.get_or_insert_with(Approach::new);
-            if approach.step(time, pivot) {
+            if approach.step(time, pivot, self.travel - before) {
                 self.nearest = (time, *state);
             }
         }
@@ -253,7 +255,6 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.work_by_time(constants, time, state, potential);
         }
         self.balance.step(time, kinetic, potential, power);
-        self.motion(time, state);
         self.stretch = self.stretch.max(stretch);
         if is_mended {
             let round_off = S::constant(4.0) * S::EPSILON;

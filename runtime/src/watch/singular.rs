@@ -22,6 +22,8 @@ pub(super) struct Approach<S> {
     least: Nearest<S>,
     /// The last two steps: time and pivot.
     before: [Option<(S, S)>; 2],
+    /// The largest motion (rad) of a step over the roots of the pivots at its ends, which go with the distances from where they vanish.
+    widest: S,
 }
 
 impl<S: Real> Approach<S> {
@@ -33,13 +35,18 @@ impl<S: Real> Approach<S> {
                 time: S::zero(),
             },
             before: [None; 2],
+            widest: S::zero(),
         }
     }
 
-    /// Takes the pivot at the end of a step; tells whether there, or since the step before, it was smaller than ever.
+    /// Takes the pivot at the end of a step that the mechanism moved by so far (rad) in; tells whether there, or since the step before, it was smaller than ever.
     #[inline]
-    pub(super) fn step(&mut self, time: S, pivot: S) -> bool {
+    pub(super) fn step(&mut self, time: S, pivot: S, motion: S) -> bool {
         self.largest = self.largest.max(pivot);
+        if let Some((_, last)) = self.before[1] {
+            let roots = last.max(S::zero()).sqrt() + pivot.max(S::zero()).sqrt();
+            self.widest = self.widest.max(motion.quotient(roots));
+        }
         let mut is_least = pivot < self.least.pivot;
         if is_least {
             self.least = Nearest { pivot, time };
@@ -77,6 +84,14 @@ impl<S: Real> Approach<S> {
     /// The smallest relative pivot, with its time.
     pub(super) fn least(&self) -> Option<Nearest<S>> {
         self.least.pivot.is_finite().then_some(self.least)
+    }
+
+    /// Whether a step was so long that it may have passed over a singular configuration unseen: the distances from one at both its ends, a root of the pivot over the largest each, are
+    /// together less than its motion.
+    pub(super) fn may_have_passed(&self) -> bool {
+        /// The largest pivot that was met need not be the largest there is.
+        const MARGIN: f64 = 1.25;
+        self.widest * self.largest.sqrt() * S::constant(MARGIN) > S::one()
     }
 
     /// The smallest over the largest.
@@ -122,13 +137,35 @@ mod tests {
                 continue;
             }
             let pivot = 0.5 * (time.sin().powi(2) + distance * distance);
-            if approach.step(time, pivot) {
+            if approach.step(time, pivot, step) {
                 last = time;
             }
         }
         assert!(last.abs() <= 2.0 * step);
         assert!(approach.least().unwrap().time.abs() < step);
         approach.fall()
+    }
+
+    /// Whether steps over a singular configuration, or past it at a distance, may have passed it.
+    fn may_have_passed(step: f64, distance: f64, phase: f64) -> bool {
+        let mut approach = Approach::new();
+        for k in -400..400 {
+            let time = step * (f64::from(k) + phase);
+            if time.abs() < 1.5 + step {
+                approach.step(time, 0.5 * (time.sin().powi(2) + distance * distance), step);
+            }
+        }
+        approach.may_have_passed()
+    }
+
+    #[test]
+    fn a_step_that_is_too_long_to_tell_is_told() {
+        for step in [0.01, 0.1, 0.4, 0.8, 1.2] {
+            for phase in [0.02, 0.2, 0.3, 0.5, 0.7] {
+                assert!(may_have_passed(step, 0.0, phase), "{step} {phase}");
+                assert!(!may_have_passed(step, 2.0 * step, phase), "{step} {phase}");
+            }
+        }
     }
 
     #[test]

@@ -128,9 +128,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn nearly_singular(&self) -> Option<Doubt> {
-        let fall = self.approach.as_ref()?.fall();
+        let approach = self.approach.as_ref()?;
+        let fall = approach.fall();
         let nearest = self.smallest_pivot()?;
-        (!above(fall, limits::NEARLY_SINGULAR)).then(|| Doubt::NearlySingular {
+        let is_near = !above(fall, limits::NEARLY_SINGULAR) || approach.may_have_passed();
+        is_near.then(|| Doubt::NearlySingular {
             joint: nearest.joint,
             fall: fall.to_f64(),
             time: nearest.time.to_f64(),
