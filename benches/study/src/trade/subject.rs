@@ -74,7 +74,7 @@ pub trait Subject {
     fn start(&self) -> Result<Start, StudyError>;
 
     /// A start nearby, corrected onto the constraints: positions are moved by up to `size` times the largest of them, orientations by so many radians, velocities by that part of the largest or
-    /// of what the lengths and the time scale give. The same number gives the same start.
+    /// of what the lengths and the time scale give; by a tenth or a hundredth of that where the mechanism cannot be put together there. The same number gives the same start.
     ///
     /// # Errors
     /// Why the mechanism does not stand there.
@@ -117,7 +117,11 @@ macro_rules! subject {
             }
 
             fn start_near(&self, size: f64, number: u64) -> Result<Start, StudyError> {
-                start_near(&self.0, size, number).map_err(|fault| stopped(&self.0, &fault))
+                let at = |size| start_near(&self.0, size, number);
+                // Where a mechanism cannot be put together so far away, nearer by.
+                let nearer = |fault| at(0.1 * size).or_else(|_| at(0.01 * size)).map_err(|_| fault);
+                let found = at(size).or_else(nearer);
+                found.map_err(|fault| stopped(&self.0, &fault))
             }
 
             fn operations(&self, setting: &Setting) -> Option<usize> {
