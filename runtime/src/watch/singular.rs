@@ -26,6 +26,9 @@ pub(super) struct Approach<S> {
     widest: S,
 }
 
+/// The sum of the roots of two pivots, over that of the largest, from where on they have fallen: it is 2 where all are the same.
+const VARIED: f64 = 1.5;
+
 impl<S: Real> Approach<S> {
     pub(super) fn new() -> Self {
         Self {
@@ -45,7 +48,10 @@ impl<S: Real> Approach<S> {
         self.largest = self.largest.max(pivot);
         if let Some((_, last)) = self.before[1] {
             let roots = last.max(S::zero()).sqrt() + pivot.max(S::zero()).sqrt();
-            self.widest = self.widest.max(motion.quotient(roots));
+            // Pivots that hardly vary tell of no such configuration, however long the step is.
+            if roots < S::constant(VARIED) * self.largest.sqrt() {
+                self.widest = self.widest.max(motion.quotient(roots));
+            }
         }
         let mut is_least = pivot < self.least.pivot;
         if is_least {
@@ -166,6 +172,15 @@ mod tests {
                 assert!(!may_have_passed(step, 2.0 * step, phase), "{step} {phase}");
             }
         }
+    }
+
+    #[test]
+    fn pivots_that_stay_tell_nothing() {
+        let mut approach = Approach::new();
+        for k in 0..10 {
+            approach.step(f64::from(k), 1.0 - 0.02 * f64::from(k), 1e6);
+        }
+        assert!(!approach.may_have_passed());
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::setting::{Formulated, Setting, Treatment};
 use super::subject::Facts;
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
+use crate::error::StudyError;
 
 /// Which settings: every combination of these, but those that are the same.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +44,21 @@ impl Default for Grid {
 const LEAST_OF_SINGLE: f64 = 1e-5;
 
 impl Grid {
+    /// Refuses limits without an end.
+    pub(super) fn check(&self) -> Result<(), StudyError> {
+        let refused = |reason: &str| StudyError::Run {
+            name: "the grid".into(),
+            reason: reason.into(),
+        };
+        if !(self.most_steps > 0.0 && self.most_steps < f64::INFINITY) {
+            return Err(refused("most_steps is not a positive number"));
+        }
+        if !(self.least_tolerance > 0.0 && self.least_tolerance < f64::INFINITY) {
+            return Err(refused("least_tolerance is not a positive number"));
+        }
+        Ok(())
+    }
+
     /// The settings for a problem, those that are cheap first where they differ in step or tolerance alone.
     ///
     /// Where no equations remain in joint coordinates, all formulations are the same and there is nothing to correct: one stands for all. Without joint coordinates there are no settings by joints, and no recovery

@@ -1,14 +1,18 @@
 //! The runs of a trade.
 
+use std::hash::{DefaultHasher, Hasher as _};
 use std::path::Path;
 use std::time::Duration;
 
 use super::grid::Grid;
+use super::integration::{Family, Integration};
 use super::journal::Journal;
 use super::record::{Entry, Key, Row, Stopped, Time};
 use super::reference::Reference;
-use super::setting::Setting;
-use super::subject::{Facts, Start, Subject};
+use super::setting::{Formulated, Setting, Treatment};
+use super::subject::{Facts, Observation, Start, Subject};
+use crate::chapter15::Method;
+use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
 use crate::target::Target;
 use crate::timing::{Contestant, Schedule, race};
@@ -51,7 +55,7 @@ impl Default for Timing<'_> {
 }
 
 /// Runs a problem with all settings of a grid. Every run is written down in `journal` at once, so that an interrupted study goes on where it was; the file stays, and
-/// another study in the same folder under the same conditions takes from it what is there.
+/// another study takes from it what is there, if program, processor, problem and motion are the same.
 ///
 /// `progress` is called with the runs done and their number.
 ///
@@ -65,9 +69,14 @@ pub fn measure(
     mut progress: impl FnMut(usize, usize),
 ) -> Result<Trade, StudyError> {
     let facts = subject.facts();
+    facts.check()?;
+    grid.check()?;
     let start = subject.start()?;
     let reference = Reference::of(subject, None)?;
-    let mut journal = Journal::<Entry>::open(journal, &conditions(&facts, &start)?)?;
+    let probe = probe(subject, &facts, &start)?;
+    reference.check(&facts, &probe)?;
+    let conditions = conditions(&facts, &start, &reference, &probe)?;
+    let mut journal = Journal::<Entry>::open(journal, &conditions)?;
     let settings = grid.settings(&facts);
     let (mut rows, mut stopped) = (Vec::new(), Vec::new());
     for (done, setting) in settings.iter().enumerate() {
@@ -105,16 +114,59 @@ pub fn measure(
     })
 }
 
-/// Under which conditions entries of a journal are those of this study, in one line.
-fn conditions(facts: &Facts, start: &Start) -> Result<String, StudyError> {
+/// One run by the bodies: what is read of a mechanism, and how it moves.
+fn probe(subject: &dyn Subject, facts: &Facts, start: &Start) -> Result<Observation, StudyError> {
+    let setting = Setting {
+        coordinates: Coordinates::Bodies,
+        formulation: Formulated::Standard,
+        treatment: Treatment::None,
+        integration: Integration {
+            family: Family::DormandPrince,
+            step_or_tolerance: 1e-6,
+        },
+        scalar: Precision::Double,
+    };
+    let penalty = Formulated::default_of(Method::Penalty);
+    // Equations that are kept although they depend on others are for a penalty.
+    let run = subject.observe(&setting, start).or_else(|_| {
+        let formulation = penalty;
+        subject.observe(
+            &Setting {
+                formulation,
+                ..setting
+            },
+            start,
+        )
+    });
+    run.map_err(|error| match error {
+        StudyError::Run { reason, .. } => StudyError::Run {
+            name: facts.name.clone(),
+            reason,
+        },
+        other => other,
+    })
+}
+
+/// Under which conditions entries of a journal are those of this study, in one line: program, target, problem, what is read of it, what that should be, and how it moves.
+fn conditions(
+    facts: &Facts,
+    start: &Start,
+    reference: &Reference,
+    probe: &Observation,
+) -> Result<String, StudyError> {
     let span = facts.span;
+    let mut hasher = DefaultHasher::new();
+    let mut take = |values: &[f64]| values.iter().for_each(|x| hasher.write_u64(x.to_bits()));
+    probe.values.iter().for_each(|values| take(values));
+    take(&probe.energies);
+    reference.instants().for_each(|(_, values)| take(values));
     Ok(serde_json::to_string(&(
         env!("CARGO_PKG_VERSION"),
         Target::CURRENT.to_string(),
         &facts.name,
         [span.start, span.end, span.first_output],
         &start.0,
-        (facts.equations, facts.closing),
+        (facts.equations, facts.closing, hasher.finish()),
     ))?)
 }
 

@@ -25,6 +25,8 @@ mod setting;
 mod subject;
 pub mod tables;
 
+pub use crate::chapter15::Method;
+pub use crate::compare::{Coordinates, Precision};
 pub use front::{front, front_by};
 pub use grid::Grid;
 pub use integration::{AnyCourse, FLOOR, Family, Integration};

@@ -51,7 +51,7 @@ pub trait Problem {
     /// What is moved.
     type Mechanism: Mechanism;
 
-    /// A name without spaces: of its files, and after `--problem`.
+    /// Its name, of letters, digits, `-` and `_`: of its files, and after `--problem`.
     fn name(&self) -> &str;
 
     /// A sentence for the reader: what is moved, and where its reference comes from.

@@ -94,7 +94,7 @@ pub const MARGIN: f64 = 1.5;
 /// `None` where there is none: the error is below what the settings reach, or the time above what they take.
 ///
 /// # Errors
-/// [`StudyError`] where a reference cannot be computed.
+/// [`StudyError`] where a reference cannot be computed, or the wish is not a positive number.
 pub fn recommend(
     subject: &dyn Subject,
     trade: &Trade,
@@ -103,6 +103,13 @@ pub fn recommend(
     (processor, timing): (Processor, Timing<'_>),
     mut progress: impl FnMut(),
 ) -> Result<Option<Recommendation>, StudyError> {
+    let (Wish::Error(asked) | Wish::Budget(asked)) = wish;
+    if !(asked > 0.0 && asked < f64::INFINITY) {
+        return Err(StudyError::Run {
+            name: trade.facts.name.clone(),
+            reason: format!("{asked} is asked for, which is no error and no time"),
+        });
+    }
     let with_setting = |row: &Row| {
         let setting = settings
             .iter()

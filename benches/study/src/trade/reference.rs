@@ -2,7 +2,7 @@
 
 use super::integration::{Family, Integration};
 use super::setting::{Formulated, Setting, Treatment};
-use super::subject::{Observation, Start, Subject};
+use super::subject::{Facts, Observation, Start, Subject};
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
 
@@ -37,6 +37,7 @@ impl Reference {
     /// [`StudyError::Run`] where an integration stops.
     pub fn of(subject: &dyn Subject, start: Option<&Start>) -> Result<Self, StudyError> {
         let facts = subject.facts();
+        facts.check()?;
         if start.is_none() {
             let known: Vec<_> = times(&facts.span)
                 .filter_map(|time| Some((time, subject.reference(time)?)))
@@ -88,6 +89,40 @@ impl Reference {
         Ok(Self { error, ..reference })
     }
 
+    /// The times (s), growing, and what should be read at them.
+    pub fn instants(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        self.instants
+            .iter()
+            .map(|(time, values)| (*time, &values[..]))
+    }
+
+    /// Refuses readings that there is nothing to compare of.
+    pub(super) fn check(&self, facts: &Facts, run: &Observation) -> Result<(), StudyError> {
+        let refused = |reason: String| StudyError::Run {
+            name: facts.name.clone(),
+            reason,
+        };
+        let read = run.values.first().map_or(0, Vec::len);
+        if read == 0 {
+            return Err(refused("nothing is read: `read` returns no values".into()));
+        }
+        for (time, values) in self.instants() {
+            if values.len() != read {
+                let known = values.len();
+                return Err(refused(format!(
+                    "`read` returns {read} values, the reference {known} at {time} s"
+                )));
+            }
+            if !values.iter().all(|value| value.is_finite()) {
+                return Err(refused(format!("the reference is not finite at {time} s")));
+            }
+        }
+        if !self.instants().any(|(time, _)| time > facts.span.start) {
+            return Err(refused("the reference is known at the start alone".into()));
+        }
+        Ok(())
+    }
+
     /// The largest error of a run at the times of the reference. NaN where a reading is, or where none is compared.
     #[must_use]
     pub fn error_of(&self, subject: &dyn Subject, run: &Observation) -> f64 {
@@ -96,6 +131,9 @@ impl Reference {
             let Some(expected) = self.at(subject, *time) else {
                 continue;
             };
+            if values.len() != expected.len() {
+                return f64::NAN;
+            }
             let error = subject.difference(values, &expected);
             if error.is_nan() {
                 return error;

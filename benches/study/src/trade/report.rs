@@ -223,11 +223,21 @@ pub fn recommendation(
     };
     let mut text = format!("{}\n\nAsked for: {asked} ({on}).\n", facts.title);
     let Some(found) = found else {
-        let least = trade.rows.iter().filter(|row| row.is_trusted());
-        let least = least.map(|row| row.error).fold(f64::INFINITY, f64::min);
-        text.push_str(&format!(
-            "No setting of the grid does that from all {STARTS} starts nearby. The least error of any that is not doubted is {least:.1e} {unit}.\n"
-        ));
+        let trusted = || trade.rows.iter().filter(|row| row.is_trusted());
+        let least = trusted().map(|row| row.error).fold(f64::INFINITY, f64::min);
+        let shortest = trusted()
+            .map(|row| row.seconds)
+            .fold(f64::INFINITY, f64::min);
+        text.push_str(&if trusted().count() == 0 {
+            format!(
+                "No setting of the grid does that: of {} runs none came to its end without a doubt.\n",
+                trade.rows.len() + trade.stopped.len()
+            )
+        } else {
+            format!(
+                "No setting of the grid does that from all {STARTS} starts nearby. Of runs that are not doubted, the least error is {least:.1e} {unit}, the shortest time {shortest:.1e} s.\n"
+            )
+        });
         return text;
     };
     let row = &found.row;

@@ -194,7 +194,7 @@ impl Setting {
             Treatment::VelocityProjection => "    .treatment(&VelocityProjection::default())\n",
             Treatment::TreeRecovery => "    .treatment(&tree)\n",
         });
-        code.push_str("    .run(start..=end, every(interval), |sample| {\n        // sample.angle(..)\n        ControlFlow::Continue(())\n    })?;\n");
+        code.push_str("    .run(start..=end, every(interval), |sample| {\n        // sample: what is read\n        ControlFlow::Continue(())\n    })?;\n");
         code
     }
 

@@ -1,6 +1,9 @@
 //! A problem without its mechanism in the type: what all the rest of the study is about.
 
-use holonom::{Array as _, BodyKind, Fault, Mechanism, Projection, Real, Span, StateParts};
+use holonom::{
+    Array as _, BodyKind, Dynamics, Fault, Mechanism, Projection, Real, Span, StandardLagrange,
+    StateParts,
+};
 
 use super::dispatch::{JointsOf, Observe, Time, WithJoints, WithoutJoints, with_formulation};
 use super::problem::{BodiesAlone, Both, InBoth, Problem, Quantity};
@@ -27,6 +30,45 @@ pub struct Facts {
     pub equations: usize,
     /// Equations that remain in joint coordinates; `None` where the mechanism has none.
     pub closing: Option<usize>,
+}
+
+impl Facts {
+    /// Refuses what no study can be made of.
+    pub(super) fn check(&self) -> Result<(), StudyError> {
+        /// Reports of a run: what is kept of each is read again and again.
+        const REPORTS: f64 = 1e6;
+        let refused = |reason: String| StudyError::Run {
+            name: self.name.clone(),
+            reason,
+        };
+        let is_word = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+        if self.name.is_empty() || !self.name.chars().all(is_word) {
+            return Err(refused(format!(
+                "the name `{}` is no name of a file: letters, digits, `-` and `_`",
+                self.name.escape_debug()
+            )));
+        }
+        let Span {
+            start,
+            end,
+            first_output,
+        } = self.span;
+        let reports = (end - start) / first_output;
+        if !(start.is_finite() && end.is_finite() && end > start) {
+            return Err(refused(format!(
+                "no interval of time: from {start} s to {end} s"
+            )));
+        }
+        if !(first_output > 0.0 && reports <= REPORTS) {
+            return Err(refused(format!(
+                "reports every {first_output} s from {start} s to {end} s: up to {REPORTS} are kept"
+            )));
+        }
+        if !(self.time_scale > 0.0 && self.time_scale < f64::INFINITY) {
+            return Err(refused(format!("the time scale is {} s", self.time_scale)));
+        }
+        Ok(())
+    }
 }
 
 /// A state in `f64`: coordinates, then velocities, as [`Mechanism::State`] has them.
@@ -208,6 +250,7 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     };
     let mut state = problem.start()?;
+    let mechanism = problem.mechanism();
     let bodies = P::Mechanism::REPORT.bodies;
     // Where positions, orientations, velocities and angular velocities stand.
     let (q, u) = (
@@ -234,8 +277,24 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
             .flat_map(|body| &u[body.velocity + 3..][..3])
             .copied(),
     );
-    let speed = speed.max(length / problem.time_scale());
-    let spin = spin.max(1.0 / problem.time_scale());
+    /// Of what the motion to come may reach: where the mechanism starts in the origin there is no other length.
+    const PART: f64 = 0.01;
+    let rates = Dynamics::<f64, _, _>::new(mechanism, StandardLagrange)?;
+    let rates = rates.evaluate(problem.span().start, &state);
+    let gained = rates.map_or(0.0, |(evaluation, _)| {
+        let u = evaluation.rates.velocities().as_slice();
+        largest(
+            &mut bodies
+                .iter()
+                .flat_map(|body| &u[body.velocity..][..3])
+                .copied(),
+        )
+    });
+    let scale = problem.time_scale();
+    let length = length.max(PART * scale * (speed + scale * gained));
+    let length = if length > 0.0 { length } else { 1.0 };
+    let speed = speed.max(length / scale);
+    let spin = spin.max(1.0 / scale);
     for body in bodies {
         let q = &mut state.coordinates_mut().as_mut_slice()[body.coordinate..];
         q[..3].iter_mut().for_each(|x| *x += size * length * next());
@@ -249,7 +308,6 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
             u[3..6].iter_mut().for_each(|x| *x += size * spin * next());
         }
     }
-    let mechanism = problem.mechanism();
     let constants = P::Mechanism::prepare(&mechanism.parameters()?);
     let time = problem.span().start;
     Projection::default().correct::<P::Mechanism>(&constants, time, &mut state)?;
