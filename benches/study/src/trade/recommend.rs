@@ -127,6 +127,10 @@ pub fn recommend(
         Wish::Budget(seconds) => {
             candidates.retain(|candidate| candidate.2 <= seconds);
             candidates.sort_by(|a, b| a.1.error.total_cmp(&b.1.error));
+            // Errors within a factor of two are the same: of these the cheapest.
+            let least = candidates.first().map_or(0.0, |best| best.1.error);
+            let alike = candidates.partition_point(|candidate| candidate.1.error <= 2.0 * least);
+            candidates[..alike].sort_by(|a, b| a.2.total_cmp(&b.2));
         }
     }
     let (mut trials, mut passed_over) = (None, Vec::new());
