@@ -80,3 +80,26 @@ fn a_map_has_its_cells_once() {
     keys.dedup();
     assert_eq!(keys.len(), all);
 }
+
+#[test]
+fn a_journal_of_other_promises_is_not_taken() {
+    let (axes, mut cells) = map();
+    cells.retain(|cell| axes[cell.axis].name == "size" && cell.value == 1.0);
+    let directory = std::env::temp_dir().join(format!("holonom-promises-{}", std::process::id()));
+    let journal = directory.join("journal");
+    let errors = |cells: &[holonom_study::extremes::Cell]| -> Vec<Option<f64>> {
+        let rows = run::run(&axes, cells, &journal, |_| ()).expect("a journal that can be written");
+        rows.into_iter().map(|row| row.error).collect()
+    };
+    let first = errors(&cells);
+    assert_eq!(errors(&cells), first);
+    for cell in &mut cells {
+        cell.scale = 2.0;
+    }
+    let halved: Vec<_> = first
+        .iter()
+        .map(|error| error.map(|error| error / 2.0))
+        .collect();
+    assert_eq!(errors(&cells), halved);
+    std::fs::remove_dir_all(directory).expect("the journal");
+}

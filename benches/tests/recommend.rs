@@ -50,9 +50,8 @@ fn recommendations_are_right() {
         let subject = problem(name).expect("a problem");
         let journal = directory.join(name);
         let trade = measure(&*subject, &grid, timing, &journal, |_, _| ()).expect("a trade");
-        let settings = grid.settings(&trade.facts);
         let on = (Processor::Here, timing);
-        let found = recommend(&*subject, &trade, &settings, Wish::Error(asked), on, || ());
+        let found = recommend(&*subject, &trade, Wish::Error(asked), on, || ());
         let Some(found) = found.expect("references") else {
             panic!("nothing does {asked:e} for {name}");
         };

@@ -10,8 +10,7 @@ use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{Real, Span, View};
 use holonom_study::trade::{
-    Both, Grid, Problem, Processor, Quantity, Subject as _, Timing, Wish, measure, recommend,
-    report,
+    Both, Grid, Problem, Processor, Quantity, Timing, Wish, measure, recommend, report,
 };
 
 #[derive(Mechanism)]
@@ -98,8 +97,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let wish = Wish::Error(1e-6);
     let on = (Processor::Here, Timing::default());
-    let settings = grid.settings(&subject.facts());
-    let found = recommend(&subject, &trade, &settings, wish, on, || ())?;
+    let found = recommend(&subject, &trade, wish, on, || ())?;
     println!(
         "{}",
         report::recommendation(&trade, wish, Processor::Here, found.as_ref())

@@ -281,10 +281,9 @@ fn a_recommendation_is_right_from_starts_that_it_was_not_tried_with() {
         |_, _| (),
     )
     .unwrap();
-    let settings = grid.settings(&trade.facts);
     let asked = 1e-5;
     let on = (Processor::Here, timing());
-    let found = recommend(&subject, &trade, &settings, Wish::Error(asked), on, || ());
+    let found = recommend(&subject, &trade, Wish::Error(asked), on, || ());
     let found = found.unwrap().expect("within reach");
     assert!(found.worst() < asked);
     for number in 100..110 {
@@ -297,7 +296,7 @@ fn a_recommendation_is_right_from_starts_that_it_was_not_tried_with() {
     let text = report::recommendation(&trade, Wish::Error(asked), Processor::Here, Some(&found));
     assert!(text.contains(&found.setting.code("mechanism")), "{text}");
     // Below what the grid reaches.
-    let found = recommend(&subject, &trade, &settings, Wish::Error(1e-13), on, || ()).unwrap();
+    let found = recommend(&subject, &trade, Wish::Error(1e-13), on, || ()).unwrap();
     assert_eq!(found, None);
     fs::remove_dir_all(&directory).unwrap();
 }
@@ -552,7 +551,87 @@ fn wishes_are_positive() {
         Wish::Budget(-1.0),
         Wish::Budget(f64::INFINITY),
     ] {
-        assert!(recommend(&subject, &trade, &[], wish, on, || ()).is_err());
+        assert!(recommend(&subject, &trade, wish, on, || ()).is_err());
     }
+    fs::remove_dir_all(&directory).unwrap();
+}
+
+/// A door on two hinges of which the equations of the second are kept.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "keep", coordinates = "both")]
+struct Door {
+    #[body(mass = 1.0, inertia = [0.3, 0.1, 0.4], position = [0.4, 0.0, 0.0])]
+    leaf: Body,
+    #[joint(between = [ground, leaf], point = [0.0, 0.0, -0.5], axis = [0.0, 0.0, 1.0])]
+    lower: Revolute,
+    #[joint(between = [ground, leaf], point = [0.0, 0.0, 0.5], axis = [0.0, 0.0, 1.0])]
+    upper: Revolute,
+}
+
+struct Shutting(Door);
+
+impl Problem for Shutting {
+    type Mechanism = Door;
+
+    fn name(&self) -> &str {
+        "door"
+    }
+
+    fn mechanism(&self) -> &Door {
+        &self.0
+    }
+
+    fn span(&self) -> Span<f64> {
+        Span {
+            start: 0.0,
+            end: 1.0,
+            first_output: 0.5,
+        }
+    }
+
+    fn time_scale(&self) -> f64 {
+        1.0
+    }
+
+    fn quantity(&self) -> Quantity {
+        Quantity {
+            name: "angle",
+            unit: "rad",
+        }
+    }
+
+    fn read<S: Real>(&self, view: &View<'_, S, Door>) -> Vec<f64> {
+        vec![view.angle(Door::HANDLES.lower).to_f64()]
+    }
+}
+
+#[test]
+fn equations_that_are_kept_are_studied_with_a_compliance() {
+    let directory = scratch("kept");
+    let subject = Both(Shutting(Door::default()));
+    let reference = Reference::of(&subject, None).unwrap();
+    assert!(reference.error < 1e-9, "{:e}", reference.error);
+    let grid = Grid {
+        coordinates: vec![Coordinates::Bodies],
+        formulations: vec![
+            Formulated::Standard,
+            Formulated::default_of(Method::AugmentedLagrangian),
+        ],
+        treatments: vec![Treatment::None],
+        scalars: vec![Precision::Double],
+        ..grid()
+    };
+    let path = directory.join("journal");
+    let trade = measure(&subject, &grid, timing(), &path, |_, _| ()).unwrap();
+    assert!(!trade.rows.is_empty() && !trade.stopped.is_empty());
+    let compliant = trade
+        .rows
+        .iter()
+        .all(|row| row.setting.formulation == "augmented-lagrangian");
+    assert!(compliant, "{:?}", trade.rows);
+    assert_ne!(
+        subject.start_near(0.01, 1).unwrap(),
+        subject.start().unwrap()
+    );
     fs::remove_dir_all(&directory).unwrap();
 }

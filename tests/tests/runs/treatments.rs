@@ -4,7 +4,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use holonom::prelude::*;
 use holonom::{JointCoordinates, Treatment, TreeRecovery, VelocityProjection};
-use holonom_models::{FourBar, RodPendulum, SliderCrank};
+use holonom_models::{FourBar, RodPendulum, SliderCrank, VariableLengthPendulum};
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
 
 /// The largest errors (rad) of the angle of the rod of chapter 15 over ten seconds, read from its Euler parameters and from its position, and the largest `Phi^T Phi`.
@@ -54,11 +54,12 @@ fn velocities_alone_keep_the_joint_from_drifting_fast() {
     assert!(velocities[2] < 0.1 * none[2], "{velocities:?} {none:?}");
 }
 
-/// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and its report.
+/// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and by how much its bearing, a joint of the tree, was open (m).
 fn cranked<I: holonom::Integrator<f64>>(
     treatment: &dyn Treatment<f64, SliderCrank>,
     integrator: I,
-) -> [f64; 2] {
+) -> [f64; 3] {
+    assert!(!SliderCrank::JOINT_REPORT.closing.contains(&"bearing"));
     let crank = SliderCrank::default();
     let mut largest = [0.0_f64; 2];
     let report = Simulation::new(&crank, StandardLagrange, integrator)
@@ -70,7 +71,9 @@ fn cranked<I: holonom::Integrator<f64>>(
         })
         .expect("solvable");
     assert!(report.doubts().is_empty(), "{}", report.doubts());
-    largest
+    let watch = report.watch.as_ref().expect("watched");
+    let bearing = watch.violation(SliderCrank::HANDLES.bearing);
+    [largest[0], largest[1], bearing.length]
 }
 
 #[test]
@@ -92,19 +95,27 @@ fn every_treatment_works_with_every_integrator() {
             ]
         };
     }
-    for [position, velocity] in with_all!(&Projection::default()) {
+    for [position, velocity, _] in with_all!(&Projection::default()) {
         assert!(
             position < 1e-20 && velocity < 1e-16,
             "{position:e} {velocity:e}"
         );
     }
-    for [_, velocity] in with_all!(&VelocityProjection::default()) {
+    for [_, velocity, _] in with_all!(&VelocityProjection::default()) {
         assert!(velocity < 1e-16, "{velocity:e}");
     }
-    // The loop stays open by what the integrator leaves.
-    for [position, _] in with_all!(&tree) {
-        assert!(position < 1e-8, "{position:e}");
+    // The loop stays open by what the integrator leaves, the bearing does not.
+    for [position, _, bearing] in with_all!(&tree) {
+        assert!(
+            position < 1e-8 && bearing < 1e-15,
+            "{position:e} {bearing:e}"
+        );
     }
+    let [_, _, bearing] = cranked(&VelocityProjection::default(), Rk4::every(1e-4));
+    assert!(
+        bearing > 1e-13,
+        "a bearing that does not open tells nothing: {bearing:e}"
+    );
 }
 
 #[test]
@@ -125,6 +136,21 @@ fn recovery_leaves_what_stands_as_it_stands() {
     stays(&RodPendulum::default());
     stays(&FourBar::default());
     stays(&SliderCrank::default());
+}
+
+#[test]
+fn recovery_keeps_the_turns_that_are_counted() {
+    let model = VariableLengthPendulum::default();
+    let torsion = VariableLengthPendulum::HANDLES.torsion;
+    let mut state = model.described_state::<f64>().expect("sound");
+    let first = VariableLengthPendulum::counted_angles(&state, torsion)[0];
+    let turned = first + 3.0 * core::f64::consts::TAU;
+    VariableLengthPendulum::set_counted_angles(&mut state, torsion, &[turned]).expect("one angle");
+    let constants = model.constants().expect("sound");
+    let tree = TreeRecovery::new(&model).expect("sound");
+    assert_eq!(tree.treat(&constants, 0.0, &mut state), Ok(0.0));
+    let after = VariableLengthPendulum::counted_angles(&state, torsion)[0];
+    assert!((after - turned).abs() < 1e-12, "{after} {turned}");
 }
 
 #[test]

@@ -230,11 +230,10 @@ pub(crate) fn recommend(arguments: &Recommend) -> Result<(), Box<dyn Error>> {
     };
     let journal = measured(&arguments.out, &arguments.problem);
     let trade = arguments.part.measured(&*subject, &journal)?;
-    let settings = arguments.part.grid().settings(&trade.facts);
     let bar = bar(0, "starts nearby")?;
     let beside = beside()?;
     let on = (arguments.target, arguments.part.timing(&beside));
-    let found = trade::recommend(&*subject, &trade, &settings, wish, on, || bar.inc(1));
+    let found = trade::recommend(&*subject, &trade, wish, on, || bar.inc(1));
     bar.finish_and_clear();
     let text = report::recommendation(&trade, wish, arguments.target, found?.as_ref());
     show(&text)?;

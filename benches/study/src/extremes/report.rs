@@ -104,10 +104,9 @@ fn map(axis: &Axis, rows: &[&Row]) -> Table {
     }
     for row in rows {
         let setting = &row.setting;
-        let treatment = if setting.treatment == "none" {
-            ""
-        } else {
-            ", projected"
+        let treatment = match setting.treatment.as_str() {
+            "none" => String::new(),
+            other => format!(", {other}"),
         };
         let name = format!(
             "{}, {}{treatment}, {}, {}",

@@ -1,5 +1,6 @@
 //! The cells of a map, and their runs.
 
+use std::hash::{DefaultHasher, Hasher as _};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -7,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Deserialize, Serialize};
 
 use super::outcome::{Outcome, judge};
-use super::thresholds::Motion;
+use super::thresholds::{HOLDS, Motion, WRONG, promised};
 use crate::error::StudyError;
 use crate::target::Target;
 use crate::trade::{Journal, Key, Setting, Subject};
@@ -77,8 +78,7 @@ pub fn run(
     journal: &Path,
     progress: impl Fn(usize) + Sync,
 ) -> Result<Vec<Row>, StudyError> {
-    let conditions = (env!("CARGO_PKG_VERSION"), Target::CURRENT.to_string());
-    let conditions = serde_json::to_string(&conditions)?;
+    let conditions = conditions(axes, cells)?;
     let journal = Mutex::new(Journal::<Row>::open(journal, &conditions)?);
     let next = AtomicUsize::new(0);
     let done = AtomicUsize::new(0);
@@ -109,6 +109,29 @@ pub fn run(
     }
     let rows = rows.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(rows.into_iter().flatten().collect())
+}
+
+/// Under which conditions entries of a journal are those of this map, in one line: program, target, and what every cell promises.
+fn conditions(axes: &[Axis], cells: &[Cell]) -> Result<String, StudyError> {
+    let mut hasher = DefaultHasher::new();
+    for number in [HOLDS, WRONG] {
+        hasher.write_u64(number.to_bits());
+    }
+    for cell in cells {
+        hasher.write(axes[cell.axis].name.as_bytes());
+        for number in [
+            cell.value,
+            cell.scale,
+            promised(&cell.setting, &cell.motion),
+        ] {
+            hasher.write_u64(number.to_bits());
+        }
+    }
+    Ok(serde_json::to_string(&(
+        env!("CARGO_PKG_VERSION"),
+        Target::CURRENT.to_string(),
+        hasher.finish(),
+    ))?)
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {

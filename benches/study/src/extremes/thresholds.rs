@@ -15,15 +15,14 @@ pub const WRONG: f64 = 1e-2;
 
 /// The error of a step of `x` radians of an oscillation, for every radian of motion: leading terms of the phase, or of the amplitude where that is larger.
 ///
-/// Semi-implicit Euler: half a step, `x / 2`, which does not grow with the motion; its phase `x^2 / 24`. Midpoint and Heun: `x^2 / 6`. Runge-Kutta: `x^4 / 120`. Dormand-Prince:
-/// `x^5 / 3600`, from the length of a turned vector (`z^6 / 3600` for half the angle `z`), and more in a motion that is not linear.
+/// Semi-implicit Euler: half a step, `x / 2`, which does not grow with the motion; its phase `x^2 / 24`. Midpoint and Heun: `x^2 / 6`. Runge-Kutta: `x^4 / 120`. Dormand-Prince of order 5: its
+/// amplitude of a linear oscillation goes with `x^6 / 3600`; a motion that is not linear has terms of order 5, for which `x^5 / 360` stands. Of order 8: `x^8 / 360`, likewise.
 fn of_step(family: Family, x: f64) -> [f64; 2] {
     match family {
         Family::SemiImplicitEuler => [x / 2.0, x * x / 24.0],
         Family::Midpoint | Family::Heun => [0.0, x.powi(2) / 6.0],
         Family::Rk4 => [0.0, x.powi(4) / 120.0],
         Family::DormandPrinceFixed => [0.0, x.powi(5) / 360.0],
-        // Its error coefficients are at least as small, with the step to the eighth power.
         Family::DormandPrince853Fixed => [0.0, x.powi(8) / 360.0],
         // Of step control: the tolerance in every step, steps of about a third of a radian at usual tolerances.
         Family::BogackiShampine | Family::DormandPrince | Family::DormandPrince853 => [0.0, 3.0],

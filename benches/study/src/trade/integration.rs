@@ -216,16 +216,24 @@ impl<S: Real> Integrator<S> for Integration {
 }
 
 /// An [`Integration`] under way.
-#[allow(missing_docs, clippy::large_enum_variant)] // One for each type of course, and one of them at a time.
 pub enum AnyCourse<S: Real, X: Vector<S>> {
+    /// Of [`Family::SemiImplicitEuler`].
     SemiImplicitEuler(FixedCourse<S, X, SemiImplicitEuler>),
+    /// Of [`Family::Midpoint`].
     Midpoint(FixedCourse<S, X, Midpoint>),
+    /// Of [`Family::Heun`].
     Heun(FixedCourse<S, X, Heun>),
+    /// Of [`Family::Rk4`].
     Rk4(FixedCourse<S, X, Rk4>),
+    /// Of [`Family::DormandPrinceFixed`].
     DormandPrinceFixed(FixedCourse<S, X, DormandPrince5>),
+    /// Of [`Family::DormandPrince853Fixed`].
     DormandPrince853Fixed(FixedCourse<S, X, DormandPrince8>),
+    /// Of [`Family::BogackiShampine`].
     BogackiShampine(AdaptiveCourse<S, X, BogackiShampine3>),
+    /// Of [`Family::DormandPrince`].
     DormandPrince(AdaptiveCourse<S, X, DormandPrince5>),
+    /// Of [`Family::DormandPrince853`].
     DormandPrince853(AdaptiveCourse<S, X, DormandPrince8>),
 }
 

@@ -5,14 +5,12 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::grid::Grid;
-use super::integration::{Family, Integration};
 use super::journal::Journal;
 use super::record::{Entry, Key, Row, Stopped, Time};
-use super::reference::Reference;
-use super::setting::{Formulated, Setting, Treatment};
+use super::reference::{Reference, observed};
+use super::setting::{Setting, Treatment};
 use super::subject::{Facts, Observation, Start, Subject};
-use crate::chapter15::Method;
-use crate::compare::{Coordinates, Precision};
+use crate::compare::Coordinates;
 use crate::error::StudyError;
 use crate::target::Target;
 use crate::timing::{Contestant, Schedule, race};
@@ -26,6 +24,8 @@ pub struct Trade {
     pub reference: Reference,
     /// The runs that came to their end, in the order of the grid.
     pub rows: Vec<Row>,
+    /// Their settings, one for each row.
+    pub settings: Vec<Setting>,
     /// The others.
     pub stopped: Vec<Stopped>,
     /// The time of an evaluation of the yardstick (s), the median of all that were measured beside the runs; `None` without a yardstick.
@@ -73,14 +73,15 @@ pub fn measure(
     grid.check()?;
     let start = subject.start()?;
     let reference = Reference::of(subject, None)?;
-    let probe = probe(subject, &facts, &start)?;
+    // What is read of the mechanism, and how it moves.
+    let probe = observed(subject, &start, Coordinates::Bodies, Treatment::None, 1e-6)?;
     reference.check(&facts, &probe)?;
     let conditions = conditions(&facts, &start, &reference, &probe)?;
     let mut journal = Journal::<Entry>::open(journal, &conditions)?;
-    let settings = grid.settings(&facts);
-    let (mut rows, mut stopped) = (Vec::new(), Vec::new());
-    for (done, setting) in settings.iter().enumerate() {
-        progress(done, settings.len());
+    let all = grid.settings(&facts);
+    let (mut rows, mut settings, mut stopped) = (Vec::new(), Vec::new(), Vec::new());
+    for (done, setting) in all.iter().enumerate() {
+        progress(done, all.len());
         let key = Key::from(setting);
         let known = journal
             .entries()
@@ -95,11 +96,14 @@ pub fn measure(
             }
         };
         match entry {
-            Entry::Row(row) => rows.push(row),
+            Entry::Row(row) => {
+                rows.push(row);
+                settings.push(*setting);
+            }
             Entry::Stopped(entry) => stopped.push(entry),
         }
     }
-    progress(settings.len(), settings.len());
+    progress(all.len(), all.len());
     let mut yardsticks: Vec<_> = rows
         .iter()
         .filter_map(|row| Some(row.seconds / row.yardsticks?))
@@ -109,41 +113,9 @@ pub fn measure(
         facts,
         reference,
         rows,
+        settings,
         stopped,
         yardstick: yardsticks.get(yardsticks.len() / 2).copied(),
-    })
-}
-
-/// One run by the bodies: what is read of a mechanism, and how it moves.
-fn probe(subject: &dyn Subject, facts: &Facts, start: &Start) -> Result<Observation, StudyError> {
-    let setting = Setting {
-        coordinates: Coordinates::Bodies,
-        formulation: Formulated::Standard,
-        treatment: Treatment::None,
-        integration: Integration {
-            family: Family::DormandPrince,
-            step_or_tolerance: 1e-6,
-        },
-        scalar: Precision::Double,
-    };
-    let penalty = Formulated::default_of(Method::Penalty);
-    // Equations that are kept although they depend on others are for a penalty.
-    let run = subject.observe(&setting, start).or_else(|_| {
-        let formulation = penalty;
-        subject.observe(
-            &Setting {
-                formulation,
-                ..setting
-            },
-            start,
-        )
-    });
-    run.map_err(|error| match error {
-        StudyError::Run { reason, .. } => StudyError::Run {
-            name: facts.name.clone(),
-            reason,
-        },
-        other => other,
     })
 }
 

@@ -40,13 +40,13 @@ impl Processor {
         }
     }
 
-    /// The seconds of a run. `None` where nothing is known: of a formulation that iterates as often as the state asks for, and of a run that is corrected after steps.
+    /// The seconds of a run on it. `None` where nothing is known: of a formulation that iterates as often as the state asks for, and of a run that is corrected after steps.
     #[must_use]
     pub fn seconds(self, subject: &dyn Subject, setting: &Setting, row: &Row) -> Option<f64> {
-        /// Instructions of an operation, with what it loads and stores, and those of a stage of a step that are there for any mechanism: right to a third for all that `tests/firmware/run`
-        /// counts (a stage of a pendulum by joints 76 instructions, by bodies 288, of a four-bar by joints 435, of a UR5 by joints 1266).
-        const INSTRUCTIONS: f64 = 2.7;
-        const STAGE: f64 = 70.0;
+        /// Instructions of an operation, with what it loads and stores, and those of a stage of a step that are there for any mechanism: between 0.7 and 1.5 times what
+        /// `tests/firmware/run` counts, see `benches/tests/cortex_m7.rs`.
+        const INSTRUCTIONS: f64 = 2.4;
+        const STAGE: f64 = 60.0;
         const HERTZ: f64 = 480e6;
         match self {
             Self::Here => Some(row.seconds),
@@ -98,7 +98,6 @@ pub const MARGIN: f64 = 1.5;
 pub fn recommend(
     subject: &dyn Subject,
     trade: &Trade,
-    settings: &[Setting],
     wish: Wish,
     (processor, timing): (Processor, Timing<'_>),
     mut progress: impl FnMut(),
@@ -110,15 +109,13 @@ pub fn recommend(
             reason: format!("{asked} is asked for, which is no error and no time"),
         });
     }
-    let with_setting = |row: &Row| {
-        let setting = settings
-            .iter()
-            .find(|&&setting| row.setting == (&setting).into())?;
+    let runs = trade.rows.iter().zip(&trade.settings);
+    let trusted = runs.filter(|(row, _)| row.is_trusted());
+    let priced = trusted.filter_map(|(row, setting)| {
         let seconds = processor.seconds(subject, setting, row)?;
         Some((*setting, row.clone(), seconds))
-    };
-    let trusted = trade.rows.iter().filter(|row| row.is_trusted());
-    let mut candidates: Vec<_> = trusted.filter_map(with_setting).collect();
+    });
+    let mut candidates: Vec<_> = priced.collect();
     match wish {
         Wish::Error(asked) => {
             candidates.retain(|(_, row, _)| row.error * MARGIN <= asked);

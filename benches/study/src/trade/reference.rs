@@ -3,6 +3,7 @@
 use super::integration::{Family, Integration};
 use super::setting::{Formulated, Setting, Treatment};
 use super::subject::{Facts, Observation, Start, Subject};
+use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
 
@@ -67,17 +68,7 @@ impl Reference {
             (other, Treatment::None, TIGHT[1]),
         ];
         let [first, last] = ways.map(|(coordinates, treatment, tolerance)| {
-            let setting = Setting {
-                coordinates,
-                formulation: Formulated::Standard,
-                treatment,
-                integration: Integration {
-                    family: Family::DormandPrince,
-                    step_or_tolerance: tolerance,
-                },
-                scalar: Precision::Double,
-            };
-            subject.observe(&setting, start)
+            observed(subject, start, coordinates, treatment, tolerance)
         });
         let (first, last) = (first?, last?);
         let reference = Self {
@@ -151,15 +142,40 @@ impl Reference {
         let place = self
             .instants
             .partition_point(|&(then, _)| then < time && !near(then));
-        let (then, values) = self.instants.get(place).filter(|&&(then, _)| near(then))?;
+        let (_, values) = self.instants.get(place).filter(|&&(then, _)| near(then))?;
         // A closed form is known at the very time.
         let exact = match self.source {
             Source::Problem => subject.reference(time),
             Source::Integrated => None,
         };
-        let _ = then;
         Some(exact.unwrap_or_else(|| values.clone()))
     }
+}
+
+/// A run by Dormand-Prince with standard multipliers, or with an augmented Lagrangian where equations are kept although they depend on others, which is for formulations with a compliance.
+pub(super) fn observed(
+    subject: &dyn Subject,
+    start: &Start,
+    coordinates: Coordinates,
+    treatment: Treatment,
+    tolerance: f64,
+) -> Result<Observation, StudyError> {
+    let with = |method| Setting {
+        coordinates,
+        formulation: Formulated::default_of(method),
+        treatment,
+        integration: Integration {
+            family: Family::DormandPrince,
+            step_or_tolerance: tolerance,
+        },
+        scalar: Precision::Double,
+    };
+    let standard = subject.observe(&with(Method::Standard), start);
+    // What standard multipliers say is what the reader should know, if neither will do.
+    standard.or_else(|error| {
+        let compliant = subject.observe(&with(Method::AugmentedLagrangian), start);
+        compliant.map_err(|_| error)
+    })
 }
 
 /// The reporting times of a span.

@@ -218,7 +218,7 @@ pub fn recommendation(
     let on = match processor {
         Processor::Here => format!("compiled for {}", Target::CURRENT),
         Processor::CortexM7 => {
-            "a Cortex-M7 at 480 MHz, estimated from counts of operations, to a third".into()
+            "a Cortex-M7 at 480 MHz, estimated from counts of operations: 0.7 to 1.5 times what is counted there".into()
         }
     };
     let mut text = format!("{}\n\nAsked for: {asked} ({on}).\n", facts.title);

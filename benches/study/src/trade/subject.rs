@@ -1,8 +1,8 @@
 //! A problem without its mechanism in the type: what all the rest of the study is about.
 
 use holonom::{
-    Array as _, BodyKind, Dynamics, Fault, Mechanism, Projection, Real, Span, StandardLagrange,
-    StateParts,
+    Array as _, AugmentedLagrangian, BodyInfo, BodyKind, Dynamics, Fault, Mechanism, Projection,
+    Real, Span, StateParts,
 };
 
 use super::dispatch::{JointsOf, Observe, Time, WithJoints, WithoutJoints, with_formulation};
@@ -241,6 +241,8 @@ pub(super) fn state<S: Real, M: Mechanism>(start: &Start) -> M::State<S> {
 }
 
 fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, Fault> {
+    /// Of what the motion to come may reach: where the mechanism starts in the origin there is no other length.
+    const PART: f64 = 0.01;
     // SplitMix64 (Steele, Lea and Flood 2014).
     let mut random = number;
     let mut next = || {
@@ -249,67 +251,53 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
         let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     };
-    let mut state = problem.start()?;
     let mechanism = problem.mechanism();
     let bodies = P::Mechanism::REPORT.bodies;
-    // Where positions, orientations, velocities and angular velocities stand.
+    let is_rigid = |body: &&BodyInfo| body.kind == BodyKind::Rigid;
+    let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let linear = |u: &[f64]| {
+        let sizes = bodies.iter().map(|body| largest(&u[body.velocity..][..3]));
+        sizes.fold(0.0, f64::max)
+    };
+    let (time, scale) = (problem.span().start, problem.time_scale());
+    let mut state = problem.start()?;
+
     let (q, u) = (
         state.coordinates().as_slice(),
         state.velocities().as_slice(),
     );
-    let largest =
-        |places: &mut dyn Iterator<Item = f64>| places.fold(0.0, |a: f64, b| a.max(b.abs()));
-    let length = largest(
-        &mut bodies
-            .iter()
-            .flat_map(|body| &q[body.coordinate..][..3])
-            .copied(),
-    );
-    let speed = largest(
-        &mut bodies
-            .iter()
-            .flat_map(|body| &u[body.velocity..][..3])
-            .copied(),
-    );
-    let rigid = || bodies.iter().filter(|body| body.kind == BodyKind::Rigid);
-    let spin = largest(
-        &mut rigid()
-            .flat_map(|body| &u[body.velocity + 3..][..3])
-            .copied(),
-    );
-    /// Of what the motion to come may reach: where the mechanism starts in the origin there is no other length.
-    const PART: f64 = 0.01;
-    let rates = Dynamics::<f64, _, _>::new(mechanism, StandardLagrange)?;
-    let rates = rates.evaluate(problem.span().start, &state);
-    let gained = rates.map_or(0.0, |(evaluation, _)| {
-        let u = evaluation.rates.velocities().as_slice();
-        largest(
-            &mut bodies
-                .iter()
-                .flat_map(|body| &u[body.velocity..][..3])
-                .copied(),
-        )
+    let places = bodies
+        .iter()
+        .map(|body| largest(&q[body.coordinate..][..3]));
+    let spins = bodies.iter().filter(is_rigid);
+    let spins = spins.map(|body| largest(&u[body.velocity + 3..][..3]));
+    let (length, speed) = (places.fold(0.0, f64::max), linear(u));
+    let spin = spins.fold(1.0 / scale, f64::max);
+    let dynamics = Dynamics::<f64, _, _>::new(mechanism, AugmentedLagrangian::default());
+    let evaluation = dynamics.and_then(|dynamics| dynamics.evaluate(time, &state));
+    let gained = evaluation.map_or(0.0, |(evaluation, _)| {
+        linear(evaluation.rates.velocities().as_slice())
     });
-    let scale = problem.time_scale();
     let length = length.max(PART * scale * (speed + scale * gained));
     let length = if length > 0.0 { length } else { 1.0 };
     let speed = speed.max(length / scale);
-    let spin = spin.max(1.0 / scale);
+
+    let mut move_by = |numbers: &mut [f64], most: f64| {
+        numbers.iter_mut().for_each(|x| *x += size * most * next());
+    };
     for body in bodies {
         let q = &mut state.coordinates_mut().as_mut_slice()[body.coordinate..];
-        q[..3].iter_mut().for_each(|x| *x += size * length * next());
-        let is_rigid = body.kind == BodyKind::Rigid;
-        if is_rigid {
-            q[3..7].iter_mut().for_each(|x| *x += 0.5 * size * next());
+        move_by(&mut q[..3], length);
+        if is_rigid(&body) {
+            move_by(&mut q[3..7], 0.5);
         }
         let u = &mut state.velocities_mut().as_mut_slice()[body.velocity..];
-        u[..3].iter_mut().for_each(|x| *x += size * speed * next());
-        if is_rigid {
-            u[3..6].iter_mut().for_each(|x| *x += size * spin * next());
+        move_by(&mut u[..3], speed);
+        if is_rigid(&body) {
+            move_by(&mut u[3..6], spin);
         }
     }
     let constants = P::Mechanism::prepare(&mechanism.parameters()?);
-    let time = problem.span().start;
     Projection::default().correct::<P::Mechanism>(&constants, time, &mut state)?;
     Ok(flat::<P::Mechanism>(&state))
 }
