@@ -186,15 +186,29 @@ where
         let clock = end_of_step::<S, M>(&self.clock, dt)?;
         check_state::<S, M>(state)?;
         if let Some(projection) = self.projection {
-            let mut next = *state;
-            self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
-            let constants = self.dynamics.constants();
-            projection.correct_in_motion::<M>(constants, clock.time(), &mut next)?;
-            *state = next;
+            self.projected(state, dt, clock.time(), &projection)?;
         } else {
             self.scheme.step(&mut self.dynamics, time, state, dt)?;
         }
         self.clock = clock;
+        Ok(())
+    }
+
+    /// A step that is corrected. No part of the other, which has no use for its stack.
+    #[inline(never)]
+    fn projected(
+        &mut self,
+        state: &mut M::State<S>,
+        dt: S,
+        end: S,
+        projection: &Projection<S>,
+    ) -> Result<(), Fault> {
+        let mut next = *state;
+        let time = self.time();
+        self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
+        let constants = self.dynamics.constants();
+        projection.correct_in_motion::<M>(constants, end, &mut next)?;
+        *state = next;
         Ok(())
     }
 

@@ -1,8 +1,11 @@
 //! A mechanism as a system of differential equations.
 
+mod faults;
 mod watched;
 
 use core::marker::PhantomData;
+
+pub(crate) use faults::singular;
 
 use crate::array::{Array, StateParts, Vector};
 use crate::compliance::compliances;
@@ -13,13 +16,8 @@ use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
     Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
 };
-use crate::origin::origin;
-use crate::rotation::{
-    bring_to_unit_length, check_state, scale_euler_rates, stretch, with_unit_orientations,
-};
-use crate::sample::Evaluate;
+use crate::rotation::{bring_to_unit_length, scale_euler_rates, stretch, with_unit_orientations};
 use crate::scalar::{Real, Scalar};
-use crate::start::farthest;
 use crate::view::View;
 use crate::watch::Seen;
 
@@ -225,51 +223,25 @@ where
         state: &M::State<S>,
         evaluation: &mut Evaluation<S, M>,
     ) -> Result<usize, Fault> {
-        if Self::IN_PARTS {
-            let parts = self.evaluate_in_parts(time, state)?;
-            *evaluation = parts.evaluation;
-            return Ok(parts.iterations);
-        }
         let Evaluation {
             rates,
             multipliers,
             pivot,
         } = evaluation;
-        *pivot = self.straight(time, state, rates, multipliers);
-        if sound::<S, M, F::Terms>(evaluation) {
-            Ok(1)
+        let mut iterations = 1;
+        if Self::IN_PARTS {
+            match self.evaluate_in_parts(time, state, rates, multipliers) {
+                Ok(parts) => (*pivot, iterations) = (parts.pivot, parts.iterations),
+                Err(Fault::StateNotFinite) => return Err(self.fault(time, state)),
+                Err(fault) => return Err(fault),
+            }
         } else {
-            Err(self.fault(time, state, None))
+            *pivot = self.straight(time, state, rates, multipliers);
         }
-    }
-
-    /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly vanished at a state, and with what the number type resolves
-    /// of a position where that is coarser than an absolute tolerance.
-    #[cold]
-    pub(crate) fn explained(
-        &self,
-        fault: Fault,
-        absolute: Option<S>,
-        (time, state): (S, M::State<S>),
-    ) -> Fault {
-        /// A pivot that has lost this part of its size.
-        const NEARLY_VANISHED: f64 = 1e-4;
-        let Fault::StepSizeUnderflow { step, is_least, .. } = fault else {
-            return fault;
-        };
-        let joint = self.evaluation(time, &state).ok().and_then(|evaluation| {
-            let Pivot { relative, joint } = evaluation.pivot;
-            let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
-            near.then(|| field::<M>(joint.to_f64() as usize))
-        });
-        let resolution = farthest(M::REPORT.bodies, state.coordinates().as_slice()).ulp();
-        Fault::StepSizeUnderflow {
-            step,
-            is_least,
-            joint,
-            resolution: absolute
-                .is_some_and(|absolute| resolution > absolute)
-                .then(|| resolution.to_f64()),
+        if sound::<S, M, F::Terms>(evaluation) {
+            Ok(iterations)
+        } else {
+            Err(self.fault(time, state))
         }
     }
 
@@ -297,33 +269,6 @@ where
         pivot
     }
 
-    /// Pivot and accelerations as an evaluation computes them, by the kernels that it uses, so that no others are compiled.
-    #[cold]
-    #[inline(never)]
-    fn solved_again(
-        &self,
-        time: S,
-        state: &M::State<S>,
-        applied: Option<&M::Velocities<S>>,
-    ) -> (Pivot<S>, M::Velocities<S>) {
-        if !Self::IN_PARTS {
-            let mut evaluation = Evaluation::<S, M>::zeros();
-            let Evaluation {
-                rates, multipliers, ..
-            } = &mut evaluation;
-            let pivot = self.straight(time, state, rates, multipliers);
-            return (pivot, *rates.velocities());
-        }
-        let read = &Self::read(state);
-        let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
-        let upper = applied.map_or_else(|| M::forces(constants, time, read), |&forces| forces);
-        let lower = self.stabilised(time, read);
-        let (accelerations, _) =
-            M::solve::<S, F::Terms>(constants, coefficients, &factors, &upper, &lower);
-        (pivot, accelerations)
-    }
-
     /// The state as the kernels read it.
     #[inline]
     fn read(state: &M::State<S>) -> M::State<S> {
@@ -343,12 +288,23 @@ where
     }
 
     /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
-    fn evaluate_in_parts(&self, time: S, state: &M::State<S>) -> Result<Parts<S, M>, Fault> {
-        let read = &Self::read(state);
+    ///
+    /// # Errors
+    /// [`Fault::StateNotFinite`] where a pivot vanishes or something is not finite: [`Dynamics::fault`] says what, once this has given its stack back.
+    fn evaluate_in_parts(
+        &self,
+        time: S,
+        state: &M::State<S>,
+        rates: &mut M::State<S>,
+        multipliers: &mut M::Multipliers<S>,
+    ) -> Result<Parts<S>, Fault> {
+        // In the place of the rates, which are as long: the stack of a controller is short.
+        *rates = Self::read(state);
+        let read = &*rates;
         let (constants, coefficients) = (&self.constants, &self.coefficients);
         let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
         if vanishes::<S, F::Terms>(pivot.relative) {
-            return Err(singular::<S, M>(&pivot));
+            return Err(Fault::StateNotFinite);
         }
         let mut upper = M::forces(constants, time, read);
         let mut applied_power = S::zero();
@@ -374,51 +330,35 @@ where
             lower: &lower,
             terms: PhantomData,
         };
-        let solution = self
-            .formulation
-            .solve(&saddle)
-            .map_err(|fault| match fault {
-                Fault::RatesNotFinite { .. } => self.fault(time, state, Some(&upper)),
-                other => other,
-            })?;
-        let mut coordinate_rates = M::coordinate_rates(constants, read);
+        let mut solution = saddle.solve();
+        match self.formulation.refine(&saddle, &mut solution) {
+            Ok(()) => {}
+            Err(Fault::RatesNotFinite { .. }) => return Err(Fault::StateNotFinite),
+            Err(fault) => return Err(fault),
+        }
+        let coordinate_rates = M::coordinate_rates(constants, read);
+        *rates.coordinates_mut() = coordinate_rates;
         if P::NORMALISED && !P::NORMALISED_RATES {
-            scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
+            scale_euler_rates::<S, M>(rates.coordinates_mut(), state, |length| length);
         }
-        let rates = M::State::from_parts(coordinate_rates, solution.accelerations);
-        let multipliers = solution.multipliers;
-        let evaluation = Evaluation {
-            rates,
-            multipliers,
+        *rates.velocities_mut() = solution.accelerations;
+        *multipliers = solution.multipliers;
+        Ok(Parts {
             pivot,
-        };
-        if sound::<S, M, F::Terms>(&evaluation) {
-            Ok(Parts {
-                evaluation,
-                iterations: solution.iterations,
-                excused: solution.excused,
-                applied_power,
-            })
-        } else {
-            Err(self.fault(time, state, Some(&upper)))
-        }
+            iterations: solution.iterations,
+            excused: solution.excused,
+            applied_power,
+        })
     }
 
-    /// Why an evaluation is not sound: solved again, so that the rates of one that is sound need not be kept.
-    #[cold]
-    #[inline(never)]
-    fn fault(&self, time: S, state: &M::State<S>, applied: Option<&M::Velocities<S>>) -> Fault {
-        if let Err(fault) = check_state::<S, M>(state) {
-            return fault;
+    /// Forces and moments of the description and of a closure, in a state whose Euler parameters have length 1.
+    fn all_forces(&self, time: S, state: &M::State<S>) -> M::Velocities<S> {
+        let mut forces = M::forces(&self.constants, time, state);
+        if A::PRESENT {
+            self.forces
+                .apply(time, state, &mut Loads::new(state, &mut forces));
         }
-        let (pivot, accelerations) = self.solved_again(time, state, applied);
-        if vanishes::<S, F::Terms>(pivot.relative) {
-            return singular::<S, M>(&pivot);
-        }
-        let read = &Self::read(state);
-        Fault::RatesNotFinite {
-            origin: origin::<S, M, F::Terms>(&self.constants, time, read, applied, &accelerations),
-        }
+        forces
     }
 
     /// How far the accelerations of an evaluation at a state are from what the constraints ask: the largest `|D u' - gamma*|` of a row, relative to
@@ -433,11 +373,7 @@ where
         evaluation: &Evaluation<S, M>,
     ) -> (S, Option<&'static str>) {
         let read = &Self::read(state);
-        let mut forces = M::forces(&self.constants, time, read);
-        if A::PRESENT {
-            self.forces
-                .apply(time, read, &mut Loads::new(read, &mut forces));
-        }
+        let forces = self.all_forces(time, read);
         let gamma = self.stabilised(time, read);
         let accelerations = evaluation.rates.velocities();
         let (row, size) = inconsistency::<S, M>(
@@ -491,8 +427,8 @@ where
         let mut rates = M::State::from_parts(Array::zeros(), Array::zeros());
         match self.stage(time, state, &mut rates) {
             Ok(()) if rates.is_finite() => Ok(rates),
-            Err(fault) if Self::IN_PARTS => Err(fault),
-            _ => Err(self.fault(time, state, None)),
+            Ok(()) | Err(Fault::StateNotFinite) => Err(self.fault(time, state)),
+            Err(fault) => Err(fault),
         }
     }
 
@@ -504,12 +440,12 @@ where
         state: &M::State<S>,
         rates: &mut M::State<S>,
     ) -> Result<(), Fault> {
+        let mut multipliers = Array::zeros();
         if Self::IN_PARTS {
-            let parts = self.evaluate_in_parts(time, state)?;
-            *rates = self.gathered(&parts);
+            let parts = self.evaluate_in_parts(time, state, rates, &mut multipliers)?;
+            self.gather(&parts, &multipliers);
             return Ok(());
         }
-        let mut multipliers = Array::zeros();
         let pivot = self.straight(time, state, rates, &mut multipliers);
         if vanishes::<S, F::Terms>(pivot.relative) {
             // Why is not asked here: a reference to the state would keep it in memory at every stage.
@@ -517,6 +453,10 @@ where
         }
         self.look(pivot.relative, &multipliers);
         Ok(())
+    }
+
+    fn why(&mut self, time: S, state: &M::State<S>) -> Option<Fault> {
+        Some(self.fault(time, state))
     }
 
     #[inline]
@@ -552,9 +492,9 @@ where
     }
 }
 
-/// An evaluation from its parts.
-struct Parts<S: Real, M: Mechanism> {
-    evaluation: Evaluation<S, M>,
+/// What an evaluation from its parts tells besides rates and multipliers.
+struct Parts<S> {
+    pivot: Pivot<S>,
     iterations: usize,
     /// Whether the iteration was ended before its tolerance.
     excused: bool,
@@ -573,19 +513,4 @@ fn sound<S: Real, M: Mechanism, T: Terms>(evaluation: &Evaluation<S, M>) -> bool
 #[inline(always)]
 pub(crate) fn vanishes<S: Real, T: Terms>(relative_pivot: S) -> bool {
     !T::COMPLIANT && relative_pivot < S::constant(64.0) * S::EPSILON
-}
-
-#[cold]
-pub(crate) fn singular<S: Real, M: Mechanism>(pivot: &Pivot<S>) -> Fault {
-    let joint = pivot.joint.to_f64() as usize;
-    Fault::Singular {
-        joint,
-        name: field::<M>(joint),
-        relative_pivot: pivot.relative.to_f64(),
-    }
-}
-
-/// The field of a joint.
-fn field<M: Mechanism>(joint: usize) -> &'static str {
-    M::REPORT.joints.get(joint).map_or("", |info| info.name)
 }

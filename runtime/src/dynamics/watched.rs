@@ -4,7 +4,7 @@ use super::{Dynamics, Parts};
 use crate::array::{Array, StateParts};
 use crate::formulation::Formulation;
 use crate::load::AppliedForces;
-use crate::mechanism::{Evaluation, Mechanism, Orientation, Pivot, Plain, Terms};
+use crate::mechanism::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::sample::Evaluate;
 use crate::scalar::Real;
 use crate::watch::{Step, Watch};
@@ -42,14 +42,9 @@ where
         }
     }
 
-    /// Counts and looks at an evaluation in parts, and hands on its rates.
-    pub(super) fn gathered(&mut self, parts: &Parts<S, M>) -> M::State<S> {
-        let Evaluation {
-            rates,
-            multipliers,
-            pivot,
-        } = &parts.evaluation;
-        self.look(pivot.relative, multipliers);
+    /// Counts and looks at an evaluation in parts.
+    pub(super) fn gather(&mut self, parts: &Parts<S>, multipliers: &M::Multipliers<S>) {
+        self.look(parts.pivot.relative, multipliers);
         self.seen.applied_power = parts.applied_power;
         if F::ITERATED {
             let excused = usize::from(parts.excused);
@@ -57,7 +52,6 @@ where
             self.iterations.total = self.iterations.total.saturating_add(parts.iterations);
             self.iterations.largest = self.iterations.largest.max(parts.iterations);
         }
-        *rates
     }
 
     /// Shows the end of a step to the watch, with what was seen at the last evaluation.
@@ -132,7 +126,7 @@ where
             let pivot = if F::Terms::COMPLIANT {
                 self.rigid_pivot(time, &state)
             } else {
-                self.solved_again(time, &state, None).0
+                self.solved_again(time, &state).0
             };
             watch.name(pivot.joint.to_f64() as usize);
         }

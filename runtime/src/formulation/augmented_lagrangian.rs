@@ -116,60 +116,16 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
         penalty::stabilisation(self.alpha, self.omega, self.mu)
     }
 
-    fn solve<M: Mechanism>(
+    fn refine<M: Mechanism>(
         &self,
         saddle: &Saddle<'_, S, M, Compliant>,
-    ) -> Result<Solution<S, M>, Fault> {
-        let mut last = saddle.solve();
+        solution: &mut Solution<S, M>,
+    ) -> Result<(), Fault> {
         if self.is_exact {
-            let mut before = last;
-            for _ in 1..self.max_iterations {
-                before = last;
-                last = saddle.solve_after(&last.multipliers);
-            }
-            last.iterations = self.max_iterations;
-            let size = square(last.accelerations.as_slice()).sqrt();
-            self.ended(
-                norm_of_difference(&last.accelerations, &before.accelerations),
-                size,
-            )?;
-            return Ok(last);
+            self.as_often(saddle, solution)
+        } else {
+            self.until_small(saddle, solution)
         }
-        let mut change = S::zero();
-        let mut worst = 0;
-        for iterations in 2..=self.max_iterations {
-            let mut next = saddle.solve_after(&last.multipliers);
-            next.iterations = iterations;
-            change = norm_of_difference(&next.accelerations, &last.accelerations);
-            if self.small(change, &next) {
-                return Ok(next);
-            }
-            if !change.is_finite() {
-                let origin = NotFinite::Unknown;
-                return Err(Fault::RatesNotFinite { origin });
-            }
-            if iterations == self.max_iterations {
-                let (row, missing) = saddle.inconsistency(&next);
-                worst = row;
-                if missing <= S::constant(EXCUSED) && saddle.self_stressed(&next, &last.multipliers)
-                {
-                    let passing = saddle.passing(&next, &last.multipliers);
-                    next.excused = true;
-                    return Ok(if passing {
-                        next
-                    } else {
-                        self.by_conjugate_gradients(saddle, next)
-                    });
-                }
-            }
-            last = next;
-        }
-        Err(Fault::NotConverged {
-            iterations: self.max_iterations,
-            residual: change.to_f64(),
-            joint: M::REPORT.joint_of(worst),
-            alpha: Some(self.alpha.to_f64()),
-        })
     }
 
     fn solve_joints<M: JointCoordinates>(
@@ -181,6 +137,65 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
 }
 
 impl<S: Real> AugmentedLagrangian<S> {
+    /// An exact number of solutions. Apart from the other way, which takes more stack.
+    #[inline(never)]
+    fn as_often<M: Mechanism>(
+        &self,
+        saddle: &Saddle<'_, S, M, Compliant>,
+        last: &mut Solution<S, M>,
+    ) -> Result<(), Fault> {
+        let mut before = last.accelerations;
+        for _ in 1..self.max_iterations {
+            before = last.accelerations;
+            saddle.solve_again(last);
+        }
+        last.iterations = self.max_iterations;
+        let size = square(last.accelerations.as_slice()).sqrt();
+        self.ended(norm_of_difference(&last.accelerations, &before), size)
+    }
+
+    /// As many solutions as it takes.
+    #[inline(never)]
+    fn until_small<M: Mechanism>(
+        &self,
+        saddle: &Saddle<'_, S, M, Compliant>,
+        next: &mut Solution<S, M>,
+    ) -> Result<(), Fault> {
+        let mut change = S::zero();
+        let mut worst = 0;
+        for iterations in 2..=self.max_iterations {
+            let last = *next;
+            saddle.solve_again(next);
+            next.iterations = iterations;
+            change = norm_of_difference(&next.accelerations, &last.accelerations);
+            if self.small(change, next) {
+                return Ok(());
+            }
+            if !change.is_finite() {
+                let origin = NotFinite::Unknown;
+                return Err(Fault::RatesNotFinite { origin });
+            }
+            if iterations == self.max_iterations {
+                let (row, missing) = saddle.inconsistency(next);
+                worst = row;
+                if missing <= S::constant(EXCUSED) && saddle.self_stressed(next, &last.multipliers)
+                {
+                    next.excused = true;
+                    if !saddle.passing(next, &last.multipliers) {
+                        *next = self.by_conjugate_gradients(saddle, *next);
+                    }
+                    return Ok(());
+                }
+            }
+        }
+        Err(Fault::NotConverged {
+            iterations: self.max_iterations,
+            residual: change.to_f64(),
+            joint: M::REPORT.joint_of(worst),
+            alpha: Some(self.alpha.to_f64()),
+        })
+    }
+
     /// Refuses an exact number of solutions that are not enough by far.
     pub(super) fn ended(&self, change: S, size: S) -> Result<(), Fault> {
         if change > S::constant(EXCUSED) * (S::one() + size) {
@@ -212,7 +227,8 @@ impl<S: Real> AugmentedLagrangian<S> {
         let mut last = excused;
         let mut course = Conjugate::<S, M>::new();
         for iterations in 1..=self.max_iterations {
-            let mut next = saddle.solve_after(&last.multipliers);
+            let mut next = last;
+            saddle.solve_again(&mut next);
             next.iterations = self.max_iterations + iterations;
             let changes = (
                 difference_of(&next.accelerations, &last.accelerations),

@@ -57,7 +57,7 @@ pub trait Formulation<S: Real>: Copy + Debug {
     /// The terms of the saddle system that this formulation has.
     type Terms: Terms;
 
-    /// Whether one evaluation solves the system more than once, see [`Formulation::solve`].
+    /// Whether one evaluation solves the system more than once, see [`Formulation::refine`].
     const ITERATED: bool = false;
 
     /// The coefficients of the saddle system.
@@ -72,15 +72,16 @@ pub trait Formulation<S: Real>: Copy + Debug {
         None
     }
 
-    /// Accelerations and multipliers from the factorised system: solves it once, with `lambda_previous = 0`.
+    /// Goes on from a solution of the factorised system, that with `lambda_previous = 0`: leaves it as it is.
     ///
     /// # Errors
     /// [`Fault::NotConverged`] for a formulation that iterates.
-    fn solve<M: Mechanism>(
+    fn refine<M: Mechanism>(
         &self,
-        saddle: &Saddle<'_, S, M, Self::Terms>,
-    ) -> Result<Solution<S, M>, Fault> {
-        Ok(saddle.solve())
+        _saddle: &Saddle<'_, S, M, Self::Terms>,
+        _solution: &mut Solution<S, M>,
+    ) -> Result<(), Fault> {
+        Ok(())
     }
 
     /// The same in joint coordinates, where the system has been solved once, with `lambda_previous = 0`: takes that solution.
@@ -112,18 +113,26 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
     /// The solution with `lambda_previous = 0`.
     #[must_use]
     pub fn solve(&self) -> Solution<S, M> {
-        self.solve_for(self.lower)
+        let mut solution = Solution {
+            accelerations: M::Velocities::zeros(),
+            multipliers: M::Multipliers::zeros(),
+            iterations: 1,
+            excused: false,
+        };
+        self.solve_for(self.lower, &mut solution);
+        solution
     }
 
-    /// The solution with the multipliers of a solution before.
-    #[must_use]
-    pub fn solve_after(&self, previous: &M::Multipliers<S>) -> Solution<S, M> {
+    /// The solution with the multipliers of a solution before, in its place.
+    #[inline]
+    pub fn solve_again(&self, solution: &mut Solution<S, M>) {
         let mut lower = *self.lower;
-        let rows = lower.as_mut_slice().iter_mut().zip(previous.as_slice());
+        let previous = solution.multipliers.as_slice();
+        let rows = lower.as_mut_slice().iter_mut().zip(previous);
         for ((element, &lambda), &compliance) in rows.zip(self.compliances.as_slice()) {
             *element = *element - compliance * lambda;
         }
-        self.solve_for(&lower)
+        self.solve_for(&lower, solution);
     }
 
     /// The row whose accelerations are farthest from `D u' = gamma*`, and how far, relative to its terms: what a compliance does to the
@@ -156,20 +165,16 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
         self_stressed::<S, M>(self.constants, self.time, self.state, &difference)
     }
 
-    fn solve_for(&self, lower: &M::Multipliers<S>) -> Solution<S, M> {
-        let (accelerations, multipliers) = M::solve::<S, T>(
+    // One piece of code for all solutions of a formulation that iterates, and one stack.
+    #[inline(never)]
+    fn solve_for(&self, lower: &M::Multipliers<S>, solution: &mut Solution<S, M>) {
+        (solution.accelerations, solution.multipliers) = M::solve::<S, T>(
             self.constants,
             self.coefficients,
             self.factors,
             self.upper,
             lower,
         );
-        Solution {
-            accelerations,
-            multipliers,
-            iterations: 1,
-            excused: false,
-        }
     }
 }
 

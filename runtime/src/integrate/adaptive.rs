@@ -2,10 +2,9 @@
 
 use core::mem::{replace, swap};
 
-use super::controller::Controller;
+use super::controller::{Controller, FIRST_SHARE};
 use super::{
-    Adaptive, Checked, Counted, Counts, Course, EmbeddedPair, Ends, Span, Start, Stride, System,
-    named,
+    Adaptive, Counted, Counts, Course, EmbeddedPair, Ends, Span, Start, Stride, System, named,
 };
 use crate::array::Vector;
 use crate::error::Fault;
@@ -60,19 +59,18 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         span: Span<S>,
         state: X,
     ) -> Result<Self, Fault> {
-        let controller = Controller::new(method, &span)?;
+        let controller = Controller::new(method.tolerance, &method.limits, K::POWER, &span)?;
         let mut counts = Counts::default();
         let last = Counted {
             system,
             counts: &mut counts,
         }
         .rates(span.start, &state)?;
-        let slope = state.relative_norm(&state, controller.floor, [(S::one(), &last)]);
         Ok(Self {
             pair: method.pair,
             controller,
             end: span.end,
-            next_step: controller.first(&span, slope),
+            next_step: controller.first(&span, &state, &last, FIRST_SHARE),
             counts,
             time: span.start,
             replaced: false,
@@ -150,16 +148,13 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         end: S,
         fault: Option<Fault>,
     ) -> Option<Fault> {
-        named(fault, || {
-            let mut system = Checked { system };
+        named(fault, system, |system| {
             let start = Start {
                 time: self.time,
                 state: &self.state,
                 slope: &self.first,
             };
-            let state = self
-                .pair
-                .stride(&mut system, start, step, &mut self.stages)?;
+            let state = self.pair.stride(system, start, step, &mut self.stages)?;
             system.rates(end, &state)
         })
     }
@@ -185,12 +180,8 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<
             swap(&mut self.first, &mut self.last);
         }
         let smallest = self.controller.smallest(self.time);
-        let remaining = self.end - self.time;
-        let mut size = self.controller.limited(self.time, self.next_step);
-        let mut stretched = S::constant(1.1) * size >= remaining;
-        if stretched {
-            size = remaining;
-        }
+        let interval = (self.time, self.end);
+        let (mut size, mut stretched) = self.controller.opening(interval, self.next_step);
         let mut failed_before = false;
         loop {
             let end = if stretched {
@@ -219,12 +210,7 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<
             if size <= smallest {
                 return Err(match outcome {
                     Err(fault) => fault,
-                    Ok(_) => Fault::StepSizeUnderflow {
-                        step: size.to_f64(),
-                        is_least: self.controller.is_held(self.time),
-                        joint: None,
-                        resolution: None,
-                    },
+                    Ok(_) => self.controller.underflow(size, self.time),
                 });
             }
             let shrunk = match outcome {

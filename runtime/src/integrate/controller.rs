@@ -1,6 +1,7 @@
 //! The step control of MATLAB's `ode45` and `ode23`, as pure functions.
 
-use super::{Adaptive, EmbeddedPair, Span, positive};
+use super::{Span, StepLimits, positive};
+use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
 
@@ -30,7 +31,7 @@ impl<S: Real> Default for Tolerance<S> {
 pub(super) struct Controller<S> {
     /// One over the power of the step that the error goes with.
     exponent: f64,
-    relative: S,
+    pub(super) relative: S,
     /// `absolute / relative`: the element below which the absolute tolerance counts.
     pub(super) floor: S,
     first: Option<S>,
@@ -38,14 +39,17 @@ pub(super) struct Controller<S> {
     largest: S,
 }
 
+/// What the first step takes of the change that the tolerance allows, if a method does not say otherwise.
+pub(super) const FIRST_SHARE: f64 = 0.8;
+
 impl<S: Real> Controller<S> {
-    pub(super) fn new<K: EmbeddedPair<S>>(
-        method: &Adaptive<S, K>,
+    /// With the power of the step that the error goes with; of a method of many orders, that of the first step.
+    pub(super) fn new(
+        tolerance: Tolerance<S>,
+        limits: &StepLimits<S>,
+        power: f64,
         span: &Span<S>,
     ) -> Result<Self, Fault> {
-        let Adaptive {
-            tolerance, limits, ..
-        } = method;
         let relative = positive("relative tolerance", tolerance.relative)?;
         let absolute = positive("absolute tolerance", tolerance.absolute)?;
         let duration = span.duration()?;
@@ -55,7 +59,7 @@ impl<S: Real> Controller<S> {
         let largest = set("largest step", limits.largest)?;
         let least = set("least step", limits.least)?.unwrap_or(S::zero());
         Ok(Self {
-            exponent: 1.0 / K::POWER,
+            exponent: 1.0 / power,
             relative,
             floor: absolute.quotient(relative),
             first: set("first step", limits.first)?,
@@ -69,17 +73,30 @@ impl<S: Real> Controller<S> {
         self.least.max(S::constant(16.0) * time.ulp())
     }
 
-    /// Whether a limit of the user's is what keeps a step at a time from becoming smaller.
-    pub(super) fn is_held(&self, time: S) -> bool {
-        self.least >= self.smallest(time)
+    /// The end of an integration at a time where a step as small as it may be is not accepted.
+    #[cold]
+    pub(super) fn underflow(&self, step: S, time: S) -> Fault {
+        Fault::StepSizeUnderflow {
+            step: step.to_f64(),
+            is_least: self.least >= self.smallest(time),
+            joint: None,
+            resolution: None,
+        }
     }
 
-    /// The first step; `slope` is `max |f0| / max(|y0|, floor)`.
-    pub(super) fn first(&self, span: &Span<S>, slope: S) -> S {
+    /// The first step from a state with its slope; `share` is what it takes of the change that the tolerance allows.
+    pub(super) fn first<X: Vector<S>>(
+        &self,
+        span: &Span<S>,
+        state: &X,
+        slope: &X,
+        share: f64,
+    ) -> S {
         if let Some(first) = self.first {
             return self.limited(span.start, first);
         }
-        let rate = slope.quotient(S::constant(0.8) * self.relative.powf(self.exponent));
+        let rate = state.relative_norm(state, self.floor, [(S::one(), slope)]);
+        let rate = rate.quotient(S::constant(share) * self.relative.powf(self.exponent));
         let step = self.largest.min(span.first_output);
         let step = if step * rate > S::one() {
             rate.reciprocal()
@@ -92,6 +109,17 @@ impl<S: Real> Controller<S> {
     /// A step within its limits.
     pub(super) fn limited(&self, time: S, step: S) -> S {
         self.largest.min(self.smallest(time).max(step))
+    }
+
+    /// The first trial of a step, and whether it is stretched to the end of the interval: if it comes within a tenth of it.
+    pub(super) fn opening(&self, (time, end): (S, S), step: S) -> (S, bool) {
+        let size = self.limited(time, step);
+        let remaining = end - time;
+        if S::constant(1.1) * size >= remaining {
+            (remaining, true)
+        } else {
+            (size, false)
+        }
     }
 
     /// Whether a trial with this error is accepted; not if the error is NaN.

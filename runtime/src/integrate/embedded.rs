@@ -1,8 +1,9 @@
 //! Embedded pairs of Runge-Kutta methods, and what a user says of their steps.
 
+use super::controlled::step_limits;
 use super::{
     AdaptiveCourse, BogackiShampine3, DormandPrince5, DormandPrince8, FixedStep, Integrator,
-    Scheme, Span, Stride, System, Tolerance,
+    Scheme, Span, StepLimits, Stride, System, Tolerance,
 };
 use crate::array::Vector;
 use crate::error::Fault;
@@ -41,72 +42,7 @@ pub struct Adaptive<S, K> {
     pub pair: K,
 }
 
-/// What a step control is held to besides its tolerance. Nothing of it is set by default but the budget.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepLimits<S> {
-    /// The first step (s), in the place of that of the control.
-    pub first: Option<S>,
-    /// The smallest step (s): where a smaller one would be needed, the integration ends with
-    /// [`Fault::StepSizeUnderflow`]. Never below the resolution of the time.
-    pub least: Option<S>,
-    /// The largest step (s), in the place of a tenth of the interval. What happens within a step and leaves no trace at its stages, such as a
-    /// short pulse of a force, is not seen: a step must not be longer than that.
-    pub largest: Option<S>,
-    /// How many evaluations a run may take, [`StepLimits::EVALUATIONS`] by default: then it ends with [`Fault::Budget`].
-    pub evaluations: usize,
-}
-
-impl<S> StepLimits<S> {
-    /// Ten million evaluations. What takes more is most often caught at a singular configuration, or stiff.
-    pub const EVALUATIONS: usize = 10_000_000;
-
-    /// No limits but the budget of evaluations.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self {
-            first: None,
-            least: None,
-            largest: None,
-            evaluations: Self::EVALUATIONS,
-        }
-    }
-}
-
-impl<S> Default for StepLimits<S> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<S, K> Adaptive<S, K> {
-    /// Begins with this step (s).
-    #[must_use]
-    pub fn first_step(mut self, step: S) -> Self {
-        self.limits.first = Some(step);
-        self
-    }
-
-    /// Takes no step shorter than this (s); see [`StepLimits::least`].
-    #[must_use]
-    pub fn least_step(mut self, step: S) -> Self {
-        self.limits.least = Some(step);
-        self
-    }
-
-    /// Takes no step longer than this (s); see [`StepLimits::largest`].
-    #[must_use]
-    pub fn largest_step(mut self, step: S) -> Self {
-        self.limits.largest = Some(step);
-        self
-    }
-
-    /// Lets a run take so many evaluations; see [`StepLimits::evaluations`].
-    #[must_use]
-    pub fn budget(mut self, evaluations: usize) -> Self {
-        self.limits.evaluations = evaluations;
-        self
-    }
-}
+step_limits!(Adaptive<S, K>);
 
 /// The constructors of a pair.
 macro_rules! constructors {

@@ -1,7 +1,7 @@
 //! A scheme at a fixed step.
 
 use super::{
-    Checked, Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named,
+    Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named,
     positive, refused,
 };
 use crate::array::Vector;
@@ -28,8 +28,7 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
         span: Span<S>,
         state: Y::State,
     ) -> Result<FixedCourse<S, Y::State, K>, Fault> {
-        let step = positive("step", self.step)?;
-        span.duration()?;
+        let grid = Grid::new(self.step, &span)?;
         let mut counts = Counts::default();
         let last = Counted {
             system,
@@ -38,9 +37,7 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
         .rates(span.start, &state)?;
         Ok(FixedCourse {
             scheme: self.scheme,
-            nominal: step,
-            origin: span.start,
-            end: span.end,
+            grid,
             counts,
             time: span.start,
             from: state.clone(),
@@ -64,12 +61,63 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
     }
 }
 
+/// The times of a fixed step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid<S> {
+    pub(super) nominal: S,
+    origin: S,
+    pub(super) end: S,
+}
+
+impl<S: Real> Grid<S> {
+    pub(super) fn new(step: S, span: &Span<S>) -> Result<Self, Fault> {
+        let nominal = positive("step", step)?;
+        span.duration()?;
+        Ok(Self {
+            nominal,
+            origin: span.start,
+            end: span.end,
+        })
+    }
+
+    /// The next step after so many, and the time that it leads to.
+    pub(super) fn next(&self, accepted: usize, time: S) -> Result<(S, S), Fault> {
+        let index = S::constant((accepted + 1) as f64);
+        let mut end = index.fused(self.nominal, self.origin);
+        let mut step = self.nominal;
+        if end + S::constant(8.0) * self.end.ulp() >= self.end {
+            end = self.end;
+            step = end - time;
+        }
+        if end <= time {
+            return Err(Fault::StepTooShort {
+                step: step.to_f64(),
+                time: time.to_f64(),
+            });
+        }
+        Ok((step, end))
+    }
+}
+
+/// The slope at a state, written over another; refused if it is not finite.
+pub(super) fn slope<S: Real, Y: System<S>>(
+    system: &mut Y,
+    counts: &mut Counts,
+    (time, state): (S, &Y::State),
+    slope: &mut Y::State,
+) -> Result<(), Fault> {
+    let outcome = Counted { system, counts }.stage(time, state, slope);
+    if outcome.is_err() || !slope.is_finite() {
+        let fault = named(outcome.err(), system, |system| system.rates(time, state));
+        return Err(fault.unwrap_or(Fault::StateNotFinite));
+    }
+    Ok(())
+}
+
 /// An integration with a [`FixedStep`] under way.
 pub struct FixedCourse<S: Real, X: Vector<S>, K: Scheme<S>> {
     scheme: K,
-    nominal: S,
-    origin: S,
-    end: S,
+    grid: Grid<S>,
     counts: Counts,
     time: S,
     state: X,
@@ -90,15 +138,8 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> FixedCourse<S, X, K> {
     /// Computes the slope at the state that was reached, once.
     fn slope<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
         if !self.known {
-            let mut counted = Counted {
-                system,
-                counts: &mut self.counts,
-            };
-            let outcome = counted.stage(self.time, &self.state, &mut self.last);
-            if outcome.is_err() || !self.last.is_finite() {
-                let again = || Checked { system }.rates(self.time, &self.state);
-                return Err(named(outcome.err(), again).unwrap_or(Fault::StateNotFinite));
-            }
+            let at = (self.time, &self.state);
+            slope(system, &mut self.counts, at, &mut self.last)?;
             self.known = true;
         }
         Ok(())
@@ -116,19 +157,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.slope(system)?;
-        let index = S::constant((self.counts.accepted + 1) as f64);
-        let mut end = index.fused(self.nominal, self.origin);
-        let mut step = self.nominal;
-        if end + S::constant(8.0) * self.end.ulp() >= self.end {
-            end = self.end;
-            step = end - self.time;
-        }
-        if end <= self.time {
-            return Err(Fault::StepTooShort {
-                step: step.to_f64(),
-                time: self.time.to_f64(),
-            });
-        }
+        let (step, end) = self.grid.next(self.counts.accepted, self.time)?;
         let mut counted = Counted {
             system,
             counts: &mut self.counts,

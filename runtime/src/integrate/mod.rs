@@ -16,7 +16,10 @@
 
 mod adaptive;
 mod bogacki_shampine;
+mod checked;
+mod controlled;
 mod controller;
+mod counted;
 mod dense;
 mod dormand_prince;
 mod dormand_prince_8;
@@ -32,10 +35,12 @@ mod tests;
 
 pub use adaptive::AdaptiveCourse;
 pub use bogacki_shampine::{BogackiShampine, BogackiShampine3, BogackiShampineStages};
+pub use controlled::StepLimits;
 pub use controller::Tolerance;
+pub use counted::Counts;
 pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
 pub use dormand_prince_8::{DormandPrince8, DormandPrince8Stages, DormandPrince853};
-pub use embedded::{Adaptive, EmbeddedPair, StepLimits};
+pub use embedded::{Adaptive, EmbeddedPair};
 pub use fixed::{FixedCourse, FixedStep};
 pub use rk2::{Heun, Midpoint};
 pub use rk4::Rk4;
@@ -43,6 +48,8 @@ pub use semi_implicit::SemiImplicitEuler;
 
 use core::fmt::Debug;
 
+use self::checked::named;
+use self::counted::Counted;
 use crate::array::Vector;
 use crate::error::Fault;
 use crate::reporting::interval;
@@ -80,11 +87,11 @@ pub trait System<S: Real> {
     /// Rates that are not finite, and what else keeps the system from having rates here.
     fn rates(&mut self, time: S, state: &Self::State) -> Result<Self::State, Fault>;
 
-    /// Writes the rates at a stage of a step. They need not be finite: whoever takes the step looks at what it leads to, once, and asks
-    /// [`System::rates`] at every stage where that is not finite.
+    /// Writes the rates at a stage of a step. They need not be finite: whoever takes the step looks at what it leads to, once, and where that is not finite asks
+    /// [`System::why`] at the first stage that is not.
     ///
     /// # Errors
-    /// What else keeps the system from having rates here; [`Fault::StateNotFinite`] leaves it to [`System::rates`] to say why.
+    /// What else keeps the system from having rates here; [`Fault::StateNotFinite`] leaves it to [`System::why`] to say why.
     #[inline(always)]
     fn stage(
         &mut self,
@@ -94,6 +101,11 @@ pub trait System<S: Real> {
     ) -> Result<(), Fault> {
         *rates = self.rates(time, state)?;
         Ok(())
+    }
+
+    /// Why the rates of a stage are not taken: asked once, after the step has given its stack back. `None` where nothing is wrong with them.
+    fn why(&mut self, time: S, state: &Self::State) -> Option<Fault> {
+        self.rates(time, state).err()
     }
 
     /// Puts the rates of the coordinates at the velocities at the end of a step in the place of those at its start: at the velocities that the other rates lead to.
@@ -181,7 +193,7 @@ pub trait Course<S: Real, X: Vector<S>> {
     /// A fault of the system, where the interpolant needs an evaluation at the end of the step.
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault>;
 
-    /// Puts a corrected state in the place of [`Course::state`]. Call [`Course::at`] before, not after.
+    /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a method that looks back at former steps goes on with these. Call [`Course::at`] before, not after.
     fn replace(&mut self, state: X);
 
     /// What it has cost so far.
@@ -325,28 +337,6 @@ impl<S: Real> Span<S> {
     }
 }
 
-/// What an integration has cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts {
-    /// Evaluations of the rates.
-    pub evaluations: usize,
-    /// Steps that were accepted.
-    pub accepted: usize,
-    /// Steps that were tried and rejected.
-    pub rejected: usize,
-}
-
-impl Counts {
-    /// These and those of a course that went on.
-    pub(crate) fn plus(self, more: Self) -> Self {
-        Self {
-            evaluations: self.evaluations.saturating_add(more.evaluations),
-            accepted: self.accepted.saturating_add(more.accepted),
-            rejected: self.rejected.saturating_add(more.rejected),
-        }
-    }
-}
-
 /// A step, if it leads to a state that is finite; else why not, if that is known. No part of its caller: its stack is free again where a step is looked into that was
 /// refused.
 #[inline(never)]
@@ -363,12 +353,12 @@ fn attempt<S: Real, K: Scheme<S>, Y: System<S>>(
         state,
         slope: &slope,
     };
-    let mut next = scheme.stride(system, start, step, &mut scheme.stages(&slope))?;
+    let next = scheme.stride(system, start, step, &mut scheme.stages(&slope))?;
     if !next.is_finite() {
         return Err(None);
     }
-    system.settle(&mut next, None);
     *state = next;
+    system.settle(state, None);
     Ok(())
 }
 
@@ -382,82 +372,12 @@ fn refused<S: Real, K: Scheme<S>, X: Vector<S>>(
     step: S,
     fault: Option<Fault>,
 ) -> Fault {
-    named(fault, || {
-        let mut system = Checked { system };
+    named(fault, system, |system| {
         let slope = &system.rates(time, state)?;
         let start = Start { time, state, slope };
-        scheme.stride(&mut system, start, step, &mut scheme.stages(slope))
+        scheme.stride(system, start, step, &mut scheme.stages(slope))
     })
     .unwrap_or(Fault::StateNotFinite)
-}
-
-/// A fault of a stage that says why; else that of the same once more, with a look at the rates of every stage.
-fn named<X>(fault: Option<Fault>, again: impl FnOnce() -> Result<X, Fault>) -> Option<Fault> {
-    match fault {
-        None | Some(Fault::StateNotFinite) => again().err().or(fault),
-        known => known,
-    }
-}
-
-/// A system that looks at the rates of every stage; one piece of code for all systems with such states.
-struct Checked<'a, S, X> {
-    system: &'a mut dyn System<S, State = X>,
-}
-
-impl<S: Real, X: Vector<S>> System<S> for Checked<'_, S, X> {
-    type State = X;
-
-    fn rates(&mut self, time: S, state: &X) -> Result<X, Fault> {
-        self.system.rates(time, state)
-    }
-
-    fn with_new_velocities(
-        &mut self,
-        time: S,
-        state: &X,
-        step: S,
-        rates: &mut X,
-    ) -> Result<(), Fault> {
-        self.system.with_new_velocities(time, state, step, rates)
-    }
-}
-
-/// A system that counts its evaluations.
-struct Counted<'a, Y> {
-    system: &'a mut Y,
-    counts: &'a mut Counts,
-}
-
-impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
-    type State = Y::State;
-
-    #[inline(always)]
-    fn rates(&mut self, time: S, state: &Y::State) -> Result<Y::State, Fault> {
-        self.counts.evaluations += 1;
-        self.system.rates(time, state)
-    }
-
-    #[inline(always)]
-    fn stage(&mut self, time: S, state: &Y::State, rates: &mut Y::State) -> Result<(), Fault> {
-        self.counts.evaluations += 1;
-        self.system.stage(time, state, rates)
-    }
-
-    #[inline(always)]
-    fn with_new_velocities(
-        &mut self,
-        time: S,
-        state: &Y::State,
-        step: S,
-        rates: &mut Y::State,
-    ) -> Result<(), Fault> {
-        self.system.with_new_velocities(time, state, step, rates)
-    }
-
-    #[inline(always)]
-    fn settle(&mut self, state: &mut Y::State, rates: Option<&mut Y::State>) {
-        self.system.settle(state, rates);
-    }
 }
 
 /// Refuses a setting that is not finite and positive.

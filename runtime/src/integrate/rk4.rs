@@ -65,12 +65,13 @@ impl<S: Real> Scheme<S> for Rk4 {
         }
         let mut slope = first.clone();
         let mut next = state.plus([(sixth, first)]);
-        system.stage(time + half, &state.plus([(half, first)]), &mut slope)?;
-        next = next.plus([(third, &slope)]);
-        let at = state.plus([(half, &slope)]);
+        let mut at = state.plus([(half, first)]);
         system.stage(time + half, &at, &mut slope)?;
         next = next.plus([(third, &slope)]);
-        let at = state.plus([(step, &slope)]);
+        at = state.plus([(half, &slope)]);
+        system.stage(time + half, &at, &mut slope)?;
+        next = next.plus([(third, &slope)]);
+        at = state.plus([(step, &slope)]);
         system.stage(time + step, &at, &mut slope)?;
         Ok(next.plus([(sixth, &slope)]))
     }

@@ -1,0 +1,117 @@
+//! Why a mechanism has no rates: asked after a step was refused, apart from what a step takes.
+
+use super::{Dynamics, vanishes};
+use crate::array::{Array, StateParts};
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::load::AppliedForces;
+use crate::mechanism::{Evaluation, Mechanism, Orientation, Pivot, Terms};
+use crate::origin::origin;
+use crate::rotation::check_state;
+use crate::sample::Evaluate;
+use crate::scalar::Real;
+use crate::start::farthest;
+
+impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+{
+    /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly vanished at a state, and with what the number type resolves
+    /// of a position where that is coarser than an absolute tolerance.
+    #[cold]
+    pub(crate) fn explained(
+        &self,
+        fault: Fault,
+        absolute: Option<S>,
+        (time, state): (S, M::State<S>),
+    ) -> Fault {
+        /// A pivot that has lost this part of its size.
+        const NEARLY_VANISHED: f64 = 1e-4;
+        let Fault::StepSizeUnderflow { step, is_least, .. } = fault else {
+            return fault;
+        };
+        let joint = self.evaluation(time, &state).ok().and_then(|evaluation| {
+            let Pivot { relative, joint } = evaluation.pivot;
+            let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
+            near.then(|| field::<M>(joint.to_f64() as usize))
+        });
+        let resolution = farthest(M::REPORT.bodies, state.coordinates().as_slice()).ulp();
+        Fault::StepSizeUnderflow {
+            step,
+            is_least,
+            joint,
+            resolution: absolute
+                .is_some_and(|absolute| resolution > absolute)
+                .then(|| resolution.to_f64()),
+        }
+    }
+
+    /// Why an evaluation is not sound: solved again, so that the rates of one that is sound need not be kept.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn fault(&self, time: S, state: &M::State<S>) -> Fault {
+        if let Err(fault) = check_state::<S, M>(state) {
+            return fault;
+        }
+        let (pivot, accelerations) = self.solved_again(time, state);
+        if vanishes::<S, F::Terms>(pivot.relative) {
+            return singular::<S, M>(&pivot);
+        }
+        let read = &Self::read(state);
+        let applied = A::PRESENT.then(|| self.all_forces(time, read));
+        Fault::RatesNotFinite {
+            origin: origin::<S, M, F::Terms>(
+                &self.constants,
+                time,
+                read,
+                applied.as_ref(),
+                &accelerations,
+            ),
+        }
+    }
+
+    /// Pivot and accelerations as an evaluation computes them, by the kernels that it uses, so that no others are compiled.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn solved_again(
+        &self,
+        time: S,
+        state: &M::State<S>,
+    ) -> (Pivot<S>, M::Velocities<S>) {
+        if !Self::IN_PARTS {
+            let mut evaluation = Evaluation::<S, M>::zeros();
+            let Evaluation {
+                rates, multipliers, ..
+            } = &mut evaluation;
+            let pivot = self.straight(time, state, rates, multipliers);
+            return (pivot, *rates.velocities());
+        }
+        let read = &Self::read(state);
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
+        let upper = self.all_forces(time, read);
+        let lower = self.stabilised(time, read);
+        let (accelerations, _) =
+            M::solve::<S, F::Terms>(constants, coefficients, &factors, &upper, &lower);
+        (pivot, accelerations)
+    }
+}
+
+#[cold]
+pub(crate) fn singular<S: Real, M: Mechanism>(pivot: &Pivot<S>) -> Fault {
+    let joint = pivot.joint.to_f64() as usize;
+    Fault::Singular {
+        joint,
+        name: field::<M>(joint),
+        relative_pivot: pivot.relative.to_f64(),
+    }
+}
+
+/// The field of a joint.
+fn field<M: Mechanism>(joint: usize) -> &'static str {
+    M::REPORT.joints.get(joint).map_or("", |info| info.name)
+}

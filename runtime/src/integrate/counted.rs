@@ -1,0 +1,65 @@
+//! What an integration costs.
+
+use super::System;
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// What an integration has cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Evaluations of the rates.
+    pub evaluations: usize,
+    /// Steps that were accepted.
+    pub accepted: usize,
+    /// Steps that were tried and rejected.
+    pub rejected: usize,
+}
+
+impl Counts {
+    /// These and those of a course that went on.
+    pub(crate) fn plus(self, more: Self) -> Self {
+        Self {
+            evaluations: self.evaluations.saturating_add(more.evaluations),
+            accepted: self.accepted.saturating_add(more.accepted),
+            rejected: self.rejected.saturating_add(more.rejected),
+        }
+    }
+}
+
+/// A system that counts its evaluations.
+pub(super) struct Counted<'a, Y> {
+    pub(super) system: &'a mut Y,
+    pub(super) counts: &'a mut Counts,
+}
+
+impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
+    type State = Y::State;
+
+    #[inline(always)]
+    fn rates(&mut self, time: S, state: &Y::State) -> Result<Y::State, Fault> {
+        self.counts.evaluations += 1;
+        self.system.rates(time, state)
+    }
+
+    #[inline(always)]
+    fn stage(&mut self, time: S, state: &Y::State, rates: &mut Y::State) -> Result<(), Fault> {
+        self.counts.evaluations += 1;
+        self.system.stage(time, state, rates)
+    }
+
+    #[inline(always)]
+    fn with_new_velocities(
+        &mut self,
+        time: S,
+        state: &Y::State,
+        step: S,
+        rates: &mut Y::State,
+    ) -> Result<(), Fault> {
+        self.system.with_new_velocities(time, state, step, rates)
+    }
+
+    #[inline(always)]
+    fn settle(&mut self, state: &mut Y::State, rates: Option<&mut Y::State>) {
+        self.system.settle(state, rates);
+    }
+}
