@@ -1,5 +1,8 @@
 //! Fixed-size arrays of scalars, and the state of a mechanism.
 
+use core::ops::IndexMut;
+
+use crate::each::EachOfState;
 use crate::scalar::{Real, Scalar};
 
 /// A fixed-size array of scalars: multipliers, accelerations, blocks of the Jacobian.
@@ -33,10 +36,13 @@ impl<S: Scalar, const N: usize> Array<S> for [S; N] {
 
 /// What an integrator moves: a vector with addition and scaling, element by element.
 ///
-/// The derivative of a state has the same type. What integrators need has a default body, so that a
-/// vector of another kind (on the heap, say) has two functions to write. A state that is no vector throughout, such as
+/// The derivative of a state has the same type. What explicit integrators need has a default body, so that a
+/// vector of another kind (on the heap, say) has three functions to write. A state that is no vector throughout, such as
 /// [`crate::JointState`], replaces what adds to it and what measures an increment.
 pub trait Vector<S: Scalar>: Clone {
+    /// One thing for every element: an implicit method keeps the columns of a matrix in it.
+    type Each<T: Clone>: Clone + IndexMut<usize, Output = T>;
+
     /// Whether [`Vector::plus`] costs more than to keep a slope: a method then adds its slopes at once.
     const PLUS_IS_COSTLY: bool = false;
 
@@ -46,6 +52,39 @@ pub trait Vector<S: Scalar>: Clone {
 
     /// Calls `f` with every element, in order.
     fn for_each(&self, f: impl FnMut(S));
+
+    /// The same thing for every element.
+    fn each<T: Clone>(&self, value: T) -> Self::Each<T>;
+
+    /// How many elements there are.
+    #[must_use]
+    fn length(&self) -> usize {
+        let mut length = 0;
+        self.for_each(|_| length += 1);
+        length
+    }
+
+    /// The element at a place in the order of [`Vector::for_each`]; zero where there is none.
+    #[must_use]
+    fn element(&self, index: usize) -> S {
+        let (mut place, mut found) = (0, S::zero());
+        self.for_each(|element| {
+            if place == index {
+                found = element;
+            }
+            place += 1;
+        });
+        found
+    }
+
+    /// Writes the element at a place, if there is one.
+    fn set_element(&mut self, index: usize, value: S) {
+        let mut place = 0;
+        *self = self.zip(self, |element, _| {
+            place += 1;
+            if place == index + 1 { value } else { element }
+        });
+    }
 
     /// `self + sum of factor * direction`, element by element.
     #[must_use]
@@ -101,6 +140,28 @@ pub trait Vector<S: Scalar>: Clone {
 }
 
 impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
+    type Each<T: Clone> = [T; N];
+
+    fn each<T: Clone>(&self, value: T) -> [T; N] {
+        core::array::from_fn(|_| value.clone())
+    }
+
+    fn length(&self) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn element(&self, index: usize) -> S {
+        self.get(index).copied().unwrap_or(S::zero())
+    }
+
+    #[inline(always)]
+    fn set_element(&mut self, index: usize, value: S) {
+        if let Some(element) = self.get_mut(index) {
+            *element = value;
+        }
+    }
+
     #[inline(always)]
     fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {
         let mut result = *self;
@@ -226,6 +287,34 @@ pub struct State<S, const Q: usize, const U: usize> {
 }
 
 impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
+    type Each<T: Clone> = EachOfState<T, Q, U>;
+
+    fn each<T: Clone>(&self, value: T) -> EachOfState<T, Q, U> {
+        EachOfState::new(value)
+    }
+
+    fn length(&self) -> usize {
+        Q + U
+    }
+
+    #[inline(always)]
+    fn element(&self, index: usize) -> S {
+        if index < Q {
+            self.coordinates.element(index)
+        } else {
+            self.velocities.element(index - Q)
+        }
+    }
+
+    #[inline(always)]
+    fn set_element(&mut self, index: usize, value: S) {
+        if index < Q {
+            self.coordinates.set_element(index, value);
+        } else {
+            self.velocities.set_element(index - Q, value);
+        }
+    }
+
     #[inline(always)]
     fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {
         Self {

@@ -93,6 +93,13 @@ pub enum Fault {
         /// The rate (1/s).
         rate: f64,
     },
+    /// The equation of an implicit step was not solved: the step is too long for an iteration by fixed points, see [`ImplicitMidpoint`](crate::ImplicitMidpoint).
+    NoFixedPoint {
+        /// The step (s).
+        step: f64,
+        /// The iterations done.
+        iterations: usize,
+    },
     /// The factor of a penalty is so large that its compliance is lost in round-off, while equations are kept that depend on others and have nothing
     /// else to go by.
     PenaltyFactor {

@@ -1,6 +1,7 @@
 //! The state of a mechanism in joint coordinates, whose angles are pairs on a circle.
 
 use crate::array::{Vector, greater, greatest, plus, relative_norm, zero_if_finite};
+use crate::each::EachOfJoints;
 use crate::scalar::{Real, Scalar};
 
 /// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every turning joint, further coordinates, rates.
@@ -145,6 +146,38 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     for JointState<S, TURNS, REST, RATES>
 {
     const PLUS_IS_COSTLY: bool = TURNS > 0;
+
+    type Each<T: Clone> = EachOfJoints<T, TURNS, REST, RATES>;
+
+    fn each<T: Clone>(&self, value: T) -> EachOfJoints<T, TURNS, REST, RATES> {
+        EachOfJoints::new(value)
+    }
+
+    fn length(&self) -> usize {
+        2 * TURNS + REST + RATES
+    }
+
+    #[inline(always)]
+    fn element(&self, index: usize) -> S {
+        if index < 2 * TURNS {
+            self.pairs[index / 2][index % 2]
+        } else if index < 2 * TURNS + REST {
+            self.rest.element(index - 2 * TURNS)
+        } else {
+            self.rates.element(index - 2 * TURNS - REST)
+        }
+    }
+
+    #[inline(always)]
+    fn set_element(&mut self, index: usize, value: S) {
+        if index < 2 * TURNS {
+            self.pairs[index / 2][index % 2] = value;
+        } else if index < 2 * TURNS + REST {
+            self.rest.set_element(index - 2 * TURNS, value);
+        } else {
+            self.rates.set_element(index - 2 * TURNS - REST, value);
+        }
+    }
 
     #[inline(always)]
     fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {

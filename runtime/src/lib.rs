@@ -41,6 +41,7 @@ mod clock;
 mod compliance;
 mod displace;
 mod dynamics;
+mod each;
 mod error;
 mod formulation;
 mod handle;
@@ -183,6 +184,7 @@ pub use holonom_macros::Mechanism;
 pub use access::{MechanismExt, Pose};
 pub use array::{Array, State, StateParts, Vector};
 pub use dynamics::{Dynamics, Iterations};
+pub use each::{EachOfJoints, EachOfState};
 pub use error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
 pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, JointSaddle, JointSolution, Penalty, Saddle,
@@ -193,10 +195,12 @@ pub use handle::{
     JointHandle,
 };
 pub use integrate::{
-    Adaptive, AdaptiveCourse, BogackiShampine, BogackiShampine3, BogackiShampineStages, Counts,
-    Course, DormandPrince, DormandPrince5, DormandPrince8, DormandPrince8Stages, DormandPrince853,
-    DormandPrinceStages, EmbeddedPair, Ends, FixedCourse, FixedStep, Heun, Integrator, Midpoint,
-    NoStages, Rk4, Scheme, SemiImplicitEuler, Span, Start, StepLimits, Stride, System, Tolerance,
+    Adams, AdamsBashforthMoulton4, AdamsCourse, AdamsFixedCourse, Adaptive, AdaptiveCourse, Bdf,
+    BdfCourse, BogackiShampine, BogackiShampine3, BogackiShampineStages, Counts, Course,
+    DormandPrince, DormandPrince5, DormandPrince8, DormandPrince8Stages, DormandPrince853,
+    DormandPrinceStages, EmbeddedPair, Ends, FixedCourse, FixedStep, Heun, ImplicitMidpoint,
+    Integrator, Midpoint, NoStages, RadauCourse, RadauIIA, Rk4, Scheme, SemiImplicitEuler, Span,
+    Start, StepLimits, Stride, System, Tolerance,
 };
 pub use joint_coordinates::{
     Freedom, JointCoordinates, JointEvaluation, JointMotion, JointParts, JointReport,

@@ -136,6 +136,12 @@ impl fmt::Display for Fault {
                 Given(rate),
                 Measured(2.0 / rate)
             ),
+            Self::NoFixedPoint { step, iterations } => write!(
+                f,
+                "the equation of a step of {} s was not solved in {iterations} iterations: the step is too long for an iteration by fixed points, \
+                 which converges up to about one over the largest rate of the motion and of its stabilisation",
+                Given(step)
+            ),
             Self::PenaltyFactor { alpha, largest } => write!(
                 f,
                 "`alpha = {}` is lost in round-off for these masses, and equations that depend on others have nothing else to go by: give \

@@ -1,15 +1,28 @@
 //! What a run moves: the bodies of a mechanism, or its joints.
 
+use crate::array::{Array, StateParts};
 use crate::dynamics::{Dynamics, Iterations};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::System;
-use crate::joint_coordinates::JointCoordinates;
+use crate::joint_coordinates::{Freedom, JointCoordinates, JointParts};
 use crate::joint_dynamics::JointDynamics;
 use crate::load::AppliedForces;
 use crate::mechanism::{Mechanism, Normalised, Orientation};
+use crate::report::BodyKind;
+use crate::rotation::{read, write};
 use crate::scalar::Real;
 use crate::watch::Watch;
+
+/// Gives the Euler parameters at a place the sign of those of another state.
+fn take_nearer_sign<S: Real>(coordinates: &mut [S], near: &[S], place: usize) {
+    let (p, q): ([S; 4], [S; 4]) = (read(coordinates, place), read(near, place));
+    let terms = p.iter().zip(&q);
+    let alike = terms.fold(S::zero(), |sum, (&p, &q)| p.fused(q, sum));
+    if alike < S::zero() {
+        write(coordinates, place, p.map(|element| -element));
+    }
+}
 
 /// A run moves positions and orientations of the bodies.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +61,9 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
 
     /// The state in which they stand and move so, or nearly so.
     fn of(&self, bodies: &M::State<S>) -> Self::State;
+
+    /// The same, with those signs of Euler parameters that are nearer to those of another state: a method that looks back at former steps does not know that both are one orientation.
+    fn of_near(&self, bodies: &M::State<S>, near: &Self::State) -> Self::State;
 
     /// What reads the mechanism.
     fn dynamics(&self) -> &Dynamics<S, M, Self::Formulation, Self::Orientation, Self::Forces>;
@@ -97,6 +113,18 @@ where
         *bodies
     }
 
+    fn of_near(&self, bodies: &M::State<S>, near: &M::State<S>) -> M::State<S> {
+        let mut state = *bodies;
+        for body in M::REPORT.bodies {
+            if body.kind == BodyKind::Rigid {
+                let place = body.coordinate + 3;
+                let coordinates = state.coordinates_mut().as_mut_slice();
+                take_nearer_sign(coordinates, near.coordinates().as_slice(), place);
+            }
+        }
+        state
+    }
+
     #[inline(always)]
     fn dynamics(&self) -> &Self {
         self
@@ -144,6 +172,22 @@ where
 
     fn of(&self, bodies: &M::State<S>) -> M::JointState<S> {
         self.nearest(bodies)
+    }
+
+    fn of_near(&self, bodies: &M::State<S>, near: &M::JointState<S>) -> M::JointState<S> {
+        let mut state = self.nearest(bodies);
+        let mut place = 0;
+        for motion in M::JOINT_REPORT.motions {
+            match motion.freedom {
+                Freedom::Turn { .. } => {}
+                Freedom::Slide => place += 1,
+                Freedom::Ball => {
+                    take_nearer_sign(state.rest_slice_mut(), near.rest_slice(), place);
+                    place += 4;
+                }
+            }
+        }
+        state
     }
 
     fn dynamics(&self) -> &Dynamics<S, M, F, Normalised, A> {

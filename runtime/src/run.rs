@@ -114,7 +114,8 @@ where
             let mut state = self.moving.bodies(course.state());
             if let Some(treatment) = self.treatment {
                 state = self.treated(treatment, time, state)?;
-                course.replace(self.moving.of(&state));
+                let state = self.moving.of_near(&state, course.state());
+                course.replace(state);
             }
             if let Some(watch) = &mut self.watch {
                 self.moving.watch(watch, time, &state);

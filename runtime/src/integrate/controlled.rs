@@ -72,3 +72,59 @@ macro_rules! step_limits {
     };
 }
 pub(super) use step_limits;
+
+/// A method whose settings are a tolerance and limits of steps, with its course.
+macro_rules! controlled {
+    ($(#[$attribute:meta])* $method:ident, $course:ident) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $method<S> {
+            /// The error to be allowed in a step.
+            pub tolerance: $crate::Tolerance<S>,
+            /// What steps are held to besides.
+            pub limits: $crate::StepLimits<S>,
+        }
+
+        $crate::integrate::controlled::step_limits!($method<S>);
+
+        impl<S> $method<S> {
+            /// The method with a tolerance.
+            #[must_use]
+            pub const fn new(tolerance: $crate::Tolerance<S>) -> Self {
+                Self {
+                    tolerance,
+                    limits: $crate::StepLimits::new(),
+                }
+            }
+        }
+
+        /// With the default [`Tolerance`](crate::Tolerance).
+        impl<S: $crate::Real> Default for $method<S> {
+            fn default() -> Self {
+                Self::new($crate::Tolerance::default())
+            }
+        }
+
+        impl<S: $crate::Real> $crate::Integrator<S> for $method<S> {
+            type Course<X: $crate::Vector<S>> = $course<S, X>;
+
+            fn start<Y: $crate::System<S>>(
+                &self,
+                system: &mut Y,
+                span: $crate::Span<S>,
+                state: Y::State,
+            ) -> Result<$course<S, Y::State>, $crate::Fault> {
+                $course::start(self, system, span, state)
+            }
+
+            fn budget(&self) -> Option<usize> {
+                Some(self.limits.evaluations)
+            }
+
+            fn tolerance(&self) -> Option<$crate::Tolerance<S>> {
+                Some(self.tolerance)
+            }
+        }
+    };
+}
+pub(super) use controlled;

@@ -1,6 +1,7 @@
 //! What an integration costs.
 
 use super::System;
+use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
 
@@ -45,6 +46,18 @@ impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
     fn stage(&mut self, time: S, state: &Y::State, rates: &mut Y::State) -> Result<(), Fault> {
         self.counts.evaluations += 1;
         self.system.stage(time, state, rates)
+    }
+
+    fn jacobian(
+        &mut self,
+        time: S,
+        state: &Y::State,
+        rates: &Y::State,
+        columns: &mut <Y::State as Vector<S>>::Each<Y::State>,
+    ) -> Result<usize, Fault> {
+        let evaluations = self.system.jacobian(time, state, rates, columns)?;
+        self.counts.evaluations += evaluations;
+        Ok(evaluations)
     }
 
     #[inline(always)]

@@ -59,6 +59,10 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
     fn turning_error(&self) -> f64 {
         self.scheme.turning_error()
     }
+
+    fn silent_phase(&self) -> f64 {
+        self.scheme.silent_phase()
+    }
 }
 
 /// The times of a fixed step.

@@ -4,17 +4,25 @@
 //! |---|---|---|
 //! | [`SemiImplicitEuler::every(h)`](SemiImplicitEuler::every) | semi-implicit Euler of order 1, fixed step | 1 a step |
 //! | [`Midpoint::every(h)`](Midpoint::every), [`Heun::every(h)`](Heun::every) | Runge-Kutta methods of order 2, fixed step | 2 a step |
+//! | [`ImplicitMidpoint::every(h)`](ImplicitMidpoint::every) | implicit midpoint rule of order 2, symmetric, fixed step | 1 a step and 1 an iteration |
 //! | [`Rk4::every(h)`](Rk4::every) | classical Runge-Kutta of order 4, fixed step | 4 a step |
+//! | [`AdamsBashforthMoulton4::every(h)`](AdamsBashforthMoulton4::every) | multistep method of order 4, predicted and corrected, fixed step | 2 a step |
 //! | [`DormandPrince::every(h)`](DormandPrince::every) | Dormand-Prince of order 5, fixed step | 6 a step |
 //! | [`BogackiShampine::every(h)`](BogackiShampine::every), [`DormandPrince853::every(h)`](DormandPrince853::every) | the methods of order 3 and 8 of the pairs below, fixed step | 3, 12 a step |
 //! | [`BogackiShampine::new(tolerance)`](BogackiShampine::new) | Bogacki-Shampine 3(2), the step control of MATLAB's `ode23` | 3 a trial, and 1 |
 //! | [`DormandPrince::new(tolerance)`](DormandPrince::new) | Dormand-Prince 5(4), the step control of MATLAB's `ode45` | 6 a trial, and 1 |
 //! | [`DormandPrince853::new(tolerance)`](DormandPrince853::new) | Dormand-Prince 8(5,3), the same control | 12 a trial, and 1; 3 for each step with output within |
+//! | [`RadauIIA::new(tolerance)`](RadauIIA::new) | Radau IIA of order 5 for stiff systems, step control of `RADAU5` | 3 an iteration, and 1; the Jacobian besides |
+//! | [`Bdf::new(tolerance)`](Bdf::new) | backward differentiation of order 1 to 5 for stiff systems, order and step control of MATLAB's `ode15s` | 1 an iteration; the Jacobian besides |
+//! | [`Adams::new(tolerance)`](Adams::new) | Adams of order 1 to 12 in divided differences, the step and order control of MATLAB's `ode113` | 2 a step, 1 a rejected trial, and 1 |
 //!
 //! [`Scheme::step`] takes one step at a time, for loops that somebody else owns; [`Integrator::start`] begins a
 //! [`Course`] over an interval, with output at any time within the last step.
 
+mod adams;
+mod adams_fixed;
 mod adaptive;
+mod bdf;
 mod bogacki_shampine;
 mod checked;
 mod controlled;
@@ -25,15 +33,23 @@ mod dormand_prince;
 mod dormand_prince_8;
 mod embedded;
 mod fixed;
+mod implicit_midpoint;
+mod linear;
+mod newton;
+mod radau;
 mod rk2;
 mod rk4;
 mod semi_implicit;
 mod tableau;
 mod tableau_853;
+mod tableau_radau;
 #[cfg(test)]
 mod tests;
 
+pub use adams::{Adams, AdamsCourse};
+pub use adams_fixed::{AdamsBashforthMoulton4, AdamsFixedCourse};
 pub use adaptive::AdaptiveCourse;
+pub use bdf::{Bdf, BdfCourse};
 pub use bogacki_shampine::{BogackiShampine, BogackiShampine3, BogackiShampineStages};
 pub use controlled::StepLimits;
 pub use controller::Tolerance;
@@ -42,6 +58,8 @@ pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
 pub use dormand_prince_8::{DormandPrince8, DormandPrince8Stages, DormandPrince853};
 pub use embedded::{Adaptive, EmbeddedPair};
 pub use fixed::{FixedCourse, FixedStep};
+pub use implicit_midpoint::ImplicitMidpoint;
+pub use radau::{RadauCourse, RadauIIA};
 pub use rk2::{Heun, Midpoint};
 pub use rk4::Rk4;
 pub use semi_implicit::SemiImplicitEuler;
@@ -108,6 +126,25 @@ pub trait System<S: Real> {
         self.rates(time, state).err()
     }
 
+    /// Writes the Jacobian of the rates: column `k` is the change of the rates for an increment of element `k` of the state, divided by that increment. `rates` are those of the
+    /// state. Returns how many evaluations that has taken.
+    ///
+    /// Implicit methods ask for it, and need it for the sake of convergence only. By differences of rates, if a system does not know better.
+    ///
+    /// # Errors
+    /// As [`System::stage`].
+    fn jacobian(
+        &mut self,
+        time: S,
+        state: &Self::State,
+        rates: &Self::State,
+        columns: &mut <Self::State as Vector<S>>::Each<Self::State>,
+    ) -> Result<usize, Fault> {
+        newton::by_differences(state, rates, columns, |state, rates| {
+            self.stage(time, state, rates)
+        })
+    }
+
     /// Puts the rates of the coordinates at the velocities at the end of a step in the place of those at its start: at the velocities that the other rates lead to.
     ///
     /// # Errors
@@ -165,6 +202,11 @@ pub trait Integrator<S: Real>: Copy + Debug {
     /// their phase are wrong together.
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
+    }
+
+    /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a method that keeps its energy, which then says nothing of it; zero for others.
+    fn silent_phase(&self) -> f64 {
+        0.0
     }
 
     /// The error to be allowed in a step, for a method that controls it.
@@ -232,6 +274,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
     /// See [`Integrator::turning_error`].
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
+    }
+
+    /// See [`Integrator::silent_phase`].
+    fn silent_phase(&self) -> f64 {
+        0.0
     }
 
     /// Evaluates what [`Scheme::interpolate`] needs besides the slopes of a step that began at `time`, once for each step that is looked into.

@@ -157,6 +157,14 @@ fn numbers_are_those_of_a_person() {
             "a step of 1e-20 s is below the resolution of the time 0.125 s",
         ),
         (
+            Fault::NoFixedPoint {
+                step: 0.1,
+                iterations: 12,
+            },
+            "the equation of a step of 0.1 s was not solved in 12 iterations: the step is too long for an iteration by fixed points, which converges up to about \
+             one over the largest rate of the motion and of its stabilisation",
+        ),
+        (
             Fault::Undetermined { share: 0.123_45 },
             "the equations leave a motion free here (0.123 of a trial motion): they depend on each other, or a driver is missing",
         ),

@@ -71,6 +71,11 @@ pub enum Doubt {
         /// How much of their work is not known.
         share: f64,
     },
+    /// Steps are long for the motion, of a method that keeps its energy: that tells nothing.
+    LongSteps {
+        /// What the phase of the motion may be off by at the end (rad): of all steps, estimated.
+        shift: f64,
+    },
     /// The absolute tolerance is coarse for a mechanism of this size.
     CoarseTolerance {
         /// The absolute tolerance.
@@ -179,6 +184,11 @@ impl fmt::Display for Doubt {
                 "forces change faster than the steps follow: {} of their work is not known; use a smaller step, or a method that controls its steps",
                 Measured(share)
             ),
+            Self::LongSteps { shift } => write!(
+                f,
+                "steps are long for the motion, whose phase may be off by about {} rad: the energy, which this method keeps, does not tell; use a smaller step",
+                Measured(shift)
+            ),
             Self::CoarseTolerance { absolute, size } => write!(
                 f,
                 "the absolute tolerance {} is coarse for a mechanism of {} m: give one in proportion to its size",
@@ -239,7 +249,7 @@ fn amount(
 }
 
 /// The kinds of doubt that one run may raise.
-const KINDS: usize = 12;
+const KINDS: usize = 13;
 
 /// What is to be doubted of a run, the gravest first; empty where nothing is.
 ///

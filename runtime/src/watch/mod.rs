@@ -56,6 +56,12 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     stretched: S,
     /// What an angle is off by for each of it.
     turning_error: S,
+    /// What a phase is off by for the third power of a step (rad), of a method that keeps the energy.
+    silent_phase: S,
+    /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of what was turned (rad), and of what the rate changed by.
+    rate: S,
+    fastest: S,
+    cubes: [S; 2],
     /// What the digits of the positions resolve at the start (m).
     resolution: S,
     /// Steps, and what was excused in them.
@@ -203,6 +209,10 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             stretch: S::zero(),
             stretched: S::zero(),
             turning_error: S::one(),
+            silent_phase: S::zero(),
+            rate: S::zero(),
+            fastest: S::zero(),
+            cubes: [S::zero(); 2],
             resolution: resolution::<S, M>(state),
             excused: Excused {
                 corrections: 0,
@@ -221,6 +231,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let tolerance = integrator.tolerance();
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
         self.turning_error = S::constant(integrator.turning_error());
+        self.silent_phase = S::constant(integrator.silent_phase());
         self
     }
 
@@ -292,7 +303,18 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.speed = self.speed.max(speed);
         self.spin = self.spin.max(spin);
         let rate = spin.max(speed.quotient(self.length));
-        self.travel = rate.fused(time - self.time, self.travel);
+        let turned = rate * (time - self.time);
+        self.travel = self.travel + turned;
+        let change = if self.steps > 0 {
+            (rate - self.rate).abs()
+        } else {
+            S::zero()
+        };
+        for (sum, x) in self.cubes.iter_mut().zip([turned, change]) {
+            *sum = (x * x).fused(x, *sum);
+        }
+        self.rate = rate;
+        self.fastest = self.fastest.max(rate);
         self.time = time;
     }
 

@@ -24,6 +24,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.orientation(),
             self.resolution(),
             self.coarse_steps(),
+            self.long_steps(),
         ])
     }
 
@@ -169,6 +170,19 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let doubted = begun && self.tolerance.is_none() && above(share, limits::FOLLOWED);
         doubted.then(|| Doubt::CoarseSteps {
             share: share.to_f64(),
+        })
+    }
+
+    /// Of a method whose energy tells nothing. A rate that changes by a part `x` of the largest in a step is that of an oscillation of `x` radians a step.
+    fn long_steps(&self) -> Option<Doubt> {
+        let [turned, changed] = self.cubes;
+        let fastest = self.fastest * self.fastest * self.fastest;
+        if !(self.silent_phase > S::zero() && fastest > S::zero()) {
+            return None;
+        }
+        let shift = self.silent_phase * turned.max(changed.quotient(fastest));
+        above(shift, limits::PHASE).then(|| Doubt::LongSteps {
+            shift: shift.to_f64(),
         })
     }
 

@@ -3,20 +3,28 @@
 use super::*;
 use crate::NotFinite;
 
+/// How an integration from 1 towards two seconds ends: the fault, and the last good time and state.
+fn ended<I: Integrator<f64>, Y: System<f64, State = [f64; 1]>>(
+    method: I,
+    system: &mut Y,
+) -> (Fault, f64, [f64; 1]) {
+    let mut course = method.start(system, span(2.0, 2.0), [1.0]).unwrap();
+    loop {
+        if let Err(fault) = course.advance(system) {
+            return (fault, course.time(), *course.state());
+        }
+    }
+}
+
 #[test]
 fn a_solution_that_blows_up_ends_with_an_underflow_of_the_step() {
     let mut system = equation(|_: f64, &[y]: &[f64; 1]| [y * y]);
-    let mut course = DormandPrince::<f64>::default()
-        .start(&mut system, span(2.0, 2.0), [1.0])
-        .unwrap();
-    let fault = loop {
-        if let Err(fault) = course.advance(&mut system) {
-            break fault;
-        }
-    };
+    let (fault, time, [end]) = ended(DormandPrince::default(), &mut system);
     assert!(matches!(fault, Fault::StepSizeUnderflow { step, joint: None, .. } if step < 1e-14));
-    assert!(course.time() < 1.001 && course.time() > 0.999);
-    assert!(course.state()[0].is_finite() && course.state()[0] > 1e6);
+    assert!(time < 1.001 && time > 0.999 && end.is_finite() && end > 1e6);
+    let (fault, time, [end]) = ended(Adams::default(), &mut system);
+    assert!(matches!(fault, Fault::StepSizeUnderflow { step, joint: None, .. } if step < 1e-14));
+    assert!(time < 1.001 && time > 0.999 && end.is_finite() && end > 1e6);
 }
 
 /// Rates that cannot be computed from `t = 1` on.
@@ -38,17 +46,14 @@ impl System<f64> for Cliff {
 
 #[test]
 fn a_fault_leaves_the_last_good_state() {
-    let mut course = DormandPrince::<f64>::default()
-        .start(&mut Cliff, span(2.0, 2.0), [1.0])
-        .unwrap();
-    let fault = loop {
-        if let Err(fault) = course.advance(&mut Cliff) {
-            break fault;
-        }
-    };
-    assert!(matches!(fault, Fault::RatesNotFinite { .. }));
-    assert!(course.time() < 1.0 && course.time() > 1.0 - 1e-12);
-    assert!((course.state()[0] - (-course.time()).exp()).abs() < 1e-5);
+    for (fault, time, [end]) in [
+        ended(DormandPrince::default(), &mut Cliff),
+        ended(Adams::default(), &mut Cliff),
+    ] {
+        assert!(matches!(fault, Fault::RatesNotFinite { .. }));
+        assert!(time < 1.0 && time > 1.0 - 1e-12);
+        assert!((end - (-time).exp()).abs() < 1e-5);
+    }
 
     let mut course = Rk4::every(0.3)
         .start(&mut Cliff, span(2.0, 2.0), [1.0])
@@ -62,16 +67,10 @@ fn a_fault_leaves_the_last_good_state() {
 fn rates_of_nan_leave_the_last_good_state() {
     let nan = |time: f64, &[y]: &[f64; 1]| [if time < 1.0 { -y } else { f64::NAN }];
     let mut system = equation(nan);
-    let mut course = DormandPrince::<f64>::default()
-        .start(&mut system, span(2.0, 2.0), [1.0])
-        .unwrap();
-    let fault = loop {
-        if let Err(fault) = course.advance(&mut system) {
-            break fault;
-        }
-    };
-    assert!(matches!(fault, Fault::StepSizeUnderflow { .. }));
-    assert!(course.time() < 1.0 && course.state()[0].is_finite());
+    let (fault, time, [end]) = ended(DormandPrince::default(), &mut system);
+    assert!(matches!(fault, Fault::StepSizeUnderflow { .. }) && time < 1.0 && end.is_finite());
+    let (fault, time, [end]) = ended(Adams::default(), &mut system);
+    assert!(matches!(fault, Fault::StepSizeUnderflow { .. }) && time < 1.0 && end.is_finite());
 
     let mut state = [1.0];
     assert_eq!(
@@ -153,17 +152,14 @@ fn the_stage_that_is_not_finite_is_asked_why() {
         assert_eq!(course.advance(&mut system), Err(WHY));
         assert_eq!((course.time(), *course.state()), (0.0, [1.0]));
         // With control of the step it gets as near as steps resolve, and each trial is asked once.
-        let mut system = hole();
-        let method = DormandPrince::<f64>::default();
-        let mut course = method.start(&mut system, span(2.0, 2.0), [1.0]).unwrap();
-        let fault = loop {
-            if let Err(fault) = course.advance(&mut system) {
-                break fault;
-            }
-        };
-        assert_eq!(fault, WHY);
-        assert!(course.time() <= time && course.time() > time - 1e-12);
-        assert!((course.state()[0] - (-course.time()).exp()).abs() < 1e-6);
+        for (fault, reached, [end]) in [
+            ended(DormandPrince::default(), &mut hole()),
+            ended(Adams::default(), &mut hole()),
+        ] {
+            assert_eq!(fault, WHY);
+            assert!(reached <= time && reached > time - 1e-12);
+            assert!((end - (-reached).exp()).abs() < 1e-5);
+        }
     }
 }
 

@@ -1,8 +1,12 @@
 //! Order, counts and failures of the integrators on equations with closed solutions.
 
+mod adams;
+mod adams_fixed;
 mod embedded;
 mod failures;
+mod implicit;
 mod pairs;
+mod stiff;
 
 use super::*;
 use crate::scalar::Real;
@@ -46,7 +50,7 @@ fn span(end: f64, first_output: f64) -> Span<f64> {
 }
 
 /// The largest error at the ends of steps and at five times within each.
-fn errors<K: Scheme<f64>>(method: FixedStep<f64, K>) -> (f64, f64) {
+fn errors<I: Integrator<f64>>(method: I) -> (f64, f64) {
     let mut system = equation(curved);
     let mut course = method
         .start(&mut system, span(2.0, 2.0), curve(0.0))

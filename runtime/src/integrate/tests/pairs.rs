@@ -4,18 +4,18 @@ use super::*;
 use crate::JointState;
 use crate::array::{State, StateParts};
 
-type Turned<S, const N: usize> = JointState<S, N, 0, N>;
-type Plain<S, const N: usize> = State<S, N, N>;
+pub(super) type Turned<S, const N: usize> = JointState<S, N, 0, N>;
+pub(super) type Plain<S, const N: usize> = State<S, N, N>;
 
 /// Accelerations of angles, from their cosines and sines and from their rates.
-trait Law<S: Real, const N: usize> {
+pub(super) trait Law<S: Real, const N: usize> {
     fn accelerations(pairs: &[[S; 2]; N], rates: &[S; N]) -> [S; N];
 }
 
 /// The law with pairs as state.
-struct Pairs<L>(L);
+pub(super) struct Pairs<L>(L);
 /// The law with angles as state.
-struct Angles<L>(L);
+pub(super) struct Angles<L>(L);
 
 impl<S: Real, const N: usize, L: Law<S, N>> System<S> for Pairs<(L, [S; N])> {
     type State = Turned<S, N>;
@@ -50,7 +50,7 @@ impl<S: Real> Law<S, 1> for Pendulum {
 
 /// A pendulum that was pushed so as to go round and round, 2 to 4 rad/s.
 #[derive(Clone, Copy)]
-struct Spinning;
+pub(super) struct Spinning;
 
 impl<S: Real> Law<S, 1> for Spinning {
     fn accelerations(&[[cosine, _]]: &[[S; 2]; 1], _: &[S; 1]) -> [S; 1] {
@@ -60,7 +60,7 @@ impl<S: Real> Law<S, 1> for Spinning {
 
 /// Two rods of 1 kg and 1 m, one on the other: absolute angles from the horizontal.
 #[derive(Clone, Copy)]
-struct Rods;
+pub(super) struct Rods;
 
 impl Law<f64, 2> for Rods {
     fn accelerations(&[[c1, s1], [c2, s2]]: &[[f64; 2]; 2], &[w1, w2]: &[f64; 2]) -> [f64; 2] {
@@ -76,16 +76,16 @@ impl Law<f64, 2> for Rods {
     }
 }
 
-fn pairs<S: Real, const N: usize, L: Law<S, N>>(law: L) -> Pairs<(L, [S; N])> {
+pub(super) fn pairs<S: Real, const N: usize, L: Law<S, N>>(law: L) -> Pairs<(L, [S; N])> {
     Pairs((law, [S::zero(); N]))
 }
 
-fn angles<S: Real, const N: usize, L: Law<S, N>>(law: L) -> Angles<(L, [S; N])> {
+pub(super) fn angles<S: Real, const N: usize, L: Law<S, N>>(law: L) -> Angles<(L, [S; N])> {
     Angles((law, [S::zero(); N]))
 }
 
 /// Both states at zero angles.
-fn starts<S: Real, const N: usize>(rates: [S; N]) -> (Turned<S, N>, Plain<S, N>) {
+pub(super) fn starts<S: Real, const N: usize>(rates: [S; N]) -> (Turned<S, N>, Plain<S, N>) {
     let pair = [S::one(), S::zero()];
     (
         JointState::from_parts([pair; N], [], rates),
@@ -132,7 +132,7 @@ fn tight() -> DormandPrince<f64> {
 }
 
 /// Errors (rad) of the angles after a time: of the pairs, of the numbers, with the worst length of the pairs.
-fn compared<I: Integrator<f64>, L: Law<f64, N> + Copy, const N: usize>(
+pub(super) fn compared<I: Integrator<f64>, L: Law<f64, N> + Copy, const N: usize>(
     method: I,
     law: L,
     rates: [f64; N],

@@ -1,0 +1,214 @@
+//! The predictor-corrector method of Adams at a fixed step.
+
+use core::mem::{replace, swap};
+
+use super::fixed::{Grid, slope};
+use super::tableau::scaled;
+use super::{
+    Counted, Counts, Course, Integrator, NoStages, Rk4, Scheme as _, Span, Start, Stride, System,
+    dense, named,
+};
+use crate::array::Vector;
+use crate::error::Fault;
+use crate::scalar::Real;
+
+/// The method of Adams, Bashforth and Moulton of order 4 at a fixed step: predicted from the slopes at four times, corrected with that at the predicted state. Two
+/// evaluations a step, whatever the order; no estimate of the error.
+///
+/// With `h` the step, `f0` the slope at its start and `f1`, `f2`, `f3` those at the starts of the steps before, `y* = y + h/24 (55 f0 - 59 f1 + 37 f2 - 9 f3)` and `y + h/24 (9 f(t + h, y*) + 19 f0 - 5 f1 + f2)`:
+/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, (III.1.5) and (III.1.8), evaluated after both (PECE). The first three steps, and a last one that is shortened to the end of
+/// the interval, are those of [`Rk4`]. Output within a step is by the cubic through states and slopes at both ends.
+///
+/// A state that was corrected after a step goes on with the slope there; the slopes before stay as they were.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdamsBashforthMoulton4<S> {
+    /// The step `h` (s).
+    pub step: S,
+}
+
+impl<S> AdamsBashforthMoulton4<S> {
+    /// The method with this step (s).
+    #[must_use]
+    pub const fn every(step: S) -> Self {
+        Self { step }
+    }
+}
+
+/// Of the slopes at the start of a step and of the three before, newest first.
+const PREDICTOR: [f64; 4] = [55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0];
+
+/// Of the slope at the predicted state, at the start of the step and of the two before.
+const CORRECTOR: [f64; 4] = [9.0 / 24.0, 19.0 / 24.0, -5.0 / 24.0, 1.0 / 24.0];
+
+/// Steps of a course until it has the slopes that it needs.
+const FIRST_STEPS: usize = 3;
+
+/// For steps of half a radian an angle is off by half of what `|p|` leaves its length by.
+const TURNING_ERROR: f64 = 1.0;
+
+impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
+    type Course<X: Vector<S>> = AdamsFixedCourse<S, X>;
+
+    fn start<Y: System<S>>(
+        &self,
+        system: &mut Y,
+        span: Span<S>,
+        state: Y::State,
+    ) -> Result<AdamsFixedCourse<S, Y::State>, Fault> {
+        let grid = Grid::new(self.step, &span)?;
+        let mut counts = Counts::default();
+        let last = Counted {
+            system,
+            counts: &mut counts,
+        }
+        .rates(span.start, &state)?;
+        Ok(AdamsFixedCourse {
+            grid,
+            counts,
+            time: span.start,
+            from: state.clone(),
+            state,
+            before: [last.clone(), last.clone(), last.clone()],
+            last,
+            known: true,
+            start: span.start,
+            step: S::zero(),
+        })
+    }
+
+    fn fixed_step(&self) -> Option<S> {
+        Some(self.step)
+    }
+
+    fn turning_error(&self) -> f64 {
+        TURNING_ERROR
+    }
+}
+
+/// An integration with [`AdamsBashforthMoulton4`] under way.
+#[derive(Clone)]
+pub struct AdamsFixedCourse<S: Real, X: Vector<S>> {
+    grid: Grid<S>,
+    counts: Counts,
+    time: S,
+    state: X,
+    /// The slope at `state`, if it is known.
+    last: X,
+    known: bool,
+    /// The slopes at the starts of the last three steps, newest first.
+    before: [X; 3],
+    /// The last step: its start and its size.
+    start: S,
+    step: S,
+    from: X,
+}
+
+impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
+    /// Computes the slope at the state that was reached, once.
+    fn slope<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+        if !self.known {
+            let at = (self.time, &self.state);
+            slope(system, &mut self.counts, at, &mut self.last)?;
+            self.known = true;
+        }
+        Ok(())
+    }
+
+    /// Whether a step is one of those that the slopes before it belong to. The last one may differ from them by the round-off of its ends.
+    fn goes_on(&self, step: S) -> bool {
+        let round_off = S::constant(16.0) * self.grid.end.ulp();
+        self.counts.accepted >= FIRST_STEPS && (self.grid.nominal - step).abs() <= round_off
+    }
+
+    /// The state after a step; not finite where a slope is not.
+    fn stride<Y: System<S, State = X>>(&self, system: &mut Y, step: S) -> Result<X, Fault> {
+        let (state, first, [second, third, fourth]) = (&self.state, &self.last, &self.before);
+        if !self.goes_on(step) {
+            let start = Start {
+                time: self.time,
+                state,
+                slope: first,
+            };
+            return Rk4.stride(system, start, step, &mut NoStages);
+        }
+        let [a, b, c, d] = scaled(PREDICTOR, step);
+        let predicted = state.plus([(a, first), (b, second), (c, third), (d, fourth)]);
+        let mut slope = first.clone();
+        system.stage(self.time + step, &predicted, &mut slope)?;
+        let [a, b, c, d] = scaled(CORRECTOR, step);
+        Ok(state.plus([(a, &slope), (b, first), (c, second), (d, third)]))
+    }
+
+    /// Why a step failed, or led to a state that is not finite.
+    #[cold]
+    #[inline(never)]
+    fn refused(
+        &self,
+        system: &mut dyn System<S, State = X>,
+        step: S,
+        fault: Option<Fault>,
+    ) -> Fault {
+        named(fault, system, |system| self.stride(system, step)).unwrap_or(Fault::StateNotFinite)
+    }
+}
+
+impl<S: Real, X: Vector<S>> Course<S, X> for AdamsFixedCourse<S, X> {
+    fn time(&self) -> S {
+        self.time
+    }
+
+    fn state(&self) -> &X {
+        &self.state
+    }
+
+    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+        self.slope(system)?;
+        let (step, end) = self.grid.next(self.counts.accepted, self.time)?;
+        let mut counts = self.counts;
+        let mut counted = Counted {
+            system,
+            counts: &mut counts,
+        };
+        let outcome = self.stride(&mut counted, step);
+        self.counts = counts;
+        let mut state = match outcome {
+            Ok(state) if state.is_finite() => state,
+            outcome => return Err(self.refused(system, step, outcome.err())),
+        };
+        system.settle(&mut state, None);
+        self.counts.accepted += 1;
+        let [second, third, fourth] = &mut self.before;
+        swap(third, fourth);
+        swap(second, third);
+        swap(&mut self.last, second);
+        self.known = false;
+        self.from = replace(&mut self.state, state);
+        self.start = replace(&mut self.time, end);
+        self.step = step;
+        Ok(())
+    }
+
+    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
+        self.slope(system)?;
+        let [first, ..] = &self.before;
+        let stride = Stride {
+            step: self.step,
+            from: &self.from,
+            first,
+            stages: &NoStages,
+            to: &self.state,
+            last: &self.last,
+        };
+        let theta = (time - self.start).quotient(self.time - self.start);
+        Ok(dense::cubic(&stride, theta))
+    }
+
+    fn replace(&mut self, state: X) {
+        self.state = state;
+        self.known = false;
+    }
+
+    fn counts(&self) -> Counts {
+        self.counts
+    }
+}

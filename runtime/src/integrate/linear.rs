@@ -1,0 +1,280 @@
+//! Systems of linear equations `(shift I - J) x = b` between slopes, for implicit methods.
+
+use crate::array::Vector;
+use crate::scalar::Real;
+
+/// A complex number: real and imaginary part.
+pub(super) type Complex<S> = [S; 2];
+
+/// A column of numbers, made of slopes `X`.
+pub(super) trait Column<S: Real, X: Vector<S>>: Clone {
+    type Number: Copy;
+
+    /// A column of real numbers.
+    fn real(column: X) -> Self;
+    fn at(&self, row: usize) -> Self::Number;
+    fn set(&mut self, row: usize, value: Self::Number);
+    /// `self + factor * other`.
+    fn add(&mut self, factor: Self::Number, other: &Self);
+    fn scale(&mut self, factor: Self::Number);
+    /// The absolute value of a number, or up to 1.5 times that.
+    fn size(of: Self::Number) -> S;
+    fn zero() -> Self::Number;
+    fn sum(a: Self::Number, b: Self::Number) -> Self::Number;
+    fn inverse(of: Self::Number) -> Self::Number;
+    fn negative(of: Self::Number) -> Self::Number;
+}
+
+impl<S: Real, X: Vector<S>> Column<S, X> for X {
+    type Number = S;
+
+    fn real(column: X) -> X {
+        column
+    }
+
+    fn at(&self, row: usize) -> S {
+        self.element(row)
+    }
+
+    fn set(&mut self, row: usize, value: S) {
+        self.set_element(row, value);
+    }
+
+    fn add(&mut self, factor: S, other: &X) {
+        *self = self.zip(other, |x, y| y.fused(factor, x));
+    }
+
+    fn scale(&mut self, factor: S) {
+        *self = self.zip(self, |x, _| factor * x);
+    }
+
+    fn size(of: S) -> S {
+        of.abs()
+    }
+
+    fn zero() -> S {
+        S::zero()
+    }
+
+    fn sum(a: S, b: S) -> S {
+        a + b
+    }
+
+    fn inverse(of: S) -> S {
+        of.reciprocal()
+    }
+
+    fn negative(of: S) -> S {
+        -of
+    }
+}
+
+/// A column of complex numbers: real and imaginary parts.
+#[derive(Clone)]
+pub(super) struct ComplexColumn<X> {
+    pub(super) real: X,
+    pub(super) imaginary: X,
+}
+
+impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
+    type Number = Complex<S>;
+
+    fn real(column: X) -> Self {
+        Self {
+            imaginary: column.zip(&column, |_, _| S::zero()),
+            real: column,
+        }
+    }
+
+    fn at(&self, row: usize) -> Complex<S> {
+        [self.real.element(row), self.imaginary.element(row)]
+    }
+
+    fn set(&mut self, row: usize, [real, imaginary]: Complex<S>) {
+        self.real.set_element(row, real);
+        self.imaginary.set_element(row, imaginary);
+    }
+
+    fn add(&mut self, [a, b]: Complex<S>, other: &Self) {
+        let Self { real, imaginary } = other;
+        self.real = self.real.zip(real, |x, y| y.fused(a, x));
+        self.real = self.real.zip(imaginary, |x, y| y.fused(-b, x));
+        self.imaginary = self.imaginary.zip(imaginary, |x, y| y.fused(a, x));
+        self.imaginary = self.imaginary.zip(real, |x, y| y.fused(b, x));
+    }
+
+    fn scale(&mut self, [a, b]: Complex<S>) {
+        let real = self.real.zip(&self.imaginary, |x, y| a * x - b * y);
+        self.imaginary = self.imaginary.zip(&self.real, |y, x| a * y + b * x);
+        self.real = real;
+    }
+
+    fn size([a, b]: Complex<S>) -> S {
+        a.abs() + b.abs()
+    }
+
+    fn zero() -> Complex<S> {
+        [S::zero(); 2]
+    }
+
+    fn sum([a, b]: Complex<S>, [c, d]: Complex<S>) -> Complex<S> {
+        [a + c, b + d]
+    }
+
+    fn inverse([a, b]: Complex<S>) -> Complex<S> {
+        let square = a.fused(a, b * b);
+        [a.quotient(square), (-b).quotient(square)]
+    }
+
+    fn negative([a, b]: Complex<S>) -> Complex<S> {
+        [-a, -b]
+    }
+}
+
+/// The inverse of a matrix as a product of eliminations, one for every column, with the largest number of a column as its pivot (Gauss and Jordan).
+///
+/// All work is done on whole columns, which is what [`Vector`] offers, without a branch for each element.
+pub(super) struct Factors<S: Real, X: Vector<S>, C: Column<S, X>> {
+    eliminations: X::Each<C>,
+    /// The row of the pivot of every column.
+    rows: X::Each<usize>,
+}
+
+impl<S: Real, X: Vector<S>, C: Column<S, X>> Clone for Factors<S, X, C> {
+    fn clone(&self) -> Self {
+        Self {
+            eliminations: self.eliminations.clone(),
+            rows: self.rows.clone(),
+        }
+    }
+}
+
+impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
+    /// A place for matrices between slopes like this one.
+    pub(super) fn new(like: &X) -> Self {
+        Self {
+            eliminations: like.each(C::real(like.clone())),
+            rows: like.each(0),
+        }
+    }
+
+    /// Factorises `shift I - jacobian`. `false` if a pivot vanishes or is not finite.
+    #[must_use]
+    pub(super) fn factorise(&mut self, shift: C::Number, jacobian: &X::Each<X>, like: &X) -> bool {
+        let length = like.length();
+        let mut is_free = like.each(true);
+        for column in 0..length {
+            let of_jacobian = &jacobian[column];
+            let mut reduced = C::real(of_jacobian.zip(of_jacobian, |x, _| -x));
+            let diagonal = C::sum(reduced.at(column), shift);
+            reduced.set(column, diagonal);
+            for before in 0..column {
+                self.eliminate(before, &mut reduced);
+            }
+            let (mut row, mut largest) = (column, S::zero());
+            for candidate in 0..length {
+                let size = C::size(reduced.at(candidate));
+                if is_free[candidate] && size > largest {
+                    (row, largest) = (candidate, size);
+                }
+            }
+            if !(largest > S::zero() && largest.is_finite()) {
+                return false;
+            }
+            let inverse = C::inverse(reduced.at(row));
+            reduced.scale(C::negative(inverse));
+            reduced.set(row, inverse);
+            self.eliminations[column] = reduced;
+            self.rows[column] = row;
+            is_free[row] = false;
+        }
+        true
+    }
+
+    /// The solution for a right-hand side.
+    pub(super) fn solve(&self, mut right: C, length: usize) -> C {
+        for column in 0..length {
+            self.eliminate(column, &mut right);
+        }
+        let mut solution = right.clone();
+        for column in 0..length {
+            solution.set(column, right.at(self.rows[column]));
+        }
+        solution
+    }
+
+    #[inline(always)]
+    fn eliminate(&self, column: usize, of: &mut C) {
+        let row = self.rows[column];
+        let factor = of.at(row);
+        of.set(row, C::zero());
+        of.add(factor, &self.eliminations[column]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Complex, ComplexColumn, Factors};
+    use crate::array::{State, StateParts, Vector};
+
+    /// Numbers without a pattern.
+    fn scattered(seed: u64) -> impl FnMut() -> f64 {
+        let mut bits = seed;
+        move || {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        }
+    }
+
+    #[test]
+    fn solutions_satisfy_their_equations_wherever_the_pivots_are() {
+        type X = State<f64, 4, 3>;
+        for seed in 1..40 {
+            let mut number = scattered(seed);
+            let mut column =
+                || X::from_parts([(); 4].map(|()| number()), [(); 3].map(|()| number()));
+            let like = column();
+            let mut jacobian = like.each(like);
+            for k in 0..7 {
+                jacobian[k] = column();
+            }
+            let (shift, right) = ([0.3, -0.7], [column(), column()]);
+            let mut real = Factors::<f64, X, X>::new(&like);
+            assert!(real.factorise(shift[0], &jacobian, &like));
+            let x = real.solve(right[0], 7);
+            let mut complex = Factors::<f64, X, ComplexColumn<X>>::new(&like);
+            assert!(complex.factorise(shift, &jacobian, &like));
+            let z = complex.solve(
+                ComplexColumn {
+                    real: right[0],
+                    imaginary: right[1],
+                },
+                7,
+            );
+            for row in 0..7 {
+                let product = |v: &X| -> f64 {
+                    (0..7)
+                        .map(|k| jacobian[k].element(row) * v.element(k))
+                        .sum()
+                };
+                let rest = shift[0] * x.element(row) - product(&x) - right[0].element(row);
+                assert!(rest.abs() < 1e-11, "{rest:e}");
+                let (re, im) = (z.real.element(row), z.imaginary.element(row));
+                let rest: Complex<f64> = [
+                    shift[0] * re - shift[1] * im - product(&z.real) - right[0].element(row),
+                    shift[0] * im + shift[1] * re - product(&z.imaginary) - right[1].element(row),
+                ];
+                assert!(rest.iter().all(|rest| rest.abs() < 1e-11), "{rest:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_matrix_without_an_inverse_is_none() {
+        let jacobian = [[1.0, 2.0], [2.0, 4.0]];
+        let mut factors = Factors::<f64, [f64; 2], [f64; 2]>::new(&[0.0; 2]);
+        assert!(!factors.factorise(0.0, &jacobian, &[0.0; 2]));
+        assert!(!factors.factorise(f64::NAN, &jacobian, &[0.0; 2]));
+        assert!(factors.factorise(1.0, &jacobian, &[0.0; 2]));
+    }
+}
