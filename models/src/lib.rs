@@ -8,7 +8,7 @@
 //! | [`HeavyTop`] | a spinning top on a ball joint, 150 rad/s | large rotations | Brüls, Cardona and Arnold 2012 |
 //! | [`SliderCrank`] | crank, rod and slider, 150 rad/s | a loop at high speed | Flores, Leine and Glocker 2010 |
 //! | [`DrivenSliderCrank`] | the same with a motor | inverse dynamics | own motion |
-//! | [`FourBar`], [`DoubleFourBar`] | parallelograms | singular configurations | IFToMM A02 |
+//! | [`FourBar`], [`DoubleFourBar`], [`QuintupleFourBar`] | parallelograms | singular configurations | IFToMM A02 |
 //! | [`SqueezingMechanism`] | Andrews' seven bodies and three loops | small times and masses, accuracy | IFToMM A03, Test Set for IVP Solvers |
 //! | [`Bricard`] | a ring of six hinges that moves | dependent equations | IFToMM A04 |
 //! | [`FlyballGovernor`] | balls, arms and a slider on stiff springs | stiffness | IFToMM A05 |
@@ -47,7 +47,7 @@ pub use bricard::Bricard;
 pub use cart_pole::CartPole;
 pub use door::Door;
 pub use flyball_governor::FlyballGovernor;
-pub use four_bar::{DoubleFourBar, FourBar};
+pub use four_bar::{DoubleFourBar, FourBar, QuintupleFourBar};
 pub use heavy_chain::HeavyChain;
 pub use heavy_top::HeavyTop;
 pub use panda::Panda;

@@ -5,7 +5,7 @@ use holonom::{Mechanism, Real, View};
 use holonom_study::elliptic::{jacobi, quarter_period};
 
 use super::{at, problem};
-use crate::{Bricard, DoubleFourBar, FourBar, SliderCrank, SqueezingMechanism};
+use crate::{Bricard, DoubleFourBar, FourBar, QuintupleFourBar, SliderCrank, SqueezingMechanism};
 
 /// The top left pin of a row of `n` windows: place (m) and velocity (m/s) at a time.
 ///
@@ -47,6 +47,15 @@ problem! {
     "place and velocity" ("m, m/s");
     view => upper_end(view, DoubleFourBar::HANDLES.left);
     time => Some(pin(2.0, time).into());
+}
+
+problem! {
+    /// A02 with five windows for ten seconds.
+    QuintupleParallelogram: QuintupleFourBar = "quintuple-four-bar", "Five four-bars in a row (A02, N = 5), 10 s, against their closed form";
+    0 to 10.0 s every 0.1 s, time scale 1.0 s;
+    "place and velocity" ("m, m/s");
+    view => upper_end(view, QuintupleFourBar::HANDLES.rods[0]);
+    time => Some(pin(5.0, time).into());
 }
 
 problem! {

@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | [`Pendulum`] | the rod of chapter 15, 10 s | angle (rad), every 0.5 s | closed form |
 //! | [`LongPendulum`] | A01, a point mass, 2000 s | place (m), every 10 s | closed form |
-//! | [`Parallelogram`], [`DoubleParallelogram`] | A02 with one and two windows, 10 s, ten times through a singular configuration | place (m) and velocity (m/s) of a pin, every 0.1 s | closed form |
+//! | [`Parallelogram`], [`DoubleParallelogram`], [`QuintupleParallelogram`] | A02 with one, two and five windows, 10 s, ten times through a singular configuration | place (m) and velocity (m/s) of a pin, every 0.1 s | closed form |
 //! | [`Squeezer`] | A03, 30 ms | seven angles (rad) at the end | two integrations in minimal coordinates |
 //! | [`Ring`] | A04, Bricard's mechanism, 10 s | place (m) of a corner at 1, 2, 5, 10 s | a model of one angle |
 //! | [`Governor`] | A05, 10 s, stiff | height (m) of the slider at 0.5, 1, 2, 5, 10 s | Radau and Dormand-Prince 8(5,3) in minimal coordinates |
@@ -20,7 +20,9 @@ mod loops;
 mod others;
 mod pendulums;
 
-pub use loops::{Crank, DoubleParallelogram, Parallelogram, Ring, Squeezer};
+pub use loops::{
+    Crank, DoubleParallelogram, Parallelogram, QuintupleParallelogram, Ring, Squeezer,
+};
 pub use others::{Chain, Governor, Slide, Top};
 pub use pendulums::{Leaf, LongPendulum, Pendulum};
 

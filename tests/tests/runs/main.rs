@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod accuracy;
+mod all_methods;
 mod chapter15;
 mod dependent;
 mod descriptions;
@@ -16,6 +17,7 @@ mod observer;
 mod order;
 mod pendulum;
 mod placing;
+mod properties;
 mod reactions;
 mod redundant;
 mod references;

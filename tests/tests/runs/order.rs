@@ -1,7 +1,10 @@
 //! Halving the step divides the error by 2 to the power of the order.
 
 use holonom::prelude::*;
-use holonom::{FixedStep, Integrator, Orientation, Scheme};
+use holonom::{
+    Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince853, Heun, ImplicitMidpoint,
+    Integrator, Midpoint, Orientation, RadauIIA, SemiImplicitEuler,
+};
 use holonom_models::HeavyTop;
 use nalgebra::Vector4;
 
@@ -83,9 +86,14 @@ const TOP: [f64; 4] = [
 ];
 
 /// The error of the top's Euler parameters, up to their sign.
-fn of_the_top<K: Scheme<f64>>(every: impl Fn(f64) -> FixedStep<f64, K>, step: f64) -> f64 {
+fn of_the_top(integrator: impl Integrator<f64>) -> f64 {
+    top_and_steps(integrator).0
+}
+
+/// The same with the steps that it took.
+fn top_and_steps(integrator: impl Integrator<f64>) -> (f64, usize) {
     let top = HeavyTop::default();
-    let report = Simulation::new(&top, StandardLagrange, every(step))
+    let report = Simulation::new(&top, StandardLagrange, integrator)
         .run(
             0.0..=0.2,
             holonom::every(0.2),
@@ -95,14 +103,15 @@ fn of_the_top<K: Scheme<f64>>(every: impl Fn(f64) -> FixedStep<f64, K>, step: f6
     let p = HeavyTop::pose(&report.state, HeavyTop::HANDLES.top).orientation;
     let p = Vector4::new(p.w, p.i, p.j, p.k);
     let reference = Vector4::from(TOP);
-    (p - reference).norm().min((p + reference).norm())
+    let error = (p - reference).norm().min((p + reference).norm());
+    (error, report.accepted)
 }
 
 #[test]
 fn rk4_has_order_4_on_the_heavy_top() {
     has_order(
         4.0,
-        orders(halved(1e-3), |step| of_the_top(Rk4::every, step)),
+        orders(halved(1e-3), |step| of_the_top(Rk4::every(step))),
     );
 }
 
@@ -110,6 +119,103 @@ fn rk4_has_order_4_on_the_heavy_top() {
 fn dormand_prince_has_order_5_on_the_heavy_top() {
     has_order(
         5.0,
-        orders(halved(2e-3), |step| of_the_top(DormandPrince::every, step)),
+        orders(halved(2e-3), |step| of_the_top(DormandPrince::every(step))),
     );
+}
+
+/// A method of fixed steps on both, from these steps (s) on.
+macro_rules! has_its_order_on_both {
+    ($method:ident, $order:literal, $of_pendulum:expr, $of_top:expr) => {{
+        let swing =
+            |step| of_the_pendulum::<Normalised>(StandardLagrange, $method::every(step), SWINGS[1]);
+        has_order($order, orders(halved($of_pendulum), swing));
+        let top = |step| of_the_top($method::every(step));
+        has_order($order, orders(halved($of_top), top));
+    }};
+}
+
+#[test]
+fn methods_of_fixed_steps_have_their_order_on_the_pendulum_and_on_the_heavy_top() {
+    has_its_order_on_both!(SemiImplicitEuler, 1.0, 1.0 / 4096.0, 1e-5);
+    has_its_order_on_both!(Midpoint, 2.0, 1.0 / 1024.0, 1e-4);
+    has_its_order_on_both!(Heun, 2.0, 1.0 / 1024.0, 1e-4);
+    has_its_order_on_both!(ImplicitMidpoint, 2.0, 1.0 / 512.0, 1e-4);
+    has_its_order_on_both!(BogackiShampine, 3.0, 1.0 / 512.0, 1e-4);
+    // Of the pendulum its error of order 4 is so small that those of order 5 and of the start take turns with it.
+    let swing = |step| {
+        let method = AdamsBashforthMoulton4::every(step);
+        of_the_pendulum::<Normalised>(StandardLagrange, method, SWINGS[0])
+    };
+    let observed: f64 = orders(halved(1.0 / 256.0), swing).iter().sum();
+    assert!(observed / 3.0 > 4.0 - SLACK, "{observed}");
+    let top = |step| of_the_top(AdamsBashforthMoulton4::every(step));
+    has_order(4.0, orders(halved(1e-4), top));
+}
+
+/// Its coefficients are small: two steps above round-off, and the orders behind it show.
+#[test]
+fn dormand_prince_has_order_8_on_the_pendulum_and_on_the_heavy_top() {
+    let swing = |step| {
+        of_the_pendulum::<Normalised>(StandardLagrange, DormandPrince853::every(step), SWINGS[1])
+    };
+    let top = |step| of_the_top(DormandPrince853::every(step));
+    let errors = [[0.1, 0.05].map(swing), [4e-3, 2e-3].map(top)];
+    println!("{errors:?}");
+    for [coarse, fine] in errors {
+        assert!((coarse / fine).log2() > 8.0 - 2.0 * SLACK, "{errors:?}");
+    }
+}
+
+fn tolerance(relative: f64) -> Tolerance<f64> {
+    Tolerance {
+        relative,
+        absolute: 1e-3 * relative,
+    }
+}
+
+/// The order at which errors fall with the number of steps.
+fn order_of_steps<I: Integrator<f64>>(method: impl Fn(f64) -> I, tolerances: [f64; 2]) -> f64 {
+    let [(coarse, few), (fine, many)] = tolerances.map(|relative| top_and_steps(method(relative)));
+    println!("{few} steps {coarse:e}, {many} steps {fine:e}");
+    (coarse / fine).ln() / (many as f64 / few as f64).ln()
+}
+
+#[test]
+fn methods_with_control_of_steps_have_their_order_on_the_heavy_top() {
+    /// Steps are no fixed part of the tolerance.
+    const LOOSE: f64 = 0.8;
+    let orders = [
+        (
+            3.0,
+            order_of_steps(|x| BogackiShampine::new(tolerance(x)), [1e-5, 1e-8]),
+        ),
+        (
+            5.0,
+            order_of_steps(|x| DormandPrince::new(tolerance(x)), [1e-6, 1e-10]),
+        ),
+        (
+            8.0,
+            order_of_steps(|x| DormandPrince853::new(tolerance(x)), [1e-6, 1e-11]),
+        ),
+        (
+            5.0,
+            order_of_steps(|x| RadauIIA::new(tolerance(x)), [1e-5, 1e-9]),
+        ),
+    ];
+    println!("{orders:?}");
+    for (order, observed) in orders {
+        assert!(observed > order - LOOSE, "{observed} is not {order}");
+    }
+}
+
+/// A tolerance a thousand times smaller is an error a hundred times smaller at least, by orders that go along with it.
+#[test]
+fn methods_of_many_orders_follow_their_tolerance_on_the_heavy_top() {
+    let adams = |relative| top_and_steps(Adams::new(tolerance(relative)));
+    let bdf = |relative| top_and_steps(Bdf::new(tolerance(relative)));
+    let ends = [[1e-5, 1e-8, 1e-11].map(adams), [1e-4, 1e-7, 1e-10].map(bdf)];
+    println!("{ends:?}");
+    for [(a, _), (b, _), (c, _)] in ends {
+        assert!(a > 100.0 * b && b > 100.0 * c, "{ends:?}");
+    }
 }

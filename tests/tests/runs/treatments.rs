@@ -70,7 +70,11 @@ fn cranked<I: holonom::Integrator<f64>>(
             ControlFlow::Continue(())
         })
         .expect("solvable");
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(
+        report.doubts().is_empty(),
+        "{integrator:?}: {}",
+        report.doubts()
+    );
     let watch = report.watch.as_ref().expect("watched");
     let bearing = watch.violation(SliderCrank::HANDLES.bearing);
     [largest[0], largest[1], bearing.length]
@@ -92,6 +96,11 @@ fn every_treatment_works_with_every_integrator() {
                 cranked($treatment, holonom::BogackiShampine::new(tolerance)),
                 cranked($treatment, DormandPrince::new(tolerance)),
                 cranked($treatment, holonom::DormandPrince853::new(tolerance)),
+                cranked($treatment, holonom::ImplicitMidpoint::every(2e-5)),
+                cranked($treatment, holonom::AdamsBashforthMoulton4::every(5e-5)),
+                cranked($treatment, holonom::Adams::new(tolerance)),
+                cranked($treatment, holonom::Bdf::new(tolerance)),
+                cranked($treatment, holonom::RadauIIA::new(tolerance)),
             ]
         };
     }

@@ -3,7 +3,8 @@
 use holonom::forces::Actuator;
 use holonom::joints::{AngleDriver, PointOnLine, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, Integrator, Real};
+use holonom::{Doubt, ImplicitMidpoint, Integrator, Real};
+use holonom_models::RodPendulum;
 
 holonom::force! {
     /// A spring whose other end is shaken.
@@ -149,6 +150,38 @@ fn phases_of_a_wheel_are_doubted_at_long_steps() {
     assert!(doubts(&Wheel::default(), Rk4::every(0.01), 100.0).is_empty());
     assert!(doubts(&Wheel::default(), DormandPrince::default(), 100.0).is_empty());
     assert!(doubts(&Wheel::default(), Rk4::every(0.01_f32), 100.0).is_empty());
+}
+
+/// The implicit midpoint rule keeps the energy of a pendulum at any step, and its phase is off by the square of it.
+#[test]
+fn phases_of_a_method_that_keeps_the_energy_are_doubted_at_long_steps() {
+    let rod = RodPendulum::default();
+    let run = |step| {
+        let mut angles = Vec::new();
+        let report = Simulation::new(&rod, StandardLagrange, ImplicitMidpoint::every(step))
+            .joint_coordinates()
+            .run(0.0..=2.0, every(0.1), |sample| {
+                angles.push(sample.angle(RodPendulum::HANDLES.pivot));
+                ControlFlow::Continue(())
+            })
+            .expect("solvable");
+        let tells = report
+            .doubts()
+            .into_iter()
+            .any(|doubt| matches!(doubt, Doubt::LongSteps { .. }));
+        (angles, tells)
+    };
+    let (exact, _) = run(1e-4);
+    for step in [0.1, 0.05, 0.025, 0.02, 0.01, 0.005] {
+        let (angles, tells) = run(step);
+        let errors = angles.iter().zip(&exact).map(|(a, b)| f64::abs(a - b));
+        let error = errors.fold(0.0, f64::max);
+        println!("{step}: {error:e}, {tells}");
+        assert!(tells || error < 1e-2, "{step}: {error:e}");
+        // An estimate within ten times.
+        assert!(!tells || error > 1e-3, "{step}: {error:e}");
+    }
+    assert!(run(0.1).1 && !run(0.005).1);
 }
 
 #[test]

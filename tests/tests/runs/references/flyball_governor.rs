@@ -2,6 +2,7 @@
 
 use core::f64::consts::FRAC_PI_6;
 
+use holonom::RadauIIA;
 use holonom::prelude::*;
 use holonom_models::FlyballGovernor;
 
@@ -55,6 +56,44 @@ fn governs<F: Formulation<f64>>(method: F) {
 fn it_governs_as_its_reference() {
     governs(StandardLagrange);
     governs(Baumgarte::default());
+}
+
+#[test]
+fn implicit_steps_are_as_long_as_its_slow_motion() {
+    /// m.
+    const ASKED: f64 = 1e-8;
+    /// Explicit ones are shorter than 3.4e-4 s: thirty thousand.
+    const STEPS: usize = 1000;
+    let tolerance = Tolerance {
+        relative: 3e-8,
+        absolute: 3e-11,
+    };
+    let mut seen = 0;
+    let report = Simulation::new(
+        &FlyballGovernor::default(),
+        StandardLagrange,
+        RadauIIA::new(tolerance),
+    )
+    .joint_coordinates()
+    .run(0.0..=10.0, every(0.5), |sample| {
+        let here = |time: &f64| (time - sample.time()).abs() < 0.1;
+        if let Some(place) = TIMES.iter().position(here) {
+            let height = sample.pose(FlyballGovernor::HANDLES.slider).position.z;
+            let error = (height - HEIGHT[place]).abs();
+            println!("{error:e} m at {} s", sample.time());
+            assert!(error <= ASKED);
+            seen += 1;
+        }
+        ControlFlow::Continue(())
+    })
+    .expect("solvable");
+    println!(
+        "{} steps, {} evaluations",
+        report.accepted, report.evaluations
+    );
+    assert_eq!(seen, TIMES.len());
+    assert!(report.accepted + report.rejected <= STEPS);
+    assert!(report.doubts().is_empty(), "{}", report.doubts());
 }
 
 #[test]
