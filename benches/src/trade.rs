@@ -2,7 +2,8 @@
 
 #[cfg(feature = "large")]
 use holonom_models::problems::{
-    Chain, Crank, DoubleParallelogram, Governor, Leaf, LongPendulum, Ring, Slide, Squeezer, Top,
+    Chain, Crank, DoubleParallelogram, Governor, Leaf, LongPendulum, QuintupleParallelogram, Ring,
+    Slide, Squeezer, Top,
 };
 use holonom_models::problems::{Parallelogram, Pendulum};
 use holonom_study::StudyError;
@@ -21,6 +22,8 @@ pub fn problems() -> Vec<Box<dyn Subject>> {
         Box::new(Both(Parallelogram::default())),
         #[cfg(feature = "large")]
         Box::new(Both(DoubleParallelogram::default())),
+        #[cfg(feature = "large")]
+        Box::new(Both(QuintupleParallelogram::default())),
         #[cfg(feature = "large")]
         Box::new(Both(LongPendulum::default())),
         #[cfg(feature = "large")]

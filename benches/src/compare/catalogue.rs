@@ -3,7 +3,8 @@
 use holonom::{Fault, JointCoordinates};
 #[cfg(feature = "large")]
 use holonom_models::{
-    Bricard, CartPole, DoubleFourBar, HeavyTop, Panda, SliderCrank, SqueezingMechanism, Ur5,
+    Bricard, CartPole, DoubleFourBar, HeavyTop, Panda, QuintupleFourBar, SliderCrank,
+    SqueezingMechanism, Ur5,
 };
 use holonom_models::{FourBar, RodPendulum};
 use holonom_study::compare::measure::Scene;
@@ -13,7 +14,7 @@ use super::assemblers as by_hand;
 #[cfg(feature = "large")]
 use super::scenes::{
     AlternatingChain4, AlternatingChain8, RevoluteChain2, RevoluteChain4, RevoluteChain8,
-    RevoluteChain16, RevoluteChain32, SphericalChain2, SphericalChain8, Windows5, Windows10,
+    RevoluteChain16, RevoluteChain32, SphericalChain2, SphericalChain8, Windows10,
 };
 #[cfg(feature = "huge")]
 use super::scenes::{SphericalChain32, Windows40};
@@ -112,7 +113,7 @@ pub fn entries() -> Vec<Entry> {
         #[cfg(feature = "large")]
         windows::<DoubleFourBar>(2),
         #[cfg(feature = "large")]
-        windows::<Windows5>(5),
+        windows::<QuintupleFourBar>(5),
         #[cfg(feature = "large")]
         windows::<Windows10>(10),
         #[cfg(feature = "huge")]

@@ -20,7 +20,7 @@ macro_rules! chain {
 }
 
 /// Four-bar windows side by side: upright rods of 1 m and 1 kg on the ground, each joined to the next by one of the same kind at the top, moving at 1 m/s along +x,
-/// gravity along -y. Problem A02 of the IFToMM library, as [`holonom_models::FourBar`].
+/// gravity along -y. Problem A02 of the IFToMM library, as [`holonom_models::QuintupleFourBar`].
 macro_rules! windows {
     ($(#[$attribute:meta])* $name:ident: [$rods:tt] [$windows:tt]) => {
         $(#[$attribute])*
@@ -96,11 +96,6 @@ chain! {
     /// Thirty-two rods on balls.
     #[cfg(feature = "huge")]
     SphericalChain32: [Spherical; 32]
-}
-
-windows! {
-    /// Five windows.
-    Windows5: [6] [5]
 }
 
 windows! {

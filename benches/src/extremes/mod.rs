@@ -135,18 +135,19 @@ fn settings(ways: &[Way], integrations: &[Integration]) -> Vec<Setting> {
     settings
 }
 
-const fn rk4(step: f64) -> Integration {
+const fn with(family: Family, step_or_tolerance: f64) -> Integration {
     Integration {
-        family: Family::Rk4,
-        step_or_tolerance: step,
+        family,
+        step_or_tolerance,
     }
 }
 
+const fn rk4(step: f64) -> Integration {
+    with(Family::Rk4, step)
+}
+
 const fn dormand_prince(tolerance: f64) -> Integration {
-    Integration {
-        family: Family::DormandPrince,
-        step_or_tolerance: tolerance,
-    }
+    with(Family::DormandPrince, tolerance)
 }
 
 /// Both, at what they are by default for a motion of this period.
@@ -215,25 +216,12 @@ fn rods(map: &mut Map) {
             motion,
             scale: 1.0,
         };
-        let families = [
-            Family::SemiImplicitEuler,
-            Family::Midpoint,
-            Family::Rk4,
-            Family::DormandPrinceFixed,
-        ];
         // What takes a million steps is done by one of them.
-        let families = if step < 1e-5 {
-            &families[2..3]
-        } else {
-            &families[..]
-        };
-        let integrations: Vec<_> = families
-            .iter()
-            .map(|&family| Integration {
-                family,
-                step_or_tolerance: step,
-            })
-            .collect();
+        let few = step < 1e-5;
+        let families = Family::ALL
+            .into_iter()
+            .filter(|&family| !family.is_adaptive() && (!few || family == Family::Rk4));
+        let integrations: Vec<_> = families.map(|family| with(family, step)).collect();
         map.add(place, case, settings(&tree, &integrations));
     }
     map.axis(
@@ -248,7 +236,11 @@ fn rods(map: &mut Map) {
             motion,
             scale: 1.0,
         };
-        map.add(place, case, settings(&tree, &[dormand_prince(tolerance)]));
+        let families = Family::ALL
+            .into_iter()
+            .filter(|family| family.is_adaptive());
+        let integrations: Vec<_> = families.map(|family| with(family, tolerance)).collect();
+        map.add(place, case, settings(&tree, &integrations));
     }
     map.axis(
         "size",

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use plotters::style::RGBColor;
 
 /// How many series can be told apart.
-pub const SLOTS: usize = 6;
+pub const SLOTS: usize = 8;
 
 /// One role of a colour in both modes.
 #[derive(Clone, Copy)]
@@ -40,6 +40,8 @@ pub(super) const SERIES: [Ink; SLOTS] = [
     ink(0x5B3FC0, 0xB3A2FF, Some(&[3, 4])),
     ink(0x8A6A00, 0xDDB02E, None),
     ink(0x6B6B68, 0xA6A6A1, Some(&[2, 3])),
+    ink(0xC2408E, 0xF48AC6, None),
+    ink(0x00617A, 0x4CC3DB, Some(&[12, 3])),
 ];
 
 /// Text beside axes and in legends.

@@ -15,17 +15,25 @@ pub const WRONG: f64 = 1e-2;
 
 /// The error of a step of `x` radians of an oscillation, for every radian of motion: leading terms of the phase, or of the amplitude where that is larger.
 ///
-/// Semi-implicit Euler: half a step, `x / 2`, which does not grow with the motion; its phase `x^2 / 24`. Midpoint and Heun: `x^2 / 6`. Runge-Kutta: `x^4 / 120`. Dormand-Prince of order 5: its
+/// Semi-implicit Euler: half a step, `x / 2`, which does not grow with the motion; its phase `x^2 / 24`. Midpoint and Heun: `x^2 / 6`; implicit midpoint: `x^2 / 12`. Runge-Kutta: `x^4 / 120`; Adams, Bashforth and Moulton: `19 x^4 / 720`, and an amplitude of about `x^5 / 8`. Dormand-Prince of order 5: its
 /// amplitude of a linear oscillation goes with `x^6 / 3600`; a motion that is not linear has terms of order 5, for which `x^5 / 360` stands. Of order 8: `x^8 / 360`, likewise.
 fn of_step(family: Family, x: f64) -> [f64; 2] {
     match family {
         Family::SemiImplicitEuler => [x / 2.0, x * x / 24.0],
         Family::Midpoint | Family::Heun => [0.0, x.powi(2) / 6.0],
+        Family::ImplicitMidpoint => [0.0, x.powi(2) / 12.0],
+        Family::AdamsBashforthMoulton4 => [0.0, 19.0 / 720.0 * x.powi(4) + x.powi(5) / 8.0],
         Family::Rk4 => [0.0, x.powi(4) / 120.0],
         Family::DormandPrinceFixed => [0.0, x.powi(5) / 360.0],
         Family::DormandPrince853Fixed => [0.0, x.powi(8) / 360.0],
         // Of step control: the tolerance in every step, steps of about a third of a radian at usual tolerances.
-        Family::BogackiShampine | Family::DormandPrince | Family::DormandPrince853 => [0.0, 3.0],
+        Family::BogackiShampine
+        | Family::DormandPrince
+        | Family::DormandPrince853
+        | Family::Adams
+        | Family::RadauIIA => [0.0, 3.0],
+        // Of backward differentiation some ten times as many steps, whose errors are to one side.
+        Family::Bdf => [0.0, 30.0],
     }
 }
 

@@ -291,7 +291,11 @@ impl<'a, P: Problem> Time<'a, '_, P> {
         let (span, name) = (span_of::<S>(&self.problem.span()), self.setting.name());
         let integration = self.setting.integration;
         if P::IS_INLINED {
-            with_own_type!(integration, integrator => contestant(name, system, integrator, span, start))
+            with_own_type!(
+                integration,
+                integrator => contestant(name, system, integrator, span, start),
+                contestant(name, system, integration, span, start)
+            )
         } else {
             contestant(name, system, integration, span, start)
         }

@@ -20,7 +20,7 @@ pub struct Grid {
     pub families: Vec<Family>,
     /// Number types.
     pub scalars: Vec<Precision>,
-    /// Fixed steps, of two digits, begin with a quarter of [`Facts::time_scale`]; two of them make a half, as long as a run has no more steps than this.
+    /// Fixed steps begin with a quarter of [`Facts::time_scale`]; two of them make a half, as long as a run has no more steps than this. They have two digits, or three, if reports then come at ends of steps.
     pub most_steps: f64,
     /// Relative tolerances, of two digits, begin with a hundredth; two of them make a tenth, down to this.
     pub least_tolerance: f64,
@@ -118,16 +118,40 @@ impl Grid {
                 let first = 0.25 * facts.time_scale;
                 let steps = (0..).map(|k| two_digits(first * 2.0_f64.powf(-0.5 * f64::from(k))));
                 let few = steps.take_while(|&step| duration <= self.most_steps * step);
-                integrations.extend(few.map(with));
+                let mut few: Vec<_> = few
+                    .map(|step| dividing(facts.span.first_output, step))
+                    .collect();
+                few.dedup();
+                integrations.extend(few.into_iter().map(with));
             }
         }
         integrations
     }
 }
 
+/// The step of three digits nearest to this one of which a time between reports is a multiple, so that no state within a step is asked for; the same step, if none is near.
+fn dividing(reporting: f64, step: f64) -> f64 {
+    /// A quarter of the way to twice as much: half of that from a step of the grid to the next.
+    const NEAR: f64 = 1.189_207;
+    let least = (reporting / (step * NEAR)).ceil().max(1.0) as u32;
+    let most = (reporting / step * NEAR).floor() as u32;
+    let parts = (least..=most).map(|parts| reporting / f64::from(parts));
+    let written = parts.filter(|&part| (digits(part, 3) / part - 1.0).abs() < 1e-12);
+    let distance = |part: &f64| (part / step).ln().abs();
+    written
+        .map(|part| digits(part, 3))
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap_or(step)
+}
+
 /// A positive number to two digits, as one would write it.
 pub(super) fn two_digits(value: f64) -> f64 {
-    let exponent = value.log10().floor() as i32 - 1;
+    digits(value, 2)
+}
+
+/// A positive number to so many digits.
+fn digits(value: f64, count: i32) -> f64 {
+    let exponent = value.log10().floor() as i32 + 1 - count;
     let digits = (value / 10.0_f64.powi(exponent)).round();
     // Powers of ten that are no numbers of the machine go into the divisor.
     if exponent < 0 {
@@ -139,7 +163,17 @@ pub(super) fn two_digits(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::two_digits;
+    use super::{dividing, two_digits};
+
+    #[test]
+    fn steps_end_where_reports_are_wanted_if_such_a_step_is_near() {
+        assert_eq!(dividing(0.5, 0.24), 0.25);
+        assert_eq!(dividing(0.5, 0.12), 0.125);
+        assert_eq!(dividing(0.5, 0.0021), 0.002);
+        // Thirds are not written with three digits, and a step may be longer than what is asked for.
+        assert_eq!(dividing(0.5, 0.17), 0.17);
+        assert_eq!(dividing(0.1, 0.25), 0.25);
+    }
 
     #[test]
     fn steps_are_numbers_that_one_would_write() {

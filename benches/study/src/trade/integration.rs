@@ -1,9 +1,9 @@
 //! An integrator that is chosen at run time, as one type: what is compiled for a mechanism does not grow with the number of integrators.
 
 use holonom::{
-    AdaptiveCourse, BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, Fault,
-    FixedCourse, Heun, Integrator, Midpoint, Real, Rk4, SemiImplicitEuler, Span, System, Tolerance,
-    Vector,
+    AdamsCourse, AdamsFixedCourse, AdaptiveCourse, BdfCourse, BogackiShampine3, Counts, Course,
+    DormandPrince5, DormandPrince8, Fault, FixedCourse, Heun, ImplicitMidpoint, Integrator,
+    Midpoint, RadauCourse, Real, Rk4, SemiImplicitEuler, Span, System, Tolerance, Vector,
 };
 
 use super::grid::two_digits;
@@ -23,26 +23,41 @@ pub enum Family {
     DormandPrinceFixed,
     /// Dormand and Prince at a fixed step, order 8.
     DormandPrince853Fixed,
+    /// The implicit midpoint rule, order 2.
+    ImplicitMidpoint,
+    /// Adams, Bashforth and Moulton at a fixed step, order 4.
+    AdamsBashforthMoulton4,
     /// Bogacki and Shampine 3(2) under the control of `ode23`.
     BogackiShampine,
     /// Dormand and Prince 5(4) under the control of `ode45`.
     DormandPrince,
     /// Dormand and Prince 8(5,3) under the same control.
     DormandPrince853,
+    /// Adams of order 1 to 12 under the control of `ode113`.
+    Adams,
+    /// Backward differentiation of order 1 to 5 under the control of `ode15s`, implicit.
+    Bdf,
+    /// Radau IIA of order 5 under the control of `RADAU5`, implicit.
+    RadauIIA,
 }
 
 impl Family {
     /// All of them, those of fixed steps first.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 14] = [
         Self::SemiImplicitEuler,
         Self::Midpoint,
         Self::Heun,
         Self::Rk4,
         Self::DormandPrinceFixed,
         Self::DormandPrince853Fixed,
+        Self::ImplicitMidpoint,
+        Self::AdamsBashforthMoulton4,
         Self::BogackiShampine,
         Self::DormandPrince,
         Self::DormandPrince853,
+        Self::Adams,
+        Self::Bdf,
+        Self::RadauIIA,
     ];
 
     /// The name in JSON and on the command line, and for a reader.
@@ -55,9 +70,14 @@ impl Family {
             Self::Rk4 => "rk4",
             Self::DormandPrinceFixed => "dormand-prince-fixed",
             Self::DormandPrince853Fixed => "dormand-prince-853-fixed",
+            Self::ImplicitMidpoint => "implicit-midpoint",
+            Self::AdamsBashforthMoulton4 => "adams-bashforth-moulton-4",
             Self::BogackiShampine => "bogacki-shampine",
             Self::DormandPrince => "dormand-prince",
             Self::DormandPrince853 => "dormand-prince-853",
+            Self::Adams => "adams",
+            Self::Bdf => "bdf",
+            Self::RadauIIA => "radau",
         }
     }
 
@@ -72,20 +92,26 @@ impl Family {
     pub const fn is_adaptive(self) -> bool {
         matches!(
             self,
-            Self::BogackiShampine | Self::DormandPrince | Self::DormandPrince853
+            Self::BogackiShampine
+                | Self::DormandPrince
+                | Self::DormandPrince853
+                | Self::Adams
+                | Self::Bdf
+                | Self::RadauIIA
         )
     }
 
-    /// The power of the step that the error of a motion goes with.
+    /// The power of the step that the error of a motion goes with; of a method of many orders, the highest.
     #[must_use]
     pub const fn order(self) -> u32 {
         match self {
             Self::SemiImplicitEuler => 1,
-            Self::Midpoint | Self::Heun => 2,
+            Self::Midpoint | Self::Heun | Self::ImplicitMidpoint => 2,
             Self::BogackiShampine => 3,
-            Self::Rk4 => 4,
-            Self::DormandPrinceFixed | Self::DormandPrince => 5,
+            Self::Rk4 | Self::AdamsBashforthMoulton4 => 4,
+            Self::DormandPrinceFixed | Self::DormandPrince | Self::Bdf | Self::RadauIIA => 5,
             Self::DormandPrince853Fixed | Self::DormandPrince853 => 8,
+            Self::Adams => 12,
         }
     }
 }
@@ -126,9 +152,14 @@ impl Integration {
             Family::Rk4 => format!("Rk4::every({value:e})"),
             Family::DormandPrinceFixed => format!("DormandPrince::every({value:e})"),
             Family::DormandPrince853Fixed => format!("DormandPrince853::every({value:e})"),
+            Family::ImplicitMidpoint => format!("ImplicitMidpoint::every({value:e})"),
+            Family::AdamsBashforthMoulton4 => format!("AdamsBashforthMoulton4::every({value:e})"),
             Family::BogackiShampine => self.adaptive_code("BogackiShampine"),
             Family::DormandPrince => self.adaptive_code("DormandPrince"),
             Family::DormandPrince853 => self.adaptive_code("DormandPrince853"),
+            Family::Adams => self.adaptive_code("Adams"),
+            Family::Bdf => self.adaptive_code("Bdf"),
+            Family::RadauIIA => self.adaptive_code("RadauIIA"),
         }
     }
 
@@ -139,49 +170,81 @@ impl Integration {
     }
 }
 
-/// Calls `$then` with the integrator as its own type.
+/// Calls `$then` with the integrator as its own type; for methods that do much besides evaluations, `$other` instead if it is given.
 macro_rules! with_own_type {
-    ($integration:expr, $integrator:ident => $then:expr) => {{
-        let integration = $integration;
-        match integration.family {
+    ($integration:expr, $integrator:ident => $then:expr) => {
+        $crate::trade::integration::with_own_type!(@ $integration, $integrator => $then, {
+            $crate::trade::Family::ImplicitMidpoint => {
+                let $integrator = holonom::ImplicitMidpoint::every($integration.step());
+                $then
+            }
+            $crate::trade::Family::Adams => {
+                let $integrator = holonom::Adams::new($integration.tolerance_of());
+                $then
+            }
+            $crate::trade::Family::Bdf => {
+                let $integrator = holonom::Bdf::new($integration.tolerance_of());
+                $then
+            }
+            $crate::trade::Family::RadauIIA => {
+                let $integrator = holonom::RadauIIA::new($integration.tolerance_of());
+                $then
+            }
+        })
+    };
+    ($integration:expr, $integrator:ident => $then:expr, $other:expr) => {
+        $crate::trade::integration::with_own_type!(@ $integration, $integrator => $then, {
+            $crate::trade::Family::ImplicitMidpoint
+            | $crate::trade::Family::Adams
+            | $crate::trade::Family::Bdf
+            | $crate::trade::Family::RadauIIA => $other
+        })
+    };
+    (@ $integration:expr, $integrator:ident => $then:expr, { $($others:tt)* }) => {
+        match $integration.family {
             $crate::trade::Family::SemiImplicitEuler => {
-                let $integrator = holonom::SemiImplicitEuler::every(integration.step());
+                let $integrator = holonom::SemiImplicitEuler::every($integration.step());
                 $then
             }
             $crate::trade::Family::Midpoint => {
-                let $integrator = holonom::Midpoint::every(integration.step());
+                let $integrator = holonom::Midpoint::every($integration.step());
                 $then
             }
             $crate::trade::Family::Heun => {
-                let $integrator = holonom::Heun::every(integration.step());
+                let $integrator = holonom::Heun::every($integration.step());
                 $then
             }
             $crate::trade::Family::Rk4 => {
-                let $integrator = holonom::Rk4::every(integration.step());
+                let $integrator = holonom::Rk4::every($integration.step());
                 $then
             }
             $crate::trade::Family::DormandPrinceFixed => {
-                let $integrator = holonom::DormandPrince::every(integration.step());
+                let $integrator = holonom::DormandPrince::every($integration.step());
                 $then
             }
             $crate::trade::Family::DormandPrince853Fixed => {
-                let $integrator = holonom::DormandPrince853::every(integration.step());
+                let $integrator = holonom::DormandPrince853::every($integration.step());
+                $then
+            }
+            $crate::trade::Family::AdamsBashforthMoulton4 => {
+                let $integrator = holonom::AdamsBashforthMoulton4::every($integration.step());
                 $then
             }
             $crate::trade::Family::BogackiShampine => {
-                let $integrator = holonom::BogackiShampine::new(integration.tolerance_of());
+                let $integrator = holonom::BogackiShampine::new($integration.tolerance_of());
                 $then
             }
             $crate::trade::Family::DormandPrince => {
-                let $integrator = holonom::DormandPrince::new(integration.tolerance_of());
+                let $integrator = holonom::DormandPrince::new($integration.tolerance_of());
                 $then
             }
             $crate::trade::Family::DormandPrince853 => {
-                let $integrator = holonom::DormandPrince853::new(integration.tolerance_of());
+                let $integrator = holonom::DormandPrince853::new($integration.tolerance_of());
                 $then
             }
+            $($others)*
         }
-    }};
+    };
 }
 pub(crate) use with_own_type;
 
@@ -204,6 +267,10 @@ impl<S: Real> Integrator<S> for Integration {
 
     fn fixed_step(&self) -> Option<S> {
         with_own_type!(*self, integrator => integrator.fixed_step())
+    }
+
+    fn silent_phase(&self) -> f64 {
+        with_own_type!(*self, integrator => Integrator::<S>::silent_phase(&integrator))
     }
 
     fn turning_error(&self) -> f64 {
@@ -229,18 +296,28 @@ pub enum AnyCourse<S: Real, X: Vector<S>> {
     DormandPrinceFixed(FixedCourse<S, X, DormandPrince5>),
     /// Of [`Family::DormandPrince853Fixed`].
     DormandPrince853Fixed(FixedCourse<S, X, DormandPrince8>),
+    /// Of [`Family::ImplicitMidpoint`].
+    ImplicitMidpoint(FixedCourse<S, X, ImplicitMidpoint>),
+    /// Of [`Family::AdamsBashforthMoulton4`].
+    AdamsBashforthMoulton4(AdamsFixedCourse<S, X>),
     /// Of [`Family::BogackiShampine`].
     BogackiShampine(AdaptiveCourse<S, X, BogackiShampine3>),
     /// Of [`Family::DormandPrince`].
     DormandPrince(AdaptiveCourse<S, X, DormandPrince5>),
     /// Of [`Family::DormandPrince853`].
     DormandPrince853(AdaptiveCourse<S, X, DormandPrince8>),
+    /// Of [`Family::Adams`].
+    Adams(AdamsCourse<S, X>),
+    /// Of [`Family::Bdf`]; its matrices are large.
+    Bdf(Box<BdfCourse<S, X>>),
+    /// Of [`Family::RadauIIA`]; its matrices are large.
+    RadauIIA(Box<RadauCourse<S, X>>),
 }
 
 macro_rules! from_courses {
-    ($($course:ident<$scheme:ident> => $variant:ident),*) => {$(
-        impl<S: Real, X: Vector<S>> From<$course<S, X, $scheme>> for AnyCourse<S, X> {
-            fn from(course: $course<S, X, $scheme>) -> Self {
+    ($($course:ident<$($scheme:ident)?> => $variant:ident),*) => {$(
+        impl<S: Real, X: Vector<S>> From<$course<S, X $(, $scheme)?>> for AnyCourse<S, X> {
+            fn from(course: $course<S, X $(, $scheme)?>) -> Self {
                 Self::$variant(course)
             }
         }
@@ -254,10 +331,25 @@ from_courses!(
     FixedCourse<Rk4> => Rk4,
     FixedCourse<DormandPrince5> => DormandPrinceFixed,
     FixedCourse<DormandPrince8> => DormandPrince853Fixed,
+    FixedCourse<ImplicitMidpoint> => ImplicitMidpoint,
+    AdamsFixedCourse<> => AdamsBashforthMoulton4,
     AdaptiveCourse<BogackiShampine3> => BogackiShampine,
     AdaptiveCourse<DormandPrince5> => DormandPrince,
-    AdaptiveCourse<DormandPrince8> => DormandPrince853
+    AdaptiveCourse<DormandPrince8> => DormandPrince853,
+    AdamsCourse<> => Adams
 );
+
+impl<S: Real, X: Vector<S>> From<BdfCourse<S, X>> for AnyCourse<S, X> {
+    fn from(course: BdfCourse<S, X>) -> Self {
+        Self::Bdf(Box::new(course))
+    }
+}
+
+impl<S: Real, X: Vector<S>> From<RadauCourse<S, X>> for AnyCourse<S, X> {
+    fn from(course: RadauCourse<S, X>) -> Self {
+        Self::RadauIIA(Box::new(course))
+    }
+}
 
 macro_rules! on_course {
     ($any:expr, $course:ident => $then:expr) => {
@@ -268,9 +360,14 @@ macro_rules! on_course {
             AnyCourse::Rk4($course) => $then,
             AnyCourse::DormandPrinceFixed($course) => $then,
             AnyCourse::DormandPrince853Fixed($course) => $then,
+            AnyCourse::ImplicitMidpoint($course) => $then,
+            AnyCourse::AdamsBashforthMoulton4($course) => $then,
             AnyCourse::BogackiShampine($course) => $then,
             AnyCourse::DormandPrince($course) => $then,
             AnyCourse::DormandPrince853($course) => $then,
+            AnyCourse::Adams($course) => $then,
+            AnyCourse::Bdf($course) => $then,
+            AnyCourse::RadauIIA($course) => $then,
         }
     };
 }
