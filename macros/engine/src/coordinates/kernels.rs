@@ -163,12 +163,14 @@ fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {
     outputs.extend(solution.multipliers);
     let (pivots, checks) = relative(&mut reduced.scene, &solution.checks);
     outputs.extend(pivots);
+    let mut kernel = Kernel {
+        arena: reduced.scene.space.arena,
+        outputs,
+    };
+    kernel.gather();
     Evaluation {
         terms,
-        kernel: Kernel {
-            arena: reduced.scene.space.arena,
-            outputs,
-        },
+        kernel,
         checks,
     }
 }

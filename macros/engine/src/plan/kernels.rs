@@ -4,6 +4,7 @@ use super::alone::alone;
 use super::candidates::{Factorised, cheapest, first, solved};
 use super::eliminate::Check;
 use super::readouts::Readouts;
+use super::reference::by_numbers;
 use super::system::{System, Terms, applied_forces};
 use super::{Plan, Plans};
 use crate::model::Model;
@@ -178,7 +179,8 @@ fn gains() -> Kernel {
 }
 
 fn relative_pivots(scene: &mut Scene, system: &System) -> (Vec<Expr>, Vec<PivotCheck>) {
-    let recorded = system.checks(scene);
+    let mut recorded = system.checks(scene);
+    by_numbers(scene, system.kinds(), &mut recorded);
     relative(scene, &recorded)
 }
 
@@ -237,14 +239,17 @@ fn raw(model: &Model, Factorised { scene, system, .. }: &Factorised, terms: Term
     outputs.extend(solution.multipliers);
     let (pivots, checks) = relative_pivots(&mut scene, system);
     outputs.extend(pivots);
+    let rotations = rotations(&scene);
+    let mut kernel = Kernel {
+        arena: scene.space.arena,
+        outputs,
+    };
+    kernel.gather();
     Evaluation {
         terms,
         normalisation: Normalisation::Raw,
-        rotations: rotations(&scene),
-        kernel: Kernel {
-            arena: scene.space.arena,
-            outputs,
-        },
+        rotations,
+        kernel,
         checks,
     }
 }

@@ -14,6 +14,7 @@ pub mod kernels;
 mod order;
 mod reach;
 pub mod readouts;
+mod reference;
 mod symmetric;
 pub mod system;
 pub mod time;

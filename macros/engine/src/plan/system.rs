@@ -236,6 +236,11 @@ impl System {
         self.factors.entries()
     }
 
+    /// The kinds of the bodies.
+    pub(super) fn kinds(&self) -> &[BodyKind] {
+        &self.kinds
+    }
+
     /// The pivots to be checked, with the row instead of the unknown.
     #[must_use]
     pub fn checks(&self, scene: &Scene) -> Vec<Check> {

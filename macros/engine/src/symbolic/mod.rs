@@ -9,6 +9,7 @@ pub mod evaluate;
 pub mod fixed;
 mod force;
 pub mod functions;
+mod gather;
 mod identities;
 mod index;
 mod kept;

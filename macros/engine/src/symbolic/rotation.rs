@@ -102,28 +102,40 @@ pub(super) fn complete(arena: &mut Arena, a: &[Triple; 3]) {
     }
 }
 
-/// Declares that the entries of the rotation between two bodies are their own cofactors, as far as they are known.
+/// The entries of the rotation from a body to another one, `A^T B`, that are known.
+fn known_between(arena: &mut Arena, a: &[Triple; 3], b: &[Triple; 3]) -> [[Option<Expr>; 3]; 3] {
+    [0, 1, 2].map(|k| {
+        [0, 1, 2].map(|l| {
+            let (mark, nodes) = (arena.mark(), arena.len());
+            let entry = dot(arena, column(a, k), column(b, l));
+            let is_known = arena.len() == nodes;
+            arena.rollback(mark);
+            is_known.then_some(entry)
+        })
+    })
+}
+
+fn column(rows: &[Triple; 3], k: usize) -> Triple {
+    [rows[0][k], rows[1][k], rows[2][k]]
+}
+
+/// The places of an entry and of those that its cofactor is made of.
+fn cofactor_places(k: usize, l: usize) -> [(usize, usize); 4] {
+    let (k1, k2, l1, l2) = ((k + 1) % 3, (k + 2) % 3, (l + 1) % 3, (l + 2) % 3);
+    [(k1, l1), (k2, l2), (k1, l2), (k2, l1)]
+}
+
+/// Declares that the entries of the rotation between two bodies are their own cofactors, as far as they are known, and that vectors may be turned by it.
 pub fn relate(space: &mut Space, one: usize, other: usize) {
     let (Some(a), Some(b)) = (space.rotation(one).copied(), space.rotation(other).copied()) else {
         return;
     };
     let arena = &mut space.arena;
-    let column = |rows: &[Triple; 3], k: usize| [rows[0][k], rows[1][k], rows[2][k]];
-    let known = [0, 1, 2].map(|k| {
-        [0, 1, 2].map(|l| {
-            let (mark, nodes) = (arena.mark(), arena.len());
-            let entry = dot(arena, column(&a, k), column(&b, l));
-            let is_known = arena.len() == nodes;
-            arena.rollback(mark);
-            is_known.then_some(entry)
-        })
-    });
+    let known = known_between(arena, &a, &b);
     for k in 0..3 {
         for l in 0..3 {
-            let (k1, k2, l1, l2) = ((k + 1) % 3, (k + 2) % 3, (l + 1) % 3, (l + 2) % 3);
-            let parts = [(k, l), (k1, l1), (k2, l2), (k1, l2), (k2, l1)];
-            let [Some(entry), Some(p), Some(q), Some(r), Some(s)] = parts.map(|(k, l)| known[k][l])
-            else {
+            let parts = cofactor_places(k, l).map(|(k, l)| known[k][l]);
+            let ([Some(p), Some(q), Some(r), Some(s)], Some(entry)) = (parts, known[k][l]) else {
                 continue;
             };
             let (forth, back) = (arena.mul(p, q), arena.mul(r, s));
@@ -131,4 +143,34 @@ pub fn relate(space: &mut Space, one: usize, other: usize) {
             arena.identify(cofactor, entry);
         }
     }
+    space.know_relation(one, other);
+}
+
+/// Components in the axes of a body, in those of another one: by the rotation between them, whose entries are known, cofactors of known ones, or scalar products.
+pub(super) fn turn_between(
+    arena: &mut Arena,
+    components: Triple,
+    from: &[Triple; 3],
+    to: &[Triple; 3],
+) -> Triple {
+    let known = known_between(arena, to, from);
+    [0, 1, 2].map(|k| {
+        let mut entry = |l: usize| {
+            if components[l] == Arena::ZERO {
+                return Arena::ZERO;
+            }
+            if let Some(known) = known[k][l] {
+                return known;
+            }
+            match cofactor_places(k, l).map(|(k, l)| known[k][l]) {
+                [Some(p), Some(q), Some(r), Some(s)] => {
+                    let (forth, back) = (arena.mul(p, q), arena.mul(r, s));
+                    arena.sub(forth, back)
+                }
+                _ => dot(arena, column(to, k), column(from, l)),
+            }
+        };
+        let row = [entry(0), entry(1), entry(2)];
+        dot(arena, row, components)
+    })
 }

@@ -12,6 +12,8 @@ use std::collections::VecDeque;
 use super::arena::{Arena, Expr, Mark};
 use super::table::Table;
 
+mod turns;
+
 /// The axes that components refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Frame {
@@ -74,6 +76,8 @@ pub struct Space {
     history: Vec<(VectorId, Frame)>,
     /// `A` of every body, from body to global axes, row by row; `None` for a body without orientation.
     rotations: Vec<Option<[Triple; 3]>>,
+    /// Bodies whose vectors may be turned from the one to the other without global axes.
+    related: Vec<[usize; 2]>,
     /// Whether `A` may be any multiple of a rotation.
     exact: bool,
     /// Whether identities of rotations are tried beside the product rule.
@@ -338,10 +342,19 @@ impl Space {
         } else {
             self.native_frames(vector, &mut frames);
         }
+        let related = frames
+            .iter()
+            .filter(|&&within| self.is_related(within, frame));
+        let ways = frames.iter().map(|&within| (within, false));
+        let ways: Vec<(Frame, bool)> = ways.chain(related.map(|&within| (within, true))).collect();
         let components = self
-            .cheapest(&frames, |space, within| {
+            .cheapest(&ways, |space, (within, at_once)| {
                 let components = space.components_within(vector, within);
-                space.turn(components, within, frame)
+                if at_once {
+                    space.turn_at_once(components, within, frame)
+                } else {
+                    space.turn(components, within, frame)
+                }
             })
             .expect("a vector is defined in some frame");
         self.components.insert((vector, frame), components);
@@ -427,30 +440,6 @@ impl Space {
             let second = self.arena.mul(square, a[k]);
             self.arena.sub(first, second)
         })
-    }
-
-    /// Components in another frame.
-    pub fn turn(&mut self, components: Triple, from: Frame, to: Frame) -> Triple {
-        if from == to || components == ZERO {
-            return components;
-        }
-        match (from, to) {
-            (Frame::Body(body), Frame::Global) => match self.rotations[body] {
-                Some(rows) => rows.map(|row| dot(&mut self.arena, row, components)),
-                None => components,
-            },
-            (Frame::Global, Frame::Body(body)) => match self.rotations[body] {
-                Some(rows) => [0, 1, 2].map(|k| {
-                    let column = [rows[0][k], rows[1][k], rows[2][k]];
-                    dot(&mut self.arena, column, components)
-                }),
-                None => components,
-            },
-            _ => {
-                let global = self.turn(components, from, Frame::Global);
-                self.turn(global, Frame::Global, to)
-            }
-        }
     }
 
     /// `a . b`, in the frame where it is cheapest, or by an identity where that is cheaper.

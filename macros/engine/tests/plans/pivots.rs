@@ -4,6 +4,8 @@ use holonom_engine::model::ElementKind;
 use holonom_engine::plan::candidates::all;
 use holonom_engine::plan::kernels::Kernels;
 use holonom_engine::plan::system::Terms;
+use holonom_engine::symbolic::arena::Stage;
+use holonom_engine::symbolic::count::count;
 use holonom_engine::symbolic::scene::Normalisation;
 use proc_macro2::TokenStream;
 
@@ -220,4 +222,37 @@ fn more_rows_on_a_body_than_it_has_accelerations() {
             other: Spherical,
         }",
     );
+}
+
+/// Three rods of unequal length on four hinges.
+const FOUR_BAR: &str = "#[mechanism(redundant = \"drop\")] struct FourBar {
+    #[body(mass = 1.0, inertia = [0.08, 0.09, 0.02], position = [0.0, 0.0, 0.5])] left: Body,
+    #[body(mass = 2.0, inertia = [0.1, 0.02, 0.12], position = [0.0, 0.6, 1.1])] top: Body,
+    #[body(mass = 1.5, inertia = [0.11, 0.1, 0.03], position = [0.0, 1.2, 0.6])] right: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])] first: Revolute,
+    #[joint(between = [left, top], point = [0.0, 0.0, 1.0], axis = [1.0, 0.0, 0.0])] second: Revolute,
+    #[joint(between = [ground, right], point = [0.0, 1.2, 0.0], axis = [1.0, 0.0, 0.0])] third: Revolute,
+    #[joint(between = [right, top], point = [0.0, 1.2, 1.2], axis = [1.0, 0.0, 0.0])] fourth: Revolute,
+}";
+
+/// What the pivots of the closing rows would be without the other rows depends on orientations alone and varies little: a number stands for it, which no pivot exceeds.
+#[test]
+fn pivots_that_are_compared_with_numbers() {
+    let model = delivered(&tokens(FOUR_BAR), find);
+    let kernels = Kernels::new(&model);
+    let described = State::described(&model, &kernels);
+    let plain = &kernels.evaluations[0];
+    let reciprocals = count(&plain.kernel.arena, &plain.kernel.outputs, Stage::State).divisions;
+    // Three hinges, the motion that each of two bodies keeps within the others, two closing rows.
+    assert_eq!(reciprocals, 6);
+    let mut dice = Dice::new(5);
+    for _ in 0..200 {
+        let state = described.near(&model, 3.0, &mut dice);
+        let found = evaluated(&model, &kernels, Terms::Plain, Normalisation::Raw, &state);
+        let closing = &found.pivots[found.pivots.len() - 2..];
+        assert!(
+            closing.iter().all(|pivot| *pivot > 0.0 && *pivot < 1.02),
+            "{closing:?}"
+        );
+    }
 }
