@@ -279,11 +279,18 @@ macro_rules! real {
                 let small = angles
                     .iter()
                     .fold(true, |small, angle| small & (angle.abs() < SMALL));
+                let mut turns = [[0.0; 2]; N];
+                // Loops, because `map` of many is called, and its results pass through memory.
                 if small {
-                    angles.map(of_small)
+                    for (turn, &angle) in turns.iter_mut().zip(angles) {
+                        *turn = of_small(angle);
+                    }
                 } else {
-                    angles.map(of_any)
+                    for (turn, &angle) in turns.iter_mut().zip(angles) {
+                        *turn = of_any(angle);
+                    }
                 }
+                turns
             }
         }
 
