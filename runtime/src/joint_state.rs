@@ -14,7 +14,7 @@ use crate::scalar::{Real, Scalar};
 ///
 /// - [`Vector::plus`] *turns* a pair by the sum of its increments: what a method does with the angle it does with the pair, up to round-off, at
 ///   the stages too, because turns about one axis commute. Pairs whose elements are integrated as numbers lose an order of magnitude in
-///   accuracy. The sine and cosine of an increment are exact to round-off for every size; below 0.5 rad a turn calls no function in `f64` and
+///   accuracy. The sine and cosine of an increment are exact to round-off for every size; below 0.9 rad a turn calls no function in `f64` and
 ///   `f32` ([`Scalar::sines_and_versines`]). Every turn takes back what round-off did to the length before: it does not drift. A pair that was
 ///   given with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is no angle.
 /// - [`Vector::relative_norm`] measures the increment of an angle in radians, against `max(1, floor)`. Angles on a circle have no size, so a relative

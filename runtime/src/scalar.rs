@@ -71,7 +71,7 @@ pub trait Scalar:
     /// their digits however small or large the angle is; NaN for an infinite one.
     ///
     /// By [`Scalar::sin`] and [`Scalar::cos`] of half the angles, if a type does not know better: `f64` and `f32` have no call of a function
-    /// where all angles are below 0.5 rad.
+    /// where all angles are below 0.9 rad.
     #[must_use]
     fn sines_and_versines<const N: usize>(angles: &[Self; N]) -> [[Self; 2]; N] {
         angles.map(versine::of)
@@ -178,7 +178,7 @@ pub(crate) mod elementary {
 }
 
 macro_rules! real {
-    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident, $polynomial:ident) => {
+    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident, $coefficients:ident, $polynomial:ident) => {
         impl Scalar for $float {
             #[inline(always)]
             fn constant(value: f64) -> Self {
@@ -261,15 +261,18 @@ macro_rules! real {
 
                 #[inline(always)]
                 fn of_small(angle: $float) -> [$float; 2] {
-                    versine::of_small(angle, versine::$polynomial)
+                    versine::of_small(angle, &versine::$coefficients, versine::$polynomial)
                 }
 
                 // The same number for an angle, whatever stands beside it.
                 #[cold]
                 #[inline(never)]
                 fn of_any(angle: $float) -> [$float; 2] {
-                    if angle.abs() < SMALL {
+                    let size = angle.abs();
+                    if size < SMALL {
                         of_small(angle)
+                    } else if size < 2.0 * SMALL {
+                        versine::doubled(of_small(0.5 * angle))
                     } else {
                         versine::of(angle)
                     }
@@ -332,10 +335,10 @@ macro_rules! real {
 }
 
 real!(
-    f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64, six
+    f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64, SIX, six
 );
 real!(
-    f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32, three
+    f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32, THREE, three
 );
 
 #[cfg(test)]

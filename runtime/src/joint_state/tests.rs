@@ -48,7 +48,7 @@ fn million<S: Real>(increment: f64) -> (f64, f64) {
 }
 
 /// Numbers of at most twelve binary digits, below and above the bound of the series, up to ten turns.
-const INCREMENTS: [f64; 12] = [
+const INCREMENTS: [f64; 14] = [
     0.0,
     1.0 / 1_048_576.0,
     0.0009765625,
@@ -57,6 +57,8 @@ const INCREMENTS: [f64; 12] = [
     0.49609375,
     0.5,
     0.69921875,
+    0.8984375,
+    0.90625,
     -1.5625,
     3.140625,
     6.28125,
