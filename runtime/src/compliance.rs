@@ -8,22 +8,23 @@ use crate::scalar::Real;
 
 /// A compliance below so many `EPSILON` of what a row yields to a unit load is lost in the round-off of it: of rows that depend on others nothing else
 /// is left.
-const RESOLVED: f64 = 64.0;
+pub(crate) const RESOLVED: f64 = 64.0;
 
-/// The compliance of every row: that of the formulation, in the unit of the row at the reference configuration.
+/// The compliance of every row: that of the formulation, in the unit of the row at the reference configuration, with `radian` metres for a radian.
 ///
 /// # Errors
 /// [`Fault::PenaltyFactor`] where equations are kept that depend on others and the compliance is lost in round-off.
 pub(crate) fn compliances<S: Real, M: Mechanism, T: Terms>(
     constants: &M::Constants<S>,
     stabilisation: &Stabilisation<S>,
+    radian: S,
 ) -> Result<M::Multipliers<S>, Fault> {
     if !T::COMPLIANT {
         return Ok(M::Multipliers::<S>::zeros());
     }
     let described = M::initial_state(constants);
     let rows = Rows::<S, M>::at(constants, S::zero(), &described);
-    let mut compliances = rows.units();
+    let mut compliances = rows.units(radian);
     let mut largest: Option<S> = None;
     let elements = compliances.as_mut_slice().iter_mut();
     for (compliance, &stiffness) in elements.zip(rows.stiffness.as_slice()) {

@@ -260,7 +260,7 @@ fn least<S: Real>() -> S {
 }
 
 /// The saddle system with compliances that are a part of what each row yields by itself, factorised.
-fn compliant<S: Real, M: Mechanism>(
+pub(crate) fn compliant<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     rows: &Rows<S, M>,
     state: &M::State<S>,

@@ -329,12 +329,19 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         multipliers
     }
 
-    /// The square of what one metre (one radian for a row of rotations alone) is in the unit of each row, by the largest part of its
-    /// gradient: 1 for most, `(2 l)^2` for the difference of squares of a length `l`. A row that vanishes counts as it is.
-    pub(crate) fn units(&self) -> M::Multipliers<S> {
+    /// The square of what one metre is in the unit of each row, by the largest part of its gradient: 1 for most, `(2 l)^2` for the difference of squares of a
+    /// length `l`, and `1 / radian^2` for a row of rotations alone, whose radian counts as so many metres. A row that vanishes counts as it is.
+    pub(crate) fn units(&self, radian: S) -> M::Multipliers<S> {
         let mut units = M::Multipliers::<S>::zeros();
         let elements = units.as_mut_slice().iter_mut().zip(self.meanings());
-        elements.for_each(|(unit, (size, _))| *unit = size * size);
+        elements.for_each(|(unit, (size, is_length))| {
+            let metre = if is_length {
+                size
+            } else {
+                size.quotient(radian)
+            };
+            *unit = metre * metre;
+        });
         evened::<S, M>(&mut units);
         units
     }
@@ -353,6 +360,28 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             let size = if part > S::zero() { part } else { S::one() };
             (size, is_length)
         })
+    }
+
+    /// The least mass (kg) that a row feels, where a radian counts as so many metres; `None` without rows.
+    pub(crate) fn lightest(&self, radian: S) -> Option<S> {
+        let units = self.units(radian);
+        let rows = units.as_slice().iter().zip(self.stiffness.as_slice());
+        let rows = rows.filter(|&(_, &stiffness)| stiffness > S::zero());
+        let masses = rows.map(|(&unit, &stiffness)| unit.quotient(stiffness));
+        masses.reduce(S::min)
+    }
+
+    /// The largest of the rates (1/s) at which laws of time move a row, over the size of its joint.
+    pub(crate) fn driven(&self) -> S {
+        let sizes = self.positions();
+        let rates = sizes.rows(&self.drift).map(|(drift, natural, ..)| {
+            if drift == S::zero() {
+                drift
+            } else {
+                drift.quotient(natural)
+            }
+        });
+        rates.fold(S::zero(), S::max)
     }
 
     /// Compliances of the rows: a part of what each yields to a unit load; any positive number for a row that vanishes.
@@ -569,7 +598,7 @@ pub(crate) fn fraction<S: Real>(place: usize) -> S {
 }
 
 /// The Euclidean norm, without a square out of the range of numbers.
-fn norm<S: Real>(vector: &[S]) -> S {
+pub(crate) fn norm<S: Real>(vector: &[S]) -> S {
     let most = vector.iter().fold(S::zero(), |most, x| most.max(x.abs()));
     if most > S::zero() {
         let sum = vector.iter().fold(S::zero(), |sum, x| {

@@ -64,7 +64,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
         let stabilisation = formulation.stabilisation()?;
         let parameters = parameters(mechanism)?;
         let constants = M::prepare(&parameters);
-        let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation)?;
+        let radian = formulation.radian();
+        let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation, radian)?;
         Ok(Self {
             parameters,
             constants,
@@ -138,7 +139,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
         let parameters = parameters(mechanism)?;
         let constants = M::prepare(&parameters);
-        self.compliances = compliances::<S, M, F::Terms>(&constants, &self.stabilisation)?;
+        let radian = self.formulation.radian();
+        self.compliances = compliances::<S, M, F::Terms>(&constants, &self.stabilisation, radian)?;
         self.coefficients =
             M::coefficients_by_row(&constants, &self.stabilisation, &self.compliances);
         self.parameters = parameters;
@@ -166,6 +168,11 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     #[must_use]
     pub fn constants(&self) -> &M::Constants<S> {
         &self.constants
+    }
+
+    /// The compliance of every row; zeros for a formulation without.
+    pub(crate) fn compliances(&self) -> &M::Multipliers<S> {
+        &self.compliances
     }
 
     pub(crate) fn formulation(&self) -> &F {

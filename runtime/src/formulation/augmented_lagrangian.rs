@@ -44,6 +44,8 @@ pub struct AugmentedLagrangian<S> {
     pub omega: S,
     /// `mu`, positive: the damping ratio of the violation, 1 for critical damping.
     pub mu: S,
+    /// How many metres a radian counts as, positive: a constraint in radians has `alpha radian^2`. `None` is one metre.
+    pub radian: Option<S>,
     /// The change of the accelerations, relative to `1 + |u'|`, that ends the iteration; positive.
     pub tolerance: S,
     /// How often the system may be solved in one evaluation; at least 2. Near singular configurations it is solved as often.
@@ -66,6 +68,7 @@ impl<S: Real> AugmentedLagrangian<S> {
             alpha,
             omega,
             mu,
+            radian: None,
             tolerance,
             max_iterations: 20,
             is_exact: false,
@@ -87,7 +90,7 @@ impl<S: Real> AugmentedLagrangian<S> {
     }
 }
 
-/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15.
+/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15: for a pendulum of a metre and some kilograms. [`AugmentedLagrangian::of`] is for any mechanism.
 impl<S: Real> Default for AugmentedLagrangian<S> {
     fn default() -> Self {
         Self::new(S::constant(1e7), S::constant(10.0), S::one())
@@ -113,7 +116,12 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
                 value: self.max_iterations as f64 - 1.0,
             });
         }
+        penalty::checked(self.radian)?;
         penalty::stabilisation(self.alpha, self.omega, self.mu)
+    }
+
+    fn radian(&self) -> S {
+        self.radian.unwrap_or(S::one())
     }
 
     fn refine<M: Mechanism>(

@@ -27,7 +27,7 @@ impl<S> Baumgarte<S> {
     }
 }
 
-/// `alpha = beta = 5 / s`, as in Flores 2015, chapter 15.
+/// `alpha = beta = 5 / s`, as in Flores 2015, chapter 15: for a pendulum of a metre. [`Baumgarte::of`] is for any mechanism.
 impl<S: Real> Default for Baumgarte<S> {
     fn default() -> Self {
         Self::new(S::constant(5.0), S::constant(5.0))

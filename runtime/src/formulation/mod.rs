@@ -9,7 +9,7 @@
 //!
 //! A row in metres, or in radians, has the compliance `e`. A row in another unit has `e` times the square of what a metre is in it at the reference
 //! configuration, so that `e` means the same for all: `(2 l)^2 e` for a [`Distance`](crate::joints::Distance) of the length `l`, which is the
-//! difference of squares.
+//! difference of squares. Where a radian counts as another length `L` than a metre ([`Formulation::radian`]), a row in radians has `e / L^2`.
 //!
 //! | formulation | a, b | e | lambda_previous |
 //! |---|---|---|---|
@@ -25,6 +25,7 @@
 mod augmented_lagrangian;
 mod baumgarte;
 mod consistency;
+mod derived;
 mod joints;
 mod penalty;
 mod standard;
@@ -70,6 +71,11 @@ pub trait Formulation<S: Real>: Copy + Debug {
     /// that lets them stay.
     fn decay_rate(&self) -> Option<S> {
         None
+    }
+
+    /// How many metres a radian counts as where a compliance is given in metres: a row in radians has it over the square of that.
+    fn radian(&self) -> S {
+        S::one()
     }
 
     /// Goes on from a solution of the factorised system, that with `lambda_previous = 0`: leaves it as it is.

@@ -25,17 +25,24 @@ pub struct Penalty<S> {
     pub omega: S,
     /// `mu`, positive: the damping ratio of the violation, 1 for critical damping.
     pub mu: S,
+    /// How many metres a radian counts as, positive: a constraint in radians has `alpha radian^2`. `None` is one metre.
+    pub radian: Option<S>,
 }
 
 impl<S> Penalty<S> {
-    /// The formulation with its three coefficients.
+    /// The formulation with its three coefficients; a radian counts as a metre.
     #[must_use]
     pub const fn new(alpha: S, omega: S, mu: S) -> Self {
-        Self { alpha, omega, mu }
+        Self {
+            alpha,
+            omega,
+            mu,
+            radian: None,
+        }
     }
 }
 
-/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15.
+/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15: for a pendulum of a metre and some kilograms. [`Penalty::of`] is for any mechanism.
 impl<S: Real> Default for Penalty<S> {
     fn default() -> Self {
         Self::new(S::constant(1e7), S::constant(10.0), S::one())
@@ -50,7 +57,20 @@ impl<S: Real> Formulation<S> for Penalty<S> {
     }
 
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault> {
+        checked(self.radian)?;
         stabilisation(self.alpha, self.omega, self.mu)
+    }
+
+    fn radian(&self) -> S {
+        self.radian.unwrap_or(S::one())
+    }
+}
+
+/// Refuses a length of a radian that is none.
+pub(super) fn checked<S: Real>(radian: Option<S>) -> Result<(), Fault> {
+    match radian {
+        Some(length) => positive("length of a radian of the penalty", length).map(drop),
+        None => Ok(()),
     }
 }
 

@@ -3,7 +3,9 @@
 use super::{Span, StepLimits, positive};
 use crate::array::Vector;
 use crate::error::Fault;
+use crate::mechanism::Mechanism;
 use crate::scalar::Real;
+use crate::scales::Scales;
 
 /// The error to be allowed in a step: `relative * max(|y|, absolute / relative)` for every element of the state.
 ///
@@ -22,6 +24,31 @@ impl<S: Real> Default for Tolerance<S> {
         Self {
             relative: S::constant(1e-6),
             absolute: S::constant(1e-9),
+        }
+    }
+}
+
+/// The absolute tolerance of scales of one, over the relative one.
+const FLOOR: f64 = 1e-3;
+
+impl<S: Real> Tolerance<S> {
+    /// A relative tolerance, with the absolute one for a mechanism as its attributes describe it: the relative one times a thousandth of the least of its scales, of lengths, angles,
+    /// velocities and angular velocities, which all stand in one state: the length, 1 rad, the length over the time, 1 rad over the time, see [`Scales`].
+    ///
+    /// # Errors
+    /// As [`Scales::of`].
+    pub fn of<M: Mechanism>(mechanism: &M, relative: S) -> Result<Self, Fault> {
+        Ok(Self::with_scales(&Scales::of(mechanism)?, relative))
+    }
+
+    /// The same for scales that are known otherwise.
+    #[must_use]
+    pub fn with_scales(scales: &Scales<S>, relative: S) -> Self {
+        let length = scales.length.min(S::one());
+        let least = length.min(length.quotient(scales.time));
+        Self {
+            relative,
+            absolute: S::constant(FLOOR) * relative * least,
         }
     }
 }
