@@ -209,6 +209,8 @@ pub struct JointReport {
     pub motions: &'static [JointMotion],
     /// The joint of each equation that remains.
     pub closing: &'static [&'static str],
+    /// The row of `Phi` that each of them is; `None` where the equations of the bodies leave it out.
+    pub rows: &'static [Option<usize>],
     /// What the evaluations cost, and `rates ..` without the multipliers, which is what a step takes; one alone where no equation remains.
     pub kernels: &'static [Kernel],
     /// The places of Euler parameters among the further coordinates.

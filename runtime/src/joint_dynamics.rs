@@ -83,6 +83,20 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     }
 }
 
+/// The compliances of the equations that remain: those of the same rows of the bodies, so that one coefficient means the same in both descriptions.
+fn closing<S: Real, M: JointCoordinates>(
+    of_bodies: &M::Multipliers<S>,
+    otherwise: S,
+) -> M::ClosingMultipliers<S> {
+    let mut closing = M::ClosingMultipliers::<S>::zeros();
+    let rows = closing.as_mut_slice().iter_mut();
+    for (compliance, row) in rows.zip(M::JOINT_REPORT.rows) {
+        let known = row.and_then(|row| of_bodies.as_slice().get(row));
+        *compliance = known.copied().unwrap_or(otherwise);
+    }
+    closing
+}
+
 impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, A> {
     /// The same with forces from a closure, which is shown the state of the bodies.
     #[must_use]
@@ -108,6 +122,8 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
         self.bodies.update(mechanism)?;
         let constants = M::prepare_joints(self.bodies.parameters());
+        let compliance = self.stabilisation.compliance;
+        self.compliances = closing::<S, M>(self.bodies.compliances(), compliance);
         self.coefficients =
             M::joint_coefficients(&constants, &self.stabilisation, &self.compliances);
         self.constants = constants;
@@ -143,8 +159,7 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     pub(crate) fn with(bodies: Dynamics<S, M, F, Normalised, A>) -> Result<Self, Fault> {
         let stabilisation = bodies.formulation().stabilisation()?;
         let constants = M::prepare_joints(bodies.parameters());
-        let mut compliances = M::ClosingMultipliers::<S>::zeros();
-        compliances.as_mut_slice().fill(stabilisation.compliance);
+        let compliances = closing::<S, M>(bodies.compliances(), stabilisation.compliance);
         Ok(Self {
             bodies,
             coefficients: M::joint_coefficients(&constants, &stabilisation, &compliances),

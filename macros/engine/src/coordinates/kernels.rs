@@ -70,6 +70,8 @@ pub struct JointKernels {
     pub velocities: usize,
     /// The joints of the rows that remain, row by row.
     pub rows: Vec<usize>,
+    /// The same rows among those of the bodies; `None` for one that is left out there.
+    pub rows_of_bodies: Vec<Option<usize>>,
     /// The places of Euler parameters among the further coordinates.
     pub balls: Vec<usize>,
     /// What the velocities are, in order; one for three of a ball.
@@ -127,6 +129,7 @@ impl JointKernels {
                 .any(|counted| counted.angle.paired.is_none()),
             velocities: links.velocities,
             rows,
+            rows_of_bodies: rows_of_bodies(model, &reduced),
             balls: balls.collect(),
             links: links
                 .links
@@ -151,6 +154,30 @@ impl JointKernels {
             },
         }
     }
+}
+
+/// Where the rows that remain stand among those of the bodies.
+fn rows_of_bodies(model: &Model, reduced: &Reduced) -> Vec<Option<usize>> {
+    let layout = model.layout();
+    let mut rows = Vec::new();
+    for constrained in &reduced.scene.constraints {
+        let joint = constrained.joint;
+        let of_joint = &model.joints[joint];
+        let places = 0..model.definition(of_joint).equations();
+        let remain = places.filter(|place| !reduced.dropped[joint].contains(place));
+        let first = constrained.row - reduced.scene.layout.row[joint];
+        rows.extend(
+            remain
+                .skip(first)
+                .take(constrained.equations())
+                .map(|place| {
+                    let before = of_joint.dropped.iter().filter(|&&row| row < place);
+                    (!of_joint.dropped.contains(&place))
+                        .then(|| layout.row[joint] + place - before.count())
+                }),
+        );
+    }
+    rows
 }
 
 fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {

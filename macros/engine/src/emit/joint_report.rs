@@ -83,6 +83,10 @@ impl Writer<'_> {
             }
         });
         let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
+        let rows = kernels.rows_of_bodies.iter().map(|row| match row {
+            Some(row) => quote!(::core::option::Option::Some(#row)),
+            None => quote!(::core::option::Option::None),
+        });
         let counts = self.counts().into_iter();
         let counts = counts.map(|(name, count)| kernel(&name, count, facade));
         let balls = &kernels.balls;
@@ -91,6 +95,7 @@ impl Writer<'_> {
             #facade::JointReport {
                 motions: &[#(#links),*],
                 closing: &[#(#closing),*],
+                rows: &[#(#rows),*],
                 kernels: &[#(#counts),*],
                 euler_parameters: &[#(#balls),*],
                 auxiliaries: #auxiliaries,
