@@ -32,6 +32,7 @@ fn the_estimate_is_between_0_7_and_1_5_times_what_is_counted() {
         let setting = Setting {
             coordinates,
             formulation: Formulated::default_of(method),
+            is_derived: false,
             treatment: Treatment::None,
             integration: Integration {
                 family: Family::Rk4,

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use holonom_benches::extremes::map;
+use holonom_benches::extremes::{Coefficients, map};
 use holonom_study::extremes::{Outcome, run};
 
 /// Runs the cells of some axes.
 fn swept(names: &[&str]) -> Vec<run::Row> {
-    let (axes, mut cells) = map();
+    let (axes, mut cells) = map(Coefficients::Derived);
     cells.retain(|cell| names.contains(&axes[cell.axis].name));
     assert!(!cells.is_empty());
     let directory = std::env::temp_dir().join(format!("holonom-extremes-{}", std::process::id()));
@@ -62,7 +62,7 @@ fn by_joints_a_rod_holds_at_any_size_mass_and_place() {
 
 #[test]
 fn a_map_has_its_cells_once() {
-    let (axes, cells) = map();
+    let (axes, cells) = map(Coefficients::Derived);
     assert!(cells.len() >= 400, "{}", cells.len());
     let mut keys: Vec<_> = cells
         .iter()
@@ -83,7 +83,7 @@ fn a_map_has_its_cells_once() {
 
 #[test]
 fn a_journal_of_other_promises_is_not_taken() {
-    let (axes, mut cells) = map();
+    let (axes, mut cells) = map(Coefficients::Derived);
     cells.retain(|cell| axes[cell.axis].name == "size" && cell.value == 1.0);
     let directory = std::env::temp_dir().join(format!("holonom-promises-{}", std::process::id()));
     let journal = directory.join("journal");

@@ -8,7 +8,8 @@ use holonom_benches::trade::problem;
 use holonom_study::compare::Precision;
 use holonom_study::timing::Schedule;
 use holonom_study::trade::{
-    Family, Formulated, Grid, Processor, Reference, Timing, Treatment, Wish, measure, recommend,
+    Choice, Family, Formulated, Grid, Processor, Reference, Timing, Treatment, Wish, measure,
+    recommend,
 };
 
 /// Problems, and the error that is asked for in the unit of each.
@@ -29,7 +30,7 @@ const UNSEEN: u64 = 1000;
 #[test]
 fn recommendations_are_right() {
     let grid = Grid {
-        formulations: vec![Formulated::Standard],
+        formulations: vec![Choice::Given(Formulated::Standard)],
         treatments: vec![Treatment::None, Treatment::Projection],
         families: vec![Family::Rk4, Family::DormandPrince, Family::DormandPrince853],
         scalars: vec![Precision::Double],

@@ -9,7 +9,9 @@ use holonom::{AugmentedLagrangian, Baumgarte, Penalty};
 use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::extremes::{Axis, Cell, Motion};
-use holonom_study::trade::{Both, Family, Formulated, Integration, Setting, Subject, Treatment};
+use holonom_study::trade::{
+    Both, Choice, Family, Formulated, Integration, Setting, Subject, Treatment,
+};
 
 use case::{Case, ClosedForm};
 use rod::Rod;
@@ -25,38 +27,56 @@ const ACCEPTABLE: &str = "positive and finite";
 const BOTH: [Precision; 2] = [Precision::Double, Precision::Single];
 
 /// A description with a formulation and a treatment.
-type Way = (Coordinates, Formulated, Treatment);
+type Way = (Coordinates, Choice, Treatment);
 
-/// By bodies in all formulations, by joints in one, as they are for a tree.
-fn ways_of_tree() -> Vec<Way> {
-    let by_bodies = Method::ALL.map(|method| {
-        (
-            Coordinates::Bodies,
-            Formulated::default_of(method),
-            Treatment::None,
-        )
-    });
-    let mut ways = Vec::from(by_bodies);
-    ways.push((Coordinates::Joints, Formulated::Standard, Treatment::None));
-    ways
+/// Where the coefficients of formulations come from, on all axes but those of coefficients.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coefficients {
+    /// From each mechanism, and the step where it is fixed.
+    #[default]
+    Derived,
+    /// From chapter 15, for all mechanisms the same.
+    OfTheBook,
 }
 
-/// By bodies and by joints in all formulations, as they are where equations remain.
-fn ways_of_loop(treatments: &[Treatment]) -> Vec<Way> {
-    let mut ways = Vec::new();
-    for by in [Coordinates::Bodies, Coordinates::Joints] {
-        for method in Method::ALL {
-            for &treatment in treatments {
-                ways.push((by, Formulated::default_of(method), treatment));
-            }
+impl Coefficients {
+    fn of(self, method: Method) -> Choice {
+        match self {
+            Self::Derived => Choice::Derived(method),
+            Self::OfTheBook => Choice::Given(Formulated::default_of(method)),
         }
     }
-    ways
+
+    /// By bodies in all formulations, by joints in one, as they are for a tree.
+    fn ways_of_tree(self) -> Vec<Way> {
+        let by_bodies = Method::ALL.map(|method| {
+            let formulation = self.of(method);
+            (Coordinates::Bodies, formulation, Treatment::None)
+        });
+        let mut ways = Vec::from(by_bodies);
+        let formulation = Choice::Given(Formulated::Standard);
+        ways.push((Coordinates::Joints, formulation, Treatment::None));
+        ways
+    }
+
+    /// By bodies and by joints in all formulations, as they are where equations remain.
+    fn ways_of_loop(self, treatments: &[Treatment]) -> Vec<Way> {
+        let mut ways = Vec::new();
+        for by in [Coordinates::Bodies, Coordinates::Joints] {
+            for method in Method::ALL {
+                for &treatment in treatments {
+                    ways.push((by, self.of(method), treatment));
+                }
+            }
+        }
+        ways
+    }
 }
 
 /// The axes and cells under construction.
 #[derive(Default)]
 struct Map {
+    coefficients: Coefficients,
     axes: Vec<Axis>,
     cells: Vec<Cell>,
 }
@@ -78,15 +98,33 @@ impl Map {
         });
     }
 
-    fn add<M>(&mut self, place: Place, case: Case<M>, settings: impl IntoIterator<Item = Setting>)
+    /// Every way with these integrators and both number types.
+    fn add<M>(&mut self, place: Place, case: Case<M>, ways: &[Way], integrations: &[Integration])
     where
+        M: ClosedForm + Copy + Send + Sync + 'static,
+    {
+        for scalar in BOTH {
+            self.add_one(place, case, ways, integrations, scalar);
+        }
+    }
+
+    /// The same with one number type.
+    fn add_one<M>(
+        &mut self,
+        place: Place,
+        case: Case<M>,
+        ways: &[Way],
+        integrations: &[Integration],
+        scalar: Precision,
+    ) where
         M: ClosedForm + Copy + Send + Sync + 'static,
     {
         let model = std::any::type_name::<M>()
             .rsplit("::")
             .next()
             .unwrap_or_default();
-        self.add_subject(place, model, settings, move || Box::new(Both(case)));
+        let made = settings(&Both(case), ways, integrations, scalar);
+        self.add_subject(place, model, made, move || Box::new(Both(case)));
     }
 
     fn add_subject<B>(
@@ -116,20 +154,25 @@ impl Map {
     }
 }
 
-/// Every way with these integrators and both number types.
-fn settings(ways: &[Way], integrations: &[Integration]) -> Vec<Setting> {
+/// Every way with these integrators. Where no coefficients follow from a mechanism, they are those of the book, with which it is refused as well.
+fn settings(
+    subject: &dyn Subject,
+    ways: &[Way],
+    integrations: &[Integration],
+    scalar: Precision,
+) -> Vec<Setting> {
     let mut settings = Vec::new();
-    for scalar in BOTH {
-        for &(coordinates, formulation, treatment) in ways {
-            for &integration in integrations {
-                settings.push(Setting {
-                    coordinates,
-                    formulation,
-                    treatment,
-                    integration,
-                    scalar,
-                });
-            }
+    for &(coordinates, choice, treatment) in ways {
+        for &integration in integrations {
+            let (formulation, is_derived, _) = choice.made(subject, scalar, integration);
+            settings.push(Setting {
+                coordinates,
+                formulation,
+                is_derived,
+                treatment,
+                integration,
+                scalar,
+            });
         }
     }
     settings
@@ -190,10 +233,13 @@ fn swing(length: f64, mass: f64, place: f64, periods: f64) -> (Case<Rod>, Motion
 
 /// All cells of the map, with their axes; without the feature `large` those of a rod and of a four-bar.
 #[must_use]
-pub fn map() -> (Vec<Axis>, Vec<Cell>) {
-    let mut map = Map::default();
+pub fn map(coefficients: Coefficients) -> (Vec<Axis>, Vec<Cell>) {
+    let mut map = Map {
+        coefficients,
+        ..Map::default()
+    };
     rods(&mut map);
-    coefficients(&mut map);
+    factors(&mut map);
     loops(&mut map);
     #[cfg(feature = "large")]
     others::sweep(&mut map);
@@ -202,7 +248,7 @@ pub fn map() -> (Vec<Axis>, Vec<Cell>) {
 
 /// What is swept of a rod on a hinge.
 fn rods(map: &mut Map) {
-    let tree = ways_of_tree();
+    let tree = map.coefficients.ways_of_tree();
     map.axis("step", "s", "The step, of a rod of 1 m that swings for two seconds, and the tolerance that stands for it");
     let thrice = [3e-6, 3e-5, 3e-4, 3e-3, 3e-2, 3e-1];
     for step in decades(-6, 0)
@@ -222,7 +268,7 @@ fn rods(map: &mut Map) {
             .into_iter()
             .filter(|&family| !family.is_adaptive() && (!few || family == Family::Rk4));
         let integrations: Vec<_> = families.map(|family| with(family, step)).collect();
-        map.add(place, case, settings(&tree, &integrations));
+        map.add(place, case, &tree, &integrations);
     }
     map.axis(
         "tolerance",
@@ -240,7 +286,7 @@ fn rods(map: &mut Map) {
             .into_iter()
             .filter(|family| family.is_adaptive());
         let integrations: Vec<_> = families.map(|family| with(family, tolerance)).collect();
-        map.add(place, case, settings(&tree, &integrations));
+        map.add(place, case, &tree, &integrations);
     }
     map.axis(
         "size",
@@ -254,7 +300,7 @@ fn rods(map: &mut Map) {
             motion,
             scale: 1.0,
         };
-        map.add(place, case, settings(&tree, &usual(case.period)));
+        map.add(place, case, &tree, &usual(case.period));
     }
     map.axis("mass", "kg", "The mass of a rod of 1 m, which swings twice");
     for mass in decades(-6, 6) {
@@ -264,7 +310,7 @@ fn rods(map: &mut Map) {
             motion,
             scale: 1.0,
         };
-        map.add(place, case, settings(&tree, &usual(case.period)));
+        map.add(place, case, &tree, &usual(case.period));
     }
     map.axis("small and light", "m", "The length of a rod of its own density: a cubic metre weighs a tonne, a rod is a tenth as thick as long");
     for length in decades(-6, 3) {
@@ -274,7 +320,7 @@ fn rods(map: &mut Map) {
             motion,
             scale: 1.0,
         };
-        map.add(place, case, settings(&tree, &usual(case.period)));
+        map.add(place, case, &tree, &usual(case.period));
     }
     map.axis(
         "distance",
@@ -288,7 +334,7 @@ fn rods(map: &mut Map) {
             motion,
             scale: 1.0,
         };
-        map.add(place, case, settings(&tree, &usual(case.period)));
+        map.add(place, case, &tree, &usual(case.period));
     }
     map.axis("run", "s", "How long a rod of 1 m swings");
     for end in decades(0, 4) {
@@ -308,15 +354,9 @@ fn rods(map: &mut Map) {
         let ways: Vec<_> = tree
             .iter()
             .copied()
-            .filter(|(_, formulation, _)| {
-                end < 5e3 || formulation.method() != Method::AugmentedLagrangian
-            })
+            .filter(|(_, choice, _)| end < 5e3 || choice.method() != Method::AugmentedLagrangian)
             .collect();
-        map.add(
-            place,
-            case,
-            settings(&ways, &[rk4(0.01), dormand_prince(TOLERANCE)]),
-        );
+        map.add(place, case, &ways, &[rk4(0.01), dormand_prince(TOLERANCE)]);
     }
     map.axis(
         "start",
@@ -338,13 +378,16 @@ fn rods(map: &mut Map) {
             motion,
             scale: 1.0,
         };
-        map.add(place, case, settings(&tree, &usual(case.period)));
+        map.add(place, case, &tree, &usual(case.period));
     }
 }
 
 /// The coefficients of formulations.
-fn coefficients(map: &mut Map) {
-    let only = |formulation| [(Coordinates::Bodies, formulation, Treatment::None)];
+fn factors(map: &mut Map) {
+    let only = |formulation| {
+        let given = Choice::Given(formulation);
+        [(Coordinates::Bodies, given, Treatment::None)]
+    };
     map.axis("penalty", "kg", "The factor alpha of penalty and augmented Lagrangian, of a rod of 1 m and 1 kg that swings twice");
     for alpha in decades(0, 16) {
         let (case, motion) = swing(1.0, 1.0, 0.0, 2.0);
@@ -365,11 +408,7 @@ fn coefficients(map: &mut Map) {
             Formulated::Penalty(penalty),
             Formulated::AugmentedLagrangian(augmented),
         ] {
-            map.add(
-                place,
-                case,
-                settings(&only(formulation), &usual(case.period)),
-            );
+            map.add(place, case, &only(formulation), &usual(case.period));
         }
     }
     map.axis("baumgarte", "1", "Baumgarte's alpha and beta, which are equal, times the step of Runge-Kutta; theory has it stable below 2.785");
@@ -391,7 +430,8 @@ fn coefficients(map: &mut Map) {
             map.add(
                 place,
                 case,
-                settings(&only(Formulated::Baumgarte(terms)), &[rk4(step)]),
+                &only(Formulated::Baumgarte(terms)),
+                &[rk4(step)],
             );
         }
     }
@@ -414,10 +454,11 @@ fn loops(map: &mut Map) {
             motion,
             scale: 6.0,
         };
-        let ways = ways_of_loop(&Treatment::ALL);
-        let settings = settings(&ways, &[dormand_prince(tolerance)]);
-        map.add_subject(place, "FourBar", settings, || {
-            Box::new(Both(holonom_models::problems::Parallelogram::default()))
-        });
+        let ways = map.coefficients.ways_of_loop(&Treatment::ALL);
+        let subject = || Both(holonom_models::problems::Parallelogram::default());
+        let made = BOTH
+            .into_iter()
+            .flat_map(|scalar| settings(&subject(), &ways, &[dormand_prince(tolerance)], scalar));
+        map.add_subject(place, "FourBar", made, move || Box::new(subject()));
     }
 }

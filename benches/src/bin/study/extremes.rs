@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use clap::Args;
-use holonom_benches::extremes;
+use holonom_benches::extremes::{self, Coefficients};
 use holonom_study::StudyError;
 use holonom_study::extremes::{report, run};
 
@@ -18,10 +18,18 @@ pub(crate) struct Extremes {
     /// Sweep this axis alone; may be given more than once.
     #[arg(long, value_name = "AXIS")]
     axis: Vec<String>,
+    /// With the coefficients of chapter 15 for all mechanisms, in the place of those that follow from each.
+    #[arg(long)]
+    book: bool,
 }
 
 pub(crate) fn study(arguments: &Extremes) -> Result<(), Box<dyn Error>> {
-    let (axes, mut cells) = extremes::map();
+    let coefficients = if arguments.book {
+        Coefficients::OfTheBook
+    } else {
+        Coefficients::Derived
+    };
+    let (axes, mut cells) = extremes::map(coefficients);
     for name in &arguments.axis {
         if !axes.iter().any(|axis| axis.name == name) {
             let names: Vec<_> = axes.iter().map(|axis| axis.name).collect();

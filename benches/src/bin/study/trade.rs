@@ -13,7 +13,7 @@ use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::page::write_page;
 use holonom_study::timing::{Contestant, Schedule};
 use holonom_study::trade::{
-    self, Family, Formulated, Grid, Processor, Subject, Timing, Treatment, Wish, measure, report,
+    self, Choice, Family, Grid, Processor, Subject, Timing, Treatment, Wish, measure, report,
 };
 
 use crate::output::{bar, show, show_all};
@@ -62,7 +62,7 @@ impl Part {
             .formulation
             .iter()
             .copied()
-            .map(Formulated::default_of)
+            .map(Choice::Derived)
             .collect();
         Grid {
             coordinates: chosen(&self.coordinates, all.coordinates),

@@ -8,15 +8,13 @@ use holonom_study::trade::Treatment;
 
 use super::case::Case;
 use super::rod::Rod;
-use super::{
-    ACCEPTABLE, BOTH, Map, Place, TOLERANCE, decades, dormand_prince, rk4, settings, usual,
-    ways_of_loop, ways_of_tree,
-};
+use super::{ACCEPTABLE, BOTH, Map, Place, TOLERANCE, decades, dormand_prince, rk4, usual};
 use models::{Block, Bob, Top, Turned, TwoPoints};
 use motions::period;
 
 pub(super) fn sweep(map: &mut Map) {
-    let tree = ways_of_tree();
+    let tree = map.coefficients.ways_of_tree();
+    let split = map.coefficients.ways_of_loop(&[Treatment::None]);
     map.axis(
         "ratio of masses",
         "1",
@@ -45,7 +43,8 @@ pub(super) fn sweep(map: &mut Map) {
                 scale: 1.0,
             },
             case,
-            settings(&tree, &usual(case.period)),
+            &tree,
+            &usual(case.period),
         );
     }
     map.axis(
@@ -78,7 +77,8 @@ pub(super) fn sweep(map: &mut Map) {
                 scale: 1.0,
             },
             case,
-            settings(&tree, &usual(case.period)),
+            &tree,
+            &usual(case.period),
         );
     }
     map.axis("stiffness", "N/m", "A spring that pulls a block of 1 kg for a second, with steps of 1 ms whatever the spring is");
@@ -106,7 +106,8 @@ pub(super) fn sweep(map: &mut Map) {
                 scale: 0.1,
             },
             case,
-            settings(&tree, &[rk4(1e-3), dormand_prince(TOLERANCE)]),
+            &tree,
+            &[rk4(1e-3), dormand_prince(TOLERANCE)],
         );
     }
     map.axis(
@@ -138,7 +139,8 @@ pub(super) fn sweep(map: &mut Map) {
                 scale: 1.0,
             },
             case,
-            settings(&ways_of_loop(&[Treatment::None]), &usual(case.period)),
+            &split,
+            &usual(case.period),
         );
     }
     map.axis("input", "N m", "A moment that turns a rod of 1 m and 1 kg from rest for a second: what is read is its rate");
@@ -178,7 +180,6 @@ pub(super) fn sweep(map: &mut Map) {
             mass: 1.0,
             violation: 0.0,
         };
-        let all = settings(&tree, &[rk4(1e-3), dormand_prince(TOLERANCE)]);
         for (scalar, least) in BOTH.into_iter().zip([1e-290, 1e-35]) {
             // Below the normal numbers there are no digits to keep.
             let scale = rate.abs().max(least);
@@ -187,12 +188,8 @@ pub(super) fn sweep(map: &mut Map) {
                 motion,
                 scale,
             };
-            let chosen = all.iter().copied();
-            map.add(
-                place,
-                case,
-                chosen.filter(|setting| setting.scalar == scalar),
-            );
+            let integrations = [rk4(1e-3), dormand_prince(TOLERANCE)];
+            map.add_one(place, case, &tree, &integrations, scalar);
         }
     }
 }

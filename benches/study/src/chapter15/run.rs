@@ -73,7 +73,7 @@ impl Settings {
 
     const fn for_penalty(&self) -> Penalty<f64> {
         let (alpha, omega, mu) = self.penalty;
-        Penalty { alpha, omega, mu }
+        Penalty::new(alpha, omega, mu)
     }
 
     const fn for_augmented_lagrangian(&self) -> AugmentedLagrangian<f64> {
@@ -83,6 +83,7 @@ impl Settings {
             alpha,
             omega,
             mu,
+            radian: None,
             tolerance,
             max_iterations,
             is_exact: false,

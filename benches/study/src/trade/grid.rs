@@ -1,8 +1,8 @@
 //! Which settings a problem is run with.
 
 use super::integration::{Family, Integration};
-use super::setting::{Formulated, Setting, Treatment};
-use super::subject::Facts;
+use super::setting::{Choice, Formulated, Setting, Treatment};
+use super::subject::{Facts, Subject};
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
@@ -12,8 +12,8 @@ use crate::error::StudyError;
 pub struct Grid {
     /// Descriptions.
     pub coordinates: Vec<Coordinates>,
-    /// Formulations, with their coefficients.
-    pub formulations: Vec<Formulated>,
+    /// Formulations, and where their coefficients come from.
+    pub formulations: Vec<Choice>,
     /// What is done after steps.
     pub treatments: Vec<Treatment>,
     /// Methods of integration.
@@ -30,12 +30,53 @@ impl Default for Grid {
     fn default() -> Self {
         Self {
             coordinates: vec![Coordinates::Bodies, Coordinates::Joints],
-            formulations: Method::ALL.map(Formulated::default_of).into(),
+            formulations: Method::ALL.map(Choice::Derived).into(),
             treatments: Treatment::ALL.into(),
             families: Family::ALL.into(),
             scalars: vec![Precision::Double, Precision::Single],
             most_steps: 50_000.0,
             least_tolerance: 1e-13,
+        }
+    }
+}
+
+/// A setting of a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// The setting.
+    pub setting: Setting,
+    /// Why it cannot be run: no coefficients follow from the mechanism.
+    pub refused: Option<String>,
+}
+
+impl Choice {
+    /// Which formulation it is.
+    #[must_use]
+    pub const fn method(&self) -> Method {
+        match self {
+            Self::Derived(method) => *method,
+            Self::Given(formulation) => formulation.method(),
+        }
+    }
+
+    /// The coefficients for a mechanism, its numbers and an integrator, whether they follow from the mechanism, and why not, if they were to.
+    #[must_use]
+    pub fn made(
+        self,
+        subject: &dyn Subject,
+        scalar: Precision,
+        integration: Integration,
+    ) -> (Formulated, bool, Option<String>) {
+        match self {
+            Self::Given(formulation) => (formulation, false, None),
+            Self::Derived(method) => match subject.derived(method, scalar, integration) {
+                Ok(formulation) => (formulation, true, None),
+                Err(error) => (
+                    Formulated::default_of(method),
+                    false,
+                    Some(error.to_string()),
+                ),
+            },
         }
     }
 }
@@ -64,7 +105,8 @@ impl Grid {
     /// Where no equations remain in joint coordinates, all formulations are the same and there is nothing to correct: one stands for all. Without joint coordinates there are no settings by joints, and no recovery
     /// along the tree, which joint coordinates have done anyway.
     #[must_use]
-    pub fn settings(&self, facts: &Facts) -> Vec<Setting> {
+    pub fn settings(&self, subject: &dyn Subject) -> Vec<Planned> {
+        let facts = &subject.facts();
         let mut settings = Vec::new();
         for &scalar in &self.scalars {
             for &coordinates in &self.coordinates {
@@ -74,20 +116,24 @@ impl Grid {
                 };
                 let Some(equations) = equations else { continue };
                 let different = if equations == 0 { 1 } else { usize::MAX };
-                for &formulation in self.formulations.iter().take(different) {
+                for &choice in self.formulations.iter().take(different) {
                     let treatments = self.treatments.iter().filter(|&&treatment| {
                         treatment != Treatment::TreeRecovery
                             || (coordinates == Coordinates::Bodies && facts.closing.is_some())
                     });
                     for &treatment in treatments.take(different) {
                         for integration in self.integrations(facts, scalar) {
-                            settings.push(Setting {
+                            let (formulation, is_derived, refused) =
+                                choice.made(subject, scalar, integration);
+                            let setting = Setting {
                                 coordinates,
                                 formulation,
+                                is_derived,
                                 treatment,
                                 integration,
                                 scalar,
-                            });
+                            };
+                            settings.push(Planned { setting, refused });
                         }
                     }
                 }

@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hasher as _};
 use std::path::Path;
 use std::time::Duration;
 
-use super::grid::Grid;
+use super::grid::{Grid, Planned};
 use super::journal::Journal;
 use super::record::{Entry, Key, Row, Stopped, Time};
 use super::reference::{Reference, observed};
@@ -78,10 +78,14 @@ pub fn measure(
     reference.check(&facts, &probe)?;
     let conditions = conditions(&facts, &start, &reference, &probe)?;
     let mut journal = Journal::<Entry>::open(journal, &conditions)?;
-    let all = grid.settings(&facts);
+    let all = grid.settings(subject);
     let (mut rows, mut settings, mut stopped) = (Vec::new(), Vec::new(), Vec::new());
-    for (done, setting) in all.iter().enumerate() {
+    for (done, Planned { setting, refused }) in all.iter().enumerate() {
         progress(done, all.len());
+        if let Some(reason) = refused {
+            stopped.push(Stopped::new(setting, reason.clone()));
+            continue;
+        }
         let key = Key::from(setting);
         let known = journal
             .entries()

@@ -1,7 +1,7 @@
 //! What readings are compared with.
 
 use super::integration::{Family, Integration};
-use super::setting::{Formulated, Setting, Treatment};
+use super::setting::{Choice, Setting, Treatment};
 use super::subject::{Facts, Observation, Start, Subject};
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
@@ -160,15 +160,22 @@ pub(super) fn observed(
     treatment: Treatment,
     tolerance: f64,
 ) -> Result<Observation, StudyError> {
-    let with = |method| Setting {
-        coordinates,
-        formulation: Formulated::default_of(method),
-        treatment,
-        integration: Integration {
+    let with = |method| {
+        let integration = Integration {
             family: Family::DormandPrince,
             step_or_tolerance: tolerance,
-        },
-        scalar: Precision::Double,
+        };
+        let scalar = Precision::Double;
+        let (formulation, is_derived, _) =
+            Choice::Derived(method).made(subject, scalar, integration);
+        Setting {
+            coordinates,
+            formulation,
+            is_derived,
+            treatment,
+            integration,
+            scalar,
+        }
     };
     let standard = subject.observe(&with(Method::Standard), start);
     // What standard multipliers say is what the reader should know, if neither will do.

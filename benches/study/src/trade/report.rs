@@ -8,7 +8,7 @@ use super::measure::Trade;
 use super::recommend::{Processor, Recommendation, STARTS, Wish};
 use super::record::{csv, json};
 use super::reference::Source;
-use super::setting::{Formulated, Setting, Treatment};
+use super::setting::{Choice, Setting, Treatment};
 use super::subject::Subject;
 use super::tables;
 use crate::chapter15::Method;
@@ -34,15 +34,20 @@ pub fn courses(subject: &dyn Subject) -> Result<Vec<Course>, StudyError> {
         .into_iter();
     let kinds = kinds.chain([(Method::Standard, Treatment::Projection)]);
     let course = |(method, treatment): (Method, Treatment)| {
+        let integration = Integration {
+            family: Family::Rk4,
+            step_or_tolerance: facts.time_scale / 64.0,
+        };
+        let scalar = Precision::Double;
+        let (formulation, is_derived, _) =
+            Choice::Derived(method).made(subject, scalar, integration);
         let setting = Setting {
             coordinates: Coordinates::Bodies,
-            formulation: Formulated::default_of(method),
+            formulation,
+            is_derived,
             treatment,
-            integration: Integration {
-                family: Family::Rk4,
-                step_or_tolerance: facts.time_scale / 64.0,
-            },
-            scalar: Precision::Double,
+            integration,
+            scalar,
         };
         let name = match treatment {
             Treatment::None => method.name().to_owned(),

@@ -1,6 +1,6 @@
 //! What a run is done with, as a value.
 
-use holonom::{AugmentedLagrangian, Baumgarte, Penalty, Real};
+use holonom::{AugmentedLagrangian, Baumgarte, Fault, Mechanism, Penalty, Real};
 
 use super::integration::{Family, Integration};
 use crate::chapter15::Method;
@@ -19,8 +19,33 @@ pub enum Formulated {
     AugmentedLagrangian(AugmentedLagrangian<f64>),
 }
 
+/// A formulation, and where its coefficients come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    /// From the mechanism: those of `of`, such as [`Baumgarte::of`], and `at_step` where the step is fixed.
+    Derived(Method),
+    /// These.
+    Given(Formulated),
+}
+
 impl Formulated {
-    /// A formulation with its default coefficients.
+    /// A formulation with the coefficients that follow from a mechanism, in the numbers that it is run with, and for the integrator.
+    ///
+    /// # Errors
+    /// Why none follow, see [`holonom::Scales::of`].
+    pub fn of<M: Mechanism>(
+        method: Method,
+        mechanism: &M,
+        scalar: Precision,
+        integration: Integration,
+    ) -> Result<Self, Fault> {
+        match scalar {
+            Precision::Double => derived::<f64, M>(method, mechanism, integration),
+            Precision::Single => derived::<f32, M>(method, mechanism, integration),
+        }
+    }
+
+    /// A formulation with the coefficients of chapter 15.
     #[must_use]
     pub fn default_of(method: Method) -> Self {
         match method {
@@ -44,20 +69,29 @@ impl Formulated {
         }
     }
 
-    /// The coefficients in SI units: none, `[alpha, beta]`, or `[alpha, omega, mu]`.
+    /// The coefficients in SI units: none, `[alpha, beta]`, or `[alpha, omega, mu]` and, where a radian does not count as a metre, the length that it counts as.
     #[must_use]
     pub fn coefficients(&self) -> Vec<f64> {
         match *self {
             Self::Standard => Vec::new(),
             Self::Baumgarte(Baumgarte { alpha, beta }) => vec![alpha, beta],
-            Self::Penalty(Penalty { alpha, omega, mu })
+            Self::Penalty(Penalty {
+                alpha,
+                omega,
+                mu,
+                radian,
+            })
             | Self::AugmentedLagrangian(AugmentedLagrangian {
-                alpha, omega, mu, ..
-            }) => vec![alpha, omega, mu],
+                alpha,
+                omega,
+                mu,
+                radian,
+                ..
+            }) => [alpha, omega, mu].into_iter().chain(radian).collect(),
         }
     }
 
-    /// As a user writes it.
+    /// As a user writes it, with its coefficients.
     #[must_use]
     pub fn code(&self) -> String {
         if *self == Self::default_of(self.method()) {
@@ -74,14 +108,55 @@ impl Formulated {
             Self::Baumgarte(Baumgarte { alpha, beta }) => {
                 format!("Baumgarte {{ alpha: {alpha:e}, beta: {beta:e} }}")
             }
-            Self::Penalty(Penalty { alpha, omega, mu }) => {
-                format!("Penalty {{ alpha: {alpha:e}, omega: {omega:e}, mu: {mu:e} }}")
-            }
+            Self::Penalty(Penalty {
+                alpha,
+                omega,
+                mu,
+                radian,
+            }) => with_radian("Penalty", [*alpha, *omega, *mu], *radian),
             Self::AugmentedLagrangian(AugmentedLagrangian {
-                alpha, omega, mu, ..
-            }) => format!("AugmentedLagrangian::new({alpha:e}, {omega:e}, {mu:e})"),
+                alpha,
+                omega,
+                mu,
+                radian,
+                ..
+            }) => with_radian("AugmentedLagrangian", [*alpha, *omega, *mu], *radian),
         }
     }
+}
+
+fn with_radian(name: &str, [alpha, omega, mu]: [f64; 3], radian: Option<f64>) -> String {
+    let new = format!("{name}::new({alpha:e}, {omega:e}, {mu:e})");
+    match radian {
+        Some(radian) => format!("{name} {{ radian: Some({radian:e}), ..{new} }}"),
+        None => new,
+    }
+}
+
+fn derived<S: Real, M: Mechanism>(
+    method: Method,
+    mechanism: &M,
+    integration: Integration,
+) -> Result<Formulated, Fault> {
+    let step = (!integration.family.is_adaptive()).then(|| integration.step::<S>());
+    Ok(match method {
+        Method::Standard => Formulated::Standard,
+        Method::Baumgarte => {
+            let all = Baumgarte::<S>::of(mechanism)?;
+            let Baumgarte { alpha, beta } = step.map_or(all, |step| all.at_step(step));
+            Formulated::Baumgarte(Baumgarte::new(alpha.to_f64(), beta.to_f64()))
+        }
+        Method::Penalty => {
+            let all = Penalty::<S>::of(mechanism)?;
+            let all = step.map_or(all, |step| all.at_step(step));
+            Formulated::Penalty(penalty(&all))
+        }
+        Method::AugmentedLagrangian => {
+            let all = AugmentedLagrangian::<S>::of(mechanism)?;
+            let all = step.map_or(all, |step| all.at_step(step));
+            Formulated::AugmentedLagrangian(augmented_lagrangian(&all))
+        }
+    })
 }
 
 pub(super) fn baumgarte<S: Real>(of: &Baumgarte<f64>) -> Baumgarte<S> {
@@ -91,23 +166,25 @@ pub(super) fn baumgarte<S: Real>(of: &Baumgarte<f64>) -> Baumgarte<S> {
     }
 }
 
-pub(super) fn penalty<S: Real>(of: &Penalty<f64>) -> Penalty<S> {
+pub(super) fn penalty<S: Real, T: Real>(of: &Penalty<T>) -> Penalty<S> {
+    let number = |of: T| S::constant(of.to_f64());
     Penalty {
-        alpha: S::constant(of.alpha),
-        omega: S::constant(of.omega),
-        mu: S::constant(of.mu),
+        alpha: number(of.alpha),
+        omega: number(of.omega),
+        mu: number(of.mu),
+        radian: of.radian.map(number),
     }
 }
 
 /// The same coefficients; tolerance and number of solutions are the defaults of the number type.
-pub(super) fn augmented_lagrangian<S: Real>(
-    of: &AugmentedLagrangian<f64>,
+pub(super) fn augmented_lagrangian<S: Real, T: Real>(
+    of: &AugmentedLagrangian<T>,
 ) -> AugmentedLagrangian<S> {
-    AugmentedLagrangian::new(
-        S::constant(of.alpha),
-        S::constant(of.omega),
-        S::constant(of.mu),
-    )
+    let number = |of: T| S::constant(of.to_f64());
+    AugmentedLagrangian {
+        radian: of.radian.map(number),
+        ..AugmentedLagrangian::new(number(of.alpha), number(of.omega), number(of.mu))
+    }
 }
 
 /// What is done to a state after every step.
@@ -159,6 +236,8 @@ pub struct Setting {
     pub coordinates: Coordinates,
     /// The formulation.
     pub formulation: Formulated,
+    /// Whether its coefficients are those that follow from the mechanism, see [`Choice::Derived`]: a user writes no numbers then.
+    pub is_derived: bool,
     /// What is done after every step.
     pub treatment: Treatment,
     /// The integrator.
@@ -182,7 +261,7 @@ impl Setting {
         let mut code = format!(
             "use holonom::prelude::*;\n{}\n{tree}let report = Simulation{numbers}::new(&{mechanism}, {}, {})\n",
             self.names().concat(),
-            self.formulation.code(),
+            self.formulation_code(mechanism),
             self.integration.code()
         );
         if self.coordinates == Coordinates::Joints {
@@ -196,6 +275,25 @@ impl Setting {
         });
         code.push_str("    .run(start..=end, every(interval), |sample| {\n        // sample: what is read\n        ControlFlow::Continue(())\n    })?;\n");
         code
+    }
+
+    fn formulation_code(&self, mechanism: &str) -> String {
+        let name = match self.formulation {
+            Formulated::Baumgarte(_) if self.is_derived => "Baumgarte",
+            Formulated::Penalty(_) if self.is_derived => "Penalty",
+            Formulated::AugmentedLagrangian(_) if self.is_derived => "AugmentedLagrangian",
+            _ => return self.formulation.code(),
+        };
+        let Integration {
+            family,
+            step_or_tolerance,
+        } = self.integration;
+        let at_step = if family.is_adaptive() {
+            String::new()
+        } else {
+            format!(".at_step({step_or_tolerance:e})")
+        };
+        format!("{name}::of(&{mechanism})?{at_step}")
     }
 
     /// What the lines need that is not in the prelude.

@@ -6,10 +6,12 @@ use holonom::{
 };
 
 use super::dispatch::{JointsOf, Observe, Time, WithJoints, WithoutJoints, with_formulation};
+use super::integration::Integration;
 use super::problem::{BodiesAlone, Both, InBoth, Problem, Quantity};
-use super::setting::{Setting, Treatment};
-use crate::compare::Coordinates;
+use super::setting::{Formulated, Setting, Treatment};
+use crate::chapter15::Method;
 use crate::compare::measure::reported;
+use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
 use crate::timing::Contestant;
 
@@ -122,6 +124,17 @@ pub trait Subject {
     /// Why the mechanism does not stand there.
     fn start_near(&self, size: f64, number: u64) -> Result<Start, StudyError>;
 
+    /// A formulation with the coefficients that follow from the mechanism, see [`Formulated::of`].
+    ///
+    /// # Errors
+    /// Why none follow.
+    fn derived(
+        &self,
+        method: Method,
+        scalar: Precision,
+        integration: Integration,
+    ) -> Result<Formulated, StudyError>;
+
     /// Operations of a stage of a step; `None` where they depend on the state, or where states are corrected after steps.
     fn operations(&self, setting: &Setting) -> Option<usize>;
 
@@ -164,6 +177,16 @@ macro_rules! subject {
                 let nearer = |fault| at(0.1 * size).or_else(|_| at(0.01 * size)).map_err(|_| fault);
                 let found = at(size).or_else(nearer);
                 found.map_err(|fault| stopped(&self.0, &fault))
+            }
+
+            fn derived(
+                &self,
+                method: Method,
+                scalar: Precision,
+                integration: Integration,
+            ) -> Result<Formulated, StudyError> {
+                let derived = Formulated::of(method, self.0.mechanism(), scalar, integration);
+                derived.map_err(|fault| stopped(&self.0, &fault))
             }
 
             fn operations(&self, setting: &Setting) -> Option<usize> {
@@ -273,7 +296,9 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
     let spins = spins.map(|body| largest(&u[body.velocity + 3..][..3]));
     let (length, speed) = (places.fold(0.0, f64::max), linear(u));
     let spin = spins.fold(1.0 / scale, f64::max);
-    let dynamics = Dynamics::<f64, _, _>::new(mechanism, AugmentedLagrangian::default());
+    let formulation = AugmentedLagrangian::of(mechanism);
+    let dynamics =
+        formulation.and_then(|formulation| Dynamics::<f64, _, _>::new(mechanism, formulation));
     let evaluation = dynamics.and_then(|dynamics| dynamics.evaluate(time, &state));
     let gained = evaluation.map_or(0.0, |(evaluation, _)| {
         linear(evaluation.rates.velocities().as_slice())

@@ -13,8 +13,9 @@ use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::timing::Schedule;
 use holonom_study::trade::{
-    Both, Entry, Family, Formulated, Grid, Integration, Journal, Problem, Processor, Quantity,
-    Reference, Setting, Source, Subject, Timing, Treatment, Wish, measure, recommend, report,
+    Both, Choice, Entry, Family, Formulated, Grid, Integration, Journal, Problem, Processor,
+    Quantity, Reference, Setting, Source, Subject, Timing, Treatment, Wish, measure, recommend,
+    report,
 };
 
 #[derive(Mechanism)]
@@ -91,6 +92,7 @@ fn setting(by: Coordinates, family: Family, step_or_tolerance: f64) -> Setting {
     Setting {
         coordinates: by,
         formulation: Formulated::Standard,
+        is_derived: false,
         treatment: Treatment::None,
         integration: Integration {
             family,
@@ -178,8 +180,8 @@ fn a_run_that_is_timed_is_the_run_that_is_read() {
 fn grid() -> Grid {
     Grid {
         formulations: vec![
-            Formulated::Standard,
-            Formulated::default_of(Method::Baumgarte),
+            Choice::Given(Formulated::Standard),
+            Choice::Derived(Method::Baumgarte),
         ],
         families: vec![Family::Rk4, Family::DormandPrince],
         most_steps: 100.0,
@@ -199,11 +201,12 @@ fn an_interrupted_trade_goes_on_and_is_written() {
     let subject = falling();
     let whole = measure(&subject, &grid(), timing(), &path, |_, _| ()).unwrap();
     // By bodies in two formulations and two treatments, by joints in one, in two number types.
-    let settings = grid().settings(&subject.facts());
+    let settings = grid().settings(&subject);
     assert_eq!(whole.rows.len() + whole.stopped.len(), settings.len());
     assert!(
         settings
             .iter()
+            .map(|planned| planned.setting)
             .filter(|setting| setting.coordinates == Coordinates::Joints)
             .all(|setting| setting.formulation == Formulated::Standard
                 && setting.treatment == Treatment::None)
@@ -259,7 +262,7 @@ fn other_conditions_begin_anew() {
     let mut journal = Journal::<Entry>::open(&path, "others").unwrap();
     let subject = falling();
     let stopped =
-        holonom_study::trade::Stopped::new(&grid().settings(&subject.facts())[0], "made up".into());
+        holonom_study::trade::Stopped::new(&grid().settings(&subject)[0].setting, "made up".into());
     journal.add(Entry::Stopped(stopped)).unwrap();
     drop(journal);
     let trade = measure(&subject, &grid(), timing(), &path, |_, _| ()).unwrap();

@@ -299,8 +299,8 @@ fn equations_that_are_kept_are_studied_with_a_compliance() {
     let grid = Grid {
         coordinates: vec![Coordinates::Bodies],
         formulations: vec![
-            Formulated::Standard,
-            Formulated::default_of(Method::AugmentedLagrangian),
+            Choice::Derived(Method::Standard),
+            Choice::Derived(Method::AugmentedLagrangian),
         ],
         treatments: vec![Treatment::None],
         scalars: vec![Precision::Double],
