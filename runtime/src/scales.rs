@@ -55,6 +55,9 @@ pub struct Scales<S> {
 /// What counts as an acceleration, over what the forces would do without constraints: less may be what the compliance of the solution leaves, a part `sqrt(EPSILON)`.
 const COUNTS: f64 = 4.0;
 
+/// What is below so many `EPSILON` of the forces that it is the sum of is their round-off.
+const CANCELS: f64 = 64.0;
+
 impl<S: Real> Scales<S> {
     /// The scales of the mechanism as its attributes describe it, at the time zero.
     ///
@@ -159,7 +162,7 @@ fn rate<S: Real, M: Mechanism>(
     length: S,
 ) -> Result<S, Fault> {
     let turning = |velocities: &M::Velocities<S>| turning::<S, M>(velocities, length);
-    let forces = M::forces(constants, rows.time, state);
+    let forces = resolved::<S, M>(constants, rows.time, state);
     let mass = M::mass(constants);
     let mut free = forces;
     let places = free.as_mut_slice().iter_mut().zip(mass.as_slice());
@@ -185,6 +188,39 @@ fn rate<S: Real, M: Mechanism>(
         let origin = NotFinite::Unknown;
         Err(Fault::RatesNotFinite { origin })
     }
+}
+
+/// The forces on the bodies, without what is but the round-off of forces that cancel.
+fn resolved<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> M::Velocities<S> {
+    let mut forces = M::forces(constants, time, state);
+    let mut whole = M::Velocities::<S>::zeros();
+    for (index, force) in M::REPORT.forces.iter().enumerate() {
+        for (place, body) in force.bodies.iter().enumerate() {
+            let Some(body) = body.and_then(|body| M::REPORT.bodies.get(body)) else {
+                continue;
+            };
+            let load = M::force_load(constants, time, state, index, place);
+            let columns = match body.kind {
+                BodyKind::Rigid => 6,
+                BodyKind::Particle => 3,
+            };
+            let places = whole.as_mut_slice().iter_mut().skip(body.velocity);
+            for (sum, part) in places.zip(load).take(columns) {
+                *sum = *sum + part.abs();
+            }
+        }
+    }
+    let places = forces.as_mut_slice().iter_mut().zip(whole.as_slice());
+    for (force, &whole) in places {
+        if force.abs() < S::constant(CANCELS) * S::EPSILON * whole {
+            *force = S::zero();
+        }
+    }
+    forces
 }
 
 /// The largest angular velocity of a body, or velocity over the length; of accelerations likewise.
