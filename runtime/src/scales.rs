@@ -173,11 +173,11 @@ fn rate<S: Real, M: Mechanism>(
         M::solve::<S, Compliant>(constants, &coefficients, &factors, &forces, &gamma);
     let counts = S::constant(COUNTS) * S::EPSILON.sqrt() * turning(&free);
     let accelerated = turning(&accelerations);
-    let accelerated = if accelerated > counts {
-        accelerated
+    // NaN stays.
+    let accelerated = if accelerated <= counts {
+        S::zero()
     } else {
-        // NaN stays.
-        accelerated - accelerated
+        accelerated
     };
     let squared = accelerated.max(falling::<S, M>(&forces, &mass).quotient(length));
     let rate = squared.sqrt();

@@ -13,7 +13,8 @@ use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::page::write_page;
 use holonom_study::timing::{Contestant, Schedule};
 use holonom_study::trade::{
-    self, Choice, Family, Grid, Processor, Subject, Timing, Treatment, Wish, measure, report,
+    self, Choice, Family, Formulated, Grid, Processor, Subject, Timing, Treatment, Wish, measure,
+    report,
 };
 
 use crate::output::{bar, show, show_all};
@@ -36,6 +37,9 @@ pub(crate) struct Part {
     /// This number type alone.
     #[arg(long, value_parser = keys([Precision::Double, Precision::Single], Precision::key))]
     scalar: Vec<Precision>,
+    /// With the coefficients of chapter 15, in the place of those that follow from the mechanism.
+    #[arg(long)]
+    book: bool,
     /// How many times every run is timed.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
     rounds: u16,
@@ -58,15 +62,18 @@ impl Part {
             if part.is_empty() { all } else { part.to_vec() }
         }
         let all = Grid::default();
-        let formulations: Vec<_> = self
-            .formulation
-            .iter()
-            .copied()
-            .map(Choice::Derived)
-            .collect();
+        let choice = |method| {
+            if self.book {
+                Choice::Given(Formulated::default_of(method))
+            } else {
+                Choice::Derived(method)
+            }
+        };
+        let methods = chosen(&self.formulation, Method::ALL.into());
+        let formulations = methods.into_iter().map(choice).collect();
         Grid {
             coordinates: chosen(&self.coordinates, all.coordinates),
-            formulations: chosen(&formulations, all.formulations),
+            formulations,
             treatments: chosen(&self.treatment, all.treatments),
             families: chosen(&self.integrator, all.families),
             scalars: chosen(&self.scalar, all.scalars),
