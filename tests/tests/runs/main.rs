@@ -6,6 +6,7 @@ mod accuracy;
 mod all_methods;
 mod chapter15;
 mod dependent;
+mod derived;
 mod descriptions;
 mod faults;
 
@@ -18,6 +19,7 @@ mod order;
 mod pendulum;
 mod placing;
 mod properties;
+mod rates;
 mod reactions;
 mod redundant;
 mod references;

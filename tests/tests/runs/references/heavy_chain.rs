@@ -27,6 +27,15 @@ fn the_bob_swings_as_its_reference() {
 }
 
 #[test]
+fn the_bob_swings_with_coefficients_that_follow_from_its_mass() {
+    let chain = HeavyChain::default();
+    swings(Baumgarte::of(&chain).expect("finite"), 1e-9);
+    swings(AugmentedLagrangian::of(&chain).expect("finite"), 1e-9);
+    // A millionth of the accelerations, for three radians.
+    swings(Penalty::of(&chain).expect("finite"), 1e-5);
+}
+
+#[test]
 fn a_penalty_too_small_for_the_bob_is_not_excused() {
     // The tensions of four links carry 1000 kg across masses of 1 g: nearly cancelling accelerations, not forces. The
     // augmented Lagrangian with 100 kg gains a percent of them in an iteration.
