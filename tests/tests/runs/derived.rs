@@ -271,7 +271,7 @@ fn the_unit_of_an_equation_does_not_count() {
             Units::HANDLES.second,
             Units::HANDLES.third,
         ] {
-            loads.force(body, [0.0, 0.0, 1.0].into());
+            loads.force(body, [0.0, 0.0, 1.0]);
         }
     });
     let state = units.described_state().expect("described");
