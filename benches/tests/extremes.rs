@@ -49,6 +49,18 @@ fn nothing_is_wrong_in_double_precision() {
 }
 
 #[test]
+fn by_bodies_a_rod_holds_at_any_size_and_mass_with_coefficients_that_follow_from_it() {
+    let rows = swept(&["size", "mass", "small and light"]);
+    let stabilised = rows
+        .iter()
+        .filter(|row| row.setting.coordinates == "bodies" && row.setting.formulation != "standard");
+    assert!(stabilised.clone().count() > 300);
+    for row in stabilised {
+        assert_eq!(row.outcome, Outcome::Holds, "{row:?}");
+    }
+}
+
+#[test]
 fn by_joints_a_rod_holds_at_any_size_mass_and_place() {
     let rows = swept(&["size", "mass", "distance"]);
     let by_joints = rows
