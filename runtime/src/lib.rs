@@ -37,8 +37,10 @@ compile_error!(
 
 mod access;
 mod array;
+mod blocks;
 mod clock;
 mod compliance;
+mod direct;
 mod displace;
 mod dynamics;
 mod each;
@@ -184,6 +186,7 @@ pub use holonom_macros::Mechanism;
 
 pub use access::{MechanismExt, Pose};
 pub use array::{Array, State, StateParts, Vector};
+pub use direct::DirectCorrection;
 pub use dynamics::{Dynamics, Iterations};
 pub use each::{EachOfJoints, EachOfState};
 pub use error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};

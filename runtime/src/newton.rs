@@ -130,22 +130,13 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
             let rest = self.sizes.measure(&self.violation, tolerance);
             let part = part(rest, depth, damping);
             let step = self.correction(constants, part);
-            let mut moved = self.state;
-            let velocities = moved.velocities_mut().as_mut_slice();
-            for (velocity, &step) in velocities.iter_mut().zip(step.as_slice()) {
-                *velocity = *velocity + step;
-            }
-            let violation = M::constraint_rates(constants, self.rows.time, &moved);
-            // By the speeds that are reached: those before may have been zero, or anything.
-            let sizes = self.rows.velocities(&moved, self.before);
-            let lessened = |part| self.lessened(&sizes, &violation, part);
-            let helped = lessened(S::constant(HELPS));
+            let mut next = self.accelerated(constants, &step);
+            let helped = self.helped_by(&next);
             // What can be corrected beside a violation that cannot.
-            let beyond = sizes.measure(&self.violation, tolerance) > tolerance;
-            if helped || beyond && lessened(S::one()) {
-                self.state = moved;
-                self.violation = violation;
-                self.sizes = sizes;
+            let beyond = next.sizes.measure(&self.violation, tolerance) > tolerance;
+            if helped || beyond && self.lessened(&next.sizes, &next.violation, S::one()) {
+                next.iterations = self.iterations;
+                self = next;
             }
             if helped {
                 self.iterations += 1;
@@ -156,6 +147,41 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
             }
         }
         self
+    }
+
+    /// The positions moved by a step, with the rows and sizes that they have there.
+    pub(crate) fn moved(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
+        let (state, violation) = self.displaced(constants, step, S::one());
+        let rows = Rows::at(constants, self.rows.time, &state);
+        Self {
+            state,
+            violation,
+            sizes: rows.positions(),
+            iterations: self.iterations + 1,
+            before: self.before,
+            rows,
+        }
+    }
+
+    /// The velocities changed by a step. Sizes are by the speeds that are reached: those before may have been zero, or anything.
+    pub(crate) fn accelerated(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
+        let mut state = self.state;
+        let velocities = state.velocities_mut().as_mut_slice();
+        for (velocity, &step) in velocities.iter_mut().zip(step.as_slice()) {
+            *velocity = *velocity + step;
+        }
+        Self {
+            state,
+            violation: M::constraint_rates(constants, self.rows.time, &state),
+            sizes: self.rows.velocities(&state, self.before),
+            iterations: self.iterations + 1,
+            ..*self
+        }
+    }
+
+    /// Whether a step has lessened the violation by more than its round-off may.
+    pub(crate) fn helped_by(&self, next: &Self) -> bool {
+        self.lessened(&next.sizes, &next.violation, S::constant(HELPS))
     }
 
     /// The `d` of least `d^T M d` with `D d = -violation`, with compliances that are a part of what each row yields by itself.
@@ -246,7 +272,7 @@ pub(crate) fn free_share<S: Real, M: Mechanism>(
 /// at a singular configuration too: Yamashita and Fukushima, *On the rate of convergence of the Levenberg-Marquardt method*, Computing
 /// Suppl. 15 (2001), 239-249); less by a factor `damping` where that does not help. At most `sqrt(EPSILON)`, to correct what is independent in few
 /// iterations.
-fn part<S: Real>(rest: S, depth: Depth, damping: S) -> S {
+pub(crate) fn part<S: Real>(rest: S, depth: Depth, damping: S) -> S {
     let most = S::EPSILON.sqrt();
     match depth {
         Depth::Independent => most,

@@ -59,7 +59,7 @@ impl<S: Real> Default for Projection<S> {
 /// What a correction did.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correction<S> {
-    /// Steps of Newton's method for the positions.
+    /// Steps of Newton's method for the positions, or applications of the pseudo-inverse.
     pub iterations: usize,
     /// `Phi^T Phi` before, as given.
     pub violation_before: S,
@@ -70,12 +70,12 @@ pub struct Correction<S> {
     /// `Phi'^T Phi'` after.
     pub velocity_violation_after: S,
     /// The largest `|Phi|` or `|Phi'|` beyond the tolerance that was kept as nearly a state of self-stress, in sizes of its row; zero where
-    /// all is within. A run may keep some, [`Projection::correct`] keeps none.
+    /// all is within. A run may keep some, [`Projection::correct`] keeps none. Of a [`DirectCorrection`](crate::DirectCorrection) also what its one application left.
     pub excused: S,
 }
 
 /// The largest violation that a state on its way may keep, in sizes of its row, however coarse the tolerance is.
-const EXCUSED: f64 = 1e-2;
+pub(crate) const EXCUSED: f64 = 1e-2;
 
 impl<S: Real> Projection<S> {
     /// Corrects positions, then velocities; Euler parameters come out at length 1.

@@ -310,14 +310,14 @@ fn weighted<S: Real>(vector: &[S], weights: &[S]) -> S {
 }
 
 /// `x = factor x + y`.
-pub(super) fn combine<S: Real>(x: &mut [S], factor: S, y: &[S]) {
+pub(crate) fn combine<S: Real>(x: &mut [S], factor: S, y: &[S]) {
     x.iter_mut()
         .zip(y)
         .for_each(|(x, &y)| *x = x.fused(factor, y));
 }
 
 /// `x = x + factor y`.
-pub(super) fn add<S: Scalar>(x: &mut [S], factor: S, y: &[S]) {
+pub(crate) fn add<S: Scalar>(x: &mut [S], factor: S, y: &[S]) {
     x.iter_mut()
         .zip(y)
         .for_each(|(x, &y)| *x = factor.fused(y, *x));

@@ -30,6 +30,7 @@ mod joints;
 mod penalty;
 mod standard;
 
+pub(crate) use augmented_lagrangian::{add, combine};
 pub(crate) use consistency::inconsistency;
 
 pub use augmented_lagrangian::AugmentedLagrangian;

@@ -106,7 +106,7 @@ pub enum Doubt {
     },
     /// Corrections or evaluations were accepted that did not converge.
     Excused {
-        /// Corrections of a projection.
+        /// Corrections of a projection or a direct correction.
         corrections: usize,
         /// Evaluations of the augmented Lagrangian.
         evaluations: usize,
@@ -220,14 +220,15 @@ impl fmt::Display for Doubt {
                 evaluations,
                 time,
             } => {
-                let (what, count) = if corrections > 0 {
-                    ("corrections of the projection", corrections)
+                let (what, count, or) = if corrections > 0 {
+                    let or = " or a direct correction leaves more than its tolerance";
+                    ("corrections after steps", corrections, or)
                 } else {
-                    ("evaluations of the augmented Lagrangian", evaluations)
+                    ("evaluations of the augmented Lagrangian", evaluations, "")
                 };
                 write!(
                     f,
-                    "{count} {what} were accepted without convergence from {} s on, where equations are nearly dependent: compare two tolerances",
+                    "{count} {what} were accepted without convergence from {} s on, where equations are nearly dependent{or}: compare two tolerances",
                     Measured(time)
                 )
             }

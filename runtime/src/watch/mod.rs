@@ -74,10 +74,10 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     acceleration: S,
 }
 
-/// What was accepted although an iteration did not converge, near a singular configuration.
+/// What was accepted although it did not converge, near a singular configuration or after one application of a pseudo-inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excused<S> {
-    /// Corrections of a [`Projection`](crate::Projection).
+    /// Corrections of a [`Projection`](crate::Projection), or of a [`DirectCorrection`](crate::DirectCorrection), which also counts where one application left more than its tolerance.
     pub corrections: usize,
     /// Evaluations of the augmented Lagrangian.
     pub evaluations: usize,

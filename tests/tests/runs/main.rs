@@ -8,6 +8,7 @@ mod chapter15;
 mod dependent;
 mod derived;
 mod descriptions;
+mod direct;
 mod faults;
 
 mod forces;

@@ -3,7 +3,7 @@
 use core::f64::consts::FRAC_PI_2;
 
 use holonom::prelude::*;
-use holonom::{JointCoordinates, Treatment, TreeRecovery, VelocityProjection};
+use holonom::{DirectCorrection, JointCoordinates, Treatment, TreeRecovery, VelocityProjection};
 use holonom_models::{FourBar, RodPendulum, SliderCrank, VariableLengthPendulum};
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
 
@@ -52,6 +52,20 @@ fn velocities_alone_keep_the_joint_from_drifting_fast() {
     let [none, velocities] = [errors(None), errors(Some(&VelocityProjection::default()))];
     println!("{none:?} {velocities:?}");
     assert!(velocities[2] < 0.1 * none[2], "{velocities:?} {none:?}");
+}
+
+/// Masses do not weigh, but one body on its hinge has one motion: what a correction chooses is by how much it moves along it.
+#[test]
+fn the_direct_correction_is_as_exact_as_that_by_the_mass() {
+    let [none, projected, direct] = [
+        errors(None),
+        errors(Some(&Projection::default())),
+        errors(Some(&DirectCorrection::default())),
+    ];
+    println!("{none:?} {projected:?} {direct:?}");
+    assert!(direct[0] < 1e-6 && direct[1] < 1e-6, "{direct:?}");
+    assert!(direct[2] < 1e-16, "{direct:?}");
+    assert!(none[1] > 10.0 * direct[1], "{none:?}");
 }
 
 /// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and by how much its bearing, a joint of the tree, was open (m).
@@ -105,6 +119,12 @@ fn every_treatment_works_with_every_integrator() {
         };
     }
     for [position, velocity, _] in with_all!(&Projection::default()) {
+        assert!(
+            position < 1e-20 && velocity < 1e-16,
+            "{position:e} {velocity:e}"
+        );
+    }
+    for [position, velocity, _] in with_all!(&DirectCorrection::default()) {
         assert!(
             position < 1e-20 && velocity < 1e-16,
             "{position:e} {velocity:e}"

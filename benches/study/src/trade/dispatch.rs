@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 
 use holonom::{
-    AugmentedLagrangian, Baumgarte, Description, Dynamics, Formulation, JointCoordinates,
-    JointDynamics, Kernel, Mechanism, NoForces, Normalised, Penalty, Projection, Real, Sample,
-    Simulation, Span, StandardLagrange, System, TreeRecovery, VelocityProjection, every,
+    AugmentedLagrangian, Baumgarte, Description, DirectCorrection, Dynamics, Formulation,
+    JointCoordinates, JointDynamics, Kernel, Mechanism, NoForces, Normalised, Penalty, Projection,
+    Real, Sample, Simulation, Span, StandardLagrange, System, TreeRecovery, VelocityProjection,
+    every,
 };
 
 use super::integration::{Integration, with_own_type};
@@ -140,6 +141,7 @@ fn with_numbers<'a, S: Real + 'static, J: JointsOf<P>, P: Problem, T: Task<'a, P
     let treated: Treated<'a, S, P::Mechanism> = match setting.treatment {
         Treatment::None => None,
         Treatment::Projection => Some(Box::new(Projection::default())),
+        Treatment::DirectCorrection => Some(Box::new(DirectCorrection::default())),
         Treatment::VelocityProjection => Some(Box::new(VelocityProjection::default())),
         Treatment::TreeRecovery => J::recovery(problem)?,
     };

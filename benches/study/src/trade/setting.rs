@@ -194,6 +194,8 @@ pub enum Treatment {
     None,
     /// Positions and velocities are corrected onto the constraints, see [`holonom::Projection`].
     Projection,
+    /// The same by the pseudo-inverse of the Jacobian, once, see [`holonom::DirectCorrection`].
+    DirectCorrection,
     /// Velocities alone are, see [`holonom::VelocityProjection`].
     VelocityProjection,
     /// Positions of bodies follow from the joints of a tree, see [`holonom::TreeRecovery`].
@@ -202,9 +204,10 @@ pub enum Treatment {
 
 impl Treatment {
     /// All of them.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::None,
         Self::Projection,
+        Self::DirectCorrection,
         Self::VelocityProjection,
         Self::TreeRecovery,
     ];
@@ -215,6 +218,7 @@ impl Treatment {
         match self {
             Self::None => "none",
             Self::Projection => "projection",
+            Self::DirectCorrection => "direct-correction",
             Self::VelocityProjection => "velocity-projection",
             Self::TreeRecovery => "tree-recovery",
         }
@@ -270,6 +274,7 @@ impl Setting {
         code.push_str(match self.treatment {
             Treatment::None => "",
             Treatment::Projection => "    .projection(Projection::default())\n",
+            Treatment::DirectCorrection => "    .treatment(&DirectCorrection::default())\n",
             Treatment::VelocityProjection => "    .treatment(&VelocityProjection::default())\n",
             Treatment::TreeRecovery => "    .treatment(&tree)\n",
         });
@@ -314,6 +319,7 @@ impl Setting {
         };
         let treatment = match self.treatment {
             Treatment::None | Treatment::Projection => String::new(),
+            Treatment::DirectCorrection => name("DirectCorrection"),
             Treatment::VelocityProjection => name("VelocityProjection"),
             Treatment::TreeRecovery => name("TreeRecovery"),
         };

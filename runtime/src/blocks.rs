@@ -1,0 +1,16 @@
+//! Products with a Jacobian that is given by blocks.
+
+use crate::report::Block;
+use crate::scalar::Real;
+
+/// Adds `D d` to a sum.
+pub(crate) fn add_product<S: Real>(blocks: &[Block], jacobian: &[S], step: &[S], sum: &mut [S]) {
+    for block in blocks {
+        let values = jacobian.get(block.offset..).unwrap_or(&[]);
+        let rows = values.chunks(block.columns.max(1)).take(block.rows);
+        for (sum, row) in sum.iter_mut().skip(block.row).zip(rows) {
+            let pairs = row.iter().zip(step.iter().skip(block.column));
+            *sum = pairs.fold(*sum, |sum, (&value, &d)| value.fused(d, sum));
+        }
+    }
+}
