@@ -37,6 +37,13 @@ pub enum Fault {
     StateNotFinite,
     /// The state of a system is not made of coordinates and velocities, which the method needs.
     NoVelocities,
+    /// The system is not solved with rigid constraints, which the method needs, see [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    NoConstraints,
+    /// A spectral radius that is not from 0 to 1.
+    SpectralRadius {
+        /// Its value.
+        value: f64,
+    },
     /// The Euler parameters of a body in the state have the length zero: no orientation.
     ZeroOrientation {
         /// The body's field.
@@ -99,6 +106,15 @@ pub enum Fault {
         step: f64,
         /// The iterations done.
         iterations: usize,
+    },
+    /// The iteration of a step on the constraints does not converge, see [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    StepNotSolved {
+        /// The step (s).
+        step: f64,
+        /// The iterations done.
+        iterations: usize,
+        /// The joint whose pivot has nearly vanished, where the configuration is the cause, see [`crate::Pivot`].
+        joint: Option<&'static str>,
     },
     /// The factor of a penalty is so large that its compliance is lost in round-off, while equations are kept that depend on others and have nothing
     /// else to go by.

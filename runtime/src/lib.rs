@@ -199,12 +199,13 @@ pub use handle::{
     JointHandle,
 };
 pub use integrate::{
-    Adams, AdamsBashforthMoulton4, AdamsCourse, AdamsFixedCourse, Adaptive, AdaptiveCourse, Bdf,
-    BdfCourse, BogackiShampine, BogackiShampine3, BogackiShampineStages, Counts, Course,
-    DormandPrince, DormandPrince5, DormandPrince8, DormandPrince8Stages, DormandPrince853,
-    DormandPrinceStages, EmbeddedPair, Ends, FixedCourse, FixedStep, Heun, ImplicitMidpoint,
-    Integrator, Midpoint, NoStages, RadauCourse, RadauIIA, Rk4, Scheme, SemiImplicitEuler, Span,
-    Start, StepLimits, Stride, System, Tolerance,
+    Adams, AdamsBashforthMoulton4, AdamsCourse, AdamsFixedCourse, Adaptive, AdaptiveCourse,
+    AlphaEnd, AlphaStep, AlphaWeights, Bdf, BdfCourse, BogackiShampine, BogackiShampine3,
+    BogackiShampineStages, Counts, Course, DormandPrince, DormandPrince5, DormandPrince8,
+    DormandPrince8Stages, DormandPrince853, DormandPrinceStages, EmbeddedPair, Ends, FixedCourse,
+    FixedStep, GeneralizedAlpha, GeneralizedAlphaCourse, Heun, ImplicitMidpoint, Integrator,
+    Midpoint, NoStages, RadauCourse, RadauIIA, Rk4, Scheme, SemiImplicitEuler, Span, Start,
+    StepLimits, Stride, System, Tolerance,
 };
 pub use joint_coordinates::{
     Freedom, JointCoordinates, JointEvaluation, JointMotion, JointParts, JointReport,

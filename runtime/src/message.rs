@@ -32,6 +32,15 @@ impl fmt::Display for Fault {
                 f,
                 "the method moves coordinates by velocities, and the system does not say which are which (`System::with_new_velocities`)"
             ),
+            Self::NoConstraints => write!(
+                f,
+                "the method solves for positions on rigid constraints: it takes a mechanism by its bodies with `StandardLagrange`, no other formulation and no joint coordinates"
+            ),
+            Self::SpectralRadius { value } => write!(
+                f,
+                "the spectral radius of the generalized-alpha method is from 0 to 1, not {}",
+                Given(value)
+            ),
             Self::StateNotFinite => write!(f, "the state holds a number that is not finite"),
             Self::ZeroOrientation { body } => {
                 write!(f, "the Euler parameters of body `{body}` have no length")
@@ -142,6 +151,27 @@ impl fmt::Display for Fault {
                  which converges up to about one over the largest rate of the motion and of its stabilisation",
                 Given(step)
             ),
+            Self::StepNotSolved {
+                step,
+                iterations,
+                joint,
+            } => {
+                write!(
+                    f,
+                    "a step of {} s was not solved in {iterations} iterations: ",
+                    Given(step)
+                )?;
+                match joint {
+                    Some(joint) => write!(
+                        f,
+                        "the constraints of joint `{joint}` nearly depend on others here"
+                    ),
+                    None => write!(
+                        f,
+                        "it is too long for the motion, or for springs and dampers that are stiff; take a shorter one"
+                    ),
+                }
+            }
             Self::PenaltyFactor { alpha, largest } => write!(
                 f,
                 "`alpha = {}` is lost in round-off for these masses, and equations that depend on others have nothing else to go by: give \

@@ -165,6 +165,9 @@ fn settings(
     for &(coordinates, choice, treatment) in ways {
         for &integration in integrations {
             let (formulation, is_derived, _) = choice.made(subject, scalar, integration);
+            if !integration.family.moves(coordinates, formulation.method()) {
+                continue;
+            }
             settings.push(Setting {
                 coordinates,
                 formulation,

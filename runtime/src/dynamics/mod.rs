@@ -1,6 +1,9 @@
 //! A mechanism as a system of differential equations.
 
 mod faults;
+mod on_constraints;
+mod secants;
+mod trial;
 mod watched;
 
 use core::marker::PhantomData;
@@ -11,7 +14,7 @@ use crate::array::{Array, StateParts, Vector};
 use crate::compliance::compliances;
 use crate::error::{Fault, ParameterError};
 use crate::formulation::{Formulation, Saddle, inconsistency};
-use crate::integrate::System;
+use crate::integrate::{AlphaEnd, AlphaStep, System};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
     Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
@@ -485,6 +488,13 @@ where
         }
         *rates.coordinates_mut() = coordinate_rates;
         Ok(())
+    }
+
+    fn step_on_constraints(
+        &mut self,
+        asked: AlphaStep<'_, S, M::State<S>>,
+    ) -> Result<AlphaEnd<M::State<S>>, Fault> {
+        self.solved_on_constraints(&asked)
     }
 
     #[inline]

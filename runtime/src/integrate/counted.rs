@@ -1,6 +1,6 @@
 //! What an integration costs.
 
-use super::System;
+use super::{AlphaEnd, AlphaStep, System};
 use crate::array::Vector;
 use crate::error::Fault;
 use crate::scalar::Real;
@@ -69,6 +69,15 @@ impl<S: Real, Y: System<S>> System<S> for Counted<'_, Y> {
         rates: &mut Y::State,
     ) -> Result<(), Fault> {
         self.system.with_new_velocities(time, state, step, rates)
+    }
+
+    fn step_on_constraints(
+        &mut self,
+        asked: AlphaStep<'_, S, Y::State>,
+    ) -> Result<AlphaEnd<Y::State>, Fault> {
+        let end = self.system.step_on_constraints(asked)?;
+        self.counts.evaluations += end.evaluations;
+        Ok(end)
     }
 
     #[inline(always)]

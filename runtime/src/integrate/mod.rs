@@ -5,6 +5,7 @@
 //! | [`SemiImplicitEuler::every(h)`](SemiImplicitEuler::every) | semi-implicit Euler of order 1, fixed step | 1 a step |
 //! | [`Midpoint::every(h)`](Midpoint::every), [`Heun::every(h)`](Heun::every) | Runge-Kutta methods of order 2, fixed step | 2 a step |
 //! | [`ImplicitMidpoint::every(h)`](ImplicitMidpoint::every) | implicit midpoint rule of order 2, symmetric, fixed step | 1 a step and 1 an iteration |
+//! | [`GeneralizedAlpha::every(h)`](GeneralizedAlpha::every) | generalized-alpha of order 2 on rigid constraints, damping as wanted, fixed step | 1 an iteration |
 //! | [`Rk4::every(h)`](Rk4::every) | classical Runge-Kutta of order 4, fixed step | 4 a step |
 //! | [`AdamsBashforthMoulton4::every(h)`](AdamsBashforthMoulton4::every) | multistep method of order 4, predicted and corrected, fixed step | 2 a step |
 //! | [`DormandPrince::every(h)`](DormandPrince::every) | Dormand-Prince of order 5, fixed step | 6 a step |
@@ -33,6 +34,7 @@ mod dormand_prince;
 mod dormand_prince_8;
 mod embedded;
 mod fixed;
+mod generalized_alpha;
 mod implicit_midpoint;
 mod linear;
 mod newton;
@@ -58,6 +60,9 @@ pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
 pub use dormand_prince_8::{DormandPrince8, DormandPrince8Stages, DormandPrince853};
 pub use embedded::{Adaptive, EmbeddedPair};
 pub use fixed::{FixedCourse, FixedStep};
+pub use generalized_alpha::{
+    AlphaEnd, AlphaStep, AlphaWeights, GeneralizedAlpha, GeneralizedAlphaCourse,
+};
 pub use implicit_midpoint::ImplicitMidpoint;
 pub use radau::{RadauCourse, RadauIIA};
 pub use rk2::{Heun, Midpoint};
@@ -158,6 +163,17 @@ pub trait System<S: Real> {
         _rates: &mut Self::State,
     ) -> Result<(), Fault> {
         Err(Fault::NoVelocities)
+    }
+
+    /// One step of [`GeneralizedAlpha`], solved together with multipliers: only the system knows masses and constraints.
+    ///
+    /// # Errors
+    /// [`Fault::NoConstraints`] of a system that is not solved with rigid constraints, which is what stands here; what keeps the step from being solved.
+    fn step_on_constraints(
+        &mut self,
+        _asked: AlphaStep<'_, S, Self::State>,
+    ) -> Result<AlphaEnd<Self::State>, Fault> {
+        Err(Fault::NoConstraints)
     }
 
     /// Brings a state that a step has led to into its normal form, and its rates, where they are known, with it.

@@ -165,6 +165,30 @@ fn numbers_are_those_of_a_person() {
              one over the largest rate of the motion and of its stabilisation",
         ),
         (
+            Fault::StepNotSolved {
+                step: 0.1,
+                iterations: 12,
+                joint: None,
+            },
+            "a step of 0.1 s was not solved in 12 iterations: it is too long for the motion, or for springs and dampers that are stiff; take a shorter one",
+        ),
+        (
+            Fault::StepNotSolved {
+                step: 0.1,
+                iterations: 12,
+                joint: Some("crank"),
+            },
+            "a step of 0.1 s was not solved in 12 iterations: the constraints of joint `crank` nearly depend on others here",
+        ),
+        (
+            Fault::SpectralRadius { value: 1.5 },
+            "the spectral radius of the generalized-alpha method is from 0 to 1, not 1.5",
+        ),
+        (
+            Fault::NoConstraints,
+            "the method solves for positions on rigid constraints: it takes a mechanism by its bodies with `StandardLagrange`, no other formulation and no joint coordinates",
+        ),
+        (
             Fault::Undetermined { share: 0.123_45 },
             "the equations leave a motion free here (0.123 of a trial motion): they depend on each other, or a driver is missing",
         ),

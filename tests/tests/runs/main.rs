@@ -12,6 +12,7 @@ mod direct;
 mod faults;
 
 mod forces;
+mod generalized_alpha;
 mod inputs;
 mod kinematics;
 mod low_order;

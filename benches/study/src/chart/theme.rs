@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use plotters::style::RGBColor;
 
 /// How many series can be told apart.
-pub const SLOTS: usize = 8;
+pub const SLOTS: usize = 9;
 
 /// One role of a colour in both modes.
 #[derive(Clone, Copy)]
@@ -42,6 +42,7 @@ pub(super) const SERIES: [Ink; SLOTS] = [
     ink(0x6B6B68, 0xA6A6A1, Some(&[2, 3])),
     ink(0xC2408E, 0xF48AC6, None),
     ink(0x00617A, 0x4CC3DB, Some(&[12, 3])),
+    ink(0xB3453F, 0xFF9D96, None),
 ];
 
 /// Text beside axes and in legends.

@@ -125,6 +125,9 @@ impl Grid {
                         for integration in self.integrations(facts, scalar) {
                             let (formulation, is_derived, refused) =
                                 choice.made(subject, scalar, integration);
+                            if !integration.family.moves(coordinates, formulation.method()) {
+                                continue;
+                            }
                             let setting = Setting {
                                 coordinates,
                                 formulation,

@@ -1,12 +1,15 @@
 //! An integrator that is chosen at run time, as one type: what is compiled for a mechanism does not grow with the number of integrators.
 
 use holonom::{
-    AdamsCourse, AdamsFixedCourse, AdaptiveCourse, BdfCourse, BogackiShampine3, Counts, Course,
-    DormandPrince5, DormandPrince8, Fault, FixedCourse, Heun, ImplicitMidpoint, Integrator,
-    Midpoint, RadauCourse, Real, Rk4, SemiImplicitEuler, Span, System, Tolerance, Vector,
+    AdamsCourse, AdamsFixedCourse, AdaptiveCourse, AlphaEnd, AlphaStep, BdfCourse,
+    BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, Fault, FixedCourse,
+    GeneralizedAlphaCourse, Heun, ImplicitMidpoint, Integrator, Midpoint, RadauCourse, Real, Rk4,
+    SemiImplicitEuler, Span, System, Tolerance, Vector,
 };
 
 use super::grid::two_digits;
+use crate::chapter15::Method;
+use crate::compare::Coordinates;
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,6 +28,8 @@ pub enum Family {
     DormandPrince853Fixed,
     /// The implicit midpoint rule, order 2.
     ImplicitMidpoint,
+    /// Generalized-alpha on rigid constraints with a spectral radius of 0.8, order 2: by bodies with standard multipliers alone.
+    GeneralizedAlpha,
     /// Adams, Bashforth and Moulton at a fixed step, order 4.
     AdamsBashforthMoulton4,
     /// Bogacki and Shampine 3(2) under the control of `ode23`.
@@ -43,7 +48,7 @@ pub enum Family {
 
 impl Family {
     /// All of them, those of fixed steps first.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::SemiImplicitEuler,
         Self::Midpoint,
         Self::Heun,
@@ -51,6 +56,7 @@ impl Family {
         Self::DormandPrinceFixed,
         Self::DormandPrince853Fixed,
         Self::ImplicitMidpoint,
+        Self::GeneralizedAlpha,
         Self::AdamsBashforthMoulton4,
         Self::BogackiShampine,
         Self::DormandPrince,
@@ -71,6 +77,7 @@ impl Family {
             Self::DormandPrinceFixed => "dormand-prince-fixed",
             Self::DormandPrince853Fixed => "dormand-prince-853-fixed",
             Self::ImplicitMidpoint => "implicit-midpoint",
+            Self::GeneralizedAlpha => "generalized-alpha",
             Self::AdamsBashforthMoulton4 => "adams-bashforth-moulton-4",
             Self::BogackiShampine => "bogacki-shampine",
             Self::DormandPrince => "dormand-prince",
@@ -101,12 +108,22 @@ impl Family {
         )
     }
 
+    /// Whether it moves what is described and formulated so: all methods do, but those that solve for rigid constraints themselves.
+    #[must_use]
+    pub const fn moves(self, coordinates: Coordinates, method: Method) -> bool {
+        !matches!(self, Self::GeneralizedAlpha)
+            || matches!(
+                (coordinates, method),
+                (Coordinates::Bodies, Method::Standard)
+            )
+    }
+
     /// The power of the step that the error of a motion goes with; of a method of many orders, the highest.
     #[must_use]
     pub const fn order(self) -> u32 {
         match self {
             Self::SemiImplicitEuler => 1,
-            Self::Midpoint | Self::Heun | Self::ImplicitMidpoint => 2,
+            Self::Midpoint | Self::Heun | Self::ImplicitMidpoint | Self::GeneralizedAlpha => 2,
             Self::BogackiShampine => 3,
             Self::Rk4 | Self::AdamsBashforthMoulton4 => 4,
             Self::DormandPrinceFixed | Self::DormandPrince | Self::Bdf | Self::RadauIIA => 5,
@@ -153,6 +170,7 @@ impl Integration {
             Family::DormandPrinceFixed => format!("DormandPrince::every({value:e})"),
             Family::DormandPrince853Fixed => format!("DormandPrince853::every({value:e})"),
             Family::ImplicitMidpoint => format!("ImplicitMidpoint::every({value:e})"),
+            Family::GeneralizedAlpha => format!("GeneralizedAlpha::every({value:e})"),
             Family::AdamsBashforthMoulton4 => format!("AdamsBashforthMoulton4::every({value:e})"),
             Family::BogackiShampine => self.adaptive_code("BogackiShampine"),
             Family::DormandPrince => self.adaptive_code("DormandPrince"),
@@ -178,6 +196,10 @@ macro_rules! with_own_type {
                 let $integrator = holonom::ImplicitMidpoint::every($integration.step());
                 $then
             }
+            $crate::trade::Family::GeneralizedAlpha => {
+                let $integrator = holonom::GeneralizedAlpha::every($integration.step());
+                $then
+            }
             $crate::trade::Family::Adams => {
                 let $integrator = holonom::Adams::new($integration.tolerance_of());
                 $then
@@ -195,6 +217,7 @@ macro_rules! with_own_type {
     ($integration:expr, $integrator:ident => $then:expr, $other:expr) => {
         $crate::trade::integration::with_own_type!(@ $integration, $integrator => $then, {
             $crate::trade::Family::ImplicitMidpoint
+            | $crate::trade::Family::GeneralizedAlpha
             | $crate::trade::Family::Adams
             | $crate::trade::Family::Bdf
             | $crate::trade::Family::RadauIIA => $other
@@ -298,6 +321,8 @@ pub enum AnyCourse<S: Real, X: Vector<S>> {
     DormandPrince853Fixed(FixedCourse<S, X, DormandPrince8>),
     /// Of [`Family::ImplicitMidpoint`].
     ImplicitMidpoint(FixedCourse<S, X, ImplicitMidpoint>),
+    /// Of [`Family::GeneralizedAlpha`].
+    GeneralizedAlpha(GeneralizedAlphaCourse<S, X>),
     /// Of [`Family::AdamsBashforthMoulton4`].
     AdamsBashforthMoulton4(AdamsFixedCourse<S, X>),
     /// Of [`Family::BogackiShampine`].
@@ -332,6 +357,7 @@ from_courses!(
     FixedCourse<DormandPrince5> => DormandPrinceFixed,
     FixedCourse<DormandPrince8> => DormandPrince853Fixed,
     FixedCourse<ImplicitMidpoint> => ImplicitMidpoint,
+    GeneralizedAlphaCourse<> => GeneralizedAlpha,
     AdamsFixedCourse<> => AdamsBashforthMoulton4,
     AdaptiveCourse<BogackiShampine3> => BogackiShampine,
     AdaptiveCourse<DormandPrince5> => DormandPrince,
@@ -361,6 +387,7 @@ macro_rules! on_course {
             AnyCourse::DormandPrinceFixed($course) => $then,
             AnyCourse::DormandPrince853Fixed($course) => $then,
             AnyCourse::ImplicitMidpoint($course) => $then,
+            AnyCourse::GeneralizedAlpha($course) => $then,
             AnyCourse::AdamsBashforthMoulton4($course) => $then,
             AnyCourse::BogackiShampine($course) => $then,
             AnyCourse::DormandPrince($course) => $then,
@@ -424,6 +451,10 @@ impl<S: Real, X: Vector<S>> System<S> for Behind<'_, S, X> {
         rates: &mut X,
     ) -> Result<(), Fault> {
         self.system.with_new_velocities(time, state, step, rates)
+    }
+
+    fn step_on_constraints(&mut self, asked: AlphaStep<'_, S, X>) -> Result<AlphaEnd<X>, Fault> {
+        self.system.step_on_constraints(asked)
     }
 
     fn settle(&mut self, state: &mut X, rates: Option<&mut X>) {

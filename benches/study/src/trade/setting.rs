@@ -309,6 +309,7 @@ impl Setting {
             Family::Midpoint => name("Midpoint"),
             Family::Heun => name("Heun"),
             Family::ImplicitMidpoint => name("ImplicitMidpoint"),
+            Family::GeneralizedAlpha => name("GeneralizedAlpha"),
             Family::AdamsBashforthMoulton4 => name("AdamsBashforthMoulton4"),
             Family::Adams => name("Adams"),
             Family::Bdf => name("Bdf"),
