@@ -86,6 +86,13 @@ pub trait Vector<S: Scalar>: Clone {
         });
     }
 
+    /// Whether an increment of the element at a place has a part in [`Vector::plus`]: implicit methods need no derivative for one that has none.
+    #[must_use]
+    fn has_part(&self, index: usize) -> bool {
+        let _ = index;
+        true
+    }
+
     /// `self + sum of factor * direction`, element by element.
     #[must_use]
     fn plus<const N: usize>(&self, terms: [(S, &Self); N]) -> Self {

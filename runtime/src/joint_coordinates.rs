@@ -31,9 +31,9 @@ pub trait JointCoordinates: Mechanism {
     /// One number per equation that remains.
     type ClosingMultipliers<S: Scalar>: Array<S>;
     /// What depends on parameters alone.
-    type JointConstants<S: Scalar>: Copy + Debug;
+    type JointConstants<S: Scalar>: Array<S>;
     /// What depends on constants and on the coefficients of the formulation.
-    type JointCoefficients<S: Scalar>: Copy + Debug;
+    type JointCoefficients<S: Scalar>: Array<S>;
     /// Body by body position and velocity (global), and of a rigid one the rotation matrix from principal to global axes, row by row, and the angular
     /// velocity in principal axes; behind them the auxiliary variables.
     type BodyMotions<S: Scalar>: Array<S>;

@@ -1,19 +1,21 @@
 //! A mechanism in joint coordinates as a system of differential equations.
 
+mod jacobian;
+
 use crate::array::{Array, StateParts, Vector};
 use core::marker::PhantomData;
 
 use crate::dynamics::{Dynamics, Iterations, singular, vanishes};
 use crate::error::{Fault, NotFinite};
 use crate::formulation::{Formulation, JointSaddle, JointSolution};
-use crate::integrate::System;
+use crate::integrate::{System, by_differences};
 use crate::joint_coordinates::{Freedom, JointCoordinates, JointEvaluation, JointParts};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Normalised, Pivot, Stabilisation};
 use crate::origin::before_accelerations;
 use crate::report::BodyKind;
 use crate::rotation::{check_state, from_matrix, normalised_or_zero, read, write};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::start::check_start;
 use crate::watch::Watch;
 
@@ -452,6 +454,24 @@ where
         Ok(())
     }
 
+    /// As that of [`Dynamics`].
+    fn jacobian(
+        &mut self,
+        time: S,
+        state: &M::JointState<S>,
+        rates: &M::JointState<S>,
+        columns: &mut <M::JointState<S> as Vector<S>>::Each<M::JointState<S>>,
+    ) -> Result<usize, Fault> {
+        if !F::ITERATED
+            && let Some(evaluations) = self.differentiated(time, state, columns)
+        {
+            return Ok(evaluations);
+        }
+        by_differences(state, rates, columns, |state, rates| {
+            self.stage(time, state, rates)
+        })
+    }
+
     #[inline]
     fn with_new_velocities(
         &mut self,
@@ -509,7 +529,7 @@ where
 }
 
 /// `x = x + y`.
-fn add<S: Real>(x: &mut [S], y: &[S]) {
+fn add<S: Scalar>(x: &mut [S], y: &[S]) {
     x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x + y);
 }
 

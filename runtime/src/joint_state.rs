@@ -201,6 +201,11 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
         Vector::for_each(&self.rates, &mut f);
     }
 
+    /// The second element of a pair has none.
+    fn has_part(&self, index: usize) -> bool {
+        index >= 2 * TURNS || index.is_multiple_of(2)
+    }
+
     #[inline(always)]
     fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
         Self {

@@ -19,7 +19,7 @@
 //! | correction onto the constraints | [`Projection`] |
 //! | the kernels themselves, sizes and operation counts | [`trait@Mechanism`], [`Report`] |
 //! | states of an integrator's [`System`] | arrays, [`State`], [`JointState`] |
-//! | numbers | [`Scalar`], [`Real`] |
+//! | numbers, and numbers that carry derivatives along | [`Scalar`], [`Real`], [`Forward`] |
 //!
 //! Units are SI, angles are in radians. The crate needs no heap and no standard library: with default features off, turn on
 //! `libm`.
@@ -46,6 +46,7 @@ mod dynamics;
 mod each;
 mod error;
 mod formulation;
+mod forward;
 mod handle;
 mod integrate;
 mod joint_coordinates;
@@ -194,6 +195,7 @@ pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, JointSaddle, JointSolution, Penalty, Saddle,
     Solution, StandardLagrange,
 };
+pub use forward::Forward;
 pub use handle::{
     BodyHandle, CountsTurns, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,
     JointHandle,

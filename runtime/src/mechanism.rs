@@ -45,9 +45,9 @@ pub trait Mechanism: Sized + 'static {
     /// A struct with the fields that are inputs (`#[input]`), under their names; `()` without any. Zero by default.
     type Inputs<S: Scalar>: Copy + Debug + Default + PartialEq;
     /// What depends on parameters alone; without elements where everything folds at compile time.
-    type Constants<S: Scalar>: Copy + Debug;
+    type Constants<S: Scalar>: Array<S>;
     /// What depends on constants and on the coefficients of the formulation.
-    type Coefficients<S: Scalar>: Copy + Debug;
+    type Coefficients<S: Scalar>: Array<S>;
     /// The factorised saddle system, to be used by [`Mechanism::solve`].
     type Factors<S: Scalar>: Copy + Debug;
     /// A struct with one handle per field of the mechanism, under the field's name; an array of handles where the field is an array.

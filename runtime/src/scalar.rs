@@ -1,6 +1,6 @@
 //! The numbers a kernel computes with.
 //!
-//! A kernel is generic over [`Scalar`], a handful of operations without branches: real numbers, dual numbers,
+//! A kernel is generic over [`Scalar`], a handful of operations without branches: real numbers, numbers that carry derivatives along ([`Forward`](crate::Forward)),
 //! counting numbers and lanes fit. What must branch on a value (step control, Newton's loop, verdicts on
 //! pivots) asks for [`Real`], a scalar that can be compared.
 

@@ -1,6 +1,7 @@
 //! A mechanism as a system of differential equations.
 
 mod faults;
+mod jacobian;
 mod on_constraints;
 mod secants;
 mod trial;
@@ -14,7 +15,7 @@ use crate::array::{Array, StateParts, Vector};
 use crate::compliance::compliances;
 use crate::error::{Fault, ParameterError};
 use crate::formulation::{Formulation, Saddle, inconsistency};
-use crate::integrate::{AlphaEnd, AlphaStep, System};
+use crate::integrate::{AlphaEnd, AlphaStep, System, by_differences};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{
     Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
@@ -264,29 +265,14 @@ where
         rates: &mut M::State<S>,
         multipliers: &mut M::Multipliers<S>,
     ) -> Pivot<S> {
-        let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let pivot = M::evaluate_into::<S, F::Terms, P>(
-            constants,
-            coefficients,
-            time,
-            state,
-            rates,
-            multipliers,
-        );
-        if P::NORMALISED_RATES {
-            scale_euler_rates::<S, M>(rates.coordinates_mut(), state, |length| length.reciprocal());
-        }
-        pivot
+        let prepared = (&self.constants, &self.coefficients);
+        straight::<S, M, F::Terms, P>(prepared, time, state, rates, multipliers)
     }
 
     /// The state as the kernels read it.
     #[inline]
     fn read(state: &M::State<S>) -> M::State<S> {
-        if P::NORMALISED {
-            with_unit_orientations::<S, M>(state)
-        } else {
-            *state
-        }
+        as_read::<S, M, P>(state)
     }
 
     /// Forces and moments of the closure alone, as [`Mechanism::forces`] has them, in a state whose Euler parameters have length 1.
@@ -346,11 +332,8 @@ where
             Err(Fault::RatesNotFinite { .. }) => return Err(Fault::StateNotFinite),
             Err(fault) => return Err(fault),
         }
-        let coordinate_rates = M::coordinate_rates(constants, read);
+        let coordinate_rates = coordinate_rates::<S, M, P>(constants, state, read);
         *rates.coordinates_mut() = coordinate_rates;
-        if P::NORMALISED && !P::NORMALISED_RATES {
-            scale_euler_rates::<S, M>(rates.coordinates_mut(), state, |length| length);
-        }
         *rates.velocities_mut() = solution.accelerations;
         *multipliers = solution.multipliers;
         Ok(Parts {
@@ -401,6 +384,47 @@ where
         let Stabilisation { rate, position, .. } = self.stabilisation;
         stabilised::<S, M, F::Terms>(&self.constants, [rate, position], time, state)
     }
+}
+
+/// The evaluation in one straight line, from constants and coefficients.
+#[inline(always)]
+fn straight<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
+    (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
+    time: S,
+    state: &M::State<S>,
+    rates: &mut M::State<S>,
+    multipliers: &mut M::Multipliers<S>,
+) -> Pivot<S> {
+    let pivot =
+        M::evaluate_into::<S, T, P>(constants, coefficients, time, state, rates, multipliers);
+    if P::NORMALISED_RATES {
+        scale_euler_rates::<S, M>(rates.coordinates_mut(), state, |length| length.reciprocal());
+    }
+    pivot
+}
+
+/// The state as the kernels read it.
+#[inline]
+fn as_read<S: Scalar, M: Mechanism, P: Orientation>(state: &M::State<S>) -> M::State<S> {
+    if P::NORMALISED {
+        with_unit_orientations::<S, M>(state)
+    } else {
+        *state
+    }
+}
+
+/// The rates of the coordinates of a state, from the state as the kernels read it.
+#[inline]
+fn coordinate_rates<S: Scalar, M: Mechanism, P: Orientation>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+    read: &M::State<S>,
+) -> <M::State<S> as StateParts<S>>::Coordinates {
+    let mut rates = M::coordinate_rates(constants, read);
+    if P::NORMALISED && !P::NORMALISED_RATES {
+        scale_euler_rates::<S, M>(&mut rates, state, |length| length);
+    }
+    rates
 }
 
 /// `gamma* = gamma - r Phi' - p Phi` with the gains `r` and `p`, where the terms have them.
@@ -469,6 +493,25 @@ where
         Some(self.fault(time, state))
     }
 
+    /// Exact, by the kernels over [`Forward`](crate::Forward) numbers: a law that is a closure enters by differences of its forces. By differences of the rates for an [`AugmentedLagrangian`](crate::AugmentedLagrangian),
+    /// which iterates, and where a derivative is not finite.
+    fn jacobian(
+        &mut self,
+        time: S,
+        state: &M::State<S>,
+        rates: &M::State<S>,
+        columns: &mut <M::State<S> as Vector<S>>::Each<M::State<S>>,
+    ) -> Result<usize, Fault> {
+        if !F::ITERATED
+            && let Some(evaluations) = self.differentiated(time, state, columns)
+        {
+            return Ok(evaluations);
+        }
+        by_differences(state, rates, columns, |state, rates| {
+            self.stage(time, state, rates)
+        })
+    }
+
     #[inline]
     fn with_new_velocities(
         &mut self,
@@ -482,11 +525,7 @@ where
         for (velocity, &rate) in velocities.zip(rates.velocities().as_slice()) {
             *velocity = rate.fused(step, *velocity);
         }
-        let mut coordinate_rates = M::coordinate_rates(&self.constants, &end);
-        if P::NORMALISED && !P::NORMALISED_RATES {
-            scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
-        }
-        *rates.coordinates_mut() = coordinate_rates;
+        *rates.coordinates_mut() = coordinate_rates::<S, M, P>(&self.constants, state, &end);
         Ok(())
     }
 

@@ -71,6 +71,8 @@ pub use semi_implicit::SemiImplicitEuler;
 
 use core::fmt::Debug;
 
+pub(crate) use self::newton::{by_differences, increment};
+
 use self::checked::named;
 use self::counted::Counted;
 use crate::array::Vector;
@@ -132,9 +134,10 @@ pub trait System<S: Real> {
     }
 
     /// Writes the Jacobian of the rates: column `k` is the change of the rates for an increment of element `k` of the state, divided by that increment. `rates` are those of the
-    /// state. Returns how many evaluations that has taken.
+    /// state; zero where [`Vector::has_part`] says so. Returns how many evaluations that has taken; one that gives several columns counts once for each.
     ///
-    /// Implicit methods ask for it, and need it for the sake of convergence only. By differences of rates, if a system does not know better.
+    /// Implicit methods ask for it, and need it for the sake of convergence only. By differences of rates, if a system does not know better. A mechanism does: its kernels give it over
+    /// [`Forward`](crate::Forward) numbers.
     ///
     /// # Errors
     /// As [`System::stage`].
@@ -144,8 +147,12 @@ pub trait System<S: Real> {
         state: &Self::State,
         rates: &Self::State,
         columns: &mut <Self::State as Vector<S>>::Each<Self::State>,
-    ) -> Result<usize, Fault> {
-        newton::by_differences(state, rates, columns, |state, rates| {
+    ) -> Result<usize, Fault>
+    where
+        // No part of an object: else it would be compiled for every system, though explicit methods never ask for it.
+        Self: Sized,
+    {
+        by_differences(state, rates, columns, |state, rates| {
             self.stage(time, state, rates)
         })
     }

@@ -81,10 +81,10 @@ pub(super) enum Age {
     Unknown,
 }
 
-/// The Jacobian of the rates by differences of them, one evaluation for every element of the state.
+/// The Jacobian of the rates by differences of them, one evaluation for every element of the state that has a part in increments.
 ///
 /// With increments of `sqrt(EPSILON max(1e-5, |y|))` (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8), of angles on a circle as well.
-pub(super) fn by_differences<S: Real, X: Vector<S>>(
+pub(crate) fn by_differences<S: Real, X: Vector<S>>(
     state: &X,
     rates: &X,
     columns: &mut X::Each<X>,
@@ -92,14 +92,24 @@ pub(super) fn by_differences<S: Real, X: Vector<S>>(
 ) -> Result<usize, Fault> {
     let length = state.length();
     let mut direction = state.zip(state, |_, _| S::zero());
+    let mut evaluations = 0;
     for column in 0..length {
-        let size = state.element(column).abs().max(S::constant(1e-5));
-        let increment = (S::EPSILON * size).sqrt();
-        direction.set_element(column, increment);
         let there = &mut columns[column];
+        if !state.has_part(column) {
+            *there = state.zip(state, |_, _| S::zero());
+            continue;
+        }
+        let increment = increment(state.element(column));
+        direction.set_element(column, increment);
         evaluate(&state.plus([(S::one(), &direction)]), there)?;
         *there = there.zip(rates, |there, here| (there - here).quotient(increment));
         direction.set_element(column, S::zero());
+        evaluations += 1;
     }
-    Ok(length)
+    Ok(evaluations)
+}
+
+/// The increment of an element for a difference.
+pub(crate) fn increment<S: Real>(element: S) -> S {
+    (S::EPSILON * element.abs().max(S::constant(1e-5))).sqrt()
 }

@@ -20,7 +20,7 @@ controlled! {
     /// ([`System::jacobian`]), and the step control of Gustafsson. Its estimate of the error is of order 3, which it holds to `0.1 rtol^(2/3)` for a tolerance `rtol` below 1e-3, so that the
     /// error is about the tolerance. A state within a step is that of a shorter step, so that it is as exact as those at ends.
     ///
-    /// A step takes three evaluations for each iteration and one at its end; a Jacobian, by differences, as many as the state has elements; a state within a step, those of a shorter step. Memory is four
+    /// A step takes three evaluations for each iteration and one at its end; a Jacobian what [`System::jacobian`] counts; a state within a step, those of a shorter step. Memory is four
     /// matrices of the size of the state.
     ///
     /// ```

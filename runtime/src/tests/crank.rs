@@ -35,22 +35,22 @@ impl Driven for DrivenHinge {
 pub(super) const CRANK: BodyHandle<Crank> = BodyHandle::new(0);
 pub(super) const MOTOR: JointHandle<Crank, DrivenHinge> = JointHandle::new(0);
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Constants<S> {
-    rod: [S; 6],
-    law: [S; 3],
+/// The constants of the rod, and those of the law.
+type Constants<S> = [S; 9];
+
+fn rod<S>(c: &Constants<S>) -> &[S; 6] {
+    c.first_chunk().unwrap()
 }
 
-impl<S: Scalar> Constants<S> {
-    fn law(&self, t: S) -> [S; 3] {
-        let [start, speed, acceleration] = self.law;
-        let half = S::constant(0.5);
-        [
-            start + t * (speed + t * half * acceleration),
-            speed + t * acceleration,
-            acceleration,
-        ]
-    }
+/// Value, rate and second derivative of the law.
+fn law<S: Scalar>(c: &Constants<S>, t: S) -> [S; 3] {
+    let [.., start, speed, acceleration] = *c;
+    let half = S::constant(0.5);
+    [
+        start + t * (speed + t * half * acceleration),
+        speed + t * acceleration,
+        acceleration,
+    ]
 }
 
 fn body<S: Scalar>(state: &State<S, 8, 6>) -> State<S, 7, 6> {
@@ -69,7 +69,8 @@ impl Mechanism for Crank {
     type Parameters<S: Scalar> = [S; 3];
     type Inputs<S: Scalar> = ();
     type Constants<S: Scalar> = Constants<S>;
-    type Coefficients<S: Scalar> = (Stabilisation<S>, [S; 6]);
+    /// The two gains, and a compliance for each row.
+    type Coefficients<S: Scalar> = [S; 8];
     type Factors<S: Scalar> = dense::Factors<S, 36, 6>;
     type Handles = ();
 
@@ -117,7 +118,7 @@ impl Mechanism for Crank {
 
     fn prepare<S: Scalar>(law: &[S; 3]) -> Constants<S> {
         let rod = Rod::prepare(&S::constant(7.02));
-        Constants { rod, law: *law }
+        from_fn(|k| rod.get(k).copied().unwrap_or_else(|| law[k - 6]))
     }
 
     fn coefficients_by_row<S: Scalar>(
@@ -125,29 +126,31 @@ impl Mechanism for Crank {
         stabilisation: &Stabilisation<S>,
         compliances: &[S; 6],
     ) -> Self::Coefficients<S> {
-        (*stabilisation, *compliances)
+        let Stabilisation { rate, position, .. } = *stabilisation;
+        let [a, b, c, d, e, f] = *compliances;
+        [rate, position, a, b, c, d, e, f]
     }
 
     fn initial_state<S: Scalar>(c: &Constants<S>) -> State<S, 8, 6> {
-        let rod = Rod::initial_state(&c.rod);
+        let rod = Rod::initial_state(rod(c));
         let coordinates = from_fn(|k| rod.coordinates().get(k).copied().unwrap_or(S::zero()));
         State::from_parts(coordinates, *rod.velocities())
     }
 
     fn constraints<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
-        let rows = Rod::constraints(&c.rod, time, &body(state));
-        let [angle, ..] = c.law(time);
+        let rows = Rod::constraints(rod(c), time, &body(state));
+        let [angle, ..] = law(c, time);
         and(rows, Self::joint_angle(c, state, 0).angle() - angle)
     }
 
     fn constraint_rates<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
-        let rows = Rod::constraint_rates(&c.rod, time, &body(state));
-        let [_, rate, _] = c.law(time);
+        let rows = Rod::constraint_rates(rod(c), time, &body(state));
+        let [_, rate, _] = law(c, time);
         and(rows, state.velocities()[3] - rate)
     }
 
     fn jacobian<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 36] {
-        let rod = Rod::jacobian(&c.rod, time, &body(state));
+        let rod = Rod::jacobian(rod(c), time, &body(state));
         let mut jacobian = [S::zero(); 36];
         jacobian[..30].copy_from_slice(&rod);
         jacobian[33] = S::one();
@@ -155,28 +158,28 @@ impl Mechanism for Crank {
     }
 
     fn gamma<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
-        let [_, _, acceleration] = c.law(time);
-        and(Rod::gamma(&c.rod, time, &body(state)), acceleration)
+        let [_, _, acceleration] = law(c, time);
+        and(Rod::gamma(rod(c), time, &body(state)), acceleration)
     }
 
     fn mass<S: Scalar>(c: &Constants<S>) -> [S; 6] {
-        Rod::mass(&c.rod)
+        Rod::mass(rod(c))
     }
 
     fn forces<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> [S; 6] {
-        Rod::forces(&c.rod, time, &body(state))
+        Rod::forces(rod(c), time, &body(state))
     }
 
     fn kinetic_energy<S: Scalar>(c: &Constants<S>, state: &State<S, 8, 6>) -> S {
-        Rod::kinetic_energy(&c.rod, &body(state))
+        Rod::kinetic_energy(rod(c), &body(state))
     }
 
     fn potential_energy<S: Scalar>(c: &Constants<S>, time: S, state: &State<S, 8, 6>) -> S {
-        Rod::potential_energy(&c.rod, time, &body(state))
+        Rod::potential_energy(rod(c), time, &body(state))
     }
 
     fn coordinate_rates<S: Scalar>(c: &Constants<S>, state: &State<S, 8, 6>) -> [S; 8] {
-        let rates = Rod::coordinate_rates(&c.rod, &body(state));
+        let rates = Rod::coordinate_rates(rod(c), &body(state));
         let turning = state.velocities()[3];
         from_fn(|k| rates.get(k).copied().unwrap_or(turning))
     }
@@ -200,7 +203,7 @@ impl Mechanism for Crank {
         if T::STABILISED {
             let phi = Self::constraints(c, time, read);
             let phi_rate = Self::constraint_rates(c, time, read);
-            let Stabilisation { rate, position, .. } = coefficients.0;
+            let [rate, position, ..] = *coefficients;
             lower = from_fn(|i| lower[i] - (rate * phi_rate[i] + position * phi[i]));
         }
         let upper = Self::forces(c, time, read);
@@ -217,8 +220,8 @@ impl Mechanism for Crank {
         time: S,
         state: &State<S, 8, 6>,
     ) -> (Self::Factors<S>, Pivot<S>) {
-        let compliance = T::COMPLIANT.then_some(&coefficients.1);
-        dense::factor(Self::jacobian(c, time, state), &c.rod, compliance)
+        let compliance = T::COMPLIANT.then_some(coefficients.last_chunk()).flatten();
+        dense::factor(Self::jacobian(c, time, state), rod(c), compliance)
     }
 
     fn solve<S: Scalar, T: Terms>(
@@ -228,7 +231,7 @@ impl Mechanism for Crank {
         upper: &[S; 6],
         lower: &[S; 6],
     ) -> ([S; 6], [S; 6]) {
-        dense::solve(factors, &c.rod, upper, lower)
+        dense::solve(factors, rod(c), upper, lower)
     }
 
     fn joint_angle<S: Scalar>(
@@ -238,7 +241,7 @@ impl Mechanism for Crank {
     ) -> AngleParts<S> {
         AngleParts {
             turns: Some(state.coordinates()[7]),
-            ..Rod::joint_angle(&c.rod, &body(state), joint)
+            ..Rod::joint_angle(rod(c), &body(state), joint)
         }
     }
 
@@ -257,7 +260,7 @@ impl Mechanism for Crank {
     }
 
     fn joint_point<S: Scalar>(c: &Constants<S>, joint: usize, place: usize) -> [S; 3] {
-        Rod::joint_point(&c.rod, joint, place)
+        Rod::joint_point(rod(c), joint, place)
     }
 
     fn user_axes(body: usize) -> [f64; 4] {

@@ -61,7 +61,8 @@ impl Mechanism for Rod {
     type Parameters<S: Scalar> = S;
     type Inputs<S: Scalar> = ();
     type Constants<S: Scalar> = [S; 6];
-    type Coefficients<S: Scalar> = (Stabilisation<S>, [S; 5]);
+    /// The two gains, and a compliance for each row.
+    type Coefficients<S: Scalar> = [S; 7];
     type Factors<S: Scalar> = Factors<S>;
     type Handles = ();
 
@@ -145,7 +146,9 @@ impl Mechanism for Rod {
         stabilisation: &Stabilisation<S>,
         compliances: &[S; 5],
     ) -> Self::Coefficients<S> {
-        (*stabilisation, *compliances)
+        let Stabilisation { rate, position, .. } = *stabilisation;
+        let [a, b, c, d, e] = *compliances;
+        [rate, position, a, b, c, d, e]
     }
 
     fn initial_state<S: Scalar>(_: &[S; 6]) -> State<S, 7, 6> {
@@ -241,9 +244,9 @@ impl Mechanism for Rod {
         if T::STABILISED {
             let phi = Self::constraints(c, time, read);
             let phi_rate = Self::constraint_rates(c, time, read);
+            let [rate, position, ..] = *coefficients;
             for k in 0..5 {
-                lower[k] =
-                    lower[k] - coefficients.0.rate * phi_rate[k] - coefficients.0.position * phi[k];
+                lower[k] = lower[k] - rate * phi_rate[k] - position * phi[k];
             }
         }
         let upper = Self::forces(c, time, read);
@@ -260,7 +263,7 @@ impl Mechanism for Rod {
         time: S,
         state: &State<S, 7, 6>,
     ) -> (Factors<S>, Pivot<S>) {
-        let compliance = T::COMPLIANT.then_some(&coefficients.1);
+        let compliance = T::COMPLIANT.then_some(coefficients.last_chunk()).flatten();
         dense::factor(Self::jacobian(c, time, state), c, compliance)
     }
 
