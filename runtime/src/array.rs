@@ -86,6 +86,14 @@ pub trait Vector<S: Scalar>: Clone {
         });
     }
 
+    /// How many elements, the first ones, are coordinates: numbers whose rates are made of the velocities behind them. Zero where nothing of that kind is known.
+    ///
+    /// Implicit methods eliminate these first, in equations that then couple few of them.
+    #[must_use]
+    fn coordinate_count(&self) -> usize {
+        0
+    }
+
     /// Whether an increment of the element at a place has a part in [`Vector::plus`]: implicit methods need no derivative for one that has none.
     #[must_use]
     fn has_part(&self, index: usize) -> bool {
@@ -302,6 +310,10 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
 
     fn length(&self) -> usize {
         Q + U
+    }
+
+    fn coordinate_count(&self) -> usize {
+        Q
     }
 
     #[inline(always)]

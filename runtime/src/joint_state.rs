@@ -157,6 +157,10 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
         2 * TURNS + REST + RATES
     }
 
+    fn coordinate_count(&self) -> usize {
+        2 * TURNS + REST
+    }
+
     #[inline(always)]
     fn element(&self, index: usize) -> S {
         if index < 2 * TURNS {

@@ -133,7 +133,10 @@ impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
 
 /// The inverse of a matrix as a product of eliminations, one for every column, with the largest number of a column as its pivot (Gauss and Jordan).
 ///
-/// All work is done on whole columns, which is what [`Vector`] offers, without a branch for each element.
+/// All work is done on whole columns, which is what [`Vector`] offers, without a branch for each element; an elimination whose factor is zero is left out. Most are where the coordinates of a state
+/// keep their own rows ([`Vector::coordinate_count`]): the rates of a position are a velocity, so that its column has nothing in the rows of other coordinates. For that a pivot of such a column is sought in
+/// these rows, of the matrix `shift I - J` of rates of coordinates by coordinates, whose numbers are about `shift` where a step resolves the motion; and in all of them where the
+/// largest is below a hundredth of `shift`, so that no elimination is worse than a hundred divisions by it.
 pub(super) struct Factors<S: Real, X: Vector<S>, C: Column<S, X>> {
     eliminations: X::Each<C>,
     /// The row of the pivot of every column.
@@ -161,7 +164,10 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
     /// Factorises `shift I - jacobian`. `false` if a pivot vanishes or is not finite.
     #[must_use]
     pub(super) fn factorise(&mut self, shift: C::Number, jacobian: &X::Each<X>, like: &X) -> bool {
-        let length = like.length();
+        /// Of the shift, what a pivot among the coordinates must have.
+        const LEAST: f64 = 0.01;
+        let (length, coordinates) = (like.length(), like.coordinate_count());
+        let least = S::constant(LEAST) * C::size(shift);
         let mut is_free = like.each(true);
         for column in 0..length {
             let of_jacobian = &jacobian[column];
@@ -171,12 +177,23 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
             for before in 0..column {
                 self.eliminate(before, &mut reduced);
             }
-            let (mut row, mut largest) = (column, S::zero());
-            for candidate in 0..length {
-                let size = C::size(reduced.at(candidate));
-                if is_free[candidate] && size > largest {
-                    (row, largest) = (candidate, size);
+            let pivot = |rows: usize| {
+                let (mut row, mut largest) = (column, S::zero());
+                for candidate in 0..rows {
+                    let size = C::size(reduced.at(candidate));
+                    if is_free[candidate] && size > largest {
+                        (row, largest) = (candidate, size);
+                    }
                 }
+                (row, largest)
+            };
+            let (mut row, mut largest) = pivot(if column < coordinates {
+                coordinates
+            } else {
+                length
+            });
+            if column < coordinates && largest < least {
+                (row, largest) = pivot(length);
             }
             if !(largest > S::zero() && largest.is_finite()) {
                 return false;
@@ -207,6 +224,9 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
     fn eliminate(&self, column: usize, of: &mut C) {
         let row = self.rows[column];
         let factor = of.at(row);
+        if C::size(factor) == S::zero() {
+            return;
+        }
         of.set(row, C::zero());
         of.add(factor, &self.eliminations[column]);
     }
@@ -214,8 +234,11 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
 
 #[cfg(test)]
 mod tests {
+    use core::array::from_fn;
+
     use super::{Complex, ComplexColumn, Factors};
     use crate::array::{State, StateParts, Vector};
+    use crate::each::EachOfState;
 
     /// Numbers without a pattern.
     fn scattered(seed: u64) -> impl FnMut() -> f64 {
@@ -265,6 +288,69 @@ mod tests {
                     shift[0] * im + shift[1] * re - product(&z.imaginary) - right[1].element(row),
                 ];
                 assert!(rest.iter().all(|rest| rest.abs() < 1e-11), "{rest:?}");
+            }
+        }
+    }
+
+    /// The rates of coordinates are velocities, but for what is given; those of velocities are anything, and large.
+    fn kinematic(
+        coordinates: f64,
+        seed: u64,
+    ) -> (State<f64, 4, 3>, EachOfState<State<f64, 4, 3>, 4, 3>) {
+        let mut number = scattered(seed);
+        let like = State::from_parts([0.0; 4], [0.0; 3]);
+        let mut jacobian = like.each(like);
+        for column in 0..7 {
+            let by_coordinate = column < 4;
+            jacobian[column] = State::from_parts(
+                from_fn(|row| {
+                    let own = if row == column { coordinates } else { 0.0 };
+                    let velocity = if row + 4 == column { 1.0 } else { 0.0 };
+                    own + velocity
+                }),
+                [(); 3].map(|()| number() * if by_coordinate { 1e6 } else { 1e3 }),
+            );
+        }
+        (like, jacobian)
+    }
+
+    /// Also where the coordinates have no pivots of their own: their rates take away the shift, or nearly so.
+    #[test]
+    fn coordinates_keep_their_rows_where_they_can() {
+        let shift = 40.0;
+        for (coordinates, own) in [
+            (0.0, true),
+            (-1e3, true),
+            (shift, false),
+            (shift * (1.0 - 1e-9), false),
+        ] {
+            for seed in 1..20 {
+                let (like, jacobian) = kinematic(coordinates, seed);
+                let mut factors = Factors::<f64, State<f64, 4, 3>, State<f64, 4, 3>>::new(&like);
+                let exists = factors.factorise(shift, &jacobian, &like);
+                // A coordinate whose velocity is no state has no other row.
+                assert_eq!(exists, coordinates != shift, "{coordinates}");
+                if !exists {
+                    continue;
+                }
+                assert_eq!((0..4).all(|column| factors.rows[column] == column), own);
+                let mut number = scattered(seed + 100);
+                let right =
+                    State::from_parts([(); 4].map(|()| number()), [(); 3].map(|()| number()));
+                let x = factors.solve(right, 7);
+                for row in 0..7 {
+                    let terms = |k: usize| {
+                        let diagonal = if k == row { shift } else { 0.0 };
+                        (diagonal - jacobian[k].element(row)) * x.element(k)
+                    };
+                    let sum: f64 = (0..7).map(terms).sum();
+                    let size: f64 = (0..7).map(|k| terms(k).abs()).sum();
+                    let rest = sum - right.element(row);
+                    assert!(
+                        rest.abs() < 1e-13 * (1.0 + size),
+                        "{coordinates} {row}: {rest:e}"
+                    );
+                }
             }
         }
     }
