@@ -71,6 +71,7 @@ fn augmented<M: Scene>(alpha: f64) -> (f64, f64) {
         tolerance: TOLERANCE,
         max_iterations: ITERATIONS,
         is_exact: false,
+        radian: None,
     };
     deviation::<M, _>(
         method,
