@@ -45,6 +45,7 @@ mod displace;
 mod dynamics;
 mod each;
 mod error;
+mod extent;
 mod formulation;
 mod forward;
 mod handle;

@@ -1,9 +1,10 @@
 //! What the rows of `Phi` and `Phi'` are measured by, so that metres, square metres and radians mean the same.
 
 use crate::array::{Array, StateParts};
+use crate::extent::{centre, extent, norm};
 use crate::mechanism::Mechanism;
 use crate::report::{Block, BodyKind};
-use crate::rotation::{minus, read, write};
+use crate::rotation::{read, write};
 use crate::scalar::{Real, Scalar};
 
 /// The rows of `D` at one time and configuration, and what they are about. All sizes are the same wherever the mechanism stands, but for
@@ -553,34 +554,6 @@ fn counted<S: Real, M: Mechanism>(
     counted
 }
 
-/// The largest distance of a centre of mass, or of a joint's point on the ground, from the first centre of mass.
-pub(crate) fn extent<S: Real, M: Mechanism>(constants: &M::Constants<S>, state: &M::State<S>) -> S {
-    let first = centre::<S, M>(state, 0);
-    let mut extent = S::zero();
-    for body in 0..M::REPORT.bodies.len() {
-        extent = extent.max(norm(&minus(&centre::<S, M>(state, body), &first)));
-    }
-    for (index, joint) in M::REPORT.joints.iter().enumerate() {
-        // Rows of rotations alone need no point, and none is then given.
-        for (place, body) in joint.bodies.iter().enumerate() {
-            let point = M::joint_point(constants, index, place);
-            let given = point.iter().any(|&x| x != S::zero());
-            extent = extent.max(match body {
-                Some(_) => norm(&point),
-                None if given => norm(&minus(&point, &first)),
-                None => S::zero(),
-            });
-        }
-    }
-    extent
-}
-
-/// The centre of mass of a body (m, global).
-fn centre<S: Scalar, M: Mechanism>(state: &M::State<S>, body: usize) -> [S; 3] {
-    let place = M::REPORT.bodies.get(body).map_or(0, |info| info.coordinate);
-    read(state.coordinates().as_slice(), place)
-}
-
 /// The state with other velocities: translations at some speed by their place, no rotation.
 fn moving<S: Real, M: Mechanism>(state: &M::State<S>, speed: impl Fn(usize) -> S) -> M::State<S> {
     let mut moving = M::State::from_parts(*state.coordinates(), Array::zeros());
@@ -595,18 +568,4 @@ fn moving<S: Real, M: Mechanism>(state: &M::State<S>, speed: impl Fn(usize) -> S
 /// Components that no mechanism is made of, from -1/2 to 1/2: the fractions of multiples of the golden section.
 pub(crate) fn fraction<S: Real>(place: usize) -> S {
     S::constant((place + 1) as f64 * 0.618_033_988_749_895 % 1.0 - 0.5)
-}
-
-/// The Euclidean norm, without a square out of the range of numbers.
-pub(crate) fn norm<S: Real>(vector: &[S]) -> S {
-    let most = vector.iter().fold(S::zero(), |most, x| most.max(x.abs()));
-    if most > S::zero() {
-        let sum = vector.iter().fold(S::zero(), |sum, x| {
-            let part = x.quotient(most);
-            part.fused(part, sum)
-        });
-        sum.sqrt() * most
-    } else {
-        most
-    }
 }

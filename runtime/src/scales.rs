@@ -2,12 +2,13 @@
 
 use crate::array::{Array, StateParts};
 use crate::error::{Fault, NotFinite};
+use crate::extent::{extent, norm};
 use crate::integrate::positive;
 use crate::mechanism::{Compliant, Mechanism};
 use crate::newton::compliant;
 use crate::report::BodyKind;
 use crate::rotation::{check_state, read, with_unit_orientations};
-use crate::rows::{Rows, extent, norm};
+use crate::rows::Rows;
 use crate::scalar::Real;
 
 /// What a scene is measured by: its mass, its length and its time, as its bodies stand and move and are pulled at one instant.

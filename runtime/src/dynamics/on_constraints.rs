@@ -5,12 +5,12 @@ use super::{Dynamics, singular, vanishes};
 use crate::array::{Array, StateParts, Vector};
 use crate::blocks::add_product;
 use crate::error::Fault;
+use crate::extent::extent;
 use crate::formulation::{Formulation, add};
 use crate::integrate::{AlphaEnd, AlphaStep};
 use crate::load::AppliedForces;
 use crate::mechanism::{Mechanism, Orientation, Terms};
 use crate::rotation::{read, write};
-use crate::rows::extent;
 use crate::scalar::{Real, Scalar};
 use crate::start::farthest;
 

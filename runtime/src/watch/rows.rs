@@ -1,10 +1,11 @@
 //! The rows of `Phi` as lengths and angles, and how large the mechanism is.
 
 use crate::array::Array;
+use crate::extent;
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
 use crate::rotation::read;
-use crate::rows::{self, Rows};
+use crate::rows::Rows;
 use crate::scalar::{Real, Scalar};
 
 /// The factors by which rows of `Phi` become lengths (m) or angles (rad), at a state.
@@ -51,7 +52,7 @@ impl<S: Real, M: Mechanism> Meanings<S, M> {
 /// The length of a mechanism (m): how far its centres of mass and the points of its joints reach, or its largest radius of gyration; 1 where there is
 /// neither.
 pub(crate) fn extent<S: Real, M: Mechanism>(constants: &M::Constants<S>, state: &M::State<S>) -> S {
-    let mut length = rows::extent::<S, M>(constants, state);
+    let mut length = extent::extent::<S, M>(constants, state);
     let mass = M::mass(constants);
     for body in M::REPORT.bodies {
         if body.kind == BodyKind::Rigid {
