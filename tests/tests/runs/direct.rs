@@ -1,12 +1,14 @@
 //! The direct correction against the pseudo-inverse of a dense Jacobian, and where equations depend on each other.
 
-use holonom::joints::{DisplacementDriver, Distance, PointOnLine, PointOnPlane, Revolute};
+use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
 use holonom::{Array, BodyKind, DirectCorrection, Real};
 use holonom_models::{Bricard, FlyballGovernor, FourBar, HeavyTop, SliderCrank};
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::singular::Arm;
 
 /// `D`, dense.
 fn jacobian<M: Mechanism>(constants: &M::Constants<f64>, state: &M::State<f64>) -> DMatrix<f64> {
@@ -253,31 +255,6 @@ fn redundant_equations_are_corrected() {
         .expect("solvable");
     println!("{}", report.doubts());
     assert!(report.doubts().is_empty(), "{}", report.doubts());
-}
-
-/// An arm of two links of 0.5 m whose hand is driven along x at 0.2 m/s, from 0.6 m on: beyond its reach after 2 s.
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0])]
-struct Arm {
-    #[body(mass = 1.0, position = [0.3, 0.4, 0.0])]
-    elbow: Particle,
-    #[body(mass = 1.0, position = [0.6, 0.0, 0.0], velocity = [0.2, 0.0, 0.0])]
-    hand: Particle,
-    #[joint(between = [ground, elbow], head = [0.0, 0.0, 0.0], tail = [0.3, 0.4, 0.0])]
-    upper: Distance,
-    #[joint(between = [elbow, hand], head = [0.3, 0.4, 0.0], tail = [0.6, 0.0, 0.0])]
-    lower: Distance,
-    #[joint(between = [ground, elbow], point = [0.3, 0.4, 0.0], normal = [0.0, 0.0, 1.0])]
-    plane: PointOnPlane,
-    #[joint(between = [ground, hand], point = [0.6, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    line: PointOnLine,
-    #[joint(
-        between = [ground, hand],
-        point = [0.6, 0.0, 0.0],
-        axis = [1.0, 0.0, 0.0],
-        motion = 0.2 * time
-    )]
-    pull: DisplacementDriver,
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Generalized-alpha on constraints: its order, what it keeps, what it damps, and what it refuses.
 
 use holonom::forces::SpringDamper;
-use holonom::joints::{DisplacementDriver, Distance, PointOnLine, PointOnPlane, Revolute};
+use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
 use holonom::{
     Array, Course, DormandPrince853, GeneralizedAlpha, Integrator, RadauIIA, Span, System, Vector,
@@ -12,6 +12,7 @@ use holonom_models::{
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
 
 use crate::pendulum::{SWINGS, final_swing};
+use crate::singular::Arm;
 
 fn orders(steps: [f64; 4], error: impl Fn(f64) -> f64) -> [f64; 3] {
     let errors = steps.map(error);
@@ -538,31 +539,6 @@ fn treatments_and_closures_go_with_it() {
         [4e-3, 2e-3, 1e-3].map(|step| pushed(GeneralizedAlpha::every(step)));
     let ratio = apart::<FourBar>(&coarse, &fine) / apart::<FourBar>(&fine, &finest);
     assert!((3.0..5.5).contains(&ratio), "{ratio}");
-}
-
-/// Two links of 0.5 m whose hand is driven along x beyond their reach, after 2 s.
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0])]
-struct Arm {
-    #[body(mass = 1.0, position = [0.3, 0.4, 0.0], velocity = [0.1, -0.075, 0.0])]
-    elbow: Particle,
-    #[body(mass = 1.0, position = [0.6, 0.0, 0.0], velocity = [0.2, 0.0, 0.0])]
-    hand: Particle,
-    #[joint(between = [ground, elbow], head = [0.0, 0.0, 0.0], tail = [0.3, 0.4, 0.0])]
-    upper: Distance,
-    #[joint(between = [elbow, hand], head = [0.3, 0.4, 0.0], tail = [0.6, 0.0, 0.0])]
-    lower: Distance,
-    #[joint(between = [ground, elbow], point = [0.3, 0.4, 0.0], normal = [0.0, 0.0, 1.0])]
-    plane: PointOnPlane,
-    #[joint(between = [ground, hand], point = [0.6, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    line: PointOnLine,
-    #[joint(
-        between = [ground, hand],
-        point = [0.6, 0.0, 0.0],
-        axis = [1.0, 0.0, 0.0],
-        motion = 0.2 * time
-    )]
-    pull: DisplacementDriver,
 }
 
 #[test]

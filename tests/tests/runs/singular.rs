@@ -6,7 +6,7 @@ use holonom::prelude::*;
 /// An arm of two links of 0.5 m whose hand is driven along x at 0.2 m/s, from 0.6 m on: beyond its reach after 2 s.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0])]
-struct Arm {
+pub(crate) struct Arm {
     #[body(mass = 1.0, position = [0.3, 0.4, 0.0])]
     elbow: Particle,
     #[body(mass = 1.0, position = [0.6, 0.0, 0.0], velocity = [0.2, 0.0, 0.0])]
