@@ -82,7 +82,7 @@ fn apart(a: &DMatrix<f64>, b: &DMatrix<f64>) -> [f64; 2] {
     let rows = difference.row_iter().zip(b.row_iter());
     let by_rows = rows.map(|(difference, row)| {
         // What cancels in a row leaves round-off of what was there.
-        difference.amax() / row.amax().max(1e-3 * b.amax()).max(f64::MIN_POSITIVE)
+        difference.amax() / row.amax().max(1e-2 * b.amax()).max(f64::MIN_POSITIVE)
     });
     // `max` would lose what is not a number.
     let by_rows = by_rows.fold(0.0, |most: f64, x| if x <= most { most } else { x });
@@ -184,8 +184,12 @@ fn by_dual_numbers_of_joints<M: JointCoordinates, F: Formulation<f64>>(
 ) -> DMatrix<f64> {
     let constants = M::prepare_joints(&mechanism.parameters::<Dual>().expect("parameters"));
     let stabilisation = stabilisation(formulation);
+    let of_all = compliances::<M>(mechanism, stabilisation.compliance);
     let mut compliances = M::ClosingMultipliers::<Dual>::zeros();
-    compliances.as_mut_slice().fill(stabilisation.compliance);
+    let closing = compliances.as_mut_slice().iter_mut();
+    for (compliance, &row) in closing.zip(M::JOINT_REPORT.rows) {
+        *compliance = row.map_or(stabilisation.compliance, |row| of_all.as_slice()[row]);
+    }
     let coefficients = M::joint_coefficients(&constants, &stabilisation, &compliances);
     let length = state.length();
     let pairs = length - state.rest_slice().len() - state.rates_slice().len();
