@@ -14,7 +14,7 @@ use crate::scalar::Real;
 /// | treatment | what it corrects | what it costs |
 /// |---|---|---|
 /// | [`Projection`] | positions and velocities, by the least movement in the metric of the mass | about as much as three evaluations, and more where steps are long |
-/// | [`DirectCorrection`] | the same by the pseudo-inverse of the Jacobian: by the least movement whatever the masses are, once | one and a half to twice a projection |
+/// | [`DirectCorrection`] | the same by the pseudo-inverse of the Jacobian: by the least movement whatever the masses are, once | more than a projection |
 /// | [`VelocityProjection`] | velocities alone | about one evaluation |
 /// | [`TreeRecovery`] | whatever the joints of a spanning tree allow: positions and velocities of bodies follow from their orientations and from each other, without an iteration | less than an evaluation; closing joints keep their violation |
 ///

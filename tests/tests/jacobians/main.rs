@@ -82,7 +82,7 @@ fn apart(a: &DMatrix<f64>, b: &DMatrix<f64>) -> [f64; 2] {
     let rows = difference.row_iter().zip(b.row_iter());
     let by_rows = rows.map(|(difference, row)| {
         // What cancels in a row leaves round-off of what was there.
-        difference.amax() / row.amax().max(1e-2 * b.amax()).max(f64::MIN_POSITIVE)
+        difference.amax() / row.amax().max(1e-3 * b.amax()).max(f64::MIN_POSITIVE)
     });
     // `max` would lose what is not a number.
     let by_rows = by_rows.fold(0.0, |most: f64, x| if x <= most { most } else { x });
@@ -216,14 +216,27 @@ fn by_dual_numbers_of_joints<M: JointCoordinates, F: Formulation<f64>>(
     matrix
 }
 
-/// Judges a matrix by two others.
+/// How many roundings on the way may count as much as one of the state does.
+const ROUNDINGS: f64 = 16.0;
+
+/// Judges a matrix by two others. The exact one is given at the state and at the next numbers above its elements: what that changes is what a rounding does.
 #[track_caller]
-fn judge(what: &str, offered: &DMatrix<f64>, exact: &DMatrix<f64>, finite: &DMatrix<f64>) {
+fn judge(what: &str, offered: &DMatrix<f64>, exact: [&DMatrix<f64>; 2], finite: &DMatrix<f64>) {
+    let [exact, beside] = exact;
     let [by_rows, _] = apart(offered, exact);
+    let [resolved, _] = apart(beside, exact);
     let [_, whole] = apart(offered, finite);
     println!("{what}: {by_rows:.1e} of dual numbers, {whole:.1e} of differences");
-    assert!(by_rows < ROUND_OFF, "{what}: {by_rows:e} of dual numbers");
+    assert!(
+        by_rows < ROUND_OFF.max(ROUNDINGS * resolved),
+        "{what}: {by_rows:e} of dual numbers, {resolved:e} by a digit of the state"
+    );
     assert!(whole < FINITE, "{what}: {whole:e} of differences");
+}
+
+/// The next numbers above the elements of a state.
+fn next<X: Vector<f64>>(state: &X) -> X {
+    state.zip(state, |x, _| x.next_up())
 }
 
 fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulation: F) {
@@ -235,9 +248,15 @@ fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulati
         let state = beside(&start, size, seed);
         let (matrix, count) = offered(&mut bodies, &state);
         assert_eq!(count, state.length());
-        let exact = by_dual_numbers::<M, F, Normalised>(mechanism, &formulation, &state);
+        let exact = [state, next(&state)]
+            .map(|state| by_dual_numbers::<M, F, Normalised>(mechanism, &formulation, &state));
         let finite = differences(&mut bodies, &state);
-        judge(&format!("{name} by bodies"), &matrix, &exact, &finite);
+        judge(
+            &format!("{name} by bodies"),
+            &matrix,
+            exact.each_ref(),
+            &finite,
+        );
     }
     let mut joints = JointDynamics::<f64, M, F>::new(mechanism, formulation).expect("sound");
     let start = joints.initial_state().expect("assembled");
@@ -246,9 +265,15 @@ fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulati
         let (matrix, count) = offered(&mut joints, &state);
         let moving = (0..state.length()).filter(|&k| state.has_part(k)).count();
         assert_eq!(count, moving);
-        let exact = by_dual_numbers_of_joints::<M, F>(mechanism, &formulation, &state);
+        let exact = [state, next(&state)]
+            .map(|state| by_dual_numbers_of_joints::<M, F>(mechanism, &formulation, &state));
         let finite = differences(&mut joints, &state);
-        judge(&format!("{name} by joints"), &matrix, &exact, &finite);
+        judge(
+            &format!("{name} by joints"),
+            &matrix,
+            exact.each_ref(),
+            &finite,
+        );
     }
 }
 

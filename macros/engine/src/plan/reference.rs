@@ -28,7 +28,8 @@ pub(super) fn by_numbers(scene: &mut Scene, kinds: &[BodyKind], checks: &mut [Ch
     }
 }
 
-/// The greatest value of an expression, with its sign, over orientations of the bodies, where it depends on nothing else and does not vary by more than a decade.
+/// The greatest value of an expression, with its sign, among those of [`ORIENTATIONS`] random orientations of the bodies, where it depends on nothing else and does not vary by more than a decade. It is a scale, not a
+/// bound: a few hundredths more would change nothing.
 fn greatest(scene: &Scene, kinds: &[BodyKind], expr: Expr) -> Option<f64> {
     let tape = Tape::new(&scene.space.arena, &[expr]);
     let values = (0..ORIENTATIONS).map(|sample| {
