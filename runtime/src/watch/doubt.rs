@@ -59,6 +59,15 @@ pub enum Doubt {
         /// The shift (rad), estimated.
         shift: f64,
     },
+    /// The round-off of many steps may have shifted the phase of a long motion, whatever the balance of energy shows at its end.
+    LongRun {
+        /// Steps that were accepted.
+        steps: usize,
+        /// Radians of motion.
+        travel: f64,
+        /// The shift (rad), estimated as that of a random walk.
+        shift: f64,
+    },
     /// The errors of many steps add up, and there is no balance of energy to tell how far.
     ManySteps {
         /// Steps that were accepted.
@@ -173,6 +182,17 @@ impl fmt::Display for Doubt {
                 Measured(travel),
                 Measured(shift)
             ),
+            Self::LongRun {
+                steps,
+                travel,
+                shift,
+            } => write!(
+                f,
+                "the round-off of {steps} steps adds up: over {} rad of motion it may shift the phase by about {} rad, and nothing else tells; compute in \
+                 `f64`, take longer steps of a method of higher order, or care for amplitudes only",
+                Measured(travel),
+                Measured(shift)
+            ),
             Self::ManySteps { steps, tolerance } => write!(
                 f,
                 "the errors of {steps} steps, {} of the state each, may add up, and the balance of energy does not tell: compare with a \
@@ -250,7 +270,7 @@ fn amount(
 }
 
 /// The kinds of doubt that one run may raise.
-const KINDS: usize = 13;
+const KINDS: usize = 14;
 
 /// What is to be doubted of a run, the gravest first; empty where nothing is.
 ///

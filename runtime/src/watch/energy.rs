@@ -134,6 +134,11 @@ impl<S: Real> Balance<S> {
         }
     }
 
+    /// Whether nothing works on the mechanism: no force without a potential, no driver, no potential that changes by the time alone.
+    pub(super) fn is_of_a_closed_system(&self) -> bool {
+        self.before.is_none() && self.turnover <= S::zero()
+    }
+
     fn relative(&self, energy: S) -> S {
         // Round-off of the energies themselves, as in a mechanism far from the origin, and what is not known of the work.
         let digits = S::constant(64.0) * S::EPSILON * (self.height + self.kinetic);
@@ -164,6 +169,7 @@ mod tests {
         assert!(balance.drift().abs() < 1e-3, "{}", balance.drift());
         balance.step(6.1, 5.0, 0.0, Some(0.0));
         assert!(balance.drift() > 0.5);
+        assert!(!balance.is_of_a_closed_system());
     }
 
     #[test]
@@ -171,5 +177,6 @@ mod tests {
         let mut balance = Balance::new(0.0, 1e9);
         balance.step(1.0, 0.0, 1e9 + 1e-7, None);
         assert_eq!(balance.drift(), 0.0);
+        assert!(balance.is_of_a_closed_system());
     }
 }

@@ -23,6 +23,10 @@ pub(super) const ENERGY: f64 = 1e-2;
 /// its energy to first order.
 pub(super) const PHASE: f64 = 1e-2;
 
+/// What round-off changes of the energy in a step, over it and the epsilon of the number type, as one of a random walk's steps: velocities are rounded once or twice by up to half an epsilon,
+/// evenly, and the energy goes with their square.
+pub(super) const ROUND_OFF: f64 = 0.5;
+
 /// Errors of single steps, as the step control estimates them, added up over a run of which no balance of energy tells more.
 pub(super) const ADDED_UP: f64 = 3e-2;
 

@@ -18,6 +18,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.nearly_singular(),
             self.excuses(),
             self.phase(),
+            self.long_run(),
             self.compliance(),
             self.many_steps(),
             self.coarse(),
@@ -41,6 +42,22 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let shift = S::constant(0.5) * change.abs() * self.travel;
         (above(shift, limits::PHASE) && self.energy().is_none()).then(|| Doubt::Phase {
             change: change.to_f64(),
+            travel: self.travel.to_f64(),
+            shift: shift.to_f64(),
+        })
+    }
+
+    /// Round-off of velocities changes the energy like a random walk, whose end tells little of its way. Only where nothing works on the mechanism: forces and
+    /// drivers set a phase of their own.
+    fn long_run(&self) -> Option<Doubt> {
+        if !self.balance.is_of_a_closed_system() || self.phase().is_some() {
+            return None;
+        }
+        let change = S::constant(limits::ROUND_OFF) * S::EPSILON;
+        let change = change * S::constant(self.steps as f64).sqrt();
+        let shift = S::constant(0.5) * change * self.travel;
+        above(shift, limits::PHASE).then(|| Doubt::LongRun {
+            steps: self.steps,
             travel: self.travel.to_f64(),
             shift: shift.to_f64(),
         })
