@@ -1,6 +1,5 @@
 //! What a derive costs a user's build: small crates, compiled with cargo's defaults.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -9,18 +8,77 @@ use holonom_study::StudyError;
 use holonom_study::compare::record::Compiled;
 use holonom_study::files::write_atomically;
 
-/// The crates: name, links of the chain, whether it is described by joints as well.
-const CRATES: [(&str, usize, bool); 6] = [
-    ("pendulum", 1, false),
-    ("pendulum-joints", 1, true),
-    ("chain-8", 8, false),
-    ("chain-8-joints", 8, true),
-    ("chain-20", 20, false),
-    ("chain-20-joints", 20, true),
+/// A crate to build.
+struct Crate {
+    name: &'static str,
+    scene: Scene,
+    /// Described by joints as well as by bodies, and moved by joints.
+    by_joints: bool,
+    /// Whether a debug build is measured beside the release build.
+    in_debug: bool,
+}
+
+const CRATES: [Crate; 10] = [
+    Crate::both("pendulum", Scene::Chain(1), false),
+    Crate::both("pendulum-joints", Scene::Chain(1), true),
+    Crate::both("chain-8", Scene::Chain(8), false),
+    Crate::both("chain-8-joints", Scene::Chain(8), true),
+    Crate::both("chain-20", Scene::Chain(20), false),
+    Crate::both("chain-20-joints", Scene::Chain(20), true),
+    Crate::release("chain-64", Scene::Chain(64), false),
+    Crate::release("chain-64-joints", Scene::Chain(64), true),
+    Crate::release("four-bars-40", Scene::FourBars(40), false),
+    Crate::release("four-bars-40-joints", Scene::FourBars(40), true),
 ];
 
+impl Crate {
+    /// Measured in a debug and in a release build.
+    const fn both(name: &'static str, scene: Scene, by_joints: bool) -> Self {
+        Self {
+            name,
+            scene,
+            by_joints,
+            in_debug: true,
+        }
+    }
+
+    /// Measured in a release build alone.
+    const fn release(name: &'static str, scene: Scene, by_joints: bool) -> Self {
+        Self {
+            name,
+            scene,
+            by_joints,
+            in_debug: false,
+        }
+    }
+}
+
+/// What is described in a crate.
+#[derive(Clone, Copy, Debug)]
+enum Scene {
+    /// Rods on parallel hinges one behind the other.
+    Chain(usize),
+    /// Four-bar windows side by side, as in the scenes that are timed.
+    FourBars(usize),
+}
+
+impl Scene {
+    fn size(self) -> usize {
+        match self {
+            Self::Chain(size) | Self::FourBars(size) => size,
+        }
+    }
+}
+
 /// How many builds [`compile`] measures.
-pub const BUILDS: usize = 2 * CRATES.len();
+pub const BUILDS: usize = {
+    let (mut builds, mut place) = (0, 0);
+    while place < CRATES.len() {
+        builds += if CRATES[place].in_debug { 2 } else { 1 };
+        place += 1;
+    }
+    builds
+};
 
 /// Writes the crates into a directory and builds each alone, its dependencies being there already, in a debug and in a release build.
 ///
@@ -31,18 +89,27 @@ pub const BUILDS: usize = 2 * CRATES.len();
 pub fn compile(directory: &Path, mut done: impl FnMut(usize)) -> Result<Vec<Compiled>, StudyError> {
     let mut measured = Vec::new();
     for profile in ["debug", "release"] {
-        for (name, links, by_joints) in CRATES {
-            let folder = write_crate(directory, name, links, by_joints)?;
+        let crates = CRATES
+            .iter()
+            .filter(|one| one.in_debug || profile == "release");
+        for &Crate {
+            name,
+            scene,
+            by_joints,
+            ..
+        } in crates
+        {
+            let folder = write_crate(directory, name, scene, by_joints)?;
             // The first build compiles what it depends on.
-            cargo(&folder, &build(profile))?;
-            cargo(&folder, &["clean", "--package", name])?;
+            cargo(&folder, &in_profile(&["build"], profile))?;
+            cargo(&folder, &in_profile(&["clean", "--package", name], profile))?;
             let (start, processor) = (Instant::now(), processor_seconds());
-            cargo(&folder, &build(profile))?;
+            cargo(&folder, &in_profile(&["build"], profile))?;
             let seconds = start.elapsed().as_secs_f64();
             let spent = processor_seconds().zip(processor);
             measured.push(Compiled {
                 name: name.into(),
-                n: links,
+                n: scene.size(),
                 coordinates: if by_joints { "joints" } else { "bodies" }.into(),
                 profile: profile.into(),
                 seconds,
@@ -54,11 +121,12 @@ pub fn compile(directory: &Path, mut done: impl FnMut(usize)) -> Result<Vec<Comp
     Ok(measured)
 }
 
-fn build(profile: &str) -> Vec<&'static str> {
-    match profile {
-        "release" => vec!["build", "--release"],
-        _ => vec!["build"],
+fn in_profile<'a>(arguments: &[&'a str], profile: &str) -> Vec<&'a str> {
+    let mut all = arguments.to_vec();
+    if profile == "release" {
+        all.push("--release");
     }
+    all
 }
 
 /// Runs cargo as a user would, without what this program was built with.
@@ -98,7 +166,7 @@ fn processor_seconds() -> Option<f64> {
 fn write_crate(
     directory: &Path,
     name: &str,
-    links: usize,
+    scene: Scene,
     by_joints: bool,
 ) -> Result<PathBuf, StudyError> {
     let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime");
@@ -110,60 +178,92 @@ fn write_crate(
     write_atomically(&folder.join("Cargo.toml"), manifest.as_bytes())?;
     write_atomically(
         &folder.join("src/main.rs"),
-        program(links, by_joints).as_bytes(),
+        program(scene, by_joints).as_bytes(),
     )?;
     Ok(folder)
 }
 
-/// A chain of rods on parallel hinges, and a thousand steps of it.
-fn program(links: usize, by_joints: bool) -> String {
+/// A mechanism, and a thousand steps of it.
+fn program(scene: Scene, by_joints: bool) -> String {
     let coordinates = if by_joints {
         ", coordinates = \"joints\""
     } else {
         ""
     };
-    let mut text = format!(
-        "use holonom::joints::Revolute;\nuse holonom::prelude::*;\n\n#[derive(Mechanism)]\n#[mechanism(gravity = [0.0, 0.0, -9.81]{coordinates})]\nstruct Chain {{\n"
-    );
-    for link in 0..links {
-        let before = match link.checked_sub(1) {
-            Some(before) => format!("rod_{before}"),
-            None => "ground".into(),
-        };
-        let (head, centre) = (link as f64, link as f64 + 0.5);
-        let _ = write!(
-            text,
-            "    #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, {centre:?}, 0.0])]\n    rod_{link}: Body,\n    \
-             #[joint(between = [{before}, rod_{link}], point = [0.0, {head:?}, 0.0], axis = [1.0, 0.0, 0.0])]\n    hinge_{link}: Revolute,\n"
-        );
-    }
-    text.push_str("}\n\nfn main() -> Result<(), Fault> {\n");
-    text.push_str(if by_joints {
-        "    let mut dynamics = holonom::JointDynamics::<f64, _, _>::new(&Chain::default(), StandardLagrange)?;\n    \
+    let described = match scene {
+        Scene::Chain(links) => chain(links, coordinates),
+        Scene::FourBars(windows) => four_bars(windows, coordinates),
+    };
+    let steps = if by_joints {
+        "    let mut dynamics = holonom::JointDynamics::<f64, _, _>::new(&Scene::default(), StandardLagrange)?;\n    \
          let mut state = dynamics.initial_state()?;\n    \
          for step in 0..1000 {\n        holonom::Scheme::step(&Rk4, &mut dynamics, 1e-3 * f64::from(step), &mut state, 1e-3)?;\n    }\n    \
          println!(\"{:?}\", dynamics.bodies(&state));\n"
     } else {
-        "    let chain = Chain::default();\n    let mut stepper = Stepper::<f64, _, _, _>::new(&chain, StandardLagrange, Rk4)?;\n    \
-         let mut state = chain.described_state()?;\n    \
+        "    let scene = Scene::default();\n    let mut stepper = Stepper::<f64, _, _, _>::new(&scene, StandardLagrange, Rk4)?;\n    \
+         let mut state = scene.described_state()?;\n    \
          for _ in 0..1000 {\n        stepper.step(&mut state, 1e-3)?;\n    }\n    println!(\"{state:?}\");\n"
-    });
-    text.push_str("    Ok(())\n}\n");
-    text
+    };
+    format!(
+        "use holonom::joints::Revolute;\nuse holonom::prelude::*;\n\n#[derive(Mechanism)]\n{described}\n\
+         fn main() -> Result<(), Fault> {{\n{steps}    Ok(())\n}}\n"
+    )
+}
+
+/// Rods of 1 m and 1 kg on parallel hinges one behind the other.
+fn chain(links: usize, coordinates: &str) -> String {
+    format!(
+        "#[mechanism(gravity = [0.0, 0.0, -9.81]{coordinates})]
+struct Scene {{
+    #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, k + 0.5, 0.0])]
+    rods: [Body; {links}],
+    #[joint(between = [if k == 0 {{ ground }} else {{ rods[k - 1] }}, rods[k]], point = [0.0, k, 0.0], axis = [1.0, 0.0, 0.0])]
+    hinges: [Revolute; {links}],
+}}
+"
+    )
+}
+
+/// Upright rods of 1 m and 1 kg on the ground, each joined to the next by one of the same kind at the top.
+fn four_bars(windows: usize, coordinates: &str) -> String {
+    let rods = windows + 1;
+    let body = "mass = 1.0, inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0]";
+    let axis = "axis = [0.0, 0.0, 1.0]";
+    format!(
+        "#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = \"drop\"{coordinates})]
+struct Scene {{
+    #[body({body}, position = [k, 0.5, 0.0], velocity = [0.5, 0.0, 0.0], angular_velocity = [0.0, 0.0, -1.0])]
+    rods: [Body; {rods}],
+    #[joint(between = [ground, rods[k]], point = [k, 0.0, 0.0], {axis})]
+    feet: [Revolute; {rods}],
+    #[body({body}, position = [k + 0.5, 1.0, 0.0], velocity = [1.0, 0.0, 0.0])]
+    tops: [Body; {windows}],
+    #[joint(between = [rods[k], tops[k]], point = [k, 1.0, 0.0], {axis})]
+    left: [Revolute; {windows}],
+    #[joint(between = [tops[k], rods[k + 1]], point = [k + 1, 1.0, 0.0], {axis})]
+    right: [Revolute; {windows}],
+}}
+"
+    )
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{processor_seconds, program};
+    use super::{BUILDS, CRATES, Scene, processor_seconds, program};
 
     #[test]
-    fn programs_have_as_many_links() {
-        let text = program(3, true);
-        assert_eq!(text.matches(": Body,").count(), 3);
-        assert!(text.contains("between = [rod_1, rod_2], point = [0.0, 2.0, 0.0]"));
-        assert!(
-            text.contains("coordinates = \"joints\"") && !program(3, false).contains("coordinates")
-        );
+    fn programs_are_as_long_as_they_are_named() {
+        let text = program(Scene::Chain(3), true);
+        assert!(text.contains("rods: [Body; 3]") && text.contains("coordinates = \"joints\""));
+        let text = program(Scene::FourBars(40), false);
+        assert!(text.contains("rods: [Body; 41]") && text.contains("tops: [Body; 40]"));
+        assert!(!text.contains("coordinates"));
+    }
+
+    #[test]
+    fn every_build_is_counted() {
+        let debug = CRATES.iter().filter(|one| one.in_debug).count();
+        assert_eq!(BUILDS, CRATES.len() + debug);
     }
 
     #[test]

@@ -67,12 +67,12 @@ impl Row {
     }
 }
 
-/// A build of a small crate in `compile.json`: a chain of rods on parallel hinges, a derive and a loop of steps, its dependencies being there already.
+/// A build of a small crate in `compile.json`: a chain of rods on parallel hinges or a row of four-bar windows, a derive and a loop of steps, its dependencies being there already.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compiled {
     /// The crate.
     pub name: String,
-    /// The links of its chain.
+    /// The links of its chain, or the windows of its row.
     pub n: usize,
     /// `bodies`, or `joints` for both descriptions.
     pub coordinates: String,

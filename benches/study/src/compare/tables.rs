@@ -220,7 +220,7 @@ pub fn builds_of(compiled: &[Compiled]) -> Table {
         caption: "The build of a small crate".into(),
         columns: columns(&["", "time (s)", "of all processors together (s)"]),
         rows: compiled.iter().map(line).collect(),
-        note: "A chain of rods on parallel hinges, a derive and a loop of steps with standard multipliers; cargo's default profiles; dependencies are there already. \
+        note: "Rods on parallel hinges one behind the other, or four-bar windows side by side: a derive and a loop of steps with standard multipliers; cargo's default profiles; dependencies are there already. \
                Those that end in joints have both descriptions, and move by joints."
             .into(),
     }
