@@ -4,6 +4,7 @@ use crate::array::{Array, StateParts};
 use crate::mechanism::Mechanism;
 use crate::rotation::{minus, read};
 use crate::scalar::{Real, Scalar};
+use crate::view::square;
 
 /// The largest distance of a centre of mass, or of a joint's point on the ground, from the first centre of mass.
 pub(crate) fn extent<S: Real, M: Mechanism>(constants: &M::Constants<S>, state: &M::State<S>) -> S {
@@ -35,6 +36,10 @@ pub(crate) fn centre<S: Scalar, M: Mechanism>(state: &M::State<S>, body: usize) 
 
 /// The Euclidean norm, without a square out of the range of numbers.
 pub(crate) fn norm<S: Real>(vector: &[S]) -> S {
+    let sum = square(vector);
+    if sum * S::EPSILON > S::smallest() && sum.is_finite() {
+        return sum.sqrt();
+    }
     let most = vector.iter().fold(S::zero(), |most, x| most.max(x.abs()));
     if most > S::zero() {
         let sum = vector.iter().fold(S::zero(), |sum, x| {

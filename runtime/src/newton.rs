@@ -108,8 +108,10 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
                 }
             };
             (self.state, self.violation) = next;
-            self.rows = Rows::at(constants, self.rows.time, &self.state);
-            self.sizes = self.rows.positions();
+            if !self.rows.are_kept_by(&step) {
+                self.rows = Rows::at(constants, self.rows.time, &self.state);
+                self.sizes = self.rows.positions();
+            }
             if !helped {
                 break;
             }
@@ -133,8 +135,8 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
             let mut next = self.accelerated(constants, &step);
             let helped = self.helped_by(&next);
             // What can be corrected beside a violation that cannot.
-            let beyond = next.sizes.measure(&self.violation, tolerance) > tolerance;
-            if helped || beyond && self.lessened(&next.sizes, &next.violation, S::one()) {
+            let beyond = || next.sizes.measure(&self.violation, tolerance) > tolerance;
+            if helped || beyond() && self.lessened(&next.sizes, &next.violation, S::one()) {
                 next.iterations = self.iterations;
                 self = next;
             }

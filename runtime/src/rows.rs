@@ -87,6 +87,9 @@ const REACHED: f64 = 4.0;
 /// Up to which multiple it counts as brought to: where the round-off of a solution comes on top, which a further iteration need not lessen.
 const RESOLVED: f64 = 32.0;
 
+/// A movement of less than this part of the shortest length, or of so many radians, changes sizes and compliances by about as much: no more than it matters to either.
+const LITTLE: f64 = 1e-4;
+
 /// Of what is resolved to less than two digits nothing can be said.
 const COARSEST: f64 = 1e-2;
 
@@ -137,6 +140,21 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
                 self.stiffness.as_mut_slice(),
             ],
         );
+    }
+
+    /// Whether a movement is so small that the rows are as good as those of the state that is reached.
+    pub(crate) fn are_kept_by(&self, step: &M::Velocities<S>) -> bool {
+        let angle = S::constant(LITTLE);
+        let lengths = self.length.as_slice().iter().copied();
+        let length = angle * lengths.fold(self.extent, S::min);
+        let within = |first: usize, limit: S| {
+            let elements = step.as_slice().iter().skip(first).take(3);
+            elements.into_iter().all(|x| x.abs() <= limit)
+        };
+        M::REPORT.bodies.iter().all(|body| {
+            within(body.velocity, length)
+                && (body.kind == BodyKind::Particle || within(body.velocity + 3, angle))
+        })
     }
 
     /// Arms of the joints, and how far from the origin they are.
@@ -287,14 +305,13 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     /// The norm of a violation in the metric of the mass, row by row: what a correction lessens, also where it cannot take the whole
     /// violation away. What the terms of a row do not resolve does not count.
     pub(crate) fn norm(&self, sizes: &Sizes<S, M>, violation: &M::Multipliers<S>) -> S {
-        let stiffness = self.compliances(S::one());
-        let rows = sizes.rows(violation).zip(stiffness.as_slice());
+        let rows = sizes.rows(violation).zip(self.stiffness.as_slice());
         let sum = rows.fold(
             S::zero(),
             |sum, ((violation, _, resolution, _), &stiffness)| {
                 let counts = violation - S::constant(REACHED) * resolution;
-                let counts = counts.max(S::zero()).quotient(stiffness.sqrt());
-                counts.fused(counts, sum)
+                let counts = counts.max(S::zero());
+                counts.fused(counts.quotient(felt(stiffness)), sum)
             },
         );
         sum.sqrt()
@@ -323,10 +340,9 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     /// Multipliers in proportion to those that a correction leaves with a violation: its compliances are as the stiffnesses.
     pub(crate) fn multipliers(&self, violation: &M::Multipliers<S>) -> M::Multipliers<S> {
         let mut multipliers = *violation;
-        let compliances = self.compliances(S::one());
         let rows = multipliers.as_mut_slice().iter_mut();
-        rows.zip(compliances.as_slice())
-            .for_each(|(row, &compliance)| *row = row.quotient(compliance));
+        rows.zip(self.stiffness.as_slice())
+            .for_each(|(row, &stiffness)| *row = row.quotient(felt(stiffness)));
         multipliers
     }
 
@@ -389,14 +405,18 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     pub(crate) fn compliances(&self, part: S) -> M::Multipliers<S> {
         let mut compliances = self.stiffness;
         for element in compliances.as_mut_slice() {
-            let stiffness = if *element > S::zero() {
-                *element
-            } else {
-                S::one()
-            };
-            *element = part * stiffness;
+            *element = part * felt(*element);
         }
         compliances
+    }
+}
+
+/// The stiffness of a row; of one that vanishes, any.
+fn felt<S: Real>(stiffness: S) -> S {
+    if stiffness > S::zero() {
+        stiffness
+    } else {
+        S::one()
     }
 }
 
@@ -412,12 +432,17 @@ fn add_blocks<S: Real>(
         let rows = translations.iter_mut().zip(rotations.iter_mut());
         let rows = rows.zip(stiffnesses.iter_mut());
         let rows = rows.skip(block.row).take(block.rows);
+        // The masses that a block has at the most.
+        let mut inverses = [S::zero(); 6];
+        let masses = mass.iter().skip(block.column).take(block.columns);
+        for (inverse, &mass) in inverses.iter_mut().zip(masses) {
+            *inverse = S::one().quotient(mass);
+        }
         for (((translation, rotation), stiffness), row) in
             rows.zip(values.chunks(block.columns.max(1)))
         {
-            let masses = mass.iter().skip(block.column);
-            for (&value, &mass) in row.iter().zip(masses) {
-                *stiffness = *stiffness + (value * value).quotient(mass);
+            for (&value, &inverse) in row.iter().zip(&inverses) {
+                *stiffness = (value * value).fused(inverse, *stiffness);
             }
             let (force, moment) = row.split_at_checked(3).unwrap_or((row, &[]));
             *translation = translation.max(norm(force));
