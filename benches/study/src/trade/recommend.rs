@@ -223,7 +223,12 @@ fn refined(
 fn starts_nearby(subject: &dyn Subject) -> Result<Vec<(Start, Reference)>, StudyError> {
     let trial = |number| {
         let start = subject.start_near(NEARBY, number)?;
-        let reference = Reference::of(subject, Some(&start))?;
+        let reference = Reference::of(subject, Some(&start)).map_err(|error| StudyError::Run {
+            name: subject.facts().name,
+            reason: format!(
+                "a start nearby has nothing to be compared with, so nothing is recommended: {error}"
+            ),
+        })?;
         Ok((start, reference))
     };
     (1..=STARTS).map(trial).collect()
