@@ -13,10 +13,10 @@ use crate::scalar::Real;
 ///
 /// | treatment | what it corrects | what it costs |
 /// |---|---|---|
-/// | [`Projection`] | positions and velocities, by the least movement in the metric of the mass | as much as 33 evaluations of a pendulum, 25 of a four-bar, by their bodies; more where steps are long |
-/// | [`DirectCorrection`] | the same by the pseudo-inverse of the Jacobian: by the least movement whatever the masses are, once | as much as 58 and 44 |
-/// | [`VelocityProjection`] | velocities alone | as much as 18 and 14 |
-/// | [`TreeRecovery`] | whatever the joints of a spanning tree allow: positions and velocities of bodies follow from their orientations and from each other, without an iteration | as much as 8 and 1; closing joints keep their violation |
+/// | [`Projection`] | positions and velocities, by the least movement in the metric of the mass | as much as 22 evaluations of a pendulum, 15 of a four-bar, by their bodies; more where steps are long |
+/// | [`DirectCorrection`] | the same by the pseudo-inverse of the Jacobian: by the least movement whatever the masses are, once | as much as 48 and 37 |
+/// | [`VelocityProjection`] | velocities alone | as much as 15 and 9 |
+/// | [`TreeRecovery`] | whatever the joints of a spanning tree allow: positions and velocities of bodies follow from their orientations and from each other, without an iteration | as much as 7 and 1; closing joints keep their violation |
 ///
 /// Costs are of a step of Runge-Kutta against one without a treatment (`study trade --problem pendulum --problem four-bar --scalar f64 --integrator rk4`, small steps). Where they count,
 /// joint coordinates need none, and shorter steps with Baumgarte's terms may be cheaper.
