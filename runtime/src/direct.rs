@@ -7,12 +7,11 @@ use crate::formulation::{add, combine};
 use crate::integrate::positive;
 use crate::mechanism::{Compliant, Mechanism};
 use crate::newton::{Depth, Iterate, compliant, part};
-use crate::project::{Correction, EXCUSED};
+use crate::project::{Correction, EXCUSED, in_turn};
 use crate::report::BodyKind;
-use crate::rotation::{check_state, with_unit_orientations};
+use crate::rotation::check_state;
 use crate::scalar::{Real, Scalar};
 use crate::self_stress::self_stressed;
-use crate::view::square;
 
 /// The correction of a state onto the constraints by the Moore-Penrose pseudo-inverse of the Jacobian, applied once: first positions, then velocities at the corrected positions,
 ///
@@ -74,33 +73,23 @@ impl<S: Real> DirectCorrection<S> {
         state: &mut M::State<S>,
     ) -> Result<Correction<S>, Fault> {
         positive("tolerance of the direct correction", self.tolerance)?;
-        check_state::<S, M>(state)?;
-        let phi = |state: &M::State<S>| M::constraints(constants, time, state);
-        let phi_rate = |state: &M::State<S>| M::constraint_rates(constants, time, state);
-        let (position_before, velocity_before) = (phi(state), phi_rate(state));
-        let mut given = with_unit_orientations::<S, M>(state);
-        M::recount(constants, &mut given);
-        let given = Iterate::<S, M>::positions(constants, time, &given);
-        let turn = S::constant(TURN);
-        let (positions, left) = self.applied(constants, given, turn, |from, step| {
-            from.moved(constants, step)
-        })?;
-        let iterations = positions.iterations;
-        let given = positions.velocities(constants);
-        let (velocities, rates_left) = self.applied(constants, given, S::one(), |from, step| {
-            from.accelerated(constants, step)
-        })?;
-        let corrected = velocities.state;
-        check_state::<S, M>(&corrected)?;
-        *state = corrected;
-        Ok(Correction {
-            iterations,
-            violation_before: square(position_before.as_slice()),
-            violation_after: square(phi(state).as_slice()),
-            velocity_violation_before: square(velocity_before.as_slice()),
-            velocity_violation_after: square(phi_rate(state).as_slice()),
-            excused: left.max(rates_left),
-        })
+        let positions = |given| {
+            self.applied(
+                constants,
+                given,
+                S::constant(TURN),
+                |from: &Iterate<S, M>, step| from.moved(constants, step),
+            )
+        };
+        let velocities = |given| {
+            let (last, left) =
+                self.applied(constants, given, S::one(), |from: &Iterate<S, M>, step| {
+                    from.accelerated(constants, step)
+                })?;
+            check_state::<S, M>(&last.state)?;
+            Ok((last, left))
+        };
+        in_turn::<S, M>(constants, time, state, positions, velocities)
     }
 
     /// The state after one application, and what it left beyond the tolerance, in sizes of its row.

@@ -133,32 +133,18 @@ impl<S: Real> Projection<S> {
         state: &mut M::State<S>,
     ) -> Result<Correction<S>, Fault> {
         positive("tolerance of the projection", self.tolerance)?;
-        check_state::<S, M>(state)?;
-        let phi = |state: &M::State<S>| M::constraints(constants, time, state);
-        let phi_rate = |state: &M::State<S>| M::constraint_rates(constants, time, state);
-        let (position_before, velocity_before) = (phi(state), phi_rate(state));
-        let mut given = with_unit_orientations::<S, M>(state);
-        M::recount(constants, &mut given);
-        let given = Iterate::<S, M>::positions(constants, time, &given);
         let limits = (self.tolerance, self.max_iterations);
-        let (positions, excused) = self.corrected(measure, constants, given, |given, depth| {
-            given.positions_corrected(constants, limits, depth)
-        })?;
-        let iterations = positions.iterations;
-        let given = positions.velocities(constants);
-        let (velocities, rates_excused) =
-            self.corrected(measure, constants, given, |given, depth| {
+        let positions = |given| {
+            self.corrected(measure, constants, given, |given: Iterate<S, M>, depth| {
+                given.positions_corrected(constants, limits, depth)
+            })
+        };
+        let velocities = |given| {
+            self.corrected(measure, constants, given, |given: Iterate<S, M>, depth| {
                 given.velocities_corrected(constants, limits, depth)
-            })?;
-        *state = velocities.state;
-        Ok(Correction {
-            iterations,
-            violation_before: square(position_before.as_slice()),
-            violation_after: square(phi(state).as_slice()),
-            velocity_violation_before: square(velocity_before.as_slice()),
-            velocity_violation_after: square(phi_rate(state).as_slice()),
-            excused: excused.max(rates_excused),
-        })
+            })
+        };
+        in_turn::<S, M>(constants, time, state, positions, velocities)
     }
 
     /// The last iterate, and the violation that was excused, in sizes of its row.
@@ -216,6 +202,35 @@ impl<S: Real> Projection<S> {
             alpha: None,
         }
     }
+}
+
+/// Corrects positions, then velocities, by functions that return what they left as well; the state is as before where one fails.
+pub(crate) fn in_turn<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &mut M::State<S>,
+    positions: impl FnOnce(Iterate<S, M>) -> Result<(Iterate<S, M>, S), Fault>,
+    velocities: impl FnOnce(Iterate<S, M>) -> Result<(Iterate<S, M>, S), Fault>,
+) -> Result<Correction<S>, Fault> {
+    check_state::<S, M>(state)?;
+    let phi = |state: &M::State<S>| M::constraints(constants, time, state);
+    let phi_rate = |state: &M::State<S>| M::constraint_rates(constants, time, state);
+    let (position_before, velocity_before) = (phi(state), phi_rate(state));
+    let mut given = with_unit_orientations::<S, M>(state);
+    M::recount(constants, &mut given);
+    let given = Iterate::<S, M>::positions(constants, time, &given);
+    let (placed, left) = positions(given)?;
+    let iterations = placed.iterations;
+    let (moving, rates_left) = velocities(placed.velocities(constants))?;
+    *state = moving.state;
+    Ok(Correction {
+        iterations,
+        violation_before: square(position_before.as_slice()),
+        violation_after: square(phi(state).as_slice()),
+        velocity_violation_before: square(velocity_before.as_slice()),
+        velocity_violation_after: square(phi_rate(state).as_slice()),
+        excused: left.max(rates_left),
+    })
 }
 
 /// Which violation counts.

@@ -88,23 +88,20 @@ impl<S: Real> AugmentedLagrangian<S> {
     /// # Errors
     /// As [`Penalty::of`].
     pub fn of<M: Mechanism>(mechanism: &M) -> Result<Self, Fault> {
-        let scales = Scales::of(mechanism)?;
-        let alpha = alpha::<S, M>(&scales)?;
-        Ok(Self {
-            alpha,
-            ..Self::with_scales(&scales)
-        })
+        Ok(Self::like(&Penalty::of(mechanism)?))
     }
 
     /// The same for scales that are known otherwise, wherever round-off begins.
     #[must_use]
     pub fn with_scales(scales: &Scales<S>) -> Self {
-        let Penalty {
-            alpha, mu, radian, ..
-        } = Penalty::with_scales(scales);
+        Self::like(&Penalty::with_scales(scales))
+    }
+
+    fn like(penalty: &Penalty<S>) -> Self {
+        let omega = penalty.omega.quotient(S::constant(FASTER));
         Self {
-            radian,
-            ..Self::new(alpha, scales.time.reciprocal(), mu)
+            radian: penalty.radian,
+            ..Self::new(penalty.alpha, omega, penalty.mu)
         }
     }
 
