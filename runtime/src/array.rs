@@ -111,6 +111,25 @@ pub trait Vector<S: Scalar>: Clone {
         result
     }
 
+    /// [`Vector::plus`] of one direction, by a factor and by twice that factor: what these have in common is computed once.
+    #[must_use]
+    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
+        [factor, factor + factor].map(|factor| self.plus([(factor, direction)]))
+    }
+
+    /// [`Vector::plus`] of directions that hardly differ from one for which the sum is known: `near` is `self.plus([along])`. Where that helps, the result is `near`
+    /// and what the increments differ by.
+    #[must_use]
+    fn plus_beside<const N: usize>(
+        &self,
+        near: &Self,
+        along: (S, &Self),
+        terms: [(S, &Self); N],
+    ) -> Self {
+        let _ = (near, along);
+        self.plus(terms)
+    }
+
     /// `self + weight * (to - self) + sum of factor * direction`: on the way to another state, and beside it.
     ///
     /// `way` is the increment, in its sum, that leads to the other state or nearly so. It counts where many increments lead there: an angle
@@ -274,12 +293,18 @@ pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
     }
 }
 
-/// Zero where every element is finite, else NaN: zero times any other number is NaN, and so is every sum with NaN.
+/// Zero where every element is finite, else NaN: zero times any other number is NaN, and so is every sum with NaN. Adding to -0 changes no number, and so costs nothing.
 ///
-/// Without a comparison for each, and four places at once, as in [`greatest`].
+/// Without a comparison for each. Many are summed four places at once, as in [`greatest`]; for few, one sum after the other is less than to bring four together.
 #[inline(always)]
 pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
-    let mut lanes = [S::zero(); 4];
+    const FEW: usize = 12;
+    if elements.len() <= FEW {
+        return elements
+            .iter()
+            .fold(-S::zero(), |sum, element| element.fused(S::zero(), sum));
+    }
+    let mut lanes = [-S::zero(); 4];
     for chunk in elements.chunks(4) {
         for (lane, &element) in lanes.iter_mut().zip(chunk) {
             *lane = element.fused(S::zero(), *lane);

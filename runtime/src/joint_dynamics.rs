@@ -14,7 +14,7 @@ use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::{Normalised, Pivot, Stabilisation};
 use crate::origin::before_accelerations;
 use crate::report::BodyKind;
-use crate::rotation::{check_state, from_matrix, normalised_or_zero, read, write};
+use crate::rotation::{check_state, from_matrix, read, scale, to_unit_length, write};
 use crate::scalar::{Real, Scalar};
 use crate::start::check_start;
 use crate::watch::Watch;
@@ -498,19 +498,13 @@ where
     fn settle(&mut self, state: &mut M::JointState<S>, mut rates: Option<&mut M::JointState<S>>) {
         for &place in M::JOINT_REPORT.euler_parameters {
             let p: [S; 4] = read(state.rest_slice(), place);
-            let unit = normalised_or_zero(&p);
-            write(state.rest_slice_mut(), place, unit);
+            let (_, Some(factor)) = to_unit_length(&p) else {
+                continue;
+            };
+            scale(state.rest_slice_mut(), place, factor);
             if let Some(rates) = rates.as_deref_mut() {
                 // They are linear in `p`.
-                let factor = (0..4)
-                    .fold(S::zero(), |sum, k| unit[k].fused(p[k], sum))
-                    .reciprocal();
-                let slope: [S; 4] = read(rates.rest_slice(), place);
-                write(
-                    rates.rest_slice_mut(),
-                    place,
-                    slope.map(|rate| rate * factor),
-                );
+                scale(rates.rest_slice_mut(), place, factor);
             }
         }
         let auxiliaries = M::JOINT_REPORT.auxiliaries;

@@ -165,6 +165,24 @@ pub(crate) fn with_unit_orientations<S: Scalar, M: Mechanism>(state: &M::State<S
     unit
 }
 
+/// `| |p| - 1 |` and the factor `1 / |p|`; none where there is no such number: those stay what they are, for whoever uses them to refuse.
+#[inline(always)]
+pub(crate) fn to_unit_length<S: Real>(p: &[S; 4]) -> (S, Option<S>) {
+    let excess = norm(p) - S::one();
+    // `1 / sqrt(1 + x)` by its series: after a step of any accuracy there is no need of a root.
+    if excess.abs() < S::constant(1e-5) {
+        let (half, three_eighths) = (S::constant(-0.5), S::constant(0.375));
+        let factor = excess.fused(three_eighths, half).fused(excess, S::one());
+        return (half.abs() * excess.abs(), Some(factor));
+    }
+    let length = length(p);
+    let is_some = length.is_finite() && length > S::zero();
+    (
+        (length - S::one()).abs(),
+        is_some.then(|| length.reciprocal()),
+    )
+}
+
 /// Scales the Euler parameters of every body to length 1, and their rates, which are linear in them, by the same factors. Returns the largest
 /// `| |p| - 1 |` that they had.
 #[inline]
@@ -177,21 +195,9 @@ pub(crate) fn bring_to_unit_length<S: Real, M: Mechanism>(
         if body.kind == BodyKind::Rigid {
             let place = body.coordinate + 3;
             let p: [S; 4] = read(state.coordinates().as_slice(), place);
-            let excess = norm(&p) - S::one();
-            // `1 / sqrt(1 + x)` by its series: after a step of any accuracy there is no need of a root.
-            let factor = if excess.abs() < S::constant(1e-5) {
-                let (half, three_eighths) = (S::constant(-0.5), S::constant(0.375));
-                stretch = stretch.max(half.abs() * excess.abs());
-                excess.fused(three_eighths, half).fused(excess, S::one())
-            } else {
-                let length = length(&p);
-                stretch = stretch.max((length - S::one()).abs());
-                // Numbers beyond all bounds stay what they are, for whoever uses them to refuse.
-                if !(length.is_finite() && length > S::zero()) {
-                    continue;
-                }
-                length.reciprocal()
-            };
+            let (off, factor) = to_unit_length(&p);
+            stretch = stretch.max(off);
+            let Some(factor) = factor else { continue };
             scale(state.coordinates_mut().as_mut_slice(), place, factor);
             if let Some(rates) = rates.as_deref_mut() {
                 scale(rates.coordinates_mut().as_mut_slice(), place, factor);
@@ -245,7 +251,7 @@ fn length<S: Scalar>(p: &[S; 4]) -> S {
 
 /// Multiplies the four Euler parameters at a place.
 #[inline(always)]
-fn scale<S: Scalar>(coordinates: &mut [S], place: usize, factor: S) {
+pub(crate) fn scale<S: Scalar>(coordinates: &mut [S], place: usize, factor: S) {
     for e in coordinates.iter_mut().skip(place).take(4) {
         *e = *e * factor;
     }

@@ -77,6 +77,17 @@ pub trait Scalar:
         angles.map(versine::of)
     }
 
+    /// Whether numbers have no more than the seven digits of `f32`: a series may end where these are right.
+    const SEVEN_DIGITS: bool = false;
+
+    /// Whether the absolute values of these numbers are known to be at most `bound`; NaN, which shows in whatever is computed of it, does not count. A type that cannot
+    /// tell says no.
+    #[must_use]
+    fn are_within<const N: usize>(numbers: &[Self; N], bound: f64) -> bool {
+        let _ = (numbers, bound);
+        false
+    }
+
     /// Zero.
     fn zero() -> Self {
         Self::constant(0.0)
@@ -253,6 +264,18 @@ macro_rules! real {
             #[inline]
             fn round(self) -> Self {
                 elementary::$round(self)
+            }
+
+            const SEVEN_DIGITS: bool = size_of::<Self>() == 4;
+
+            #[inline(always)]
+            fn are_within<const N: usize>(numbers: &[Self; N], bound: f64) -> bool {
+                // One comparison, and one branch for whoever asks.
+                let most = numbers.iter().fold(0.0, |most, number| {
+                    let size = number.abs();
+                    if size > most { size } else { most }
+                });
+                most <= bound as $float
             }
 
             #[inline(always)]

@@ -49,19 +49,19 @@ impl<S: Real> Scheme<S> for Rk4 {
         if Y::State::PLUS_IS_COSTLY {
             let [mut second, mut penultimate, mut last] =
                 [first.clone(), first.clone(), first.clone()];
-            system.stage(time + half, &state.plus([(half, first)]), &mut second)?;
-            system.stage(
-                time + half,
-                &state.plus([(half, &second)]),
-                &mut penultimate,
-            )?;
-            system.stage(time + step, &state.plus([(step, &penultimate)]), &mut last)?;
-            return Ok(state.plus([
+            let [midway, end] = state.plus_once_and_twice(half, first);
+            system.stage(time + half, &midway, &mut second)?;
+            let at = state.plus_beside(&midway, (half, first), [(half, &second)]);
+            system.stage(time + half, &at, &mut penultimate)?;
+            let at = state.plus_beside(&end, (step, first), [(step, &penultimate)]);
+            system.stage(time + step, &at, &mut last)?;
+            let terms = [
                 (sixth, first),
                 (third, &second),
                 (third, &penultimate),
                 (sixth, &last),
-            ]));
+            ];
+            return Ok(state.plus_beside(&end, (step, first), terms));
         }
         let mut slope = first.clone();
         let mut next = state.plus([(sixth, first)]);

@@ -150,6 +150,87 @@ fn a_turn_does_not_depend_on_its_neighbours() {
     assert!(!lost.is_finite());
 }
 
+/// The errors of angle and length of a sum beside a known one, where the known one turns by `near` and the sum by `more` beyond.
+fn beside<S: Real>(start: f64, near: f64, more: f64) -> [f64; 2] {
+    let number = S::constant;
+    let slope = |rate: f64| JointState::from_parts([[number(rate), S::zero()]], [number(3.0)], []);
+    let half = number(0.5);
+    let from: JointState<S, 1, 1, 0> = JointState::from_parts([pair(start)], [S::one()], []);
+    let along = slope(2.0 * near);
+    let near_state = from.plus([(half, &along)]);
+    let (first, second) = (slope(2.0 * near + 8.0 * more), slope(2.0 * near));
+    let terms = [(number(0.125), &first), (number(0.375), &second)];
+    let to = from.plus_beside(&near_state, (half, &along), terms);
+    assert_eq!(to.rest(), from.plus(terms).rest());
+    let [c, s] = to.pairs()[0].map(S::to_f64);
+    let [from_c, from_s] = from.pairs()[0].map(S::to_f64);
+    let back = turn([c * from_c + s * from_s, s * from_c - c * from_s]);
+    let [rate, _] = first.pairs()[0];
+    // As the slope has it: exact, because the factors are powers of two and their sums.
+    let whole = 0.125 * rate.to_f64() + 0.375 * second.pairs()[0][0].to_f64();
+    [ahead(&back, whole).abs(), off(&turn(to.pairs()[0])).abs()]
+}
+
+#[test]
+fn a_sum_beside_a_known_one_is_the_sum() {
+    let (mut double, mut single) = (0.0_f64, 0.0_f64);
+    for start in [0.0, 0.7, -2.2] {
+        for near in INCREMENTS {
+            for more in [0.0, 1e-9, -1e-3, 0.0124, -0.0125, 0.0126, 0.3, -2.0] {
+                let worst = |errors: [f64; 2]| errors[0].max(errors[1]);
+                double = double.max(worst(beside::<f64>(start, near, more)));
+                // A rate of single precision has no more digits than its size leaves.
+                let digits = near.abs().max(1.0);
+                single = single.max(worst(beside::<f32>(start, near, more)) / digits);
+            }
+        }
+    }
+    assert!(double < 6.0 * f64::EPSILON, "{double:e}");
+    assert!(single < f64::from(4.0 * f32::EPSILON), "{single:e}");
+}
+
+#[test]
+fn little_turns_beside_do_not_depend_on_their_neighbours() {
+    let pairs = [pair(0.1), pair(-2.0), pair(3.0)];
+    let slope = |rates: [f64; 3]| JointState::from_parts(rates.map(|rate| [rate, 0.0]), [], []);
+    let state: JointState<f64, 3, 0, 0> = JointState::from_parts(pairs, [], []);
+    let along = slope([0.4, -0.02, 0.1]);
+    let near = state.plus([(1.0, &along)]);
+    let to = |last: f64| {
+        let slope = slope([0.401, -0.5, last]);
+        *state
+            .plus_beside(&near, (1.0, &along), [(1.0, &slope)])
+            .pairs()
+    };
+    let [a, b, _] = to(0.101);
+    for last in [0.2, 40.0, f64::NAN, f64::INFINITY] {
+        let [c, d, _] = to(last);
+        assert_eq!([a, b], [c, d], "{last}");
+    }
+    assert!(to(f64::NAN)[2].iter().all(|element| element.is_nan()));
+    assert!(to(f64::INFINITY)[2].iter().all(|element| element.is_nan()));
+}
+
+#[test]
+fn once_and_twice_are_two_sums() {
+    for increment in INCREMENTS {
+        let slope = JointState::from_parts([[increment, 9.0]], [3.0], [0.3]);
+        let from: JointState<f64, 1, 1, 1> = JointState::from_parts([pair(0.25)], [1.0], [2.0]);
+        let both = from.plus_once_and_twice(0.75, &slope);
+        for (state, factor) in both.iter().zip([0.75, 1.5]) {
+            let sum = from.plus([(factor, &slope)]);
+            assert_eq!((state.rest(), state.rates()), (sum.rest(), sum.rates()));
+            let [pair] = *state.pairs();
+            let error = ahead(&turn(pair), 0.25 + factor * increment);
+            assert!(
+                error.abs() < 4e-16 * (1.0 + increment.abs()),
+                "{increment}: {error:e}"
+            );
+            assert!(off(&turn(pair)).abs() < 4.0 * f64::EPSILON);
+        }
+    }
+}
+
 #[test]
 fn terms_are_summed_before_a_pair_turns() {
     let state = JointState::from_parts([pair::<f64>(0.3)], [1.0, 2.0], [3.0]);
@@ -347,6 +428,12 @@ fn lanes_turn_each_by_its_own_angle() {
         assert!(off(&turn(pair)).abs() < 4.0 * f64::EPSILON);
     }
     assert_eq!(*state.rates(), [Lanes([8001.0, 8002.0])]);
+    let one = Lanes([1.0; 2]);
+    let sum = state.plus([(one, &slope)]);
+    assert_eq!(
+        state.plus_beside(&state, (-one, &slope), [(one, &slope)]),
+        sum
+    );
     let back = state.towards(&state, Lanes([0.5; 2]), [], []);
     assert_eq!(back.rates(), state.rates());
 }

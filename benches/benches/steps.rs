@@ -1,0 +1,106 @@
+//! What a step by joints takes that its kernels do not: steps of [`Rk4`] one after the other, standard multipliers, each in the time of one of its four evaluations.
+//!
+//! - `kernel`: [`JointCoordinates::joint_rates_into`], at states that wait for the rates before (by an increment of nothing);
+//! - `plain step`: as if cosines and sines were numbers to be added to, without a look at what is not finite: wrong, and the time of a step that turns nothing;
+//! - `step`: [`JointStepper::step`].
+//!
+//! The steps are so small that the state stays where it is.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use holonom::prelude::*;
+use holonom::{Array, Formulation, JointCoordinates, JointStepper, Plain, Rk4, Vector};
+use holonom_models::{
+    Bricard, CartPole, FourBar, HeavyTop, Panda, RodPendulum, SliderCrank, SqueezingMechanism, Ur5,
+};
+
+/// Steps in every bench.
+const STEPS: u64 = 250;
+/// A step (s).
+const STEP: f64 = 1e-6;
+
+fn steps<M: JointCoordinates + Default>(criterion: &mut Criterion, name: &str) {
+    let mechanism = M::default();
+    let parameters = mechanism.parameters().expect("the mechanism is sound");
+    let constants = M::prepare_joints::<f64>(&parameters);
+    let stabilisation = StandardLagrange.stabilisation();
+    let stabilisation = stabilisation.expect("there are no coefficients");
+    let coefficients = M::joint_coefficients::<f64>(&constants, &stabilisation, &Array::zeros());
+    let kernel = |state: &M::JointState<f64>, rates: &mut M::JointState<f64>| {
+        M::joint_rates_into::<f64, Plain>(&constants, &coefficients, 0.0, state, rates);
+    };
+    let stepper = JointStepper::new(&mechanism, StandardLagrange, Rk4);
+    let mut stepper: JointStepper<f64, M, _, _> = stepper.expect("the mechanism is sound");
+    let start = stepper.initial_state().expect("it stands as described");
+
+    let mut group = criterion.benchmark_group(name);
+    group.throughput(Throughput::Elements(4 * STEPS));
+    group.bench_function("kernel", |bencher| {
+        let (mut rates, nothing) = (start, black_box(0.0));
+        bencher.iter(|| {
+            let mut state = start;
+            for _ in 0..4 * STEPS {
+                kernel(&state, &mut rates);
+                state = plus(&start, nothing, &rates);
+            }
+            state
+        });
+    });
+    group.bench_function("plain step", |bencher| {
+        bencher.iter(|| {
+            let mut state = start;
+            for _ in 0..STEPS {
+                plain_step(&mut state, kernel);
+            }
+            state
+        });
+    });
+    group.bench_function("step", |bencher| {
+        bencher.iter(|| {
+            let mut state = start;
+            for _ in 0..STEPS {
+                let _ = black_box(stepper.step(&mut state, STEP));
+            }
+            state
+        });
+    });
+    group.finish();
+}
+
+/// An increment, all elements taken as numbers.
+#[inline(always)]
+fn plus<X: Vector<f64>>(state: &X, factor: f64, rates: &X) -> X {
+    state.zip(rates, |x, rate| rate.mul_add(factor, x))
+}
+
+#[inline(never)]
+fn plain_step<X: Vector<f64>>(state: &mut X, kernel: impl Fn(&X, &mut X)) {
+    let (half, third, sixth) = (STEP / 2.0, STEP / 3.0, STEP / 6.0);
+    let from = state.clone();
+    let mut first = from.clone();
+    let mut second = from.clone();
+    let mut penultimate = from.clone();
+    let mut last = from.clone();
+    kernel(&from, &mut first);
+    kernel(&plus(&from, half, &first), &mut second);
+    kernel(&plus(&from, half, &second), &mut penultimate);
+    kernel(&plus(&from, STEP, &penultimate), &mut last);
+    let next = plus(&plus(&from, sixth, &first), third, &second);
+    *state = plus(&plus(&next, third, &penultimate), sixth, &last);
+}
+
+fn scenes(criterion: &mut Criterion) {
+    steps::<RodPendulum>(criterion, "steps, pendulum");
+    steps::<CartPole>(criterion, "steps, cart-pole");
+    steps::<HeavyTop>(criterion, "steps, heavy top");
+    steps::<FourBar>(criterion, "steps, four-bar");
+    steps::<SliderCrank>(criterion, "steps, slider-crank");
+    steps::<SqueezingMechanism>(criterion, "steps, squeezing mechanism");
+    steps::<Bricard>(criterion, "steps, Bricard's mechanism");
+    steps::<Ur5>(criterion, "steps, UR5");
+    steps::<Panda>(criterion, "steps, Panda");
+}
+
+criterion_group!(benches, scenes);
+criterion_main!(benches);
