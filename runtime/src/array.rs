@@ -298,7 +298,7 @@ pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
 /// Without a comparison for each. Many are summed four places at once, as in [`greatest`]; for few, one sum after the other is less than to bring four together.
 #[inline(always)]
 pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
-    const FEW: usize = 12;
+    const FEW: usize = 4;
     if elements.len() <= FEW {
         return elements
             .iter()
