@@ -293,21 +293,25 @@ pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
     }
 }
 
-/// Zero where every element is finite, else NaN: zero times any other number is NaN, and so is every sum with NaN. Adding to -0 changes no number, and so costs nothing.
+/// A sum and -0 times all elements: the sum where these are finite, else NaN, as is -0 times any other number, and every sum with NaN. A comparison for each would be more.
 ///
-/// Without a comparison for each. Many are summed four places at once, as in [`greatest`]; for few, one sum after the other is less than to bring four together.
+/// By -0, because what is known to be +0 then changes no sum that begins with -0, and costs nothing.
+#[inline(always)]
+pub(crate) fn zero_if_finite_after<S: Real>(sum: S, elements: &[S]) -> S {
+    let add = |sum, element: &S| element.fused(-S::zero(), sum);
+    elements.iter().fold(sum, add)
+}
+
+/// The same from -0 on, of many four places at once, as in [`greatest`]; for few, one sum after the other is less than to bring four together.
 #[inline(always)]
 pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
-    const FEW: usize = 4;
-    if elements.len() <= FEW {
-        return elements
-            .iter()
-            .fold(-S::zero(), |sum, element| element.fused(S::zero(), sum));
+    if elements.len() <= 4 {
+        return zero_if_finite_after(-S::zero(), elements);
     }
     let mut lanes = [-S::zero(); 4];
     for chunk in elements.chunks(4) {
-        for (lane, &element) in lanes.iter_mut().zip(chunk) {
-            *lane = element.fused(S::zero(), *lane);
+        for (lane, element) in lanes.iter_mut().zip(chunk) {
+            *lane = element.fused(-S::zero(), *lane);
         }
     }
     let [a, b, c, d] = lanes;

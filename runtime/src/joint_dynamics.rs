@@ -348,19 +348,19 @@ where
         if sound {
             Ok(())
         } else {
-            Err(self.fault(time, state, &pivot))
+            Err(self.fault(time, state, pivot))
         }
     }
 
     /// Why an evaluation is not sound.
     #[cold]
     #[inline(never)]
-    fn fault(&self, time: S, state: &M::JointState<S>, pivot: &Pivot<S>) -> Fault {
+    fn fault(&self, time: S, state: &M::JointState<S>, pivot: Pivot<S>) -> Fault {
         if !state.is_finite() {
             return Fault::StateNotFinite;
         }
         if vanishes::<S, F::Terms>(pivot.relative) {
-            return singular::<S, M>(pivot);
+            return singular::<S, M>(&pivot);
         }
         let constants = self.bodies.constants();
         let bodies = &self.bodies(state);
@@ -390,7 +390,7 @@ where
         let is_sound = rates.is_finite() && !vanishes::<S, F::Terms>(pivot.relative);
         match known {
             Some(fault) if is_sound && !matches!(fault, Fault::RatesNotFinite { .. }) => fault,
-            _ => self.fault(time, state, &pivot),
+            _ => self.fault(time, state, pivot),
         }
     }
 

@@ -1,6 +1,8 @@
 //! The state of a mechanism in joint coordinates, whose angles are pairs on a circle.
 
-use crate::array::{Vector, greater, greatest, plus, relative_norm, zero_if_finite};
+use crate::array::{
+    Vector, greater, greatest, plus, relative_norm, zero_if_finite, zero_if_finite_after,
+};
 use crate::each::EachOfJoints;
 use crate::scalar::{Real, Scalar};
 use crate::versine;
@@ -375,8 +377,16 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     where
         S: Real,
     {
-        let pairs = zero_if_finite(self.pairs.as_flattened());
-        pairs + zero_if_finite(&self.rest) + zero_if_finite(&self.rates) == S::zero()
+        // Of few elements one sum is the least to do, and a kernel of few operations feels it; of more, they would wait for each other.
+        let few = 2 * TURNS + REST + RATES <= 6;
+        let pairs = self.pairs.as_flattened();
+        let zero = if few {
+            let pairs = zero_if_finite_after(-S::zero(), pairs);
+            zero_if_finite_after(zero_if_finite_after(pairs, &self.rest), &self.rates)
+        } else {
+            zero_if_finite(pairs) + zero_if_finite(&self.rest) + zero_if_finite(&self.rates)
+        };
+        zero == S::zero()
     }
 }
 

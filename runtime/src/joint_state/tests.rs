@@ -288,6 +288,30 @@ fn what_is_not_finite_is_found() {
 }
 
 #[test]
+fn what_is_not_finite_is_found_at_every_place_of_few_and_of_many() {
+    fn at_every_place<S: Real, const T: usize, const Q: usize, const U: usize>() {
+        let largest = S::constant(f64::from(f32::MAX));
+        let state =
+            JointState::<S, T, Q, U>::from_parts([[-largest; 2]; T], [largest; Q], [S::zero(); U]);
+        assert!(state.is_finite());
+        for place in 0..state.length() {
+            for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
+                let mut state = state;
+                state.set_element(place, S::constant(bad));
+                assert!(!state.is_finite(), "{place}");
+            }
+        }
+    }
+    at_every_place::<f64, 1, 1, 2>();
+    at_every_place::<f64, 2, 0, 2>();
+    at_every_place::<f64, 2, 1, 2>();
+    at_every_place::<f64, 0, 4, 3>();
+    at_every_place::<f64, 7, 6, 13>();
+    at_every_place::<f32, 1, 1, 2>();
+    at_every_place::<f32, 3, 5, 9>();
+}
+
+#[test]
 fn increments_of_angles_are_measured_in_radians() {
     let state: JointState<f64, 2, 1, 1> =
         JointState::from_parts([pair(0.3), pair(1e-9)], [-4.0], [1e-6]);
