@@ -21,7 +21,8 @@ use crate::versine;
 ///   `f32` ([`Scalar::sines_and_versines`]). Every turn takes back what round-off did to the length before: it does not drift. A pair that was
 ///   given with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is no angle.
 /// - [`Vector::plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its end, turns a few pairs on from ones that are known by what the slopes
-///   differ by, where that is 0.0125 rad at most: a short series, so that the next evaluation waits less. The sum is the same, up to round-off.
+///   differ by, where that is 0.0125 rad at most: a short series, so that the next evaluation waits less. [`Vector::plus_once_and_twice`], which leads to the first stage, does so
+///   with a pair that stands alone. The sums are the same, up to round-off; of an error of the length the latter leaves half a square of the angle times as much beside the above.
 /// - [`Vector::relative_norm`] measures the increment of an angle in radians, against `max(1, floor)`. Angles on a circle have no size, so a relative
 ///   tolerance is one in radians, and an absolute one counts if it is greater.
 /// - [`Vector::towards`] goes along the circle, by the turn nearest to the given way.
@@ -157,10 +158,17 @@ fn turned_beside<S: Scalar>((near, angle): ([S; 2], S), (from, whole): ([S; 2], 
 const LITTLE: f64 = 0.0125;
 
 /// A pair of length 1, turned by an angle of at most [`LITTLE`].
-///
-/// `p + a (n - a p / 2 - a^2 n / 6 + a^3 p / 24 + a^4 n / 120 - a^5 p / 720)` of a pair `p` and its normal `n`: the factors are known before the angle is, and powers do not wait for each other.
 #[inline(always)]
-fn turned_a_little<S: Scalar>([c, s]: [S; 2], angle: S) -> [S; 2] {
+fn turned_a_little<S: Scalar>(pair: [S; 2], angle: S) -> [S; 2] {
+    let [[c, s], [way_c, way_s]] = [pair, way(pair, angle)];
+    [angle.fused(way_c, c), angle.fused(way_s, s)]
+}
+
+/// Where a pair goes in a turn by an angle of at most [`LITTLE`], over that angle.
+///
+/// `n - a p / 2 - a^2 n / 6 + a^3 p / 24 + a^4 n / 120 - a^5 p / 720` of a pair `p` and its normal `n`: the factors are known before the angle is, and powers do not wait for each other.
+#[inline(always)]
+fn way<S: Scalar>([c, s]: [S; 2], angle: S) -> [S; 2] {
     let square = angle * angle;
     let element = |p: S, n: S| {
         let term = |even: f64, odd: f64| angle.fused(p * S::constant(even), n * S::constant(odd));
@@ -171,9 +179,16 @@ fn turned_a_little<S: Scalar>([c, s]: [S; 2], angle: S) -> [S; 2] {
             let five = term(-1.0 / 720.0, 1.0 / 120.0);
             square.fused(five, term(1.0 / 24.0, -1.0 / 6.0))
         };
-        angle.fused(square.fused(three, one), p)
+        square.fused(three, one)
     };
     [element(c, -s), element(s, c)]
+}
+
+/// What takes the length of a pair to 1.
+#[inline(always)]
+fn stretch<S: Scalar>([c, s]: [S; 2]) -> [S; 2] {
+    let stretch = S::constant(-0.5) * c.fused(c, s.fused(s, -S::one()));
+    [stretch * c, stretch * s]
 }
 
 /// Pairs, turned by angles of these sines and versines.
@@ -181,9 +196,7 @@ fn turned_a_little<S: Scalar>([c, s]: [S; 2], angle: S) -> [S; 2] {
 fn turned_by<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], turns: &[[S; 2]; T]) -> [[S; 2]; T] {
     let mut result = *pairs;
     for (pair, &[sine, versine]) in result.iter_mut().zip(turns) {
-        let [c, s] = *pair;
-        let stretch = S::constant(-0.5) * c.fused(c, s.fused(s, -S::one()));
-        let (more_c, more_s) = (stretch * c, stretch * s);
+        let [[c, s], [more_c, more_s]] = [*pair, stretch(*pair)];
         let (full_c, full_s) = (c + more_c, s + more_s);
         *pair = [
             c + versine.fused(-full_c, sine.fused(-full_s, more_c)),
@@ -193,14 +206,45 @@ fn turned_by<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], turns: &[[S; 2]; T]
     result
 }
 
+/// Pairs, turned by angles and by twice these angles.
+#[inline(always)]
+fn turned_once_and_twice<S: Scalar, const T: usize>(
+    pairs: &[[S; 2]; T],
+    angles: &[S; T],
+) -> [[[S; 2]; T]; 2] {
+    let (mut once, mut twice) = (*pairs, *pairs);
+    // Of a pair that stands alone the next evaluation does nothing but wait. What is missing of its length is not turned with it: that would be known later.
+    if T == 1 && S::are_within(angles, LITTLE) {
+        for ((once, twice), &angle) in once.iter_mut().zip(&mut twice).zip(angles) {
+            let pair = *once;
+            let [[way_c, way_s], [more_c, more_s]] = [way(pair, angle), stretch(pair)];
+            let [c, s] = pair;
+            *once = [
+                c + angle.fused(way_c, more_c),
+                s + angle.fused(way_s, more_s),
+            ];
+            [*twice] = turned_by(&[pair], &[versine::doubled(versine::of_little(angle))]);
+        }
+        return [once, twice];
+    }
+    let mut turns = S::sines_and_versines(angles);
+    once = turned_by(pairs, &turns);
+    // A loop, because `map` is called where much is compiled together.
+    for turn in &mut turns {
+        *turn = versine::doubled(*turn);
+    }
+    twice = turned_by(pairs, &turns);
+    [once, twice]
+}
+
 impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize>
     JointState<S, TURNS, REST, RATES>
 {
-    /// The sum, with sines and versines of the increments of the angles.
+    /// The sum, of which the pairs are known.
     #[inline(always)]
-    fn plus_by<const K: usize>(&self, turns: &[[S; 2]; TURNS], terms: [(S, &Self); K]) -> Self {
+    fn plus_with<const K: usize>(&self, pairs: [[S; 2]; TURNS], terms: [(S, &Self); K]) -> Self {
         Self {
-            pairs: turned_by(&self.pairs, turns),
+            pairs,
             rest: plus(&self.rest, &terms, |x| &x.rest),
             rates: plus(&self.rates, &terms, |x| &x.rates),
         }
@@ -277,20 +321,16 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
 
     #[inline(always)]
     fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
-        self.plus_by(&S::sines_and_versines(&increments(&terms)), terms)
+        self.plus_with(turned(&self.pairs, &increments(&terms)), terms)
     }
 
     #[inline(always)]
     fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
-        let turns = S::sines_and_versines(&increments(&[(factor, direction)]));
-        let mut double = turns;
-        // A loop, because `map` is called where much is compiled together.
-        for turn in &mut double {
-            *turn = versine::doubled(*turn);
-        }
+        let angles = increments(&[(factor, direction)]);
+        let [once, twice] = turned_once_and_twice(&self.pairs, &angles);
         [
-            self.plus_by(&turns, [(factor, direction)]),
-            self.plus_by(&double, [(factor + factor, direction)]),
+            self.plus_with(once, [(factor, direction)]),
+            self.plus_with(twice, [(factor + factor, direction)]),
         ]
     }
 
@@ -321,11 +361,7 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
                 *pair = turned_beside((*pair, angle), (from, whole));
             }
         }
-        Self {
-            pairs,
-            rest: plus(&self.rest, &terms, |x| &x.rest),
-            rates: plus(&self.rates, &terms, |x| &x.rates),
-        }
+        self.plus_with(pairs, terms)
     }
 
     #[inline(always)]

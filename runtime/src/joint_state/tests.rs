@@ -211,23 +211,86 @@ fn little_turns_beside_do_not_depend_on_their_neighbours() {
     assert!(to(f64::INFINITY)[2].iter().all(|element| element.is_nan()));
 }
 
+/// The worst errors of angle and length of the sum of one slope, once and twice, of a pair and what stands beside it.
+fn once_and_twice<S: Real, const T: usize>(start: f64, angle: f64) -> [f64; 2] {
+    let number = S::constant;
+    let (mut from, mut slope) = ([pair(0.4); T], [[number(0.003), S::zero()]; T]);
+    (from[0], slope[0]) = (pair::<S>(start), [number(4.0 * angle), number(9.0)]);
+    let slope = JointState::from_parts(slope, [number(3.0)], [number(0.25)]);
+    let from = JointState::from_parts(from, [S::one()], [number(2.0)]);
+    let both = from.plus_once_and_twice(number(0.25), &slope);
+    let [c, s] = from.pairs()[0].map(S::to_f64);
+    let [mut ahead_of, mut off_length] = [0.0_f64; 2];
+    for (state, factor) in both.iter().zip([0.25, 0.5]) {
+        let sum = from.plus([(number(factor), &slope)]);
+        assert_eq!((state.rest(), state.rates()), (sum.rest(), sum.rates()));
+        let to = state.pairs()[0].map(S::to_f64);
+        let turned = turn([c * to[0] + s * to[1], c * to[1] - s * to[0]]);
+        let whole = factor * number(4.0 * angle).to_f64();
+        ahead_of = ahead_of.max(ahead(&turned, whole).abs());
+        off_length = off_length.max(off(&turn(to)).abs());
+    }
+    [ahead_of, off_length]
+}
+
 #[test]
 fn once_and_twice_are_two_sums() {
-    for increment in INCREMENTS {
-        let slope = JointState::from_parts([[increment, 9.0]], [3.0], [0.3]);
-        let from: JointState<f64, 1, 1, 1> = JointState::from_parts([pair(0.25)], [1.0], [2.0]);
-        let both = from.plus_once_and_twice(0.75, &slope);
-        for (state, factor) in both.iter().zip([0.75, 1.5]) {
-            let sum = from.plus([(factor, &slope)]);
-            assert_eq!((state.rest(), state.rates()), (sum.rest(), sum.rates()));
-            let [pair] = *state.pairs();
-            let error = ahead(&turn(pair), 0.25 + factor * increment);
-            assert!(
-                error.abs() < 4e-16 * (1.0 + increment.abs()),
-                "{increment}: {error:e}"
-            );
-            assert!(off(&turn(pair)).abs() < 4.0 * f64::EPSILON);
+    let (mut double, mut single) = (0.0_f64, 0.0_f64);
+    let little = [
+        0.0, 1e-160, -3e-9, 1e-3, 0.0124, -0.0125, 0.0125, 0.0126, 0.02,
+    ];
+    for start in [0.0, 0.25, -2.2, 3.1] {
+        for angle in little.into_iter().chain(INCREMENTS) {
+            let size = angle.abs().max(1.0);
+            let of_double = [
+                once_and_twice::<f64, 1>(start, angle),
+                once_and_twice::<f64, 3>(start, angle),
+            ];
+            let of_single = [
+                once_and_twice::<f32, 1>(start, angle),
+                once_and_twice::<f32, 3>(start, angle),
+            ];
+            for error in of_double.into_iter().flatten() {
+                double = double.max(error / size);
+            }
+            for error in of_single.into_iter().flatten() {
+                single = single.max(error / size);
+            }
         }
+    }
+    assert!(double < 2.0 * f64::EPSILON, "{double:e}");
+    assert!(single < f64::from(2.0 * f32::EPSILON), "{single:e}");
+}
+
+#[test]
+fn little_turns_keep_the_length_and_find_it_again() {
+    // Few digits, so that a million of them are known exactly.
+    let increment = 0.009_765_625;
+    let slope = turn([increment, 0.0]);
+    for error in [0.0, 1e-3, -0.05] {
+        let [c, s] = pair::<f64>(0.25);
+        let mut state = turn([c * (1.0 + error), s * (1.0 + error)]);
+        let (mut length, mut angle) = (0.0_f64, 0.0_f64);
+        for count in 1..=1_000_000 {
+            [state, _] = state.plus_once_and_twice(1.0, &slope);
+            if count == 1 {
+                // Along the pair and across: the way is as long as the pair that was given.
+                let left = -1.5 * error * error - 0.5 * error * error * error;
+                let along = 1.0 + left + (1.0 + error) * (increment.cos() - 1.0);
+                let across = (1.0 + error) * increment.sin();
+                assert!((off(&state) - (along.hypot(across) - 1.0)).abs() < 1e-15);
+            }
+            if count >= 5 {
+                length = length.max(off(&state).abs());
+            }
+            if count % 1000 == 0 {
+                let whole = increment * f64::from(count);
+                angle = angle.max(ahead(&state, whole + 0.25).abs());
+            }
+        }
+        assert!(length < 4.0 * f64::EPSILON, "{error}: length {length:e}");
+        let bound = 2.0 * increment * error.abs() + 1e6 * f64::EPSILON;
+        assert!(angle < bound, "{error}: angle {angle:e}");
     }
 }
 
