@@ -1,16 +1,16 @@
 //! What a step by joints takes that its kernels do not: steps of [`Rk4`] one after the other, standard multipliers, each in the time of one of its four evaluations.
 //!
 //! - `kernel`: [`JointCoordinates::joint_rates_into`], at states that wait for the rates before (by an increment of nothing);
-//! - `plain step`: as if cosines and sines were numbers to be added to, without a look at what is not finite: wrong, and the time of a step that turns nothing;
-//! - `two powers`: the same with pairs that are turned by a series of two powers of the angle: wrong by a sixth of its cube;
-//! - `six powers`: by six, which are exact up to 0.0125 rad: no longer angle is provided for, lengths drift, nothing is looked at. A step that is right does more;
+//! - `two powers`: steps whose pairs are turned by a series of two powers of the angle: wrong by a sixth of its cube;
+//! - `six powers`: by six, which are exact up to 0.0125 rad. No longer angle is provided for, lengths drift, nothing is looked at, as with two: a step that is right does more;
 //! - `step`: [`JointStepper::step`].
 //!
 //! The steps are so small that the state stays where it is.
 
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use holonom::prelude::*;
 use holonom::{Array, Formulation, JointCoordinates, JointState, JointStepper, Plain, Rk4, Vector};
 use holonom_models::{
@@ -53,33 +53,8 @@ where
             state
         });
     });
-    group.bench_function("plain step", |bencher| {
-        bencher.iter(|| {
-            let mut state = start;
-            for _ in 0..STEPS {
-                any_step(&mut state, kernel, plus);
-            }
-            state
-        });
-    });
-    group.bench_function("two powers", |bencher| {
-        bencher.iter(|| {
-            let mut state = start;
-            for _ in 0..STEPS {
-                any_step(&mut state, kernel, Turned::turned::<2>);
-            }
-            state
-        });
-    });
-    group.bench_function("six powers", |bencher| {
-        bencher.iter(|| {
-            let mut state = start;
-            for _ in 0..STEPS {
-                any_step(&mut state, kernel, Turned::turned::<6>);
-            }
-            state
-        });
-    });
+    by_powers::<2, _>(&mut group, "two powers", &start, kernel);
+    by_powers::<6, _>(&mut group, "six powers", &start, kernel);
     group.bench_function("step", |bencher| {
         bencher.iter(|| {
             let mut state = start;
@@ -90,6 +65,24 @@ where
         });
     });
     group.finish();
+}
+
+/// Steps whose pairs are turned by so many powers of the angle.
+fn by_powers<const POWERS: usize, X: Turned>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    start: &X,
+    kernel: impl Fn(&X, &mut X) + Copy,
+) {
+    group.bench_function(name, |bencher| {
+        bencher.iter(|| {
+            let mut state = start.clone();
+            for _ in 0..STEPS {
+                unusable_step::<POWERS, X>(&mut state, kernel);
+            }
+            state
+        });
+    });
 }
 
 /// An increment, all elements taken as numbers.
@@ -127,13 +120,10 @@ impl<const T: usize, const Q: usize, const U: usize> Turned for JointState<f64, 
     }
 }
 
-/// A step of the classical method without a look at anything, whatever adds an increment to a state.
+/// A step of the classical method that looks at nothing.
 #[inline(never)]
-fn any_step<X: Vector<f64>>(
-    state: &mut X,
-    kernel: impl Fn(&X, &mut X),
-    plus: impl Fn(&X, f64, &X) -> X,
-) {
+fn unusable_step<const POWERS: usize, X: Turned>(state: &mut X, kernel: impl Fn(&X, &mut X)) {
+    let plus = X::turned::<POWERS>;
     let (half, third, sixth) = (STEP / 2.0, STEP / 3.0, STEP / 6.0);
     let from = state.clone();
     let mut first = from.clone();
