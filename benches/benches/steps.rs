@@ -5,6 +5,8 @@
 //! - `six powers`: by six, which are exact up to 0.0125 rad. No longer angle is provided for, lengths drift, nothing is looked at, as with two: a step that is right does more;
 //! - `step`: [`JointStepper::step`].
 //!
+//! Behind them, `sum of pairs`: [`Vector::plus`] of so many pairs and rates, which LLVM compiles well for some numbers and not for others (`versine::cut`).
+//!
 //! The steps are so small that the state stays where it is.
 
 use std::hint::black_box;
@@ -143,6 +145,27 @@ fn unusable_step<const POWERS: usize, X: Turned>(state: &mut X, kernel: impl Fn(
     *state = plus(&from, 1.0, &sum);
 }
 
+fn sum<const PAIRS: usize>(criterion: &mut Criterion) {
+    let state = JointState::from_parts([[1.0, 0.0]; PAIRS], [], [0.0; PAIRS]);
+    let slope = JointState::from_parts([[1.0, 0.0]; PAIRS], [], [0.1; PAIRS]);
+    let mut group = criterion.benchmark_group("sum of pairs");
+    group.bench_function(PAIRS.to_string(), |bencher| {
+        bencher.iter(|| black_box(&state).plus([(black_box(1e-3), black_box(&slope))]));
+    });
+    group.finish();
+}
+
+fn sums(criterion: &mut Criterion) {
+    sum::<8>(criterion);
+    sum::<11>(criterion);
+    sum::<12>(criterion);
+    sum::<13>(criterion);
+    sum::<14>(criterion);
+    sum::<15>(criterion);
+    sum::<16>(criterion);
+    sum::<17>(criterion);
+}
+
 fn scenes(criterion: &mut Criterion) {
     steps::<RodPendulum>(criterion, "steps, pendulum");
     steps::<CartPole>(criterion, "steps, cart-pole");
@@ -155,5 +178,5 @@ fn scenes(criterion: &mut Criterion) {
     steps::<Panda>(criterion, "steps, Panda");
 }
 
-criterion_group!(benches, scenes);
+criterion_group!(benches, scenes, sums);
 criterion_main!(benches);

@@ -308,7 +308,12 @@ macro_rules! real {
                 let mut turns = [[0.0; 2]; N];
                 // Loops, because `map` of many is called, and its results pass through memory.
                 if small {
-                    for (turn, &angle) in turns.iter_mut().zip(angles) {
+                    let (first, last) = turns.split_at_mut(versine::cut(N));
+                    let (angles, last_angles) = angles.split_at(versine::cut(N));
+                    for (turn, &angle) in first.iter_mut().zip(angles) {
+                        *turn = of_small(angle);
+                    }
+                    for (turn, &angle) in last.iter_mut().zip(last_angles) {
                         *turn = of_small(angle);
                     }
                 } else {

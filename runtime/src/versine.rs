@@ -42,6 +42,16 @@ pub(crate) const THREE: [[f64; 3]; 2] = [
     ],
 ];
 
+/// Where loops over so many pairs are cut in two: of what is left over when many have been done side by side, compilers make gathers and scatters, or one after the other, which takes
+/// up to four times as long. Eight and up to seven where lanes are wide, else one alone. Measured, see ARCHITECTURE.
+pub(crate) const fn cut(pairs: usize) -> usize {
+    match pairs {
+        9..16 if cfg!(target_feature = "avx") => 8,
+        9.. if cfg!(all(target_feature = "sse2", not(target_feature = "avx"))) => pairs - pairs % 2,
+        _ => pairs,
+    }
+}
+
 /// `[sin a, 1 - cos a]` of any angle (rad), by the functions of half the angle: both keep their digits.
 #[inline]
 pub(crate) fn of<S: Scalar>(angle: S) -> [S; 2] {

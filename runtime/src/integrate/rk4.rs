@@ -48,7 +48,7 @@ impl<S: Real> Scheme<S> for Rk4 {
         let third = sixth + sixth;
         if Y::State::PLUS_IS_COSTLY {
             let [mut second, mut penultimate, mut last] =
-                [first.clone(), first.clone(), first.clone()];
+                [state.clone(), state.clone(), state.clone()];
             let [midway, end] = state.plus_once_and_twice(half, first);
             system.stage(time + half, &midway, &mut second)?;
             let at = state.plus_beside(&midway, (half, first), [(half, &second)]);
@@ -63,7 +63,7 @@ impl<S: Real> Scheme<S> for Rk4 {
             ];
             return Ok(state.plus_beside(&end, (step, first), terms));
         }
-        let mut slope = first.clone();
+        let mut slope = state.clone();
         let mut next = state.plus([(sixth, first)]);
         let mut at = state.plus([(half, first)]);
         system.stage(time + half, &at, &mut slope)?;
