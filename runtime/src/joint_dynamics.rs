@@ -56,7 +56,7 @@ pub struct JointDynamics<S: Real, M: JointCoordinates, F: Formulation<S>, A = No
     compliances: M::ClosingMultipliers<S>,
     iterations: Iterations,
     /// The smallest relative pivot of the last evaluation.
-    pivot: S,
+    pub(crate) pivot: S,
 }
 
 impl<S: Real, M: JointCoordinates, F: Formulation<S>, A: Clone> Clone
@@ -496,16 +496,20 @@ where
 
     #[inline]
     fn settle(&mut self, state: &mut M::JointState<S>, mut rates: Option<&mut M::JointState<S>>) {
+        let mut stretch = S::zero();
         for &place in M::JOINT_REPORT.euler_parameters {
             let p: [S; 4] = read(state.rest_slice(), place);
-            let (_, Some(factor)) = to_unit_length(&p) else {
-                continue;
-            };
+            let (off, factor) = to_unit_length(&p);
+            stretch = stretch.max(off);
+            let Some(factor) = factor else { continue };
             scale(state.rest_slice_mut(), place, factor);
             if let Some(rates) = rates.as_deref_mut() {
                 // They are linear in `p`.
                 scale(rates.rest_slice_mut(), place, factor);
             }
+        }
+        if !M::JOINT_REPORT.euler_parameters.is_empty() {
+            self.bodies.see_stretch(stretch);
         }
         let auxiliaries = M::JOINT_REPORT.auxiliaries;
         if M::JOINT_REPORT.recounts {

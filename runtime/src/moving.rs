@@ -12,7 +12,7 @@ use crate::mechanism::{Mechanism, Normalised, Orientation};
 use crate::report::BodyKind;
 use crate::rotation::{read, write};
 use crate::scalar::Real;
-use crate::watch::Watch;
+use crate::watch::{Seen, Watch};
 
 /// Gives the Euler parameters at a place the sign of those of another state.
 fn take_nearer_sign<S: Real>(coordinates: &mut [S], near: &[S], place: usize) {
@@ -22,6 +22,21 @@ fn take_nearer_sign<S: Real>(coordinates: &mut [S], near: &[S], place: usize) {
     if alike < S::zero() {
         write(coordinates, place, p.map(|element| -element));
     }
+}
+
+/// Bodies with those signs of Euler parameters that are nearer to those of another state.
+fn with_nearer_signs<S: Real, M: Mechanism>(
+    mut bodies: M::State<S>,
+    near: &M::State<S>,
+) -> M::State<S> {
+    for body in M::REPORT.bodies {
+        if body.kind == BodyKind::Rigid {
+            let place = body.coordinate + 3;
+            let coordinates = bodies.coordinates_mut().as_mut_slice();
+            take_nearer_sign(coordinates, near.coordinates().as_slice(), place);
+        }
+    }
+    bodies
 }
 
 /// A run moves positions and orientations of the bodies.
@@ -56,8 +71,11 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// Its forces on top of those of the description.
     type Forces: AppliedForces<S, M>;
 
-    /// How the bodies stand and move.
-    fn bodies(&self, state: &Self::State) -> M::State<S>;
+    /// What evaluations leave behind for the watch.
+    type Seen: Copy;
+
+    /// How the bodies stand and move, when they stood near by a moment ago: Euler parameters keep their signs as far as they can.
+    fn bodies(&self, state: &Self::State, near: &M::State<S>) -> M::State<S>;
 
     /// The state in which they stand and move so, or nearly so.
     fn of(&self, bodies: &M::State<S>) -> Self::State;
@@ -71,7 +89,13 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// How often the augmented Lagrangian solved its system.
     fn iterations(&self) -> Iterations;
 
-    /// Shows the end of a step to the watch.
+    /// What was seen at the last evaluation.
+    fn seen(&self) -> Self::Seen;
+
+    /// As if that had been the last evaluation.
+    fn recall(&mut self, seen: Self::Seen);
+
+    /// Shows the end of a step to the watch, of which the last evaluation tells.
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>);
 }
 
@@ -102,9 +126,10 @@ where
     type Formulation = F;
     type Orientation = P;
     type Forces = A;
+    type Seen = Seen<S, M>;
 
     #[inline(always)]
-    fn bodies(&self, state: &M::State<S>) -> M::State<S> {
+    fn bodies(&self, state: &M::State<S>, _near: &M::State<S>) -> M::State<S> {
         *state
     }
 
@@ -114,15 +139,7 @@ where
     }
 
     fn of_near(&self, bodies: &M::State<S>, near: &M::State<S>) -> M::State<S> {
-        let mut state = *bodies;
-        for body in M::REPORT.bodies {
-            if body.kind == BodyKind::Rigid {
-                let place = body.coordinate + 3;
-                let coordinates = state.coordinates_mut().as_mut_slice();
-                take_nearer_sign(coordinates, near.coordinates().as_slice(), place);
-            }
-        }
-        state
+        with_nearer_signs::<S, M>(*bodies, near)
     }
 
     #[inline(always)]
@@ -132,6 +149,14 @@ where
 
     fn iterations(&self) -> Iterations {
         Dynamics::iterations(self)
+    }
+
+    fn seen(&self) -> Seen<S, M> {
+        self.seen
+    }
+
+    fn recall(&mut self, seen: Seen<S, M>) {
+        self.seen = seen;
     }
 
     #[inline(always)]
@@ -165,9 +190,11 @@ where
     type Formulation = F;
     type Orientation = Normalised;
     type Forces = A;
+    type Seen = S;
 
-    fn bodies(&self, state: &M::JointState<S>) -> M::State<S> {
-        Self::bodies(self, state)
+    // Turns about an axis are pairs on a circle, which do not tell the two signs apart.
+    fn bodies(&self, state: &M::JointState<S>, near: &M::State<S>) -> M::State<S> {
+        with_nearer_signs::<S, M>(Self::bodies(self, state), near)
     }
 
     fn of(&self, bodies: &M::State<S>) -> M::JointState<S> {
@@ -196,6 +223,14 @@ where
 
     fn iterations(&self) -> Iterations {
         Self::iterations(self)
+    }
+
+    fn seen(&self) -> S {
+        self.pivot
+    }
+
+    fn recall(&mut self, pivot: S) {
+        self.pivot = pivot;
     }
 
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {

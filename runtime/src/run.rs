@@ -97,9 +97,12 @@ where
         let budget = budget.saturating_sub(self.counts.evaluations);
         while course.time() < span.end {
             course.advance(&mut self.moving)?;
+            // What output within the step evaluates is not what the watch is shown, which is its end.
+            let mut seen = None;
             while let Some(time) = self.schedule.within(course.time()) {
+                seen.get_or_insert_with(|| self.moving.seen());
                 let state = course.at(&mut self.moving, time)?;
-                let mut state = self.moving.bodies(&state);
+                let mut state = self.moving.bodies(&state, &last_good.1);
                 if let Some(treatment) = self.treatment {
                     state = self.treated(treatment, time, state)?;
                 }
@@ -110,8 +113,11 @@ where
                     return Ok(());
                 }
             }
+            if let Some(seen) = seen {
+                self.moving.recall(seen);
+            }
             let time = course.time();
-            let mut state = self.moving.bodies(course.state());
+            let mut state = self.moving.bodies(course.state(), &last_good.1);
             if let Some(treatment) = self.treatment {
                 state = self.treated(treatment, time, state)?;
                 let state = self.moving.of_near(&state, course.state());

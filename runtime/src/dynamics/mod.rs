@@ -37,7 +37,7 @@ pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A 
     formulation: F,
     forces: A,
     iterations: Iterations,
-    seen: Seen<S, M>,
+    pub(crate) seen: Seen<S, M>,
     orientation: PhantomData<P>,
 }
 

@@ -42,6 +42,12 @@ where
         }
     }
 
+    /// Sees by how much Euler parameters were off their length at the end of a step.
+    #[inline(always)]
+    pub(crate) fn see_stretch(&mut self, stretch: S) {
+        self.seen.stretch = stretch;
+    }
+
     /// Counts and looks at an evaluation in parts.
     pub(super) fn gather(&mut self, parts: &Parts<S>, multipliers: &M::Multipliers<S>) {
         self.look(parts.pivot.relative, multipliers);

@@ -5,7 +5,7 @@ use crate::mechanism::Mechanism;
 use crate::scalar::{Real, Scalar};
 
 /// Kept by [`Dynamics`](crate::Dynamics) at every evaluation, for the watch to read at the end of a step.
-pub(crate) struct Seen<S: Scalar, M: Mechanism> {
+pub struct Seen<S: Scalar, M: Mechanism> {
     /// The smallest relative pivot of the last evaluation, without its joint: to find that costs more than to look again at the end of a run.
     pub(crate) pivot: S,
     /// The multipliers of the last evaluation, of a mechanism with drivers.

@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod between;
 mod clock;
 mod digits;
 mod limits;

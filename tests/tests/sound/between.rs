@@ -1,0 +1,123 @@
+//! What a run reports between the ends of its steps, and by joints, says what it says at the ends, and by bodies.
+
+use holonom::joints::{AngleDriver, Revolute, Spherical};
+use holonom::prelude::*;
+use holonom::{Adams, DormandPrince853, Integrator, RadauIIA, Sample};
+
+/// An arm that is swung to and fro.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Driven {
+    #[body(mass = 5.0, inertia = [0.02, 0.09, 0.1], position = [0.2, 0.0, 0.0])]
+    arm: Body,
+    #[joint(between = [ground, arm], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shoulder: Revolute,
+    #[joint(between = [ground, arm], axis = [0.0, 0.0, 1.0], motion = 0.4 * sin(5.0 * time))]
+    motor: AngleDriver,
+}
+
+/// A ball that turns evenly about its centre.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Turning {
+    #[body(mass = 1.0, inertia = [0.2, 0.2, 0.2], angular_velocity = [0.0, 0.0, 100.0])]
+    body: Body,
+    #[joint(between = [ground, body], point = [0.0, 0.0, 0.0])]
+    ball: Spherical,
+}
+
+/// A wheel that turns evenly.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Wheel {
+    #[body(mass = 1.0, inertia = [0.2, 0.2, 0.3], angular_velocity = [0.0, 0.0, 10.0])]
+    wheel: Body,
+    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+}
+
+#[test]
+fn reports_within_steps_do_not_disturb_the_balance_of_energy() {
+    let tolerance = Tolerance {
+        relative: 1e-10,
+        absolute: 1e-11,
+    };
+    fn check<I: Integrator<f64> + Copy>(integrator: I) {
+        let arm = Driven::default();
+        let motor = Driven::HANDLES.motor;
+        let run = |at_steps: bool, by_joints: bool| {
+            let reports = if at_steps { every_step() } else { every(0.013) };
+            let simulation = Simulation::new(&arm, StandardLagrange, integrator)
+                .assembled()
+                .projection(Projection::default());
+            let observe = |sample: &Sample<'_, f64, Driven>| {
+                let expected = -3.0 * (5.0 * sample.time()).sin();
+                let effort = sample.driving_effort(motor).expect("it has multipliers");
+                assert!((effort - expected).abs() < 1e-9);
+                ControlFlow::Continue(())
+            };
+            let report = if by_joints {
+                let simulation = simulation.joint_coordinates();
+                simulation.run(0.0..=2.0, reports, observe)
+            } else {
+                simulation.run(0.0..=2.0, reports, observe)
+            };
+            let report = report.expect("nothing stops it");
+            assert!(report.doubts().is_empty(), "{}", report.doubts());
+            let watch = report.watch.expect("it was watched");
+            watch.energy_drift()
+        };
+        for by_joints in [false, true] {
+            let [at_steps, between] = [true, false].map(|at_steps| run(at_steps, by_joints));
+            println!("energy: {at_steps:?}, {between:?}, by joints: {by_joints}");
+        }
+    }
+    check(DormandPrince853::new(tolerance));
+    check(RadauIIA::new(tolerance));
+    check(DormandPrince::new(tolerance));
+    check(Adams::new(tolerance));
+    check(Rk4::every(0.01));
+}
+
+#[test]
+fn orientations_that_lag_are_doubted_in_both_descriptions() {
+    let ball = Turning::default();
+    for step in [0.01, 0.02, 0.05, 0.1] {
+        let simulation = || Simulation::new(&ball, StandardLagrange, Rk4::every(step));
+        let bodies = simulation().run(0.0..=10.0, every(10.0), |_| ControlFlow::Continue(()));
+        let joints = simulation().joint_coordinates();
+        let joints = joints.run(0.0..=10.0, every(10.0), |_| ControlFlow::Continue(()));
+        let drifts: [f64; 2] = [bodies.expect("it runs"), joints.expect("it runs")].map(|report| {
+            assert!(!report.doubts().is_empty(), "{step}");
+            report.watch.expect("it was watched").orientation_drift()
+        });
+        assert!(
+            drifts[0] > 0.0 && (drifts[0] / drifts[1] - 1.0).abs() < 1e-6,
+            "{drifts:?}"
+        );
+    }
+}
+
+#[test]
+fn euler_parameters_keep_their_sign_from_report_to_report() {
+    let wheel = Wheel::default();
+    let simulation =
+        Simulation::new(&wheel, StandardLagrange, DormandPrince::default()).joint_coordinates();
+    for reports in [every(0.1), every_step()] {
+        let mut before: Option<[f64; 4]> = None;
+        let mut turned = 0;
+        simulation
+            .run(0.0..=10.0, reports, |sample| {
+                let w = sample.pose(Wheel::HANDLES.wheel).orientation;
+                let p = [w.w, w.i, w.j, w.k];
+                if let Some(before) = before.replace(p) {
+                    let cosine: f64 = before.iter().zip(p).map(|(a, b)| a * b).sum();
+                    assert!(cosine > 0.0, "at {} s", sample.time());
+                    turned += 1;
+                }
+                ControlFlow::Continue(())
+            })
+            .expect("nothing stops it");
+        assert!(turned > 10);
+    }
+}
