@@ -112,12 +112,12 @@ impl Exchanges {
             }
             for &slot in &slots {
                 let values = &mut values[slot];
-                let least = if values.is_empty() {
-                    0.0
-                } else {
-                    values.resize(self.stops.len(), 0.0);
-                    Determinants::of(values.iter().copied())?.least
-                };
+                if values.is_empty() {
+                    // Of nothing but dependent rows.
+                    continue;
+                }
+                values.resize(self.stops.len(), 0.0);
+                let least = Determinants::of(values.iter().copied())?.least;
                 if best.is_none_or(|(most, ..)| least > most) {
                     best = Some((least, place, slot));
                 }
@@ -234,7 +234,7 @@ fn steady_by_bases(
     if least > STEADY * largest {
         return kept;
     }
-    while let Some((better, exchanged)) = best_exchange(&combinations, &left_out, count)
+    while let Some((better, exchanged)) = best_exchange(&combinations, &left_out, count, tolerance)
         && is_better(better, least, tolerance)
     {
         (least, left_out) = (better, exchanged);
@@ -246,13 +246,18 @@ fn best_exchange(
     combinations: &[Matrix],
     left_out: &[usize],
     count: usize,
+    tolerance: f64,
 ) -> Option<(f64, Vec<usize>)> {
     let mut best: Option<(f64, Vec<usize>)> = None;
     for place in 0..left_out.len() {
         for row in (0..count).filter(|row| !left_out.contains(row)) {
             let mut exchanged = left_out.to_vec();
             exchanged[place] = row;
-            let least = determinants(combinations, &exchanged)?.least;
+            let Determinants { least, largest } = determinants(combinations, &exchanged)?;
+            // Rows that depend on each other everywhere are no choice, not even where all others depend on each other somewhere.
+            if least.abs().max(largest) <= tolerance {
+                continue;
+            }
             if best.as_ref().is_none_or(|(most, _)| least > *most) {
                 best = Some((least, exchanged));
             }
@@ -376,6 +381,28 @@ mod tests {
         assert_eq!(steady(vec![0, 2], &turning(30), 1e-7), [0, 2]);
         assert_eq!(steady(vec![0, 1], &turning(30), 1e-7), [0, 1]);
         assert_eq!(steady(vec![0, 1], &[], 1e-7), [0, 1]);
+    }
+
+    #[test]
+    fn rows_that_hold_nothing_are_never_chosen() {
+        // One of three that turn, all of which vanish somewhere, and one of round-off.
+        let tour = |stops: usize| -> Vec<Rows> {
+            (0..stops)
+                .map(|k| {
+                    let angle = 0.1 + 0.3 * k as f64;
+                    let [a, b, c] = [0.0, 1.0, 2.0].map(|phase| (angle + phase).cos());
+                    [a, b, 1e-17 * c, c].map(|x| Row::of(&[x])).to_vec()
+                })
+                .collect()
+        };
+        for stops in [1, 2, 5, 30, 200] {
+            for kept in [0, 1, 3] {
+                let left_out = (0..4).filter(|&row| row != kept).collect();
+                let by_bases = steady_by_bases(vec![kept], left_out, &tour(stops), 1e-7);
+                assert_ne!(by_bases, [2], "{stops} stops");
+                assert_ne!(steady(vec![kept], &tour(stops), 1e-7), [2], "{stops} stops");
+            }
+        }
     }
 
     /// Seven rows in a space of four dimensions, with weights of different speeds; some are sums of two or three others only.
