@@ -45,6 +45,8 @@ const FIRST_STEPS: usize = 3;
 
 /// For steps of half a radian an angle is off by half of what `|p|` leaves its length by.
 const TURNING_ERROR: f64 = 1.0;
+/// The limit of that ratio times half the angle of a step, from the root of the method's polynomial next to `exp(i z)`.
+const TURNING_ERROR_OF_SHORT_STEPS: f64 = 0.33;
 
 impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
     type Course<X: Vector<S>> = AdamsFixedCourse<S, X>;
@@ -82,6 +84,10 @@ impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
 
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
+    }
+
+    fn turning_error_of_short_steps(&self) -> f64 {
+        TURNING_ERROR_OF_SHORT_STEPS
     }
 }
 

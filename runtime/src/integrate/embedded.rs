@@ -101,6 +101,10 @@ impl<S: Real, K: EmbeddedPair<S>> Integrator<S> for Adaptive<S, K> {
         self.pair.turning_error()
     }
 
+    fn turning_error_of_short_steps(&self) -> f64 {
+        self.pair.turning_error_of_short_steps()
+    }
+
     fn tolerance(&self) -> Option<Tolerance<S>> {
         Some(self.tolerance)
     }

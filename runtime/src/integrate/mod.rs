@@ -227,6 +227,11 @@ pub trait Integrator<S: Real>: Copy + Debug {
         TURNING_ERROR
     }
 
+    /// The same for short steps, times half the angle (rad) of a step: of a method of even order an angle is off by one power of the step less than `|p|` is. Zero for others.
+    fn turning_error_of_short_steps(&self) -> f64 {
+        0.0
+    }
+
     /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a method that keeps its energy, which then says nothing of it; zero for others.
     fn silent_phase(&self) -> f64 {
         0.0
@@ -297,6 +302,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
     /// See [`Integrator::turning_error`].
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
+    }
+
+    /// See [`Integrator::turning_error_of_short_steps`].
+    fn turning_error_of_short_steps(&self) -> f64 {
+        0.0
     }
 
     /// See [`Integrator::silent_phase`].

@@ -37,8 +37,10 @@ impl Heun {
     }
 }
 
-/// The ratio of `z^3 / 6`, by which an angle is off after a step, and `z^4 / 8`, by which `|p|` is, for steps of half a radian: `z` is half the angle.
-const TURNING_ERROR: f64 = 16.0 / 3.0;
+/// Half the angle of a step, `z`, times the ratio of `z^3 / 3`, by which an angle is off after it, and `z^4 / 8`, by which `|p|` is.
+const TURNING_ERROR_OF_SHORT_STEPS: f64 = 8.0 / 3.0;
+/// The ratio for steps of a radian.
+const TURNING_ERROR: f64 = 2.0 * TURNING_ERROR_OF_SHORT_STEPS;
 
 impl<S: Real> Scheme<S> for Midpoint {
     type Stages<X: Vector<S>> = NoStages;
@@ -63,6 +65,10 @@ impl<S: Real> Scheme<S> for Midpoint {
 
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
+    }
+
+    fn turning_error_of_short_steps(&self) -> f64 {
+        TURNING_ERROR_OF_SHORT_STEPS
     }
 
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
@@ -93,6 +99,10 @@ impl<S: Real> Scheme<S> for Heun {
 
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
+    }
+
+    fn turning_error_of_short_steps(&self) -> f64 {
+        TURNING_ERROR_OF_SHORT_STEPS
     }
 
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {

@@ -56,6 +56,7 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     stretched: S,
     /// What an angle is off by for each of it.
     turning_error: S,
+    turning_error_of_short_steps: S,
     /// What a phase is off by for the third power of a step (rad), of a method that keeps the energy.
     silent_phase: S,
     /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of what was turned (rad), and of what the rate changed by.
@@ -209,6 +210,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             stretch: S::zero(),
             stretched: S::zero(),
             turning_error: S::one(),
+            turning_error_of_short_steps: S::zero(),
             silent_phase: S::zero(),
             rate: S::zero(),
             fastest: S::zero(),
@@ -231,6 +233,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let tolerance = integrator.tolerance();
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
         self.turning_error = S::constant(integrator.turning_error());
+        self.turning_error_of_short_steps = S::constant(integrator.turning_error_of_short_steps());
         self.silent_phase = S::constant(integrator.silent_phase());
         self
     }

@@ -222,7 +222,15 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn orientation(&self) -> Option<Doubt> {
-        let shift = self.stretched * self.turning_error;
+        // On average over the steps; those that turn further stretch more, and are off by less of it.
+        let half = S::constant(0.5) * self.travel.quotient(S::constant(self.steps as f64));
+        let of_short = self.turning_error_of_short_steps.quotient(half);
+        let error = if half > S::zero() {
+            self.turning_error.max(of_short)
+        } else {
+            self.turning_error
+        };
+        let shift = self.stretched * error;
         let doubted = above(self.stretch, limits::LENGTH) || above(shift, limits::PHASE);
         doubted.then(|| Doubt::Orientation {
             drift: self.stretch.to_f64(),

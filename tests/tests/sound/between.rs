@@ -1,8 +1,13 @@
 //! What a run reports between the ends of its steps, and by joints, says what it says at the ends, and by bodies.
 
+use std::f64::consts::TAU;
+
 use holonom::joints::{AngleDriver, Revolute, Spherical};
 use holonom::prelude::*;
-use holonom::{Adams, DormandPrince853, Integrator, RadauIIA, Sample};
+use holonom::{
+    Adams, AdamsBashforthMoulton4, DormandPrince853, Doubt, Heun, Integrator, Midpoint, RadauIIA,
+    Sample,
+};
 
 /// An arm that is swung to and fro.
 #[derive(Mechanism)]
@@ -96,6 +101,35 @@ fn orientations_that_lag_are_doubted_in_both_descriptions() {
             "{drifts:?}"
         );
     }
+}
+
+#[test]
+fn short_steps_that_lag_are_doubted_by_as_much() {
+    fn check<I: Integrator<f64>>(integrator: I, until: f64) {
+        let wheel = Wheel::default();
+        let mut off = 0.0;
+        let report = Simulation::new(&wheel, StandardLagrange, integrator)
+            .run(0.0..=until, every(until), |sample| {
+                let p = sample.pose(Wheel::HANDLES.wheel).orientation;
+                let turned = 2.0 * p.k.atan2(p.w) - 10.0 * sample.time();
+                off = (turned - TAU * (turned / TAU).round()).abs();
+                ControlFlow::Continue(())
+            })
+            .expect("nothing stops it");
+        let shifts = report.doubts().into_iter().filter_map(|doubt| match doubt {
+            Doubt::Orientation { shift, .. } => Some(shift),
+            _ => None,
+        });
+        let shift: f64 = shifts.sum();
+        println!("{until} s: off by {off:e} rad, doubted by {shift:e}");
+        assert!(off > 1e-2 && shift > 0.8 * off && shift < 2.0 * off);
+    }
+    check(Midpoint::every(0.01), 10.0);
+    check(Midpoint::every(0.002), 100.0);
+    check(Heun::every(0.01), 40.0);
+    check(Rk4::every(0.02), 2000.0);
+    check(Rk4::every(0.05), 100.0);
+    check(AdamsBashforthMoulton4::every(0.02), 1000.0);
 }
 
 #[test]
