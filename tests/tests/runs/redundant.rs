@@ -401,3 +401,47 @@ fn equations_that_hold_but_for_round_off_are_not_the_ones_that_are_kept() {
     assert!((first - second).abs() < 1e-9 && (first.abs() - 1.211_045).abs() < 1e-5);
     assert!(evaluation.multipliers.as_slice()[0].abs() < 100.0);
 }
+
+/// A locked loop as above, and a pendulum that has nothing to do with it.
+#[derive(Mechanism)]
+#[mechanism(redundant = "drop")]
+struct Apart {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1])]
+    a: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.0, 0.0, 0.0])]
+    b: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [2.0, 0.0, 0.0])]
+    alone: Body,
+    #[joint(between = [ground, a], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    first: Revolute,
+    #[joint(between = [a, b], point = [0.5, 0.3, 0.0], axis = [0.0, 0.0, 1.0])]
+    second: Revolute,
+    #[joint(between = [a, b], point = [0.7, -0.4, 0.0], axis = [0.0, 0.0, 1.0])]
+    third: Revolute,
+    #[joint(between = [ground, alone], point = [1.5, 0.0, 0.0], axis = [1.0, 0.2, 0.3])]
+    pendulum: Revolute,
+}
+
+#[test]
+fn of_a_locked_loop_nothing_else_is_left_out() {
+    let left_out = Apart::REPORT.redundant.iter().filter(|row| row.dropped);
+    let joints: Vec<&str> = left_out
+        .map(|row| Apart::REPORT.joints[row.joint].name)
+        .collect();
+    assert_eq!(joints.len(), 4);
+    assert!(
+        joints
+            .iter()
+            .all(|joint| ["second", "third"].contains(joint)),
+        "{joints:?}"
+    );
+    let mut worst = 0.0_f64;
+    Simulation::new(&Apart::default(), StandardLagrange, Rk4::every(1e-3))
+        .run(0.0..=1.0, every(0.1), |sample| {
+            let angle: f64 = sample.angle(Apart::HANDLES.second);
+            worst = worst.max(angle.abs());
+            ControlFlow::Continue(())
+        })
+        .expect("nothing stops it");
+    assert!(worst < 1e-9, "{worst:e}");
+}
