@@ -242,7 +242,7 @@ pub use simulation::Simulation;
 pub use stepper::Stepper;
 pub use treatment::{Treatment, TreeRecovery, VelocityProjection};
 pub use view::View;
-pub use watch::{Doubt, Doubts, Excused, SmallestPivot, Violation, Watch};
+pub use watch::{Doubt, Doubts, Excused, ShortestGradient, SmallestPivot, Violation, Watch};
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in `holonom::joints`, by name.
 pub mod prelude {

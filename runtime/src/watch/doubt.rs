@@ -43,6 +43,15 @@ pub enum Doubt {
         /// When (s).
         time: f64,
     },
+    /// An equation all but vanished with its gradient.
+    Vanishing {
+        /// The joint whose equation it is.
+        joint: &'static str,
+        /// What was left of its gradient, over the largest of the run.
+        length: f64,
+        /// When (s).
+        time: f64,
+    },
     /// Energy came or went that no force and no driver accounts for.
     Energy {
         /// The change over the energy that the mechanism exchanges, where it was largest.
@@ -163,6 +172,17 @@ impl fmt::Display for Doubt {
                 Measured(time),
                 Measured(fall)
             ),
+            Self::Vanishing {
+                joint,
+                length,
+                time,
+            } => write!(
+                f,
+                "an equation of joint `{joint}` all but vanished with its gradient at {} s ({} of its largest was left): which way the motion went on is not \
+                 certain; use a projection and compare two tolerances, or keep the joint from there",
+                Measured(time),
+                Measured(length)
+            ),
             Self::Energy { change, time } => write!(
                 f,
                 "the energy changed by {} of what the mechanism exchanges, without a force, at {} s: use a smaller tolerance or step, or a \
@@ -270,7 +290,7 @@ fn amount(
 }
 
 /// The kinds of doubt that one run may raise.
-const KINDS: usize = 14;
+const KINDS: usize = 15;
 
 /// What is to be doubted of a run, the gravest first; empty where nothing is.
 ///

@@ -6,6 +6,7 @@
 
 mod doubt;
 mod energy;
+mod gradients;
 mod limits;
 mod rows;
 mod seen;
@@ -17,6 +18,7 @@ pub(crate) use rows::{Meanings, extent};
 pub(crate) use seen::Seen;
 
 use self::energy::Balance;
+use self::gradients::Gradients;
 use self::singular::Approach;
 use crate::array::{Array, StateParts};
 use crate::handle::JointHandle;
@@ -37,6 +39,7 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     position: Worst<S, M>,
     velocity: Worst<S, M>,
     approach: Option<Approach<S>>,
+    gradients: Gradients<S, M>,
     /// The end of the step of the smallest pivot.
     nearest: (S, M::State<S>),
     /// The index of the joint of the smallest pivot, which is found at the end of a run.
@@ -49,6 +52,8 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     spin: S,
     /// Radians of motion: of the body that turns fastest, or moves by lengths of the mechanism.
     travel: S,
+    /// What it was when a pivot was looked at last.
+    looked: S,
     /// The time of the last step.
     time: S,
     /// The largest `| |p| - 1 |` of a step, and the sum of all.
@@ -101,6 +106,17 @@ pub struct Violation<S> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmallestPivot<S> {
     /// The pivot, met or found between two steps.
+    pub relative: S,
+    /// The joint's field.
+    pub joint: &'static str,
+    /// When (s).
+    pub time: S,
+}
+
+/// The shortest gradient of an equation over a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShortestGradient<S> {
+    /// Its length over its largest, where a radian counts as the length of the mechanism; of a vector equation that of all its rows.
     pub relative: S,
     /// The joint's field.
     pub joint: &'static str,
@@ -168,6 +184,19 @@ impl<S: Real, M: Mechanism> Worst<S, M> {
     }
 }
 
+/// The largest speed (m/s) and angular velocity (rad/s) of a body.
+fn speeds<S: Real, M: Mechanism>(state: &M::State<S>) -> (S, S) {
+    let velocities = state.velocities().as_slice();
+    let (mut speed, mut spin) = (S::zero(), S::zero());
+    for body in M::REPORT.bodies {
+        speed = speed.max(square(&read::<S, 3>(velocities, body.velocity)));
+        if body.kind == BodyKind::Rigid {
+            spin = spin.max(square(&read::<S, 3>(velocities, body.velocity + 3)));
+        }
+    }
+    (speed.sqrt(), spin.sqrt())
+}
+
 /// Whether a value is above a bound; NaN is above every bound.
 fn exceeds<S: Real>(value: S, bound: S) -> bool {
     let within = value <= bound;
@@ -181,7 +210,7 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     pub(crate) state: &'a M::State<S>,
     /// The power (W) of all forces without a potential, drivers included; `None` where there are none.
     pub(crate) power: Option<S>,
-    /// The relative pivot at this state, of formulations that have one.
+    /// The relative pivot at this state; `None` where it was not looked at.
     pub(crate) pivot: Option<S>,
     /// The largest `| |p| - 1 |` of a body at the end of the step.
     pub(crate) stretch: S,
@@ -199,6 +228,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             position: Worst::none(time),
             velocity: Worst::none(time),
             approach: None,
+            gradients: Gradients::none(),
             nearest: (time, *state),
             joint: 0,
             balance: Balance::new(kinetic, M::potential_energy(constants, time, state)),
@@ -206,6 +236,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             speed: S::zero(),
             spin: S::zero(),
             travel: S::zero(),
+            looked: S::zero(),
             time,
             stretch: S::zero(),
             stretched: S::zero(),
@@ -255,13 +286,15 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.position.take(phi.as_slice(), factors, time);
         let phi_rate = M::constraint_rates(constants, time, state);
         self.velocity.take(phi_rate.as_slice(), factors, time);
-        let before = self.travel;
         self.motion(time, state);
         if let Some(pivot) = pivot {
-            let approach = self.approach.get_or_insert_with(Approach::new);
-            if approach.step(time, pivot, self.travel - before) {
-                self.nearest = (time, *state);
-            }
+            self.look_at_pivot((time, state), pivot, self.travel);
+        }
+        if self.gradients.are_due(self.travel) {
+            let fall = self
+                .gradients
+                .measure(constants, (time, state), self.length);
+            self.gradients.look(time, fall, self.travel);
         }
         let kinetic = M::kinetic_energy(constants, state);
         let potential = M::potential_energy(constants, time, state);
@@ -275,6 +308,16 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.stretched = self.stretched + (stretch - round_off).max(S::zero());
         }
         self.steps = self.steps.saturating_add(1);
+    }
+
+    /// Looks at a relative pivot after so much motion (rad).
+    fn look_at_pivot(&mut self, (time, state): (S, &M::State<S>), pivot: S, travel: S) {
+        let motion = (travel - self.looked).max(S::zero());
+        self.looked = travel;
+        let approach = self.approach.get_or_insert_with(Approach::new);
+        if approach.step(time, pivot, motion) {
+            self.nearest = (time, *state);
+        }
     }
 
     /// What a potential gains by the time alone, at either end of a step.
@@ -294,18 +337,10 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn motion(&mut self, time: S, state: &M::State<S>) {
-        let velocities = state.velocities().as_slice();
-        let (mut speed, mut spin) = (S::zero(), S::zero());
-        for body in M::REPORT.bodies {
-            speed = speed.max(square(&read::<S, 3>(velocities, body.velocity)));
-            if body.kind == BodyKind::Rigid {
-                spin = spin.max(square(&read::<S, 3>(velocities, body.velocity + 3)));
-            }
-        }
-        let (speed, spin) = (speed.sqrt(), spin.sqrt());
+        let (speed, spin) = speeds::<S, M>(state);
         self.speed = self.speed.max(speed);
         self.spin = self.spin.max(spin);
-        let rate = spin.max(speed.quotient(self.length));
+        let rate = self.rate_of(speed, spin);
         let turned = rate * (time - self.time);
         self.travel = self.travel + turned;
         let change = if self.steps > 0 {
@@ -319,6 +354,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.rate = rate;
         self.fastest = self.fastest.max(rate);
         self.time = time;
+    }
+
+    /// A rate of motion (rad/s): of the fastest body, by lengths of the mechanism or radians.
+    fn rate_of(&self, speed: S, spin: S) -> S {
+        spin.max(speed.quotient(self.length))
     }
 
     /// With a compliance `e` accelerations satisfy `D u' - gamma* = e lambda`.
@@ -428,6 +468,19 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             relative: nearest.pivot,
             joint: joint.map_or("", |info| info.name),
             time: nearest.time,
+        })
+    }
+
+    /// The gradient of an equation that was shortest beside its largest, with its joint and its time; `None` without equations.
+    ///
+    /// Where a gradient vanishes, its equation leaves open which way a motion goes on, whatever the pivots, which are compared with what an equation is without the others.
+    #[must_use]
+    pub fn shortest_gradient(&self) -> Option<ShortestGradient<S>> {
+        let shortest = self.gradients.shortest()?;
+        Some(ShortestGradient {
+            relative: shortest.fall.sqrt(),
+            joint: M::REPORT.joint_of(shortest.row)?,
+            time: shortest.time,
         })
     }
 

@@ -100,6 +100,19 @@ impl<S: Real> Approach<S> {
         self.widest * self.largest.sqrt() * S::constant(MARGIN) > S::one()
     }
 
+    /// The same of a motion (rad) with these pivots at its ends, that can be looked into.
+    pub(super) fn may_pass(&self, motion: S, ends: [S; 2]) -> bool {
+        /// How many times faster than with the distance the root of a pivot may grow to its largest: a mechanism need not move by a radian from where one vanishes to where it is largest.
+        const MARGIN: f64 = 4.0;
+        let [first, last] = ends.map(|pivot| pivot.max(S::zero()).sqrt());
+        motion * self.largest.sqrt() * S::constant(MARGIN) > first + last
+    }
+
+    /// The last pivot.
+    pub(super) fn last(&self) -> Option<S> {
+        self.before[1].map(|(_, pivot)| pivot)
+    }
+
     /// The smallest over the largest.
     pub(super) fn fall(&self) -> S {
         if self.largest > S::zero() {

@@ -16,6 +16,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.open(),
             self.slipping(),
             self.nearly_singular(),
+            self.vanishing(),
             self.excuses(),
             self.phase(),
             self.long_run(),
@@ -157,6 +158,19 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
+    /// Gradients count by their squares, as pivots do.
+    fn vanishing(&self) -> Option<Doubt> {
+        let shortest = self.shortest_gradient()?;
+        let fall = shortest.relative * shortest.relative;
+        let may_have_passed = self.gradients.approach().may_have_passed();
+        let is_near = !above(fall, limits::NEARLY_SINGULAR) || may_have_passed;
+        (is_near && self.nearly_singular().is_none()).then(|| Doubt::Vanishing {
+            joint: shortest.joint,
+            length: shortest.relative.to_f64(),
+            time: shortest.time.to_f64(),
+        })
+    }
+
     fn excuses(&self) -> Option<Doubt> {
         let time = self.excused.since?;
         Some(Doubt::Excused {
@@ -247,6 +261,6 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 }
 
-fn above<S: Real>(value: S, limit: f64) -> bool {
+pub(super) fn above<S: Real>(value: S, limit: f64) -> bool {
     exceeds(value, S::constant(limit))
 }

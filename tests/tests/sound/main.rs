@@ -5,6 +5,7 @@
 mod between;
 mod clock;
 mod digits;
+mod gradients;
 mod limits;
 mod long;
 mod orientation;

@@ -1,0 +1,158 @@
+//! Motions through configurations in which an equation vanishes with its gradient: no equation depends on another there, and still more than one way leads on.
+
+use holonom::joints::ConstantVelocity;
+use holonom::prelude::*;
+use holonom::{Doubt, Heun, Integrator, JointCoordinates, Rk4, Sample};
+
+/// A shaft that falls over until it points against the other, and on.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both", gravity = [0.3, 0.1, -1.0])]
+struct Shaft {
+    #[body(
+        mass = 1.0,
+        inertia = [0.8, 1.0, 0.5],
+        position = [0.0, 0.0, 0.3],
+        velocity = [0.36, -0.48, 0.0],
+        angular_velocity = [1.6, 1.2, 0.0]
+    )]
+    shaft: Body,
+    #[joint(between = [ground, shaft], point = [0.0, 0.0, 0.0], axis_i = [0.0, 0.0, 1.0], axis_j = [0.0, 0.0, 1.0])]
+    joint: ConstantVelocity,
+}
+
+holonom::joint! {
+    /// The point of `j` stays on one of two lines through the corner on `i`, perpendicular to two axes and to the axis of both.
+    pub joint Crossing(i, j; corner: Point, point: Point, axis: Axis, first: Axis, second: Axis) {
+        let to = j.point - i.corner;
+        dot(i.axis, to);
+        dot(i.first, to) * dot(i.second, to);
+    }
+}
+
+/// A bead on its way to where two wires cross.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both", gravity = [0.0, 0.0, 0.0])]
+struct Wires {
+    #[body(mass = 1.0, position = [-0.5, 0.0, 0.0], velocity = [0.7, 0.0, 0.0])]
+    bead: Particle,
+    #[joint(
+        between = [ground, bead],
+        corner = [0.0, 0.0, 0.0],
+        point = [-0.5, 0.0, 0.0],
+        axis = [0.0, 0.0, 1.0],
+        first = [0.6, 0.8, 0.0],
+        second = [0.0, 1.0, 0.0]
+    )]
+    wires: Crossing,
+}
+
+/// Whether the report of a run doubts that it passed this joint. An error says so as well.
+fn is_told<M, F, I>(
+    model: &M,
+    (method, integrator): (F, I),
+    (is_projected, by_joints): (bool, bool),
+    (duration, expected): (f64, &str),
+) -> bool
+where
+    M: JointCoordinates,
+    F: Formulation<f64>,
+    I: Integrator<f64> + Copy,
+{
+    let mut simulation = Simulation::new(model, method, integrator);
+    if is_projected {
+        simulation = simulation.projection(Projection::default());
+    }
+    let seen = |_: &Sample<'_, f64, M>| ControlFlow::Continue(());
+    let outcome = if by_joints {
+        let simulation = simulation.joint_coordinates();
+        simulation.run(0.0..=duration, every(duration), seen)
+    } else {
+        simulation.run(0.0..=duration, every(duration), seen)
+    };
+    let what =
+        format!("{method:?}, {integrator:?}, projected: {is_projected}, by joints: {by_joints}");
+    match outcome {
+        Ok(report) => {
+            println!("{what}: {}", report.doubts());
+            report
+                .doubts()
+                .into_iter()
+                .any(|doubt| matches!(doubt, Doubt::Vanishing { joint, .. } if joint == expected))
+        }
+        Err(error) => {
+            println!("{what}: {error}");
+            true
+        }
+    }
+}
+
+/// In both descriptions, with and without a projection, at tolerances and steps.
+fn sweep<M: JointCoordinates, F: Formulation<f64>>(
+    model: &M,
+    method: F,
+    (duration, joint): (f64, &str),
+    expected: bool,
+) {
+    for by_joints in [false, true] {
+        for is_projected in [false, true] {
+            let how = (is_projected, by_joints);
+            for exponent in 4..=11 {
+                let relative = 10.0_f64.powi(-exponent);
+                let absolute = 1e-2 * relative;
+                let integrator = DormandPrince::new(Tolerance { relative, absolute });
+                let integrator = integrator.budget(200_000);
+                let told = is_told(model, (method, integrator), how, (duration, joint));
+                assert_eq!(told, expected);
+            }
+            for step in [1e-2, 1e-3] {
+                let integrator = Rk4::every(step);
+                let told = is_told(model, (method, integrator), how, (duration, joint));
+                assert_eq!(told, expected);
+            }
+            let integrator = Heun::every(1e-3);
+            let told = is_told(model, (method, integrator), how, (duration, joint));
+            assert_eq!(told, expected);
+        }
+    }
+}
+
+fn with_every_formulation<M: JointCoordinates>(model: &M, run: (f64, &str), expected: bool) {
+    sweep(model, StandardLagrange, run, expected);
+    sweep(model, Baumgarte::default(), run, expected);
+    sweep(model, Penalty::default(), run, expected);
+    sweep(model, AugmentedLagrangian::default(), run, expected);
+}
+
+#[test]
+fn shafts_against_each_other_are_told() {
+    with_every_formulation(&Shaft::default(), (5.0, "joint"), true);
+}
+
+/// A third of a turn on, the shafts have not come near to where they point against each other.
+#[test]
+fn shafts_at_an_angle_are_not_doubted() {
+    with_every_formulation(&Shaft::default(), (1.1, "joint"), false);
+}
+
+#[test]
+fn a_crossing_of_wires_is_told() {
+    with_every_formulation(&Wires::default(), (1.5, "wires"), true);
+}
+
+/// The gradient is compared with what it comes to be later.
+#[test]
+fn a_start_near_the_crossing_is_told() {
+    for place in [1e-4, -1e-3] {
+        let wires = Wires::default();
+        let mut state = wires.described_state().expect("it is consistent");
+        let mut pose = Wires::pose(&state, Wires::HANDLES.bead);
+        pose.position.x = place;
+        Wires::set_pose(&mut state, Wires::HANDLES.bead, pose);
+        let simulation = Simulation::new(&wires, StandardLagrange, Rk4::every(0.01));
+        let simulation = simulation.initial_state(state);
+        let report = simulation.run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
+        let doubts = report.expect("nothing stops it").doubts();
+        let is_told = |doubt| matches!(doubt, Doubt::Vanishing { joint: "wires", .. });
+        assert!(doubts.into_iter().any(is_told), "{place}: {doubts}");
+    }
+}
