@@ -85,6 +85,7 @@ mod treatment;
 mod versine;
 mod view;
 mod watch;
+mod within;
 
 #[cfg(test)]
 mod tests;

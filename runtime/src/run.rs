@@ -13,6 +13,7 @@ use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::treatment::Treatment;
 use crate::watch::Watch;
+use crate::within::look_within;
 
 /// A run under way.
 pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
@@ -97,6 +98,9 @@ where
         let budget = budget.saturating_sub(self.counts.evaluations);
         while course.time() < span.end {
             course.advance(&mut self.moving)?;
+            if let Some(watch) = &mut self.watch {
+                look_within(watch, &mut self.moving, &mut course, &last_good.1);
+            }
             // What output within the step evaluates is not what the watch is shown, which is its end.
             let mut seen = None;
             while let Some(time) = self.schedule.within(course.time()) {

@@ -119,6 +119,20 @@ where
         }
     }
 
+    /// The smallest relative pivot between steps; `None` as at their ends.
+    pub(crate) fn pivot_within(&self, time: S, state: &M::State<S>) -> Option<S> {
+        if M::REPORT.equations == 0 || M::REPORT.keeps_redundant() {
+            return None;
+        }
+        if F::Terms::COMPLIANT {
+            return Some(self.rigid_pivot(time, state).relative);
+        }
+        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        let read = &Self::read(state);
+        let (_, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
+        Some(pivot.relative)
+    }
+
     /// The smallest relative pivot without a compliance.
     #[inline]
     fn rigid_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {

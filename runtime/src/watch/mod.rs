@@ -12,10 +12,12 @@ mod rows;
 mod seen;
 mod singular;
 mod verdict;
+mod within;
 
 pub use doubt::{Doubt, Doubts};
 pub(crate) use rows::{Meanings, extent};
 pub(crate) use seen::Seen;
+pub(crate) use within::Nearness;
 
 use self::energy::Balance;
 use self::gradients::Gradients;

@@ -3,15 +3,19 @@
 
 use std::time::{Duration, Instant};
 
-use holonom::joints::{PointOnLine, Prismatic, Revolute};
+use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{BodyHandle, Doubt, Integrator, Rk4};
+use holonom::{
+    Adams, Bdf, BodyHandle, DormandPrince853, Doubt, Integrator, JointCoordinates, RadauIIA, Rk4,
+    Sample,
+};
 use holonom_models::FourBar;
 use nalgebra::Vector3;
 
 /// A slider-crank whose crank and rod are of 1 m both: a quarter of a turn on, the slider passes over the crank's axis, where it may stay while the links
 /// turn on together.
 #[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
 struct EqualLinks {
     #[body(
         mass = 1.0,
@@ -39,6 +43,28 @@ struct EqualLinks {
     guide: Prismatic,
     #[joint(between = [slider, rod], point = [1.6, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
     slider_pin: PointOnLine,
+}
+
+/// Four links of 1 m, the ground among them: a parallelogram that passes over the line in little more than the time of a step, by joints.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Rhombus {
+    #[body(
+        mass = 1.0,
+        inertia = [0.1, 0.1, 0.1],
+        position = [0.3, 0.4, 0.0],
+        velocity = [0.4, -0.3, 0.0],
+        angular_velocity = [0.0, 0.0, -1.0]
+    )]
+    crank: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.1, 0.8, 0.0], velocity = [0.8, -0.6, 0.0])]
+    coupler: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    bearing: Revolute,
+    #[joint(between = [crank, coupler], point = [0.6, 0.8, 0.0], axis = [0.0, 0.0, 1.0])]
+    pin: Revolute,
+    #[joint(between = [ground, coupler], head = [1.0, 0.0, 0.0], tail = [1.6, 0.8, 0.0])]
+    rod: Distance,
 }
 
 /// A body, a point on it, and where that should be at the end of a run (m).
@@ -93,6 +119,19 @@ fn equal_links() -> Mark<EqualLinks> {
     }
 }
 
+/// The pin after two seconds at a rate of -1 rad/s.
+fn rhombus() -> Mark<Rhombus> {
+    let duration = 2.0;
+    let angle = 0.8_f64.atan2(0.6) - duration;
+    Mark {
+        body: Rhombus::HANDLES.crank,
+        point: Vector3::new(0.3, 0.4, 0.0),
+        place: Vector3::new(angle.cos(), angle.sin(), 0.0),
+        duration,
+        joint: "rod",
+    }
+}
+
 /// What is right to a hundredth is right.
 const RIGHT: f64 = 1e-2;
 /// Evaluations: more than any run takes that ends. One that stalls in a singular configuration says that they are used up.
@@ -100,10 +139,11 @@ const BUDGET: usize = 1_000_000;
 /// Of a build with some optimisation on a machine that does other things too.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
+fn run<M: JointCoordinates, F: Formulation<f64>, I: Integrator<f64>>(
     model: &M,
     mark: &Mark<M>,
-    (method, integrator, projected): (F, I, bool),
+    (method, integrator): (F, I),
+    (projected, by_joints): (bool, bool),
 ) {
     let mut simulation = Simulation::new(model, method, integrator);
     if projected {
@@ -111,12 +151,19 @@ fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
     }
     let started = Instant::now();
     let mut error = f64::NAN;
-    let outcome = simulation.run(0.0..=mark.duration, every(mark.duration), |sample| {
+    let observe = |sample: &Sample<'_, f64, M>| {
         error = (sample.point(mark.body, mark.point) - mark.place).norm();
         ControlFlow::Continue(())
-    });
+    };
+    let outcome = if by_joints {
+        let simulation = simulation.joint_coordinates();
+        simulation.run(0.0..=mark.duration, every(mark.duration), observe)
+    } else {
+        simulation.run(0.0..=mark.duration, every(mark.duration), observe)
+    };
     let took = started.elapsed();
-    let what = format!("{method:?}, {integrator:?}, projected: {projected}");
+    let what =
+        format!("{method:?}, {integrator:?}, projected: {projected}, by joints: {by_joints}");
     match outcome {
         Ok(report) => {
             let is_right = error <= RIGHT;
@@ -150,16 +197,16 @@ fn run<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
     assert!(took < PATIENCE, "{what} took {took:?}");
 }
 
-fn sweep<M: Mechanism, F: Formulation<f64>>(model: &M, mark: &Mark<M>, method: F) {
-    for projected in [false, true] {
+fn sweep<M: JointCoordinates, F: Formulation<f64>>(model: &M, mark: &Mark<M>, method: F) {
+    for how in [(false, false), (true, false), (false, true), (true, true)] {
         for exponent in 5..=11 {
             let relative = 10.0_f64.powi(-exponent);
             let absolute = 1e-2 * relative;
             let integrator = DormandPrince::new(Tolerance { relative, absolute }).budget(BUDGET);
-            run(model, mark, (method, integrator, projected));
+            run(model, mark, (method, integrator), how);
         }
         for step in [1e-2, 1e-3, 1e-4] {
-            run(model, mark, (method, Rk4::every(step), projected));
+            run(model, mark, (method, Rk4::every(step)), how);
         }
     }
 }
@@ -171,6 +218,14 @@ macro_rules! sweeps {
             $(#[test]
             fn $name() {
                 sweep(&FourBar::default(), &four_bar(), $method);
+            })*
+        }
+
+        mod a_rhombus {
+            use super::*;
+            $(#[test]
+            fn $name() {
+                sweep(&Rhombus::default(), &rhombus(), $method);
             })*
         }
 
@@ -200,12 +255,14 @@ fn extreme(tolerance: f64, relative: f64) {
     run(
         &FourBar::default(),
         &four_bar(),
-        (method, integrator, false),
+        (method, integrator),
+        (false, false),
     );
     run(
         &EqualLinks::default(),
         &equal_links(),
-        (method, integrator, false),
+        (method, integrator),
+        (false, false),
     );
 }
 
@@ -225,4 +282,29 @@ fn an_extreme_penalty_factor_is_doubted_at_a_tight_tolerance() {
 #[test]
 fn an_extreme_penalty_factor_is_doubted_at_tight_tolerances() {
     extreme(1e-11, 1e-11);
+}
+
+/// Methods of higher order take longer steps.
+#[test]
+fn long_steps_by_joints_are_looked_into() {
+    let (model, mark) = (Rhombus::default(), rhombus());
+    for how in [(false, true), (true, true)] {
+        for exponent in 4..=11 {
+            let relative = 10.0_f64.powi(-exponent);
+            let absolute = 1e-2 * relative;
+            let tolerance = Tolerance { relative, absolute };
+            let higher = DormandPrince853::new(tolerance).budget(BUDGET);
+            run(&model, &mark, (StandardLagrange, higher), how);
+            let implicit = RadauIIA::new(tolerance).budget(BUDGET);
+            run(&model, &mark, (StandardLagrange, implicit), how);
+            let adams = Adams::new(tolerance).budget(BUDGET);
+            run(&model, &mark, (StandardLagrange, adams), how);
+            let bdf = Bdf::new(tolerance).budget(BUDGET);
+            run(&model, &mark, (StandardLagrange, bdf), how);
+        }
+        for step in [0.2, 0.1, 0.05] {
+            run(&model, &mark, (StandardLagrange, Rk4::every(step)), how);
+            run(&model, &mark, (Penalty::default(), Rk4::every(step)), how);
+        }
+    }
 }

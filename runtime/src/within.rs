@@ -1,0 +1,125 @@
+//! What a long step may pass over: singular configurations between its ends.
+
+use crate::error::Fault;
+use crate::integrate::Course;
+use crate::mechanism::Mechanism;
+use crate::moving::Moving;
+use crate::scalar::Real;
+use crate::watch::{Nearness, Watch};
+
+/// The shortest part of a step that is looked into, as a power of one half.
+const FINEST: usize = 8;
+
+/// Looks into the last step of a course, before its end is corrected or shown to the watch: as far as pivots at the ends of its parts do not tell that the mechanism kept away from where one
+/// vanishes. The bodies stood near by a moment ago.
+///
+/// By joints a step may be a fifth of a turn.
+pub(crate) fn look_within<S, M, D, C>(
+    watch: &mut Watch<S, M>,
+    moving: &mut D,
+    course: &mut C,
+    near: &M::State<S>,
+) where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+    C: Course<S, D::State>,
+{
+    let (start, end) = (watch.time(), course.time());
+    if !watch.may_have_passed(end - start) {
+        return;
+    }
+    let last = moving.bodies(course.state(), near);
+    let rate = watch.faster(&last);
+    let first = watch.last_nearness();
+    let last = nearness(watch, moving, end, &last);
+    if !watch.may_pass(rate * (end - start), [first, last]) {
+        return;
+    }
+    let seen = moving.seen();
+    let mut step = Within {
+        watch,
+        moving,
+        course,
+        near,
+        start,
+        rate,
+    };
+    step.between((start, first), (end, last), FINEST);
+    moving.recall(seen);
+}
+
+fn nearness<S, M, D>(
+    watch: &mut Watch<S, M>,
+    moving: &D,
+    time: S,
+    bodies: &M::State<S>,
+) -> Nearness<S>
+where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+{
+    let dynamics = moving.dynamics();
+    let pivot = dynamics.pivot_within(time, bodies);
+    watch.nearness(dynamics.constants(), (time, bodies), pivot)
+}
+
+/// A step that is looked into.
+struct Within<'w, S: Real, M: Mechanism, D, C> {
+    watch: &'w mut Watch<S, M>,
+    moving: &'w mut D,
+    course: &'w mut C,
+    near: &'w M::State<S>,
+    start: S,
+    /// The largest rate of motion (rad/s) at its ends.
+    rate: S,
+}
+
+impl<S, M, D, C> Within<'_, S, M, D, C>
+where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+    C: Course<S, D::State>,
+{
+    fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
+        let state = self.course.at(self.moving, time)?;
+        Ok(self.moving.bodies(&state, self.near))
+    }
+
+    /// How near the mechanism was at a time; `None` where there is no telling.
+    #[inline(never)]
+    fn nearness(&mut self, time: S) -> Option<Nearness<S>> {
+        match self.bodies(time) {
+            Ok(state) => Some(nearness(self.watch, self.moving, time, &state)),
+            Err(Fault::Singular { .. }) => Some(Nearness::singular()),
+            Err(_) => None,
+        }
+    }
+
+    // States stay out of the frames of the recursion.
+    #[inline(never)]
+    fn look(&mut self, time: S, nearness: Nearness<S>) {
+        if let Ok(state) = self.bodies(time) {
+            let motion = self.rate * (time - self.start);
+            self.watch.look((time, &state), nearness, motion);
+        }
+    }
+
+    /// Looks at what lies between two times, in order.
+    fn between(&mut self, from: (S, Nearness<S>), to: (S, Nearness<S>), finest: usize) {
+        let motion = self.rate * (to.0 - from.0);
+        if finest == 0 || !self.watch.may_pass(motion, [from.1, to.1]) {
+            return;
+        }
+        let time = S::constant(0.5) * (from.0 + to.0);
+        let Some(nearness) = self.nearness(time) else {
+            return;
+        };
+        let middle = (time, nearness);
+        self.between(from, middle, finest - 1);
+        self.look(time, nearness);
+        self.between(middle, to, finest - 1);
+    }
+}
