@@ -1,6 +1,6 @@
 //! Steps that the digits of a number type, or a limit of the user's, keep from becoming small enough.
 
-use holonom::joints::Revolute;
+use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
 
 /// A rod on a hinge, a kilometre from the origin.
@@ -66,4 +66,33 @@ fn a_least_step_is_said_to_be_one() {
         ),
         "{error}"
     );
+}
+
+/// A bead that flies away from the wire that holds it.
+#[derive(Mechanism)]
+struct Bead {
+    #[body(mass = 1.0, position = [0.0, size, 0.0], velocity = [0.4 * size, 0.9 * size, 0.3 * size])]
+    bead: Particle,
+    #[joint(between = [ground, bead], head = [0.0, 0.0, 0.0], tail = [0.0, size, 0.0])]
+    wire: Distance,
+    #[param]
+    size: f64,
+}
+
+/// The equation of a distance is one of square metres: of a small mechanism it is a small number, and no round-off.
+#[test]
+fn velocities_of_small_mechanisms_are_corrected() {
+    for exponent in 0..=10 {
+        let size = 10.0_f64.powi(-exponent);
+        let bead = Bead::new(size).expect("acceptable");
+        let mut state = bead.described_state::<f32>().expect("acceptable");
+        bead.assemble(0.0, &mut state).expect("it converges");
+        let [along, away, across] = *state.velocities();
+        println!("{size:e} m: {along:e} {away:e} {across:e} m/s");
+        assert!(f64::from(away).abs() < 1e-3 * size, "{size}");
+        assert!(
+            (f64::from(along) - 0.4 * size).abs() < 1e-3 * size,
+            "{size}"
+        );
+    }
 }

@@ -1,5 +1,9 @@
 //! What the rows of `Phi` and `Phi'` are measured by, so that metres, square metres and radians mean the same.
 
+mod sizes;
+
+pub(crate) use sizes::Sizes;
+
 use crate::array::{Array, StateParts};
 use crate::extent::{centre, extent, norm};
 use crate::mechanism::Mechanism;
@@ -36,27 +40,6 @@ impl<S: Scalar, M: Mechanism> Clone for Rows<S, M> {
 
 impl<S: Scalar, M: Mechanism> Copy for Rows<S, M> {}
 
-/// What a violation is compared with, row by row.
-pub(crate) struct Sizes<S: Scalar, M: Mechanism> {
-    /// The size of the row's own joint: a length, or one radian.
-    natural: M::Multipliers<S>,
-    /// What the terms of the row resolve: `EPSILON` times the sum of their sizes.
-    resolution: M::Multipliers<S>,
-    /// What that is compared with: where it is no small part, nothing is resolved.
-    whole: M::Multipliers<S>,
-    /// What counts as zero in any row: of velocities, those whose squares have lost digits to the end of the range of numbers. A mechanism that a law
-    /// brings to rest gets there.
-    vanishing: S,
-}
-
-impl<S: Scalar, M: Mechanism> Clone for Sizes<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Sizes<S, M> {}
-
 /// The sizes of one row.
 #[derive(Clone, Copy)]
 struct Size<S> {
@@ -84,14 +67,8 @@ impl<S: Real> Speeds<S> {
 /// operations that round by half an `EPSILON`.
 const REACHED: f64 = 4.0;
 
-/// Up to which multiple it counts as brought to: where the round-off of a solution comes on top, which a further iteration need not lessen.
-const RESOLVED: f64 = 32.0;
-
 /// A movement of less than this part of the shortest length, or of so many radians, changes sizes and compliances by about as much: no more than it matters to either.
 const LITTLE: f64 = 1e-4;
-
-/// Of what is resolved to less than two digits nothing can be said.
-const COARSEST: f64 = 1e-2;
 
 impl<S: Real, M: Mechanism> Rows<S, M> {
     /// The rows at a time and configuration.
@@ -247,9 +224,18 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             }
         });
         Sizes {
-            vanishing: S::smallest().sqrt().quotient(S::EPSILON),
+            vanishing: self.rates(S::smallest().sqrt().quotient(S::EPSILON)),
             ..sizes
         }
+    }
+
+    /// What a speed (m/s) of a body, or as many rad/s, makes of each row.
+    fn rates(&self, speed: S) -> M::Multipliers<S> {
+        let mut rates = self.translation;
+        let rows = rates.as_mut_slice().iter_mut();
+        rows.zip(self.rotation.as_slice())
+            .for_each(|(rate, &rotation)| *rate = speed * rate.max(rotation));
+        rates
     }
 
     fn sizes(&self, mut size: impl FnMut(Row<S>) -> Size<S>) -> Sizes<S, M> {
@@ -257,7 +243,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
             natural: M::Multipliers::<S>::zeros(),
             resolution: M::Multipliers::<S>::zeros(),
             whole: M::Multipliers::<S>::zeros(),
-            vanishing: S::zero(),
+            vanishing: M::Multipliers::<S>::zeros(),
         };
         let rows = sizes.natural.as_mut_slice().iter_mut();
         let rows = rows.zip(sizes.resolution.as_mut_slice());
@@ -459,78 +445,6 @@ struct Row<S> {
     distance: S,
     counted: S,
     drift: S,
-}
-
-impl<S: Real, M: Mechanism> Sizes<S, M> {
-    /// The Euclidean norm of all violations, in sizes of their rows: what the terms of a row do not resolve at a tolerance adds
-    /// to its size.
-    pub(crate) fn measure(&self, violation: &M::Multipliers<S>, tolerance: S) -> S {
-        let relative = self.relative(violation, tolerance);
-        relative
-            .fold(S::zero(), |sum, relative| relative.fused(relative, sum))
-            .sqrt()
-    }
-
-    /// The row of the largest violation, and this in sizes of the row. NaN if a violation is NaN.
-    pub(crate) fn worst(&self, violation: &M::Multipliers<S>, tolerance: S) -> (usize, S) {
-        let mut worst = (0, S::zero());
-        for (row, relative) in self.relative(violation, tolerance).enumerate() {
-            if relative.to_f64().is_nan() {
-                return (row, relative);
-            }
-            if relative > worst.1 {
-                worst = (row, relative);
-            }
-        }
-        worst
-    }
-
-    fn relative<'a>(
-        &'a self,
-        violation: &'a M::Multipliers<S>,
-        tolerance: S,
-    ) -> impl Iterator<Item = S> + 'a {
-        self.rows(violation)
-            .map(move |(violation, natural, resolution, _)| {
-                let size = natural + resolution.quotient(tolerance);
-                if violation == S::zero() {
-                    violation
-                } else {
-                    violation.quotient(size)
-                }
-            })
-    }
-
-    /// Whether no row is violated by more than its terms resolve, so that no iteration can help.
-    pub(crate) fn reached(&self, violation: &M::Multipliers<S>) -> bool {
-        self.rows(violation).all(|(violation, _, resolution, _)| {
-            violation <= (S::constant(REACHED) * resolution).max(self.vanishing)
-        })
-    }
-
-    /// Whether every row is violated by no more than a part of its size, or than what its terms resolve.
-    pub(crate) fn within(&self, violation: &M::Multipliers<S>, part: S) -> bool {
-        self.rows(violation)
-            .all(|(violation, natural, resolution, whole)| {
-                let resolved = S::constant(RESOLVED) * resolution;
-                let resolved = resolved.min(S::constant(COARSEST) * whole);
-                violation <= (part * natural).max(resolved).max(self.vanishing)
-            })
-    }
-
-    /// Absolute violation, size, resolution and the whole of every row.
-    fn rows<'a>(
-        &'a self,
-        violation: &'a M::Multipliers<S>,
-    ) -> impl Iterator<Item = (S, S, S, S)> + 'a {
-        let violation = violation.as_slice().iter();
-        let rows = violation.zip(self.natural.as_slice());
-        let rows = rows.zip(self.resolution.as_slice());
-        rows.zip(self.whole.as_slice())
-            .map(|(((violation, natural), resolution), whole)| {
-                (violation.abs(), *natural, *resolution, *whole)
-            })
-    }
 }
 
 /// Gives the three rows of a vector equation the largest of their values.
