@@ -67,6 +67,10 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
     fn silent_phase(&self) -> f64 {
         self.scheme.silent_phase()
     }
+
+    fn velocity_lead(&self) -> f64 {
+        self.scheme.velocity_lead()
+    }
 }
 
 /// The times of a fixed step.

@@ -237,6 +237,11 @@ pub trait Integrator<S: Real>: Copy + Debug {
         0.0
     }
 
+    /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that takes these by velocities at the end of a step; zero for others.
+    fn velocity_lead(&self) -> f64 {
+        0.0
+    }
+
     /// The error to be allowed in a step, for a method that controls it.
     fn tolerance(&self) -> Option<Tolerance<S>> {
         None
@@ -311,6 +316,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
 
     /// See [`Integrator::silent_phase`].
     fn silent_phase(&self) -> f64 {
+        0.0
+    }
+
+    /// See [`Integrator::velocity_lead`].
+    fn velocity_lead(&self) -> f64 {
         0.0
     }
 

@@ -47,6 +47,11 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
         1.0
     }
 
+    /// Coordinates go by velocities of the ends of steps, which are those of their middles half a step on.
+    fn velocity_lead(&self) -> f64 {
+        0.5
+    }
+
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
         dense::cubic(&stride, theta)
     }

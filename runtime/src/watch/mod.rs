@@ -66,9 +66,15 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     turning_error_of_short_steps: S,
     /// What a phase is off by for the third power of a step (rad), of a method that keeps the energy.
     silent_phase: S,
+    /// By what part of a step velocities are ahead of coordinates.
+    velocity_lead: S,
+    /// The longest step (s).
+    longest: S,
     /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of what was turned (rad), and of what the rate changed by.
     rate: S,
     fastest: S,
+    /// The least rate.
+    slowest: S,
     cubes: [S; 2],
     /// What the digits of the positions resolve at the start (m).
     resolution: S,
@@ -245,8 +251,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             turning_error: S::one(),
             turning_error_of_short_steps: S::zero(),
             silent_phase: S::zero(),
+            velocity_lead: S::zero(),
+            longest: S::zero(),
             rate: S::zero(),
             fastest: S::zero(),
+            slowest: S::constant(f64::INFINITY),
             cubes: [S::zero(); 2],
             resolution: resolution::<S, M>(state),
             excused: Excused {
@@ -268,6 +277,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.turning_error = S::constant(integrator.turning_error());
         self.turning_error_of_short_steps = S::constant(integrator.turning_error_of_short_steps());
         self.silent_phase = S::constant(integrator.silent_phase());
+        self.velocity_lead = S::constant(integrator.velocity_lead());
         self
     }
 
@@ -355,6 +365,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
         self.rate = rate;
         self.fastest = self.fastest.max(rate);
+        self.slowest = self.slowest.min(rate);
+        self.longest = self.longest.max(time - self.time);
         self.time = time;
     }
 

@@ -204,17 +204,32 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// Of a method whose energy tells nothing. A rate that changes by a part `x` of the largest in a step is that of an oscillation of `x` radians a step.
+    /// Of methods whose energy tells nothing.
     fn long_steps(&self) -> Option<Doubt> {
-        let [turned, changed] = self.cubes;
-        let fastest = self.fastest * self.fastest * self.fastest;
-        if !(self.silent_phase > S::zero() && fastest > S::zero()) {
-            return None;
-        }
-        let shift = self.silent_phase * turned.max(changed.quotient(fastest));
+        let shift = self.silent_shift().max(self.led_shift());
         above(shift, limits::PHASE).then(|| Doubt::LongSteps {
             shift: shift.to_f64(),
         })
+    }
+
+    /// A rate that changes by a part `x` of the largest in a step is that of an oscillation of `x` radians a step.
+    fn silent_shift(&self) -> S {
+        let [turned, changed] = self.cubes;
+        let fastest = self.fastest * self.fastest * self.fastest;
+        if self.silent_phase > S::zero() && fastest > S::zero() {
+            self.silent_phase * turned.max(changed.quotient(fastest))
+        } else {
+            S::zero()
+        }
+    }
+
+    /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what the rate changes by over so much time.
+    fn led_shift(&self) -> S {
+        if self.velocity_lead > S::zero() && self.steps > 0 {
+            self.velocity_lead * self.longest * (self.fastest - self.slowest)
+        } else {
+            S::zero()
+        }
     }
 
     fn coarse(&self) -> Option<Doubt> {

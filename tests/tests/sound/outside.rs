@@ -1,9 +1,11 @@
 //! What somebody found who had the documents alone.
 
-use holonom::forces::Actuator;
+use std::f64::consts::TAU;
+
+use holonom::forces::{Actuator, ConstantMoment};
 use holonom::joints::{AngleDriver, PointOnLine, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, ImplicitMidpoint, Integrator, Real};
+use holonom::{Doubt, ImplicitMidpoint, Integrator, Real, SemiImplicitEuler};
 use holonom_models::RodPendulum;
 
 holonom::force! {
@@ -192,4 +194,44 @@ fn a_mechanism_below_the_digits_of_its_place_is_doubted() {
             .iter()
             .any(|doubt| matches!(doubt, Doubt::CoarseNumbers { .. }))
     );
+}
+
+/// A wheel that a moment of 0.3 N m brings up to speed.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Driven {
+    #[body(mass = 1.0, inertia = [0.2, 0.2, 0.3])]
+    wheel: Body,
+    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+    #[force(between = [ground, wheel], moment = [0.0, 0.0, 0.3])]
+    drive: ConstantMoment,
+}
+
+/// Coordinates go by velocities of the ends of steps: the balance of energy is right to round-off.
+#[test]
+fn velocities_that_are_ahead_of_coordinates_are_doubted() {
+    let driven = Driven::default();
+    for step in [0.1, 0.03, 0.01, 0.003, 0.001] {
+        let mut angle = f64::NAN;
+        let report = Simulation::new(&driven, StandardLagrange, SemiImplicitEuler::every(step))
+            .joint_coordinates()
+            .run(0.0..=6.0, every_step(), |sample| {
+                angle = sample.angle(Driven::HANDLES.shaft);
+                ControlFlow::Continue(())
+            })
+            .expect("nothing stops it");
+        let off: f64 = (angle - 18.0) / TAU;
+        let error = TAU * (off - off.round()).abs();
+        let shift = report.doubts().into_iter().find_map(|doubt| match doubt {
+            Doubt::LongSteps { shift } => Some(shift),
+            _ => None,
+        });
+        println!("{step}: {error:e}, {shift:?}");
+        assert!(shift.is_some() || error < 1e-2, "{step}: {error:e}");
+        assert!(
+            shift.is_none_or(|shift| (shift / error - 1.0).abs() < 0.1),
+            "{step}: {error:e}, {shift:?}"
+        );
+    }
 }

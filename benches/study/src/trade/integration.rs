@@ -296,6 +296,10 @@ impl<S: Real> Integrator<S> for Integration {
         with_own_type!(*self, integrator => Integrator::<S>::silent_phase(&integrator))
     }
 
+    fn velocity_lead(&self) -> f64 {
+        with_own_type!(*self, integrator => Integrator::<S>::velocity_lead(&integrator))
+    }
+
     fn turning_error(&self) -> f64 {
         with_own_type!(*self, integrator => Integrator::<S>::turning_error(&integrator))
     }
