@@ -128,6 +128,8 @@ pub enum Fault {
     Budget {
         /// How many it has taken.
         evaluations: usize,
+        /// The joint whose pivot has nearly vanished, where the configuration is the cause, see [`crate::Pivot`].
+        joint: Option<&'static str>,
     },
     /// A run was to begin where a joint is open, or where its bodies move against it.
     InconsistentStart {

@@ -179,7 +179,18 @@ impl fmt::Display for Fault {
                 Given(alpha),
                 Measured(largest)
             ),
-            Self::Budget { evaluations } => write!(
+            Self::Budget {
+                evaluations,
+                joint: Some(joint),
+            } => write!(
+                f,
+                "{evaluations} evaluations are used up where the constraints all but depend on each other at joint `{joint}`: a singular configuration, \
+                 or constraints that cannot be met beyond it"
+            ),
+            Self::Budget {
+                evaluations,
+                joint: None,
+            } => write!(
                 f,
                 "{evaluations} evaluations are used up: a singular configuration or a stiff formulation are the usual causes; \
                  `DormandPrince::budget` allows more"

@@ -143,7 +143,10 @@ where
             let evaluations = course.counts().evaluations;
             if evaluations >= budget && time < span.end {
                 let evaluations = self.counts.evaluations.saturating_add(evaluations);
-                return Err(Fault::Budget { evaluations });
+                return Err(Fault::Budget {
+                    evaluations,
+                    joint: None,
+                });
             }
         }
         self.counts = self.counts.plus(course.counts());

@@ -8,7 +8,6 @@ use crate::load::AppliedForces;
 use crate::mechanism::{Evaluation, Mechanism, Orientation, Pivot, Terms};
 use crate::origin::origin;
 use crate::rotation::check_state;
-use crate::sample::Evaluate;
 use crate::scalar::Real;
 use crate::start::farthest;
 
@@ -29,25 +28,36 @@ where
         absolute: Option<S>,
         (time, state): (S, M::State<S>),
     ) -> Fault {
+        match fault {
+            Fault::StepSizeUnderflow { step, is_least, .. } => {
+                let resolution = farthest(M::REPORT.bodies, state.coordinates().as_slice()).ulp();
+                Fault::StepSizeUnderflow {
+                    step,
+                    is_least,
+                    joint: self.nearly_singular(time, &state),
+                    resolution: absolute
+                        .is_some_and(|absolute| resolution > absolute)
+                        .then(|| resolution.to_f64()),
+                }
+            }
+            Fault::Budget { evaluations, .. } => Fault::Budget {
+                evaluations,
+                joint: self.nearly_singular(time, &state),
+            },
+            _ => fault,
+        }
+    }
+
+    /// The joint whose pivot has nearly vanished at a state.
+    #[cold]
+    fn nearly_singular(&self, time: S, state: &M::State<S>) -> Option<&'static str> {
         /// A pivot that has lost this part of its size.
         const NEARLY_VANISHED: f64 = 1e-4;
-        let Fault::StepSizeUnderflow { step, is_least, .. } = fault else {
-            return fault;
-        };
-        let joint = self.evaluation(time, &state).ok().and_then(|evaluation| {
-            let Pivot { relative, joint } = evaluation.pivot;
-            let near = !F::Terms::COMPLIANT && relative < S::constant(NEARLY_VANISHED);
-            near.then(|| field::<M>(joint.to_f64() as usize))
-        });
-        let resolution = farthest(M::REPORT.bodies, state.coordinates().as_slice()).ulp();
-        Fault::StepSizeUnderflow {
-            step,
-            is_least,
-            joint,
-            resolution: absolute
-                .is_some_and(|absolute| resolution > absolute)
-                .then(|| resolution.to_f64()),
+        if F::Terms::COMPLIANT || M::REPORT.keeps_redundant() {
+            return None;
         }
+        let (Pivot { relative, joint }, _) = self.solved_again(time, state);
+        (relative < S::constant(NEARLY_VANISHED)).then(|| field::<M>(joint.to_f64() as usize))
     }
 
     /// Why an evaluation is not sound: solved again, so that the rates of one that is sound need not be kept.

@@ -1,7 +1,7 @@
 //! What steps are held to: budgets, largest steps, breaks; and an observer's word between reports.
 
 use holonom::forces::Actuator;
-use holonom::joints::{PointOnLine, Revolute};
+use holonom::joints::{Distance, PointOnLine, Revolute};
 use holonom::prelude::*;
 
 /// A particle on a line, pushed by 100 N for 20 ms after five seconds: 2 m/s less the ramps.
@@ -120,7 +120,8 @@ fn a_stiff_stabilisation_ends_with_the_budget() {
         matches!(
             error.fault,
             Fault::Budget {
-                evaluations: 100..=120
+                evaluations: 100..=120,
+                joint: None,
             }
         ),
         "{error}"
@@ -202,4 +203,37 @@ fn a_step_beyond_the_limit_of_stability_is_named() {
         .expect_err("it explodes");
     println!("{error}");
     assert!(matches!(error.fault, Fault::StepTooLong { .. }), "{error}");
+}
+
+/// Four links of 1 m, the ground among them, all but in a line.
+#[derive(Mechanism)]
+struct Flat {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.5 * cos(0.004), 0.5 * sin(0.004), 0.0])]
+    crank: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.5 + cos(0.004), sin(0.004), 0.0])]
+    coupler: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    bearing: Revolute,
+    #[joint(between = [crank, coupler], point = [cos(0.004), sin(0.004), 0.0], axis = [0.0, 0.0, 1.0])]
+    pin: Revolute,
+    #[joint(between = [ground, coupler], head = [1.0, 0.0, 0.0], tail = [1.0 + cos(0.004), sin(0.004), 0.0])]
+    rod: Distance,
+}
+
+#[test]
+fn a_budget_that_ends_in_a_singular_configuration_names_the_joint() {
+    let flat = Flat::default();
+    let ode45 = DormandPrince::default().budget(10);
+    let simulation = Simulation::new(&flat, StandardLagrange, ode45);
+    let run = simulation.run(0.0..=1e3, every(0.1), |_| ControlFlow::Continue(()));
+    let error = run.expect_err("ten are not enough");
+    println!("{error}");
+    let is_named = matches!(
+        error.fault,
+        Fault::Budget {
+            joint: Some("rod"),
+            ..
+        }
+    );
+    assert!(is_named, "{error}");
 }
