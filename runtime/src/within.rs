@@ -4,6 +4,7 @@ use crate::error::Fault;
 use crate::integrate::Course;
 use crate::mechanism::Mechanism;
 use crate::moving::Moving;
+use crate::rotation::with_unit_orientations;
 use crate::scalar::Real;
 use crate::watch::{Nearness, Watch};
 
@@ -85,7 +86,9 @@ where
 {
     fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
         let state = self.course.at(self.moving, time)?;
-        Ok(self.moving.bodies(&state, self.near))
+        // An interpolant between two orientations passes within the sphere of Euler parameters.
+        let bodies = self.moving.bodies(&state, self.near);
+        Ok(with_unit_orientations::<S, M>(&bodies))
     }
 
     /// How near the mechanism was at a time; `None` where there is no telling.

@@ -183,6 +183,11 @@ impl fmt::Display for Doubt {
                 Measured(time),
                 Measured(length)
             ),
+            Self::Energy { change, time } if !change.is_finite() => write!(
+                f,
+                "the energy is beyond all numbers at {} s",
+                Measured(time)
+            ),
             Self::Energy { change, time } => write!(
                 f,
                 "the energy changed by {} of what the mechanism exchanges, without a force, at {} s: use a smaller tolerance or step, or a \

@@ -269,6 +269,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     fn compliance(&self) -> Option<Doubt> {
         let bias = self.bias();
+        if bias == S::zero() {
+            return None;
+        }
         above(bias * self.travel, limits::BIAS).then(|| Doubt::Compliance {
             bias: bias.to_f64(),
             travel: self.travel.to_f64(),

@@ -1,6 +1,6 @@
 //! Motions through configurations in which an equation vanishes with its gradient: no equation depends on another there, and still more than one way leads on.
 
-use holonom::joints::ConstantVelocity;
+use holonom::joints::{ConstantVelocity, Revolute};
 use holonom::prelude::*;
 use holonom::{Doubt, Heun, Integrator, JointCoordinates, Rk4, Sample};
 
@@ -154,5 +154,41 @@ fn a_start_near_the_crossing_is_told() {
         let doubts = report.expect("nothing stops it").doubts();
         let is_told = |doubt| matches!(doubt, Doubt::Vanishing { joint: "wires", .. });
         assert!(doubts.into_iter().any(is_told), "{place}: {doubts}");
+    }
+}
+
+/// A wheel that turns evenly: nothing is singular, however far a step turns it and whatever it makes of Euler parameters.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both", gravity = [0.0, 0.0, 0.0])]
+struct Wheel {
+    #[body(mass = 1.0, inertia = [0.2, 0.2, 0.3], angular_velocity = [0.0, 0.0, 10.0])]
+    wheel: Body,
+    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+}
+
+#[test]
+fn steps_of_some_radians_pass_nothing_singular() {
+    let wheel = Wheel::default();
+    for by_joints in [false, true] {
+        for step in [0.1, 0.3, 1.0, 10.0] {
+            let simulation = Simulation::new(&wheel, StandardLagrange, Rk4::every(step));
+            let seen = |_: &Sample<'_, f64, Wheel>| ControlFlow::Continue(());
+            let outcome = if by_joints {
+                let simulation = simulation.joint_coordinates();
+                simulation.run(0.0..=100.0, every(100.0), seen)
+            } else {
+                simulation.run(0.0..=100.0, every(100.0), seen)
+            };
+            let Ok(report) = outcome else { continue };
+            println!("{step}: {}", report.doubts());
+            let is_false = |doubt| {
+                matches!(
+                    doubt,
+                    Doubt::Vanishing { .. } | Doubt::NearlySingular { .. }
+                )
+            };
+            assert!(!report.doubts().into_iter().any(is_false), "{step}");
+        }
     }
 }

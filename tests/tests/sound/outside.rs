@@ -204,14 +204,16 @@ struct Driven {
     wheel: Body,
     #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
     shaft: Revolute,
-    #[force(between = [ground, wheel], moment = [0.0, 0.0, 0.3])]
+    #[force(between = [ground, wheel], moment = [0.0, 0.0, moment])]
     drive: ConstantMoment,
+    #[param]
+    moment: f64,
 }
 
 /// Coordinates go by velocities of the ends of steps: the balance of energy is right to round-off.
 #[test]
 fn velocities_that_are_ahead_of_coordinates_are_doubted() {
-    let driven = Driven::default();
+    let driven = Driven::new(0.3).expect("acceptable");
     for step in [0.1, 0.03, 0.01, 0.003, 0.001] {
         let mut angle = f64::NAN;
         let report = Simulation::new(&driven, StandardLagrange, SemiImplicitEuler::every(step))
@@ -234,4 +236,16 @@ fn velocities_that_are_ahead_of_coordinates_are_doubted() {
             "{step}: {error:e}, {shift:?}"
         );
     }
+}
+
+/// Nothing is said of a penalty where there is none, nor of a number that is none.
+#[test]
+fn energies_beyond_all_numbers_are_named() {
+    let driven = Driven::new(1e200).expect("acceptable");
+    let report = Simulation::new(&driven, StandardLagrange, Rk4::every(1e-3))
+        .joint_coordinates()
+        .run(0.0..=0.01, every(0.01), |_| ControlFlow::Continue(()))
+        .expect("velocities are numbers");
+    let said = report.doubts().to_string();
+    assert_eq!(said, "the energy is beyond all numbers at 0 s");
 }
