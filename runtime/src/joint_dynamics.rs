@@ -11,7 +11,7 @@ use crate::formulation::{Formulation, JointSaddle, JointSolution};
 use crate::integrate::{System, by_differences};
 use crate::joint_coordinates::{Freedom, JointCoordinates, JointEvaluation, JointParts};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
-use crate::mechanism::{Normalised, Pivot, Stabilisation};
+use crate::mechanism::{Normalised, Pivot, Stabilisation, Terms};
 use crate::origin::before_accelerations;
 use crate::report::BodyKind;
 use crate::rotation::{check_state, from_matrix, read, scale, to_unit_length, write};
@@ -55,8 +55,6 @@ pub struct JointDynamics<S: Real, M: JointCoordinates, F: Formulation<S>, A = No
     stabilisation: Stabilisation<S>,
     compliances: M::ClosingMultipliers<S>,
     iterations: Iterations,
-    /// The smallest relative pivot of the last evaluation.
-    pub(crate) pivot: S,
 }
 
 impl<S: Real, M: JointCoordinates, F: Formulation<S>, A: Clone> Clone
@@ -70,7 +68,6 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A: Clone> Clone
             stabilisation: self.stabilisation,
             compliances: self.compliances,
             iterations: self.iterations,
-            pivot: self.pivot,
         }
     }
 }
@@ -113,7 +110,6 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
             stabilisation: self.stabilisation,
             compliances: self.compliances,
             iterations: self.iterations,
-            pivot: self.pivot,
         }
     }
 
@@ -169,7 +165,6 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
             stabilisation,
             compliances,
             iterations: Iterations::default(),
-            pivot: S::one(),
         })
     }
 
@@ -300,11 +295,34 @@ where
     }
 
     /// Shows the end of a step to the watch, which wants to know of all joints: pivots and multipliers of one evaluation of the bodies. Where that has none,
-    /// its pivot says why. What the velocities that rows determine lose counts as well.
+    /// its pivot says why. What the velocities that rows determine lose counts as well: there, and not where a method evaluated last.
     pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
         let _ = self.bodies.rates(time, bodies);
-        self.bodies.see_pivot(self.pivot);
+        if let Some(pivot) = self.pivot(time, bodies) {
+            self.bodies.see_pivot(pivot);
+        }
         self.bodies.watch(watch, time, bodies);
+    }
+
+    /// The smallest relative pivot by joints, where bodies stand so; `None` where none is recorded.
+    fn pivot(&self, time: S, bodies: &M::State<S>) -> Option<S> {
+        if M::JOINT_REPORT.rows.is_empty() || F::Terms::COMPLIANT {
+            return None;
+        }
+        let mut rates = M::JointState::<S>::zeros();
+        let mut multipliers = Array::zeros();
+        let joints = self.nearest(bodies);
+        Some(
+            self.slope(time, &joints, &mut rates, &mut multipliers)
+                .relative,
+        )
+    }
+
+    /// The smallest relative pivot between the ends of steps, in both descriptions, as at the ends.
+    pub(crate) fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S> {
+        let of_bodies = self.bodies.pivot_within(time, bodies)?;
+        let of_joints = self.pivot(time, bodies);
+        Some(of_joints.map_or(of_bodies, |pivot| of_bodies.min(pivot)))
     }
 
     /// The slope of a state, and the multipliers of the equations that remain.
@@ -443,7 +461,6 @@ where
             // Why is asked when the step is refused.
             return Err(Fault::StateNotFinite);
         }
-        self.pivot = pivot.relative;
         if Self::IN_PARTS {
             let solved = self.completed(time, state, rates, &mut multipliers)?;
             if F::ITERATED && solved > 1 {

@@ -95,6 +95,9 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// As if that had been the last evaluation.
     fn recall(&mut self, seen: Self::Seen);
 
+    /// The smallest relative pivot between the ends of steps; `None` where there is nothing to look at.
+    fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S>;
+
     /// Shows the end of a step to the watch, of which the last evaluation tells.
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>);
 }
@@ -159,6 +162,10 @@ where
         self.seen = seen;
     }
 
+    fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S> {
+        Dynamics::pivot_within(self, time, bodies)
+    }
+
     #[inline(always)]
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
         Dynamics::watch(self, watch, time, bodies);
@@ -190,7 +197,7 @@ where
     type Formulation = F;
     type Orientation = Normalised;
     type Forces = A;
-    type Seen = S;
+    type Seen = ();
 
     // Turns about an axis are pairs on a circle, which do not tell the two signs apart.
     fn bodies(&self, state: &M::JointState<S>, near: &M::State<S>) -> M::State<S> {
@@ -225,12 +232,13 @@ where
         Self::iterations(self)
     }
 
-    fn seen(&self) -> S {
-        self.pivot
-    }
+    // The watch evaluates the end of a step by itself.
+    fn seen(&self) {}
 
-    fn recall(&mut self, pivot: S) {
-        self.pivot = pivot;
+    fn recall(&mut self, (): ()) {}
+
+    fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S> {
+        Self::pivot_within(self, time, bodies)
     }
 
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {

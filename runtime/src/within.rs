@@ -61,9 +61,8 @@ where
     M: Mechanism,
     D: Moving<S, M>,
 {
-    let dynamics = moving.dynamics();
-    let pivot = dynamics.pivot_within(time, bodies);
-    watch.nearness(dynamics.constants(), (time, bodies), pivot)
+    let pivot = moving.pivot_within(time, bodies);
+    watch.nearness(moving.dynamics().constants(), (time, bodies), pivot)
 }
 
 /// A step that is looked into.

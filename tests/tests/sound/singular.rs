@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
-    Adams, Bdf, BodyHandle, DormandPrince853, Doubt, Integrator, JointCoordinates, RadauIIA, Rk4,
-    Sample,
+    Adams, Bdf, BodyHandle, DormandPrince853, Doubt, Dynamics, Integrator, JointCoordinates,
+    JointDynamics, JointStepper, RadauIIA, Rk4, Sample,
 };
 use holonom_models::FourBar;
 use nalgebra::Vector3;
@@ -307,4 +307,65 @@ fn long_steps_by_joints_are_looked_into() {
             run(&model, &mark, (Penalty::default(), Rk4::every(step)), how);
         }
     }
+}
+
+macro_rules! flat {
+    ($($(#[$attribute:meta])* $name:ident($angle:expr) { $($parameter:tt)* })*) => {$(
+        $(#[$attribute])*
+        #[derive(Mechanism)]
+        #[mechanism(coordinates = "both", gravity = [0.0, -9.81, 0.0])]
+        struct $name {
+            #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.5 * cos($angle), 0.5 * sin($angle), 0.0])]
+            crank: Body,
+            #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.5 + cos($angle), sin($angle), 0.0])]
+            coupler: Body,
+            #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+            bearing: Revolute,
+            #[joint(between = [crank, coupler], point = [cos($angle), sin($angle), 0.0], axis = [0.0, 0.0, 1.0])]
+            pin: Revolute,
+            #[joint(between = [ground, coupler], head = [1.0, 0.0, 0.0], tail = [1.0 + cos($angle), sin($angle), 0.0], length = 1.0)]
+            rod: Distance,
+            $($parameter)*
+        }
+    )*};
+}
+
+flat! {
+    /// A rhombus that is flat but for `1e-9` rad.
+    Flat(1e-9) {}
+    /// The same that is no more than nearly so.
+    NearlyFlat(1e-5) {}
+    /// One of an angle that is known at run time only.
+    AnyRhombus(angle) { #[param] angle: f64, }
+}
+
+/// Where links are in line the only row of the loop acts on no joint coordinate: its pivot is not small beside itself, but beside what it is on free bodies.
+#[test]
+fn links_in_line_are_singular_in_both_descriptions() {
+    fn is_singular<M: JointCoordinates>(model: &M) -> [bool; 3] {
+        let bodies = model.described_state().expect("acceptable");
+        let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange).expect("acceptable");
+        let by_bodies = dynamics.evaluate(0.0, &bodies).map(|_| ());
+        let dynamics = JointDynamics::<f64, _, _>::new(model, StandardLagrange);
+        let dynamics = dynamics.expect("acceptable");
+        let joints = dynamics.initial_state().expect("consistent");
+        let by_joints = dynamics.evaluate(0.0, &joints).map(|_| ());
+        let mut stepper =
+            JointStepper::<f64, _, _, _>::new(model, StandardLagrange, Rk4).expect("acceptable");
+        let mut state = joints;
+        let stepped = stepper.step(&mut state, 1e-3);
+        [by_bodies, by_joints, stepped].map(|outcome| match outcome {
+            Ok(()) => false,
+            Err(Fault::Singular { name, .. }) => {
+                assert_eq!(name, "rod");
+                true
+            }
+            Err(fault) => panic!("{fault}"),
+        })
+    }
+    assert_eq!(is_singular(&Flat::default()), [true; 3]);
+    assert_eq!(is_singular(&NearlyFlat::default()), [false; 3]);
+    let with = |angle| AnyRhombus::new(angle).expect("acceptable");
+    assert_eq!(is_singular(&with(1e-9)), [true; 3]);
+    assert_eq!(is_singular(&with(1e-5)), [false; 3]);
 }

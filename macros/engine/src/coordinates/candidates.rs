@@ -73,7 +73,10 @@ pub fn choose(model: &Model) -> (Strategy, Reduced) {
             best = Some((cost, strategy, reduced));
         }
     }
-    let (_, strategy, reduced) = best.expect("there is a way");
+    let (_, strategy, mut reduced) = best.expect("there is a way");
+    if !reduced.scene.constraints.is_empty() {
+        reduced.find_references(&beginning);
+    }
     (strategy, reduced)
 }
 

@@ -188,7 +188,8 @@ fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {
     }
     outputs.extend(solution.accelerations);
     outputs.extend(solution.multipliers);
-    let (pivots, checks) = relative(&mut reduced.scene, &solution.checks);
+    let checks = reduced.referred(&solution.checks);
+    let (pivots, checks) = relative(&mut reduced.scene, &checks);
     outputs.extend(pivots);
     let mut kernel = Kernel {
         arena: reduced.scene.space.arena,

@@ -14,6 +14,7 @@ pub mod kernels;
 mod kinematics;
 pub mod links;
 mod mass;
+mod reference;
 mod regroup;
 pub mod spanning;
 pub mod system;

@@ -36,6 +36,8 @@ pub struct Reduced {
     counted: Option<(Links, Vec<Handover>)>,
     /// What is eliminated before the rest where rows have no compliance, and the determinants in the reference configuration.
     together: (Vec<Pivot>, Vec<f64>),
+    /// What recorded pivots are compared with, row by row, where it is known.
+    pub(super) references: Vec<Option<f64>>,
 }
 
 /// The solution of the equations of motion.
@@ -163,6 +165,7 @@ impl Reduced {
             strategy,
             counted: None,
             together: (Vec::new(), Vec::new()),
+            references: Vec::new(),
         }
     }
 

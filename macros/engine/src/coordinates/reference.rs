@@ -1,0 +1,93 @@
+//! What the recorded pivots of rows are compared with.
+//!
+//! A pivot is small if it is small beside what its row would be without the others. In joint coordinates that vanishes as well where links are in line: the tree has taken what the row could
+//! act on, and the pivot of the only row of a loop would never be small beside itself. So pivots are compared with what their rows would be on free bodies, as those of the bodies are:
+//! with its greatest value along a tour where numbers tell, which costs nothing.
+
+use super::beginning::Beginning;
+use super::dependent::tour;
+use super::system::Reduced;
+use crate::plan::eliminate::Check;
+use crate::symbolic::arena::{Arena, Expr, Input, Stage};
+use crate::symbolic::evaluate::evaluate;
+use crate::symbolic::vector::{Frame, Triple};
+
+impl Reduced {
+    /// Finds out what the rows are on free bodies, along a tour; `None` of those that no number is known of.
+    pub(super) fn find_references(&mut self, beginning: &Beginning<'_>) {
+        let mut trial = self.clone();
+        let mobilities = trial.mobilities();
+        let arena = &trial.scene.space.arena;
+        let stops = tour(arena, beginning, &trial.links);
+        let mut greatest: Vec<Option<f64>> = vec![None; mobilities.len()];
+        for (time, coordinates) in &stops {
+            let values = evaluate(arena, &mobilities, |input| match input {
+                Input::Coordinate(place) => coordinates.get(place as usize).copied(),
+                Input::Time => Some(*time),
+                _ => None,
+            });
+            for (greatest, value) in greatest.iter_mut().zip(values) {
+                let value = value.filter(|value| value.is_finite() && *value > 0.0);
+                if let Some(value) = value {
+                    *greatest = Some(greatest.map_or(value, |known| known.max(value)));
+                }
+            }
+        }
+        self.references = greatest;
+    }
+
+    /// The same pivots, compared with what their rows are on free bodies; those that do not change with the state never vanish.
+    pub(super) fn referred(&mut self, checks: &[Check]) -> Vec<Check> {
+        let mut mobilities = None;
+        let referred = checks.iter().map(|check| {
+            if self.scene.space.arena.stage(check.before) < Stage::State {
+                return *check;
+            }
+            let known = self.references.get(check.unknown).copied().flatten();
+            let before = match known {
+                Some(greatest) => self.scene.space.arena.constant(greatest),
+                None => mobilities.get_or_insert_with(|| self.mobilities())[check.unknown],
+            };
+            Check { before, ..*check }
+        });
+        referred.collect()
+    }
+
+    /// `d M^-1 d^T` of every row `d` of the Jacobian of the bodies.
+    fn mobilities(&mut self) -> Vec<Expr> {
+        let mut mobilities = Vec::new();
+        for place in 0..self.scene.constraints.len() {
+            for gradient in self.scene.gradients(place, Frame::Global) {
+                let scene = &mut self.scene;
+                let mut sum = Arena::ZERO;
+                for body in 0..scene.mass.len() {
+                    let force = gradient.force(&mut scene.space, body);
+                    if !scene.space.is_zero(force) {
+                        let force = scene.space.components(force, Frame::Global);
+                        let mass = scene.mass[body];
+                        sum = plus_squares(&mut scene.space.arena, sum, force, [mass; 3]);
+                    }
+                    let moment = gradient.moment(&mut scene.space, body);
+                    if !scene.space.is_zero(moment) {
+                        let moment = scene.space.components(moment, Frame::Body(body));
+                        let inertia = scene.inertia[body];
+                        sum = plus_squares(&mut scene.space.arena, sum, moment, inertia);
+                    }
+                }
+                mobilities.push(sum);
+            }
+        }
+        mobilities
+    }
+}
+
+/// `sum + v.v` with the squares over masses.
+fn plus_squares(arena: &mut Arena, sum: Expr, v: Triple, masses: Triple) -> Expr {
+    let mut sum = sum;
+    for (component, mass) in v.into_iter().zip(masses) {
+        let square = arena.square(component);
+        let term = arena.div(square, mass);
+        sum = arena.add(sum, term);
+    }
+    sum
+}
