@@ -1,6 +1,7 @@
 //! A mechanism in joint coordinates as a system of differential equations.
 
 mod jacobian;
+mod watched;
 
 use crate::array::{Array, StateParts, Vector};
 use core::marker::PhantomData;
@@ -11,13 +12,12 @@ use crate::formulation::{Formulation, JointSaddle, JointSolution};
 use crate::integrate::{System, by_differences};
 use crate::joint_coordinates::{Freedom, JointCoordinates, JointEvaluation, JointParts};
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
-use crate::mechanism::{Normalised, Pivot, Stabilisation, Terms};
+use crate::mechanism::{Normalised, Pivot, Stabilisation};
 use crate::origin::before_accelerations;
 use crate::report::BodyKind;
 use crate::rotation::{check_state, from_matrix, read, scale, to_unit_length, write};
 use crate::scalar::{Real, Scalar};
 use crate::start::check_start;
-use crate::watch::Watch;
 
 /// A mechanism in joint coordinates with a formulation, prepared: what an integrator moves.
 ///
@@ -292,37 +292,6 @@ where
         }
         *multipliers = solution.multipliers;
         Ok(solution.iterations)
-    }
-
-    /// Shows the end of a step to the watch, which wants to know of all joints: pivots and multipliers of one evaluation of the bodies. Where that has none,
-    /// its pivot says why. What the velocities that rows determine lose counts as well: there, and not where a method evaluated last.
-    pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
-        let _ = self.bodies.rates(time, bodies);
-        if let Some(pivot) = self.pivot(time, bodies) {
-            self.bodies.see_pivot(pivot);
-        }
-        self.bodies.watch(watch, time, bodies);
-    }
-
-    /// The smallest relative pivot by joints, where bodies stand so; `None` where none is recorded.
-    fn pivot(&self, time: S, bodies: &M::State<S>) -> Option<S> {
-        if M::JOINT_REPORT.rows.is_empty() || F::Terms::COMPLIANT {
-            return None;
-        }
-        let mut rates = M::JointState::<S>::zeros();
-        let mut multipliers = Array::zeros();
-        let joints = self.nearest(bodies);
-        Some(
-            self.slope(time, &joints, &mut rates, &mut multipliers)
-                .relative,
-        )
-    }
-
-    /// The smallest relative pivot between the ends of steps, in both descriptions, as at the ends.
-    pub(crate) fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S> {
-        let of_bodies = self.bodies.pivot_within(time, bodies)?;
-        let of_joints = self.pivot(time, bodies);
-        Some(of_joints.map_or(of_bodies, |pivot| of_bodies.min(pivot)))
     }
 
     /// The slope of a state, and the multipliers of the equations that remain.

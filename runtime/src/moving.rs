@@ -98,6 +98,9 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// The smallest relative pivot between the ends of steps; `None` where there is nothing to look at.
     fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S>;
 
+    /// Finds the joint of the smallest pivot of a run.
+    fn name_smallest_pivot(&self, watch: &mut Watch<S, M>);
+
     /// Shows the end of a step to the watch, of which the last evaluation tells.
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>);
 }
@@ -166,9 +169,13 @@ where
         Dynamics::pivot_within(self, time, bodies)
     }
 
+    fn name_smallest_pivot(&self, watch: &mut Watch<S, M>) {
+        Dynamics::name_smallest_pivot(self, watch);
+    }
+
     #[inline(always)]
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
-        Dynamics::watch(self, watch, time, bodies);
+        Dynamics::watch(self, watch, (time, bodies), None);
     }
 }
 
@@ -239,6 +246,10 @@ where
 
     fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S> {
         Self::pivot_within(self, time, bodies)
+    }
+
+    fn name_smallest_pivot(&self, watch: &mut Watch<S, M>) {
+        Self::name_smallest_pivot(self, watch);
     }
 
     fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {

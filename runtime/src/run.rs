@@ -96,10 +96,15 @@ where
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
+        // What interpolants evaluate for the watch is no part of the run.
+        let mut of_watch = 0_usize;
         while course.time() < span.end {
             course.advance(&mut self.moving)?;
             if let Some(watch) = &mut self.watch {
+                let before = course.counts().evaluations;
                 look_within(watch, &mut self.moving, &mut course, &last_good.1);
+                let looks = course.counts().evaluations.saturating_sub(before);
+                of_watch = of_watch.saturating_add(looks);
             }
             // What output within the step evaluates is not what the watch is shown, which is its end.
             let mut seen = None;
@@ -113,7 +118,7 @@ where
                 *last_good = (time, state);
                 self.show(time, &last_good.1);
                 if self.log.flow.is_break() {
-                    self.counts = self.counts.plus(course.counts());
+                    self.counts = self.counts.plus(course.counts().without(of_watch));
                     return Ok(());
                 }
             }
@@ -140,7 +145,7 @@ where
                     break;
                 }
             }
-            let evaluations = course.counts().evaluations;
+            let evaluations = course.counts().without(of_watch).evaluations;
             if evaluations >= budget && time < span.end {
                 let evaluations = self.counts.evaluations.saturating_add(evaluations);
                 return Err(Fault::Budget {
@@ -149,7 +154,7 @@ where
                 });
             }
         }
-        self.counts = self.counts.plus(course.counts());
+        self.counts = self.counts.plus(course.counts().without(of_watch));
         Ok(())
     }
 
@@ -183,7 +188,7 @@ where
     /// The last state is one that was shown.
     fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
         if let Some(watch) = &mut self.watch {
-            self.moving.dynamics().name_smallest_pivot(watch);
+            self.moving.name_smallest_pivot(watch);
         }
         RunReport {
             evaluations: self.counts.evaluations,

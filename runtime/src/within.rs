@@ -8,8 +8,14 @@ use crate::rotation::with_unit_orientations;
 use crate::scalar::Real;
 use crate::watch::{Nearness, Watch};
 
-/// The shortest part of a step that is looked into, as a power of one half.
+/// How often a step is divided at the most.
 const FINEST: usize = 8;
+
+/// How often before it may be said that it shows no sign of anything.
+const COARSEST: usize = 2;
+
+/// Where: not in halves, which a periodic motion may return to.
+const DIVISION: f64 = 0.44;
 
 /// Looks into the last step of a course, before its end is corrected or shown to the watch: as far as pivots at the ends of its parts do not tell that the mechanism kept away from where one
 /// vanishes. The bodies stood near by a moment ago.
@@ -43,10 +49,12 @@ pub(crate) fn look_within<S, M, D, C>(
         moving,
         course,
         near,
-        start,
         rate,
     };
-    step.between((start, first), (end, last), FINEST);
+    let is_known = step.between((start, first), (end, last), 0);
+    if is_known {
+        watch.is_known_for(rate * (end - start));
+    }
     moving.recall(seen);
 }
 
@@ -71,7 +79,6 @@ struct Within<'w, S: Real, M: Mechanism, D, C> {
     moving: &'w mut D,
     course: &'w mut C,
     near: &'w M::State<S>,
-    start: S,
     /// The largest rate of motion (rad/s) at its ends.
     rate: S,
 }
@@ -104,24 +111,31 @@ where
     #[inline(never)]
     fn look(&mut self, time: S, nearness: Nearness<S>) {
         if let Ok(state) = self.bodies(time) {
-            let motion = self.rate * (time - self.start);
-            self.watch.look((time, &state), nearness, motion);
+            self.watch.look((time, &state), nearness);
         }
     }
 
-    /// Looks at what lies between two times, in order.
-    fn between(&mut self, from: (S, Nearness<S>), to: (S, Nearness<S>), finest: usize) {
+    /// Looks at what lies between two times, in order; whether nothing can have been passed unseen.
+    fn between(&mut self, from: (S, Nearness<S>), to: (S, Nearness<S>), depth: usize) -> bool {
         let motion = self.rate * (to.0 - from.0);
-        if finest == 0 || !self.watch.may_pass(motion, [from.1, to.1]) {
-            return;
+        if !self.watch.may_pass(motion, [from.1, to.1]) {
+            return true;
         }
-        let time = S::constant(0.5) * (from.0 + to.0);
+        if depth == FINEST {
+            return false;
+        }
+        let time = from.0 + S::constant(DIVISION) * (to.0 - from.0);
         let Some(nearness) = self.nearness(time) else {
-            return;
+            return false;
         };
+        if depth >= COARSEST && Nearness::keep_away([from.1, nearness, to.1]) {
+            self.look(time, nearness);
+            return true;
+        }
         let middle = (time, nearness);
-        self.between(from, middle, finest - 1);
+        let before = self.between(from, middle, depth + 1);
         self.look(time, nearness);
-        self.between(middle, to, finest - 1);
+        let after = self.between(middle, to, depth + 1);
+        before && after
     }
 }

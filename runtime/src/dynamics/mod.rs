@@ -10,6 +10,7 @@ mod watched;
 use core::marker::PhantomData;
 
 pub(crate) use faults::singular;
+pub(crate) use watched::lesser;
 
 use crate::array::{Array, StateParts, Vector};
 use crate::compliance::compliances;

@@ -35,13 +35,6 @@ where
         }
     }
 
-    /// Looks at a relative pivot that counts beside that of the last evaluation.
-    pub(crate) fn see_pivot(&mut self, relative: S) {
-        if relative < self.seen.pivot {
-            self.seen.pivot = relative;
-        }
-    }
-
     /// Sees by how much Euler parameters were off their length at the end of a step.
     #[inline(always)]
     pub(crate) fn see_stretch(&mut self, stretch: S) {
@@ -60,15 +53,20 @@ where
         }
     }
 
-    /// Shows the end of a step to the watch, with what was seen at the last evaluation.
+    /// Shows the end of a step to the watch, with what was seen at the last evaluation, and with a relative pivot that counts beside it.
     #[inline]
-    pub(crate) fn watch(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
+    pub(crate) fn watch(
+        &self,
+        watch: &mut Watch<S, M>,
+        (time, state): (S, &M::State<S>),
+        beside: Option<S>,
+    ) {
         let step = Step {
             constants: &self.constants,
             time,
             state,
             power: self.power(time, state),
-            pivot: self.pivot(watch.steps(), time, state),
+            pivot: lesser(self.pivot(watch.steps(), time, state), beside),
             stretch: self.seen.stretch,
             is_mended: P::NORMALISED && !P::NORMALISED_RATES,
         };
@@ -150,6 +148,14 @@ where
             };
             watch.name(pivot.joint.to_f64() as usize);
         }
+    }
+}
+
+/// The lesser of what is known.
+pub(crate) fn lesser<S: Real>(a: Option<S>, b: Option<S>) -> Option<S> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
     }
 }
 

@@ -17,6 +17,14 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// These without so many evaluations.
+    pub(crate) fn without(self, evaluations: usize) -> Self {
+        Self {
+            evaluations: self.evaluations.saturating_sub(evaluations),
+            ..self
+        }
+    }
+
     /// These and those of a course that went on.
     pub(crate) fn plus(self, more: Self) -> Self {
         Self {

@@ -365,6 +365,16 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         })
     }
 
+    /// The shortest length (m) of the rows that act on a body; `None` without rows.
+    pub(crate) fn length_of(&self, body: usize) -> Option<S> {
+        let own = M::REPORT.blocks.iter().filter(|block| block.body == body);
+        let lengths = own.flat_map(|block| {
+            let lengths = self.length.as_slice().iter();
+            lengths.skip(block.row).take(block.rows).copied()
+        });
+        lengths.filter(|&length| length > S::zero()).reduce(S::min)
+    }
+
     /// The least mass (kg) that a row feels, where a radian counts as so many metres; `None` without rows.
     pub(crate) fn lightest(&self, radian: S) -> Option<S> {
         let units = self.units(radian);

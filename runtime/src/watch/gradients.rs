@@ -8,22 +8,32 @@ use crate::rotation::{read, write};
 use crate::scalar::{Real, Scalar};
 use crate::view::square;
 
-/// The squares of the lengths of the rows of `D`, of a vector equation together: a radian counts as the length of the mechanism.
+/// Squares of the lengths of the rows of `D`: of what acts on translations (m), and of what acts on rotations (rad).
 ///
+/// Of a vector equation, whose rows say nothing one by one, the places of its rows hold the sum of the squares, and what is left of the second and third where one row, or two, are
+/// combinations of the others.
+type Lengths<S, M> = [<M as Mechanism>::Multipliers<S>; 2];
+
 /// Where a gradient vanishes, its equation leaves open which way a motion goes on, as where equations depend on each other. A relative pivot does not tell of that: it is compared with what
 /// the row is without the others, and that vanishes as well.
+///
+/// A gradient has vanished where both its parts have: a lever arm may become as long as it likes.
 pub(super) struct Gradients<S: Scalar, M: Mechanism> {
-    largest: M::Multipliers<S>,
-    least: M::Multipliers<S>,
-    /// When they were least (s).
-    time: M::Multipliers<S>,
+    first: Lengths<S, M>,
+    largest: Lengths<S, M>,
+    /// The shortest beside its largest so far.
+    shortest: Option<Shortest<S>>,
     /// The least fall of all rows.
     approach: Approach<S>,
     /// Radians of motion at the last look; `None` before the first.
     looked: Option<S>,
 }
 
+/// How many times as often as that gradients are looked at: how fast one falls is known from looks before.
+const OFTEN: f64 = 4.0;
+
 /// The gradient that was shortest beside its largest.
+#[derive(Clone, Copy)]
 pub(super) struct Shortest<S> {
     /// The row of `Phi`.
     pub(super) row: usize,
@@ -43,12 +53,10 @@ impl<S: Scalar, M: Mechanism> Copy for Gradients<S, M> {}
 
 impl<S: Real, M: Mechanism> Gradients<S, M> {
     pub(super) fn none() -> Self {
-        let mut least = M::Multipliers::<S>::zeros();
-        least.as_mut_slice().fill(S::constant(f64::INFINITY));
         Self {
-            largest: M::Multipliers::<S>::zeros(),
-            least,
-            time: M::Multipliers::<S>::zeros(),
+            first: [Array::zeros(); 2],
+            largest: [Array::zeros(); 2],
+            shortest: None,
             approach: Approach::new(),
             looked: None,
         }
@@ -59,7 +67,8 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
     pub(super) fn are_due(&self, travel: S) -> bool {
         let may_have_vanished = match (self.looked, self.approach.last()) {
             (Some(looked), Some(fall)) => {
-                self.approach.may_pass(travel - looked, [fall, S::zero()])
+                let motion = S::constant(OFTEN) * (travel - looked);
+                self.approach.may_pass(motion, [fall, S::zero()])
             }
             _ => true,
         };
@@ -73,27 +82,40 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         self.approach.step(time, fall, motion.max(S::zero()));
     }
 
-    /// Takes the gradients at a state of a mechanism of some length (m); returns the least fall of one from its largest so far, in squares.
+    /// Looks at a state within a step, whose motion is told of later.
+    pub(super) fn look_within(&mut self, time: S, fall: S) {
+        self.approach.step(time, fall, S::zero());
+    }
+
+    /// All motion up to here was looked into.
+    pub(super) fn is_known_until(&mut self, travel: S) {
+        self.looked = Some(travel);
+    }
+
+    /// Takes the gradients at a state; returns the least fall of one from its largest so far, in squares.
     #[inline(never)]
     pub(super) fn measure(
         &mut self,
         constants: &M::Constants<S>,
         (time, state): (S, &M::State<S>),
-        length: S,
     ) -> S {
-        let squares = squares::<S, M>(constants, time, state, length);
-        let rows = self.largest.as_mut_slice().iter_mut();
-        let rows = rows.zip(self.least.as_mut_slice());
-        let rows = rows.zip(self.time.as_mut_slice());
-        let mut fall = S::one();
-        for (((largest, least), at), &square) in rows.zip(squares.as_slice()) {
-            *largest = largest.max(square);
-            if square < *least {
-                (*least, *at) = (square, time);
-            }
-            fall = fall.min(fallen(square, *largest));
+        let lengths = lengths::<S, M>(constants, time, state);
+        if self.shortest.is_none() {
+            self.first = lengths;
         }
-        fall
+        for (largest, lengths) in self.largest.iter_mut().zip(&lengths) {
+            let places = largest.as_mut_slice().iter_mut();
+            places
+                .zip(lengths.as_slice())
+                .for_each(|(largest, &length)| *largest = largest.max(length));
+        }
+        let Some(shortest) = shortest::<S, M>(&lengths, &self.largest, time) else {
+            return S::one();
+        };
+        if self.shortest.is_none_or(|known| shortest.fall < known.fall) {
+            self.shortest = Some(shortest);
+        }
+        shortest.fall
     }
 
     /// The course of the least fall.
@@ -101,62 +123,116 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         &self.approach
     }
 
-    /// The shortest of the run, at a look or between two. Its largest may have come later: only the end of a run tells of a gradient that grew from the start.
-    pub(super) fn shortest(&self) -> Option<Shortest<S>> {
-        let rows = self.least.as_slice().iter().zip(self.largest.as_slice());
-        let rows = rows.zip(self.time.as_slice()).enumerate();
-        let rows = rows.map(|(row, ((&least, &largest), &time))| Shortest {
-            row,
-            fall: fallen(least, largest),
-            time,
-        });
-        let met = rows.reduce(|a, b| if b.fall < a.fall { b } else { a })?;
-        Some(match self.approach.least() {
-            Some(between) if between.pivot < met.fall => Shortest {
-                fall: between.pivot,
-                time: between.time,
-                ..met
-            },
-            _ => met,
+    /// The shortest of the run, met or found between two looks, or at its start, whatever came later; `None` without rows.
+    pub(super) fn shortest(&self, start: S) -> Option<Shortest<S>> {
+        let mut least = self.shortest?;
+        if let Some(between) = self.approach.least()
+            && between.pivot < least.fall
+        {
+            (least.fall, least.time) = (between.pivot, between.time);
+        }
+        let first = shortest::<S, M>(&self.first, &self.largest, start)?;
+        Some(if first.fall < least.fall {
+            first
+        } else {
+            least
         })
     }
 }
 
-/// A square over the largest of its row. A row that never had a gradient has not lost it.
-fn fallen<S: Real>(square: S, largest: S) -> S {
-    if largest > S::zero() {
-        square.quotient(largest)
-    } else {
-        S::one()
-    }
+/// The gradient that is shortest beside its largest.
+fn shortest<S: Real, M: Mechanism>(
+    [translation, rotation]: &Lengths<S, M>,
+    [farthest, widest]: &Lengths<S, M>,
+    time: S,
+) -> Option<Shortest<S>> {
+    let translations = translation.as_slice().iter().zip(farthest.as_slice());
+    let rotations = rotation.as_slice().iter().zip(widest.as_slice());
+    let falls = translations.zip(rotations).map(|(a, b)| {
+        let left =
+            |(&square, &largest): (&S, &S)| (largest > S::zero()).then(|| square.quotient(largest));
+        // A row that never had a gradient has not lost it.
+        match (left(a), left(b)) {
+            (Some(a), Some(b)) => a.max(b),
+            (a, b) => a.or(b).unwrap_or(S::one()),
+        }
+    });
+    let rows = falls
+        .enumerate()
+        .map(|(row, fall)| Shortest { row, fall, time });
+    rows.reduce(|a, b| if b.fall < a.fall { b } else { a })
 }
 
-/// The squares of all rows, those of a vector equation together.
-fn squares<S: Real, M: Mechanism>(
+fn lengths<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,
     state: &M::State<S>,
-    length: S,
-) -> M::Multipliers<S> {
+) -> Lengths<S, M> {
     let jacobian = M::jacobian(constants, time, state);
-    let mut squares = M::Multipliers::<S>::zeros();
-    let elements = squares.as_mut_slice();
-    let metre = length.reciprocal();
-    add_blocks(M::REPORT.blocks, jacobian.as_slice(), metre, elements);
-    for &first in M::VECTOR_ROWS {
-        let [a, b, c] = read(elements, first);
-        write(elements, first, [a + b + c; 3]);
-    }
-    squares
-}
-
-fn add_blocks<S: Real>(blocks: &[Block], jacobian: &[S], metre: S, squares: &mut [S]) {
-    for block in blocks {
-        let values = jacobian.get(block.offset..).unwrap_or(&[]);
-        let rows = squares.iter_mut().skip(block.row).take(block.rows);
-        for (sum, row) in rows.zip(values.chunks(block.columns.max(1))) {
-            let (force, moment) = row.split_at_checked(3).unwrap_or((row, &[]));
-            *sum = *sum + square(force) + square(moment) * (metre * metre);
+    let jacobian = jacobian.as_slice();
+    let mut lengths: Lengths<S, M> = [Array::zeros(); 2];
+    let [translations, rotations] = &mut lengths;
+    for block in M::REPORT.blocks {
+        let squares = translations.as_mut_slice().iter_mut();
+        let squares = squares.zip(rotations.as_mut_slice()).skip(block.row);
+        for (row, (translation, rotation)) in squares.take(block.rows).enumerate() {
+            let [force, moment] = parts(jacobian, block, row);
+            *translation = *translation + square(&force);
+            *rotation = *rotation + square(&moment);
         }
     }
+    for &first in M::VECTOR_ROWS {
+        let products = products(M::REPORT.blocks, jacobian, first);
+        for (lengths, products) in lengths.iter_mut().zip(products) {
+            write(lengths.as_mut_slice(), first, independent(products));
+        }
+    }
+    lengths
+}
+
+/// What a row of a block makes of translations and of rotations.
+fn parts<S: Real>(jacobian: &[S], block: &Block, row: usize) -> [[S; 3]; 2] {
+    let place = block.offset + row * block.columns;
+    let moment = if block.columns > 3 {
+        read(jacobian, place + 3)
+    } else {
+        [S::zero(); 3]
+    };
+    [read(jacobian, place), moment]
+}
+
+/// The scalar products of the three rows of a vector equation, by translations and by rotations: 11, 22, 33, 12, 23, 31.
+fn products<S: Real>(blocks: &[Block], jacobian: &[S], first: usize) -> [[S; 6]; 2] {
+    let mut products = [[S::zero(); 6]; 2];
+    let own = |block: &&Block| block.row <= first && first + 3 <= block.row + block.rows;
+    for block in blocks.iter().filter(own) {
+        let [a, b, c] = [0, 1, 2].map(|k| parts(jacobian, block, first - block.row + k));
+        for (part, products) in products.iter_mut().enumerate() {
+            let of = |row: &[[S; 3]; 2]| row.get(part).copied().unwrap_or([S::zero(); 3]);
+            let rows = [of(&a), of(&b), of(&c)];
+            let [a, b, c] = &rows;
+            let pairs = [(a, a), (b, b), (c, c), (a, b), (b, c), (c, a)];
+            for (product, (x, y)) in products.iter_mut().zip(pairs) {
+                let terms = x.iter().zip(y);
+                *product = terms.fold(*product, |sum, (&x, &y)| x.fused(y, sum));
+            }
+        }
+    }
+    products
+}
+
+/// Of three rows with these products: the sum of the squares, and what the areas and the volume that they span are over it and over the areas. Zero where that is round-off.
+fn independent<S: Real>([a, b, c, ab, bc, ca]: [S; 6]) -> [S; 3] {
+    let round_off = S::constant(64.0) * S::EPSILON;
+    let sum = a + b + c;
+    let areas = (a * b - ab * ab) + (b * c - bc * bc) + (c * a - ca * ca);
+    let volume = a * (b * c - bc * bc) - ab * (ab * c - bc * ca) + ca * (ab * bc - b * ca);
+    let mut left = [sum, S::zero(), S::zero()];
+    if areas > round_off * sum * sum {
+        left[1] = areas.quotient(sum);
+        if volume > round_off * areas * sum {
+            left[2] = volume.quotient(areas);
+        }
+    }
+    left
 }

@@ -8,6 +8,7 @@ mod doubt;
 mod energy;
 mod gradients;
 mod limits;
+mod pace;
 mod rows;
 mod seen;
 mod singular;
@@ -21,6 +22,7 @@ pub(crate) use within::Nearness;
 
 use self::energy::Balance;
 use self::gradients::Gradients;
+use self::pace::Pace;
 use self::singular::Approach;
 use crate::array::{Array, StateParts};
 use crate::handle::JointHandle;
@@ -35,6 +37,7 @@ use crate::view::square;
 /// What the watch over a run saw: violations by joint, pivots, energy.
 pub struct Watch<S: Scalar, M: Mechanism> {
     rows: Meanings<S, M>,
+    pace: Pace<S, M>,
     /// The length of the mechanism (m) at the start.
     length: S,
     start: S,
@@ -73,8 +76,8 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of what was turned (rad), and of what the rate changed by.
     rate: S,
     fastest: S,
-    /// The least rate.
-    slowest: S,
+    /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
+    changed: S,
     cubes: [S; 2],
     /// What the digits of the positions resolve at the start (m).
     resolution: S,
@@ -124,7 +127,7 @@ pub struct SmallestPivot<S> {
 /// The shortest gradient of an equation over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShortestGradient<S> {
-    /// Its length over its largest, where a radian counts as the length of the mechanism; of a vector equation that of all its rows.
+    /// Its length over its largest, by translations or by rotations, whichever is left more of; of a vector equation of all its rows, or what one has beside the others.
     pub relative: S,
     /// The joint's field.
     pub joint: &'static str,
@@ -229,9 +232,11 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
 impl<S: Real, M: Mechanism> Watch<S, M> {
     pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
         let kinetic = M::kinetic_energy(constants, state);
+        let length = extent::<S, M>(constants, state);
         Self {
             rows: Meanings::at(constants, time, state),
-            length: extent::<S, M>(constants, state),
+            pace: Pace::at(constants, (time, state), length),
+            length,
             start: time,
             position: Worst::none(time),
             velocity: Worst::none(time),
@@ -255,7 +260,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             longest: S::zero(),
             rate: S::zero(),
             fastest: S::zero(),
-            slowest: S::constant(f64::INFINITY),
+            changed: S::zero(),
             cubes: [S::zero(); 2],
             resolution: resolution::<S, M>(state),
             excused: Excused {
@@ -303,9 +308,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.look_at_pivot((time, state), pivot, self.travel);
         }
         if self.gradients.are_due(self.travel) {
-            let fall = self
-                .gradients
-                .measure(constants, (time, state), self.length);
+            let fall = self.gradients.measure(constants, (time, state));
             self.gradients.look(time, fall, self.travel);
         }
         let kinetic = M::kinetic_energy(constants, state);
@@ -352,7 +355,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let (speed, spin) = speeds::<S, M>(state);
         self.speed = self.speed.max(speed);
         self.spin = self.spin.max(spin);
-        let rate = self.rate_of(speed, spin);
+        let rate = self.pace.of(state);
         let turned = rate * (time - self.time);
         self.travel = self.travel + turned;
         let change = if self.steps > 0 {
@@ -365,14 +368,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
         self.rate = rate;
         self.fastest = self.fastest.max(rate);
-        self.slowest = self.slowest.min(rate);
+        if self.velocity_lead > S::zero() {
+            self.changed = self.changed.max(self.pace.change(state));
+        }
         self.longest = self.longest.max(time - self.time);
         self.time = time;
-    }
-
-    /// A rate of motion (rad/s): of the fastest body, by lengths of the mechanism or radians.
-    fn rate_of(&self, speed: S, spin: S) -> S {
-        spin.max(speed.quotient(self.length))
     }
 
     /// With a compliance `e` accelerations satisfy `D u' - gamma* = e lambda`.
@@ -490,7 +490,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// Where a gradient vanishes, its equation leaves open which way a motion goes on, whatever the pivots, which are compared with what an equation is without the others.
     #[must_use]
     pub fn shortest_gradient(&self) -> Option<ShortestGradient<S>> {
-        let shortest = self.gradients.shortest()?;
+        let shortest = self.gradients.shortest(self.start)?;
         Some(ShortestGradient {
             relative: shortest.fall.sqrt(),
             joint: M::REPORT.joint_of(shortest.row)?,

@@ -24,10 +24,15 @@ pub(super) struct Approach<S> {
     before: [Option<(S, S)>; 2],
     /// The largest motion (rad) of a step over the roots of the pivots at its ends, which go with the distances from where they vanish.
     widest: S,
+    /// The largest change of the root of a pivot over the motion (rad) on the way.
+    steepest: S,
 }
 
 /// The sum of the roots of two pivots, over that of the largest, from where on they have fallen: it is 2 where all are the same.
 const VARIED: f64 = 1.5;
+
+/// A change of a root, over the largest, that tells something.
+const NOTED: f64 = 1e-3;
 
 impl<S: Real> Approach<S> {
     pub(super) fn new() -> Self {
@@ -39,6 +44,7 @@ impl<S: Real> Approach<S> {
             },
             before: [None; 2],
             widest: S::zero(),
+            steepest: S::zero(),
         }
     }
 
@@ -47,7 +53,11 @@ impl<S: Real> Approach<S> {
     pub(super) fn step(&mut self, time: S, pivot: S, motion: S) -> bool {
         self.largest = self.largest.max(pivot);
         if let Some((_, last)) = self.before[1] {
-            let roots = last.max(S::zero()).sqrt() + pivot.max(S::zero()).sqrt();
+            let [from, to] = [last, pivot].map(|pivot| pivot.max(S::zero()).sqrt());
+            let (roots, change) = (from + to, (to - from).abs());
+            if change > S::constant(NOTED) * self.largest.sqrt() && motion > S::zero() {
+                self.steepest = self.steepest.max(change.quotient(motion));
+            }
             // Pivots that hardly vary tell of no such configuration, however long the step is.
             if roots < S::constant(VARIED) * self.largest.sqrt() {
                 self.widest = self.widest.max(motion.quotient(roots));
@@ -105,7 +115,8 @@ impl<S: Real> Approach<S> {
         /// How many times faster than with the distance the root of a pivot may grow to its largest: a mechanism need not move by a radian from where one vanishes to where it is largest.
         const MARGIN: f64 = 4.0;
         let [first, last] = ends.map(|pivot| pivot.max(S::zero()).sqrt());
-        motion * self.largest.sqrt() * S::constant(MARGIN) > first + last
+        let slope = S::constant(MARGIN) * self.largest.sqrt();
+        motion * slope.max(S::constant(2.0) * self.steepest) > first + last
     }
 
     /// The last pivot.

@@ -223,13 +223,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what the rate changes by over so much time.
+    /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a rate changes by over so much time.
     fn led_shift(&self) -> S {
-        if self.velocity_lead > S::zero() && self.steps > 0 {
-            self.velocity_lead * self.longest * (self.fastest - self.slowest)
-        } else {
-            S::zero()
-        }
+        self.velocity_lead * self.longest * self.changed
     }
 
     fn coarse(&self) -> Option<Doubt> {

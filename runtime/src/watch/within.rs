@@ -1,7 +1,7 @@
 //! What the watch wants to know of the way between two ends of steps.
 
 use super::verdict::above;
-use super::{Watch, limits, speeds};
+use super::{Watch, limits};
 use crate::mechanism::Mechanism;
 use crate::scalar::Real;
 
@@ -29,6 +29,21 @@ impl<S: Real> Nearness<S> {
             pivot: S::zero(),
             gradient: S::zero(),
         }
+    }
+}
+
+/// Whether what goes with a distance shows no sign of having been zero between three instants: there it bends by twice the distance that it has at one of them.
+fn keeps_away<S: Real>(squares: [S; 3]) -> bool {
+    let [a, b, c] = squares.map(|square| square.max(S::zero()).sqrt());
+    let bend = (a - (b + b) + c).abs();
+    bend < S::constant(0.25) * a.min(b).min(c)
+}
+
+impl<S: Real> Nearness<S> {
+    /// Whether a course through three states shows no sign of something singular in between.
+    pub(crate) fn keep_away(course: [Self; 3]) -> bool {
+        keeps_away(course.map(|nearness| nearness.pivot))
+            && keeps_away(course.map(|nearness| nearness.gradient))
     }
 }
 
@@ -69,8 +84,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// How fast the mechanism moves at the most (rad/s): at the end of the last step, or in a state.
     pub(crate) fn faster(&self, state: &M::State<S>) -> S {
-        let (speed, spin) = speeds::<S, M>(state);
-        self.rate.max(self.rate_of(speed, spin))
+        self.rate.max(self.pace.of(state))
     }
 
     /// How near a state is, by its pivot, if there is one.
@@ -82,23 +96,24 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     ) -> Nearness<S> {
         Nearness {
             pivot: pivot.unwrap_or(S::one()),
-            gradient: self
-                .gradients
-                .measure(constants, (time, state), self.length),
+            gradient: self.gradients.measure(constants, (time, state)),
         }
     }
 
-    /// Looks at a state between steps, after so much motion (rad) since the last.
-    pub(crate) fn look(
-        &mut self,
-        (time, state): (S, &M::State<S>),
-        nearness: Nearness<S>,
-        motion: S,
-    ) {
-        let travel = self.travel + motion;
-        if self.approach.is_some() {
-            self.look_at_pivot((time, state), nearness.pivot, travel);
+    /// Looks at a state within a step.
+    pub(crate) fn look(&mut self, (time, state): (S, &M::State<S>), nearness: Nearness<S>) {
+        if let Some(approach) = &mut self.approach
+            && approach.step(time, nearness.pivot, S::zero())
+        {
+            self.nearest = (time, *state);
         }
-        self.gradients.look(time, nearness.gradient, travel);
+        self.gradients.look_within(time, nearness.gradient);
+    }
+
+    /// Takes that so much motion (rad) since the last step was looked into, and nothing was passed unseen.
+    pub(crate) fn is_known_for(&mut self, motion: S) {
+        let travel = self.travel + motion;
+        self.looked = travel;
+        self.gradients.is_known_until(travel);
     }
 }

@@ -1,6 +1,6 @@
 //! Motions through configurations in which an equation vanishes with its gradient: no equation depends on another there, and still more than one way leads on.
 
-use holonom::joints::{ConstantVelocity, Revolute};
+use holonom::joints::{ConstantVelocity, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{Doubt, Heun, Integrator, JointCoordinates, Rk4, Sample};
 
@@ -193,4 +193,85 @@ fn steps_of_some_radians_pass_nothing_singular() {
             assert!(!report.doubts().into_iter().any(is_false), "{step}");
         }
     }
+}
+
+holonom::joint! {
+    /// The point of `j` stays on a circle about the centre on `i`, or on a line through the corner, and that of `k` in its plane: one equation of vectors.
+    pub joint CircleOrLine(i, j, k; corner: Point, centre: Point, point: Point, other: Point, axis: Axis, first: Axis) {
+        [
+            (squared(j.point - i.centre) - initial(squared(j.point - i.centre))) * dot(i.first, j.point - i.corner),
+            dot(i.axis, j.point - i.corner),
+            dot(i.axis, k.other - i.corner)
+        ];
+    }
+}
+
+/// A bead on its way to where the line crosses the circle, beside one that only slides.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both", gravity = [0.0, 0.0, 0.0])]
+struct Beads {
+    #[body(mass = 1.0, position = [0.6, -0.8, 0.0], velocity = [0.8, 0.6, 0.0])]
+    bead: Particle,
+    #[body(mass = 1.0, position = [0.0, 2.0, 0.0], velocity = [0.0, 0.3, 0.0])]
+    other: Particle,
+    #[joint(
+        between = [ground, bead, other],
+        corner = [1.0, 0.0, 0.0],
+        centre = [0.0, 0.0, 0.0],
+        point = [0.6, -0.8, 0.0],
+        other = [0.0, 2.0, 0.0],
+        axis = [0.0, 0.0, 1.0],
+        first = [0.6, 0.8, 0.0]
+    )]
+    track: CircleOrLine,
+}
+
+/// One row of a vector equation hides behind the others.
+#[test]
+fn a_row_of_a_vector_equation_is_told() {
+    with_every_formulation(&Beads::default(), (1.5, "track"), true);
+}
+
+/// The crossing of wires, and something a hundred metres away.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both", gravity = [0.0, 0.0, 0.0])]
+struct FarWires {
+    #[body(mass = 1.0, position = [-0.5, 0.0, 0.0], velocity = [0.7, 0.0, 0.0])]
+    bead: Particle,
+    #[body(mass = 1.0, position = [100.0, 0.0, 0.0])]
+    far: Particle,
+    #[joint(
+        between = [ground, bead],
+        corner = [0.0, 0.0, 0.0],
+        point = [-0.5, 0.0, 0.0],
+        axis = [0.0, 0.0, 1.0],
+        first = [0.6, 0.8, 0.0],
+        second = [0.0, 1.0, 0.0]
+    )]
+    wires: Crossing,
+    #[joint(between = [ground, far], point = [100.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0])]
+    plane: PointOnPlane,
+}
+
+/// Of a mechanism that is large a small part is watched as if it were alone.
+#[test]
+fn something_far_away_hides_nothing() {
+    with_every_formulation(&FarWires::default(), (1.5, "wires"), true);
+}
+
+/// Two bodies that slide apart on a rail: the arms of its equations grow without end.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both", gravity = [0.0, 0.0, 0.0])]
+struct Rail {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], velocity = [-1.0, 0.0, 0.0])]
+    a: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.2, 0.0, 0.0], velocity = [1.0, 0.0, 0.0])]
+    b: Body,
+    #[joint(between = [a, b], point = [0.2, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    slide: Prismatic,
+}
+
+#[test]
+fn arms_that_grow_are_not_doubted() {
+    sweep(&Rail::default(), StandardLagrange, (30.0, "slide"), false);
 }

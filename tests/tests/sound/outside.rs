@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use holonom::forces::{Actuator, ConstantMoment};
-use holonom::joints::{AngleDriver, PointOnLine, Revolute};
+use holonom::forces::{Actuator, ConstantMoment, PointForce};
+use holonom::joints::{AngleDriver, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{Doubt, ImplicitMidpoint, Integrator, Real, SemiImplicitEuler};
 use holonom_models::RodPendulum;
@@ -248,4 +248,34 @@ fn energies_beyond_all_numbers_are_named() {
         .expect("velocities are numbers");
     let said = report.doubts().to_string();
     assert_eq!(said, "the energy is beyond all numbers at 0 s");
+}
+
+/// A cart that is pushed, with a rotor on it that turns evenly and faster than anything changes.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Pushed {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1])]
+    cart: Body,
+    #[body(mass = 0.001, inertia = [1e-6, 1e-6, 1e-6], angular_velocity = [0.0, 0.0, 100.0], position = [0.5, 0.0, 0.0])]
+    rotor: Body,
+    #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    track: Prismatic,
+    #[joint(between = [cart, rotor], point = [0.5, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+    #[force(between = [ground, cart], point = [0.0, 0.0, 0.0], force = [5.0, 0.0, 0.0])]
+    push: PointForce,
+}
+
+/// What is ahead is asked body by body.
+#[test]
+fn a_fast_rotor_hides_no_lead_of_velocities() {
+    let found = {
+        let pushed = Pushed::default();
+        let simulation = Simulation::new(&pushed, StandardLagrange, SemiImplicitEuler::every(0.02));
+        let simulation = simulation.joint_coordinates();
+        let report = simulation.run(0.0..=2.0, every(2.0), |_| ControlFlow::Continue(()));
+        report.expect("nothing stops it").doubts()
+    };
+    let is_told = |doubt| matches!(doubt, Doubt::LongSteps { .. });
+    assert!(found.into_iter().any(is_told), "{found}");
 }

@@ -67,6 +67,68 @@ struct Rhombus {
     rod: Distance,
 }
 
+/// The slider-crank of equal links with all its hinges, of whose equations some follow from others.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both", redundant = "keep")]
+struct KeptLinks {
+    #[body(
+        mass = 1.0,
+        inertia = [0.1, 0.1, 0.1],
+        position = [0.4, 0.3, 0.0],
+        velocity = [-0.9, 1.2, 0.0],
+        angular_velocity = [0.0, 0.0, 3.0]
+    )]
+    crank: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [0.1, 0.1, 0.1],
+        position = [1.2, 0.3, 0.0],
+        velocity = [-2.7, 1.2, 0.0],
+        angular_velocity = [0.0, 0.0, -3.0]
+    )]
+    rod: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.6, 0.0, 0.0], velocity = [-3.6, 0.0, 0.0])]
+    slider: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    bearing: Revolute,
+    #[joint(between = [crank, rod], point = [0.8, 0.6, 0.0], axis = [0.0, 0.0, 1.0])]
+    crank_pin: Revolute,
+    #[joint(between = [ground, slider], point = [1.6, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    guide: Prismatic,
+    #[joint(between = [slider, rod], point = [1.6, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    slider_pin: Revolute,
+}
+
+/// A slider-crank that keeps away from its dead points, beside a rotor.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct BesideRotor {
+    #[body(
+        mass = 1.0,
+        inertia = [0.1, 0.1, 0.1],
+        position = [0.2, 0.15, 0.0],
+        velocity = [-0.15, 0.2, 0.0],
+        angular_velocity = [0.0, 0.0, 1.0]
+    )]
+    crank: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.4 + 0.5 * sqrt(0.27), 0.15, 0.0])]
+    rod: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.4 + sqrt(0.27), 0.0, 0.0])]
+    slider: Body,
+    #[body(mass = 0.1, inertia = [1e-6, 1e-6, 1e-6], angular_velocity = [0.0, 0.0, 1000.0])]
+    rotor: Body,
+    #[joint(between = [ground, rotor], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    bearing: Revolute,
+    #[joint(between = [crank, rod], point = [0.4, 0.3, 0.0], axis = [0.0, 0.0, 1.0])]
+    crank_pin: Revolute,
+    #[joint(between = [ground, slider], point = [0.4 + sqrt(0.27), 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    guide: Prismatic,
+    #[joint(between = [slider, rod], point = [0.4 + sqrt(0.27), 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    slider_pin: PointOnLine,
+}
+
 /// A body, a point on it, and where that should be at the end of a run (m).
 struct Mark<M> {
     body: BodyHandle<M>,
@@ -89,7 +151,7 @@ fn four_bar() -> Mark<FourBar> {
 }
 
 /// The crank pin after some turns: `I(theta) theta'^2` stays, integrated by small steps.
-fn equal_links() -> Mark<EqualLinks> {
+fn equal_links<M>(body: BodyHandle<M>) -> Mark<M> {
     let inertia = |theta: f64| {
         let (sine, cosine) = theta.sin_cos();
         0.25 + 0.1 + 0.1 + (1.5 * sine).powi(2) + (0.5 * cosine).powi(2) + (2.0 * sine).powi(2)
@@ -107,7 +169,7 @@ fn equal_links() -> Mark<EqualLinks> {
         theta += h / 6.0 * (a + 2.0 * (b + c) + d);
     }
     Mark {
-        body: EqualLinks::HANDLES.crank,
+        body,
         // The user's axes stood along the global ones: the pin from the centre of mass.
         point: Vector3::new(0.4, 0.3, 0.0),
         place: {
@@ -233,7 +295,7 @@ macro_rules! sweeps {
             use super::*;
             $(#[test]
             fn $name() {
-                sweep(&EqualLinks::default(), &equal_links(), $method);
+                sweep(&EqualLinks::default(), &equal_links(EqualLinks::HANDLES.crank), $method);
             })*
         }
     };
@@ -260,7 +322,7 @@ fn extreme(tolerance: f64, relative: f64) {
     );
     run(
         &EqualLinks::default(),
-        &equal_links(),
+        &equal_links(EqualLinks::HANDLES.crank),
         (method, integrator),
         (false, false),
     );
@@ -368,4 +430,49 @@ fn links_in_line_are_singular_in_both_descriptions() {
     let with = |angle| AnyRhombus::new(angle).expect("acceptable");
     assert_eq!(is_singular(&with(1e-9)), [true; 3]);
     assert_eq!(is_singular(&with(1e-5)), [false; 3]);
+}
+
+/// By joints what follows from other equations is gone, and the pivots of the rest tell.
+#[test]
+fn equations_that_are_kept_hide_nothing_by_joints() {
+    let (model, mark) = (KeptLinks::default(), equal_links(KeptLinks::HANDLES.crank));
+    for projected in [false, true] {
+        for exponent in 4..=11 {
+            let relative = 10.0_f64.powi(-exponent);
+            let absolute = 1e-2 * relative;
+            let integrator = DormandPrince::new(Tolerance { relative, absolute }).budget(BUDGET);
+            let how = (projected, true);
+            run(&model, &mark, (StandardLagrange, integrator), how);
+            run(&model, &mark, (Baumgarte::default(), integrator), how);
+        }
+    }
+}
+
+#[test]
+fn a_fast_rotor_makes_no_loop_singular() {
+    let model = BesideRotor::default();
+    for exponent in 4..=8 {
+        let relative = 10.0_f64.powi(-exponent);
+        let absolute = 1e-2 * relative;
+        let integrator = DormandPrince::new(Tolerance { relative, absolute });
+        let run = |is_watched: bool| {
+            let mut simulation = Simulation::new(&model, StandardLagrange, integrator).assembled();
+            if !is_watched {
+                simulation = simulation.unwatched();
+            }
+            let simulation = simulation.joint_coordinates();
+            let report = simulation.run(0.0..=6.0, every(6.0), |_| ControlFlow::Continue(()));
+            report.expect("nothing stops it")
+        };
+        let (watched, unwatched) = (run(true), run(false));
+        let is_false = |doubt| matches!(doubt, Doubt::NearlySingular { .. });
+        assert!(
+            !watched.doubts().into_iter().any(is_false),
+            "{}",
+            watched.doubts()
+        );
+        // What the watch looks at is no part of the run.
+        assert_eq!(watched.evaluations, unwatched.evaluations);
+        assert_eq!(watched.state, unwatched.state);
+    }
 }

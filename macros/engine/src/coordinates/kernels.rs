@@ -66,6 +66,8 @@ pub struct JointKernels {
     pub auxiliaries: usize,
     /// Whether one of these is not the integral of velocities.
     pub recounts: bool,
+    /// Whether every row determines a velocity where rows have no compliance.
+    pub determines: bool,
     /// Velocities.
     pub velocities: usize,
     /// The joints of the rows that remain, row by row.
@@ -128,6 +130,7 @@ impl JointKernels {
                 .iter()
                 .any(|counted| counted.angle.paired.is_none()),
             velocities: links.velocities,
+            determines: reduced.determines(),
             rows,
             rows_of_bodies: rows_of_bodies(model, &reduced),
             balls: balls.collect(),

@@ -399,6 +399,12 @@ impl Reduced {
         wrenches
     }
 
+    /// Whether every row determines a velocity where rows have no compliance.
+    pub(super) fn determines(&self) -> bool {
+        let taken = self.together.0.iter().flat_map(|pivot| pivot.unknowns());
+        taken.filter(|&k| k >= self.links.velocities).count() == self.scene.layout.rows
+    }
+
     /// The order in which velocities and multipliers are eliminated.
     fn elimination(&self, terms: Terms, rows: &[Vec<Expr>]) -> Elimination {
         let velocities = self.links.velocities;

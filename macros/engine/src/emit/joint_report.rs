@@ -91,6 +91,7 @@ impl Writer<'_> {
         let counts = counts.map(|(name, count)| kernel(&name, count, facade));
         let balls = &kernels.balls;
         let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
+        let determines = kernels.determines;
         quote! {
             #facade::JointReport {
                 motions: &[#(#links),*],
@@ -100,6 +101,7 @@ impl Writer<'_> {
                 euler_parameters: &[#(#balls),*],
                 auxiliaries: #auxiliaries,
                 recounts: #recounts,
+                determines: #determines,
             }
         }
     }
