@@ -12,37 +12,50 @@ use holonom::{
 use holonom_models::FourBar;
 use nalgebra::Vector3;
 
-/// A slider-crank whose crank and rod are of 1 m both: a quarter of a turn on, the slider passes over the crank's axis, where it may stay while the links
-/// turn on together.
-#[derive(Mechanism)]
-#[mechanism(coordinates = "both")]
-struct EqualLinks {
-    #[body(
-        mass = 1.0,
-        inertia = [0.1, 0.1, 0.1],
-        position = [0.4, 0.3, 0.0],
-        velocity = [-0.9, 1.2, 0.0],
-        angular_velocity = [0.0, 0.0, 3.0]
-    )]
-    crank: Body,
-    #[body(
-        mass = 1.0,
-        inertia = [0.1, 0.1, 0.1],
-        position = [1.2, 0.3, 0.0],
-        velocity = [-2.7, 1.2, 0.0],
-        angular_velocity = [0.0, 0.0, -3.0]
-    )]
-    rod: Body,
-    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.6, 0.0, 0.0], velocity = [-3.6, 0.0, 0.0])]
-    slider: Body,
-    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
-    bearing: Revolute,
-    #[joint(between = [crank, rod], point = [0.8, 0.6, 0.0], axis = [0.0, 0.0, 1.0])]
-    crank_pin: Revolute,
-    #[joint(between = [ground, slider], point = [1.6, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    guide: Prismatic,
-    #[joint(between = [slider, rod], point = [1.6, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
-    slider_pin: PointOnLine,
+macro_rules! equal_links {
+    ($($(#[$attribute:meta])* $name:ident($pin:ident))*) => {$(
+        #[derive(Mechanism)]
+        $(#[$attribute])*
+        struct $name {
+            #[body(
+                mass = 1.0,
+                inertia = [0.1, 0.1, 0.1],
+                position = [0.4, 0.3, 0.0],
+                velocity = [-0.9, 1.2, 0.0],
+                angular_velocity = [0.0, 0.0, 3.0]
+            )]
+            crank: Body,
+            #[body(
+                mass = 1.0,
+                inertia = [0.1, 0.1, 0.1],
+                position = [1.2, 0.3, 0.0],
+                velocity = [-2.7, 1.2, 0.0],
+                angular_velocity = [0.0, 0.0, -3.0]
+            )]
+            rod: Body,
+            #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.6, 0.0, 0.0], velocity = [-3.6, 0.0, 0.0])]
+            slider: Body,
+            #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+            bearing: Revolute,
+            #[joint(between = [crank, rod], point = [0.8, 0.6, 0.0], axis = [0.0, 0.0, 1.0])]
+            crank_pin: Revolute,
+            #[joint(between = [ground, slider], point = [1.6, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+            guide: Prismatic,
+            #[joint(between = [slider, rod], point = [1.6, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+            slider_pin: $pin,
+        }
+    )*};
+}
+
+equal_links! {
+    /// A slider-crank whose crank and rod are of 1 m both: a quarter of a turn on, the slider passes over the crank's axis, where it may stay while the links
+    /// turn on together.
+    #[mechanism(coordinates = "both")]
+    EqualLinks(PointOnLine)
+
+    /// The same with all its hinges, of whose equations some follow from others.
+    #[mechanism(coordinates = "both", redundant = "keep")]
+    KeptLinks(Revolute)
 }
 
 /// Four links of 1 m, the ground among them: a parallelogram that passes over the line in little more than the time of a step, by joints.
@@ -65,38 +78,6 @@ struct Rhombus {
     pin: Revolute,
     #[joint(between = [ground, coupler], head = [1.0, 0.0, 0.0], tail = [1.6, 0.8, 0.0])]
     rod: Distance,
-}
-
-/// The slider-crank of equal links with all its hinges, of whose equations some follow from others.
-#[derive(Mechanism)]
-#[mechanism(coordinates = "both", redundant = "keep")]
-struct KeptLinks {
-    #[body(
-        mass = 1.0,
-        inertia = [0.1, 0.1, 0.1],
-        position = [0.4, 0.3, 0.0],
-        velocity = [-0.9, 1.2, 0.0],
-        angular_velocity = [0.0, 0.0, 3.0]
-    )]
-    crank: Body,
-    #[body(
-        mass = 1.0,
-        inertia = [0.1, 0.1, 0.1],
-        position = [1.2, 0.3, 0.0],
-        velocity = [-2.7, 1.2, 0.0],
-        angular_velocity = [0.0, 0.0, -3.0]
-    )]
-    rod: Body,
-    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.6, 0.0, 0.0], velocity = [-3.6, 0.0, 0.0])]
-    slider: Body,
-    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
-    bearing: Revolute,
-    #[joint(between = [crank, rod], point = [0.8, 0.6, 0.0], axis = [0.0, 0.0, 1.0])]
-    crank_pin: Revolute,
-    #[joint(between = [ground, slider], point = [1.6, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    guide: Prismatic,
-    #[joint(between = [slider, rod], point = [1.6, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
-    slider_pin: Revolute,
 }
 
 /// A slider-crank that keeps away from its dead points, beside a rotor.
