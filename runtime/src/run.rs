@@ -104,7 +104,10 @@ where
                 let before = course.counts().evaluations;
                 look_within(watch, &mut self.moving, &mut course, &last_good.1);
                 let looks = course.counts().evaluations.saturating_sub(before);
-                of_watch = of_watch.saturating_add(looks);
+                // The slope at the end is that at the start of the next step, unless the end is treated.
+                if looks > 1 || self.treatment.is_some() {
+                    of_watch = of_watch.saturating_add(looks);
+                }
             }
             // What output within the step evaluates is not what the watch is shown, which is its end.
             let mut seen = None;
