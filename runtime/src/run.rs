@@ -100,15 +100,11 @@ where
         let mut of_watch = 0_usize;
         while course.time() < span.end {
             course.advance(&mut self.moving)?;
+            let before = course.counts().evaluations;
             if let Some(watch) = &mut self.watch {
-                let before = course.counts().evaluations;
                 look_within(watch, &mut self.moving, &mut course, &last_good.1);
-                let looks = course.counts().evaluations.saturating_sub(before);
-                // The slope at the end is that at the start of the next step, unless the end is treated.
-                if looks > 1 || self.treatment.is_some() {
-                    of_watch = of_watch.saturating_add(looks);
-                }
             }
+            let looks = course.counts().evaluations.saturating_sub(before);
             // What output within the step evaluates is not what the watch is shown, which is its end.
             let mut seen = None;
             while let Some(time) = self.schedule.within(course.time()) {
@@ -127,6 +123,9 @@ where
             }
             if let Some(seen) = seen {
                 self.moving.recall(seen);
+            } else if looks > 1 || self.treatment.is_some() {
+                // Shared with no report, nor as the slope at the start of the next step.
+                of_watch = of_watch.saturating_add(looks);
             }
             let time = course.time();
             let mut state = self.moving.bodies(course.state(), &last_good.1);
