@@ -11,10 +11,10 @@ use crate::watch::{Nearness, Watch};
 /// How often a step is divided at the most.
 const FINEST: usize = 8;
 
-/// How often before it may be said that it shows no sign of anything.
+/// How often a step is divided before the course of its pivots may say that nothing was passed.
 const COARSEST: usize = 2;
 
-/// Where: not in halves, which a periodic motion may return to.
+/// The part of an interval at which it is divided: not its middle, for a motion may repeat itself in half a step.
 const DIVISION: f64 = 0.44;
 
 /// Looks into the last step of a course, before its end is corrected or shown to the watch: as far as pivots at the ends of its parts do not tell that the mechanism kept away from where one
@@ -107,11 +107,13 @@ where
         }
     }
 
-    // States stay out of the frames of the recursion.
+    // States stay out of the frames of the recursion, and of those that were least there are few.
     #[inline(never)]
     fn look(&mut self, time: S, nearness: Nearness<S>) {
-        if let Ok(state) = self.bodies(time) {
-            self.watch.look((time, &state), nearness);
+        if self.watch.look(time, nearness)
+            && let Ok(state) = self.bodies(time)
+        {
+            self.watch.keep(time, &state);
         }
     }
 

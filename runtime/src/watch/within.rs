@@ -30,6 +30,12 @@ impl<S: Real> Nearness<S> {
             gradient: S::zero(),
         }
     }
+
+    /// Whether a course through three states shows no sign of something singular in between.
+    pub(crate) fn keep_away(course: [Self; 3]) -> bool {
+        keeps_away(course.map(|nearness| nearness.pivot))
+            && keeps_away(course.map(|nearness| nearness.gradient))
+    }
 }
 
 /// Whether what goes with a distance shows no sign of having been zero between three instants: there it bends by twice the distance that it has at one of them.
@@ -37,14 +43,6 @@ fn keeps_away<S: Real>(squares: [S; 3]) -> bool {
     let [a, b, c] = squares.map(|square| square.max(S::zero()).sqrt());
     let bend = (a - (b + b) + c).abs();
     bend < S::constant(0.25) * a.min(b).min(c)
-}
-
-impl<S: Real> Nearness<S> {
-    /// Whether a course through three states shows no sign of something singular in between.
-    pub(crate) fn keep_away(course: [Self; 3]) -> bool {
-        keeps_away(course.map(|nearness| nearness.pivot))
-            && keeps_away(course.map(|nearness| nearness.gradient))
-    }
 }
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
@@ -100,14 +98,16 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// Looks at a state within a step.
-    pub(crate) fn look(&mut self, (time, state): (S, &M::State<S>), nearness: Nearness<S>) {
-        if let Some(approach) = &mut self.approach
-            && approach.step(time, nearness.pivot, S::zero())
-        {
-            self.nearest = (time, *state);
-        }
+    /// Looks at a time within a step; tells whether its pivot was smaller than ever.
+    pub(crate) fn look(&mut self, time: S, nearness: Nearness<S>) -> bool {
         self.gradients.look_within(time, nearness.gradient);
+        let approach = self.approach.as_mut();
+        approach.is_some_and(|approach| approach.step(time, nearness.pivot, S::zero()))
+    }
+
+    /// Keeps the state of the smallest pivot.
+    pub(crate) fn keep(&mut self, time: S, state: &M::State<S>) {
+        self.nearest = (time, *state);
     }
 
     /// Takes that so much motion (rad) since the last step was looked into, and nothing was passed unseen.

@@ -46,13 +46,13 @@ struct Wires {
     wires: Crossing,
 }
 
-/// Whether the report of a run doubts that it passed this joint. An error says so as well.
+/// Whether the report of a run doubts that it passed this joint; `None` of a run that ends with an error, which says so as well.
 fn is_told<M, F, I>(
     model: &M,
     (method, integrator): (F, I),
     (is_projected, by_joints): (bool, bool),
     (duration, expected): (f64, &str),
-) -> bool
+) -> Option<bool>
 where
     M: JointCoordinates,
     F: Formulation<f64>,
@@ -75,15 +75,15 @@ where
         Ok(report) => {
             println!("{what}: {}", report.doubts());
             // In joint coordinates the pivot of a single row tells as well.
-            report.doubts().into_iter().any(|doubt| match doubt {
+            Some(report.doubts().into_iter().any(|doubt| match doubt {
                 Doubt::Vanishing { joint, .. } => joint == expected,
                 Doubt::NearlySingular { joint, .. } => by_joints && joint == expected,
                 _ => false,
-            })
+            }))
         }
         Err(error) => {
             println!("{what}: {error}");
-            true
+            None
         }
     }
 }
@@ -95,27 +95,32 @@ fn sweep<M: JointCoordinates, F: Formulation<f64>>(
     (duration, joint): (f64, &str),
     expected: bool,
 ) {
+    let mut through = 0;
+    let mut check = |told: Option<bool>| {
+        through += usize::from(told.is_some());
+        assert_eq!(told.unwrap_or(true), expected);
+    };
     for by_joints in [false, true] {
         for is_projected in [false, true] {
             let how = (is_projected, by_joints);
+            let run = (duration, joint);
             for exponent in 4..=11 {
                 let relative = 10.0_f64.powi(-exponent);
                 let absolute = 1e-2 * relative;
                 let integrator = DormandPrince::new(Tolerance { relative, absolute });
                 let integrator = integrator.budget(200_000);
-                let told = is_told(model, (method, integrator), how, (duration, joint));
-                assert_eq!(told, expected);
+                check(is_told(model, (method, integrator), how, run));
             }
             for step in [1e-2, 1e-3] {
-                let integrator = Rk4::every(step);
-                let told = is_told(model, (method, integrator), how, (duration, joint));
-                assert_eq!(told, expected);
+                check(is_told(model, (method, Rk4::every(step)), how, run));
             }
-            let integrator = Heun::every(1e-3);
-            let told = is_told(model, (method, integrator), how, (duration, joint));
-            assert_eq!(told, expected);
+            check(is_told(model, (method, Heun::every(1e-3)), how, run));
         }
     }
+    assert!(
+        through > 4,
+        "most runs end with an error: {through} came through"
+    );
 }
 
 fn with_every_formulation<M: JointCoordinates>(model: &M, run: (f64, &str), expected: bool) {
@@ -182,7 +187,7 @@ fn steps_of_some_radians_pass_nothing_singular() {
             } else {
                 simulation.run(0.0..=100.0, every(100.0), seen)
             };
-            let Ok(report) = outcome else { continue };
+            let report = outcome.expect("nothing stops it");
             println!("{step}: {}", report.doubts());
             let is_false = |doubt| {
                 matches!(

@@ -74,7 +74,8 @@ pub fn choose(model: &Model) -> (Strategy, Reduced) {
         }
     }
     let (_, strategy, mut reduced) = best.expect("there is a way");
-    if !reduced.scene.constraints.is_empty() {
+    // Determinants are compared with their own values at the start.
+    if !reduced.determines() {
         reduced.find_references(&beginning);
     }
     (strategy, reduced)
