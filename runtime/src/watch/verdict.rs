@@ -150,7 +150,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let approach = self.approach.as_ref()?;
         let fall = approach.fall();
         let nearest = self.smallest_pivot()?;
-        let is_near = !above(fall, limits::NEARLY_SINGULAR) || approach.may_have_passed();
+        let is_near = self.is_near(fall) || approach.may_have_passed();
         is_near.then(|| Doubt::NearlySingular {
             joint: nearest.joint,
             fall: fall.to_f64(),
@@ -158,12 +158,31 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
+    /// Whether pivots, or squares of gradients, that fell so far tell of a singular configuration. A mechanism that is open by a little passes one at a distance whose square goes with that;
+    /// of one that is open by more all is doubted.
+    fn is_near(&self, fall: S) -> bool {
+        let open = self.largest_violation();
+        let passed = !above(open, limits::OPEN) && fall < S::constant(limits::PASSED_OPEN) * open;
+        !above(fall, limits::NEARLY_SINGULAR) || passed
+    }
+
+    /// By how much a joint was open, in lengths of the mechanism or radians.
+    fn largest_violation(&self) -> S {
+        let mut largest = S::zero();
+        for info in M::REPORT.joints {
+            let violation = self.position.of(&self.rows, info);
+            let length = violation.length.quotient(self.length);
+            largest = largest.max(length).max(violation.angle);
+        }
+        largest
+    }
+
     /// Gradients count by their squares, as pivots do.
     fn vanishing(&self) -> Option<Doubt> {
         let shortest = self.shortest_gradient()?;
         let fall = shortest.relative * shortest.relative;
         let may_have_passed = self.gradients.approach().may_have_passed();
-        let is_near = !above(fall, limits::NEARLY_SINGULAR) || may_have_passed;
+        let is_near = self.is_near(fall) || may_have_passed;
         (is_near && self.nearly_singular().is_none()).then(|| Doubt::Vanishing {
             joint: shortest.joint,
             length: shortest.relative.to_f64(),

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
-    Adams, Bdf, BodyHandle, DormandPrince853, Doubt, Dynamics, Integrator, JointCoordinates,
-    JointDynamics, JointStepper, RadauIIA, Rk4, Sample,
+    Adams, Bdf, BodyHandle, BogackiShampine, DormandPrince853, Doubt, Dynamics, Heun, Integrator,
+    JointCoordinates, JointDynamics, JointStepper, RadauIIA, Rk4, Sample, SemiImplicitEuler,
 };
 use holonom_models::FourBar;
 use nalgebra::Vector3;
@@ -325,6 +325,26 @@ fn an_extreme_penalty_factor_is_doubted_at_a_tight_tolerance() {
 #[test]
 fn an_extreme_penalty_factor_is_doubted_at_tight_tolerances() {
     extreme(1e-11, 1e-11);
+}
+
+/// By its bodies a mechanism that is open by less than a thousandth passes at a distance that is no longer small.
+#[test]
+fn what_is_open_by_a_little_is_doubted_from_further() {
+    let (model, mark) = (Rhombus::default(), rhombus());
+    let how = (false, false);
+    for step in (1..=12).map(|k| 2.5e-4 * f64::from(k)) {
+        let short = SemiImplicitEuler::every(step);
+        run(&model, &mark, (StandardLagrange, short), how);
+    }
+    for step in (1..=20).map(|k| 5e-4 * f64::from(k)) {
+        let heun = Heun::every(step);
+        run(&model, &mark, (StandardLagrange, heun), how);
+    }
+    for relative in (0..=20).map(|k| 10.0_f64.powf(-3.0 - 0.1 * f64::from(k))) {
+        let absolute = 1e-2 * relative;
+        let third = BogackiShampine::new(Tolerance { relative, absolute }).budget(BUDGET);
+        run(&model, &mark, (StandardLagrange, third), how);
+    }
 }
 
 /// Methods of higher order take longer steps.
