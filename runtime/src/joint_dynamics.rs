@@ -54,7 +54,7 @@ pub struct JointDynamics<S: Real, M: JointCoordinates, F: Formulation<S>, A = No
     coefficients: M::JointCoefficients<S>,
     stabilisation: Stabilisation<S>,
     compliances: M::ClosingMultipliers<S>,
-    iterations: Iterations,
+    pub(crate) iterations: Iterations,
 }
 
 impl<S: Real, M: JointCoordinates, F: Formulation<S>, A: Clone> Clone

@@ -89,6 +89,9 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// How often the augmented Lagrangian solved its system.
     fn iterations(&self) -> Iterations;
 
+    /// Counts as if no more of these had been.
+    fn recount(&mut self, iterations: Iterations);
+
     /// What was seen at the last evaluation.
     fn seen(&self) -> Self::Seen;
 
@@ -155,6 +158,10 @@ where
 
     fn iterations(&self) -> Iterations {
         Dynamics::iterations(self)
+    }
+
+    fn recount(&mut self, iterations: Iterations) {
+        self.iterations = iterations;
     }
 
     fn seen(&self) -> Seen<S, M> {
@@ -237,6 +244,10 @@ where
 
     fn iterations(&self) -> Iterations {
         Self::iterations(self)
+    }
+
+    fn recount(&mut self, iterations: Iterations) {
+        self.iterations = iterations;
     }
 
     // The watch evaluates the end of a step by itself.

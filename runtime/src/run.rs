@@ -13,7 +13,7 @@ use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::treatment::Treatment;
 use crate::watch::Watch;
-use crate::within::look_within;
+use crate::within::{better_end, look_within};
 
 /// A run under way.
 pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
@@ -101,7 +101,9 @@ where
         while course.time() < span.end {
             course.advance(&mut self.moving)?;
             let before = course.counts().evaluations;
+            let mut better = None;
             if let Some(watch) = &mut self.watch {
+                better = better_end(watch, &mut self.moving, &course, &last_good.1);
                 look_within(watch, &mut self.moving, &mut course, &last_good.1);
             }
             let looks = course.counts().evaluations.saturating_sub(before);
@@ -135,6 +137,9 @@ where
                 course.replace(state);
             }
             if let Some(watch) = &mut self.watch {
+                if let Some(better) = better {
+                    watch.judge([&state, &better]);
+                }
                 self.moving.watch(watch, time, &state);
                 let excused = self.moving.iterations().excused;
                 watch.excuse_evaluations(excused, time);

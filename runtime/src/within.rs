@@ -1,4 +1,4 @@
-//! What a long step may pass over: singular configurations between its ends.
+//! What the ends of a step do not tell: singular configurations between them, and what a method of low order misses.
 
 use crate::error::Fault;
 use crate::integrate::Course;
@@ -16,6 +16,31 @@ const COARSEST: usize = 2;
 
 /// The part of an interval at which it is divided: not its middle, for a motion may repeat itself in half a step.
 const DIVISION: f64 = 0.44;
+
+/// Where a rule of higher order would have led in the last step of a course, of some steps of a method that is judged. The bodies stood near by a moment ago.
+#[inline]
+pub(crate) fn better_end<S, M, D, C>(
+    watch: &Watch<S, M>,
+    moving: &mut D,
+    course: &C,
+    near: &M::State<S>,
+) -> Option<M::State<S>>
+where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+    C: Course<S, D::State>,
+{
+    if !watch.judges() {
+        return None;
+    }
+    let (seen, iterations) = (moving.seen(), moving.iterations());
+    // Where there is a fault the run will find it.
+    let better = course.better_end(moving).ok().flatten();
+    moving.recall(seen);
+    moving.recount(iterations);
+    better.map(|state| moving.bodies(&state, near))
+}
 
 /// Looks into the last step of a course, before its end is corrected or shown to the watch: as far as pivots at the ends of its parts do not tell that the mechanism kept away from where one
 /// vanishes. The bodies stood near by a moment ago.

@@ -37,7 +37,7 @@ pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A 
     compliances: M::Multipliers<S>,
     formulation: F,
     forces: A,
-    iterations: Iterations,
+    pub(crate) iterations: Iterations,
     pub(crate) seen: Seen<S, M>,
     orientation: PhantomData<P>,
 }

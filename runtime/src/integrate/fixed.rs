@@ -1,5 +1,6 @@
 //! A scheme at a fixed step.
 
+use super::lobatto::Taken;
 use super::{
     Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named,
     positive, refused,
@@ -62,10 +63,6 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
 
     fn turning_error_of_short_steps(&self) -> f64 {
         self.scheme.turning_error_of_short_steps()
-    }
-
-    fn silent_phase(&self) -> f64 {
-        self.scheme.silent_phase()
     }
 
     fn velocity_lead(&self) -> f64 {
@@ -227,6 +224,21 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
             last: &self.last,
         };
         Ok(self.scheme.interpolate(stride, theta))
+    }
+
+    fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
+        if !K::IS_JUDGED {
+            return Ok(None);
+        }
+        let taken = Taken {
+            start: self.start,
+            end: self.time,
+            step: self.step,
+            from: &self.from,
+            first: &self.first,
+            to: &self.state,
+        };
+        taken.better_end(system).map(Some)
     }
 
     fn replace(&mut self, state: X) {

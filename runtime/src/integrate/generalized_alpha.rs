@@ -3,6 +3,7 @@
 use core::mem::replace;
 
 use super::fixed::{Grid, slope};
+use super::lobatto::Taken;
 use super::{Counted, Counts, Course, Integrator, NoStages, Span, Stride, System, dense};
 use crate::array::Vector;
 use crate::error::Fault;
@@ -80,12 +81,6 @@ impl<S: Real> GeneralizedAlpha<S> {
     #[must_use]
     pub fn spectral_radius(self, rho: S) -> Self {
         Self { rho, ..self }
-    }
-
-    /// `(1 - rho) / (1 + rho)`, from 0 to 1.
-    fn damping(&self) -> f64 {
-        let rho = self.rho.to_f64();
-        (1.0 - rho) / (1.0 + rho)
     }
 }
 
@@ -199,11 +194,6 @@ impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
     fn turning_error(&self) -> f64 {
         1.0
     }
-
-    /// Three times that of a linear oscillation: a rod that swings by a right angle to either side is off by 2.3 times as much.
-    fn silent_phase(&self) -> f64 {
-        3.0 * (1.0 / 12.0 + 0.375 * self.damping() * self.damping())
-    }
 }
 
 /// An integration with [`GeneralizedAlpha`] under way.
@@ -275,6 +265,18 @@ impl<S: Real, X: Vector<S>> Course<S, X> for GeneralizedAlphaCourse<S, X> {
             last: &self.last,
         };
         Ok(dense::cubic(&stride, theta))
+    }
+
+    fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
+        let taken = Taken {
+            start: self.start,
+            end: self.time,
+            step: self.step,
+            from: &self.from,
+            first: &self.first,
+            to: &self.state,
+        };
+        taken.better_end(system).map(Some)
     }
 
     fn replace(&mut self, state: X) {

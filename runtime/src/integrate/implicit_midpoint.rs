@@ -34,6 +34,8 @@ const TRANSIENT: usize = 10;
 impl<S: Real> Scheme<S> for ImplicitMidpoint {
     type Stages<X: Vector<S>> = NoStages;
 
+    const IS_JUDGED: bool = true;
+
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
         NoStages
     }
@@ -87,10 +89,6 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
     /// `|p|` stays what it is and says nothing of the angle, which is off by `z^3 / 12` after a step, with `z` the angle of the step.
     fn turning_error(&self) -> f64 {
         1.0
-    }
-
-    fn silent_phase(&self) -> f64 {
-        1.0 / 12.0
     }
 
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {

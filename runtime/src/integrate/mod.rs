@@ -37,6 +37,7 @@ mod fixed;
 mod generalized_alpha;
 mod implicit_midpoint;
 mod linear;
+mod lobatto;
 mod newton;
 mod radau;
 mod rk2;
@@ -232,11 +233,6 @@ pub trait Integrator<S: Real>: Copy + Debug {
         0.0
     }
 
-    /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a method that keeps its energy, which then says nothing of it; zero for others.
-    fn silent_phase(&self) -> f64 {
-        0.0
-    }
-
     /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that takes these by velocities at the end of a step; zero for others.
     fn velocity_lead(&self) -> f64 {
         0.0
@@ -267,6 +263,15 @@ pub trait Course<S: Real, X: Vector<S>> {
     /// # Errors
     /// A fault of the system, where the interpolant needs an evaluation at the end of the step.
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault>;
+
+    /// Where the last step would have led by the rule of Lobatto of order 4, from slopes at its ends and in its middle, each evaluated anew and counted nowhere; `None` for methods that
+    /// control their errors, or whose energy tells of them.
+    ///
+    /// # Errors
+    /// A fault of the system.
+    fn better_end<Y: System<S, State = X>>(&self, _system: &mut Y) -> Result<Option<X>, Fault> {
+        Ok(None)
+    }
 
     /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a method that looks back at former steps goes on with these. Call [`Course::at`] before, not after.
     fn replace(&mut self, state: X);
@@ -314,10 +319,8 @@ pub trait Scheme<S: Real>: Copy + Debug {
         0.0
     }
 
-    /// See [`Integrator::silent_phase`].
-    fn silent_phase(&self) -> f64 {
-        0.0
-    }
+    /// Whether [`Course::better_end`] judges steps of this method: those of order 2, whose energy does not tell what they miss.
+    const IS_JUDGED: bool = false;
 
     /// See [`Integrator::velocity_lead`].
     fn velocity_lead(&self) -> f64 {

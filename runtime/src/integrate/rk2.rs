@@ -45,6 +45,8 @@ const TURNING_ERROR: f64 = 2.0 * TURNING_ERROR_OF_SHORT_STEPS;
 impl<S: Real> Scheme<S> for Midpoint {
     type Stages<X: Vector<S>> = NoStages;
 
+    const IS_JUDGED: bool = true;
+
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
         NoStages
     }
@@ -78,6 +80,8 @@ impl<S: Real> Scheme<S> for Midpoint {
 
 impl<S: Real> Scheme<S> for Heun {
     type Stages<X: Vector<S>> = NoStages;
+
+    const IS_JUDGED: bool = true;
 
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
         NoStages

@@ -89,9 +89,9 @@ pub enum Doubt {
         /// How much of their work is not known.
         share: f64,
     },
-    /// Steps are long for the motion, of a method that keeps its energy: that tells nothing.
+    /// Steps are long for the motion, of a method of low order, whose energy does not tell.
     LongSteps {
-        /// What the phase of the motion may be off by at the end (rad): of all steps, estimated.
+        /// What the fastest body may be off by at the worst (rad, or over what it has moved by where that is less): of all steps, estimated.
         shift: f64,
     },
     /// The absolute tolerance is coarse for a mechanism of this size.
@@ -231,7 +231,8 @@ impl fmt::Display for Doubt {
             ),
             Self::LongSteps { shift } => write!(
                 f,
-                "steps are long for the motion, whose phase may be off by about {} rad: the energy, which this method keeps, does not tell; use a smaller step",
+                "steps are long for the motion, which may be off by about {} rad, or so much of its way where that is less than a radian: with this method the energy does not tell; use a smaller step, \
+                 or a method of higher order",
                 Measured(shift)
             ),
             Self::CoarseTolerance { absolute, size } => write!(

@@ -7,6 +7,7 @@
 mod doubt;
 mod energy;
 mod gradients;
+mod lag;
 mod limits;
 mod pace;
 mod rows;
@@ -22,6 +23,7 @@ pub(crate) use within::Nearness;
 
 use self::energy::Balance;
 use self::gradients::Gradients;
+use self::lag::Lag;
 use self::pace::Pace;
 use self::singular::Approach;
 use crate::array::{Array, StateParts};
@@ -67,18 +69,16 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     /// What an angle is off by for each of it.
     turning_error: S,
     turning_error_of_short_steps: S,
-    /// What a phase is off by for the third power of a step (rad), of a method that keeps the energy.
-    silent_phase: S,
+    lag: Lag<S, M>,
     /// By what part of a step velocities are ahead of coordinates.
     velocity_lead: S,
     /// The longest step (s).
     longest: S,
-    /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of what was turned (rad), and of what the rate changed by.
+    /// The last rate of motion (rad/s) and the largest.
     rate: S,
     fastest: S,
     /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
     changed: S,
-    cubes: [S; 2],
     /// What the digits of the positions resolve at the start (m).
     resolution: S,
     /// Steps, and what was excused in them.
@@ -255,13 +255,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             stretched: S::zero(),
             turning_error: S::one(),
             turning_error_of_short_steps: S::zero(),
-            silent_phase: S::zero(),
+            lag: Lag::none(state),
             velocity_lead: S::zero(),
             longest: S::zero(),
             rate: S::zero(),
             fastest: S::zero(),
             changed: S::zero(),
-            cubes: [S::zero(); 2],
             resolution: resolution::<S, M>(state),
             excused: Excused {
                 corrections: 0,
@@ -281,7 +280,6 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
         self.turning_error = S::constant(integrator.turning_error());
         self.turning_error_of_short_steps = S::constant(integrator.turning_error_of_short_steps());
-        self.silent_phase = S::constant(integrator.silent_phase());
         self.velocity_lead = S::constant(integrator.velocity_lead());
         self
     }
@@ -356,16 +354,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.speed = self.speed.max(speed);
         self.spin = self.spin.max(spin);
         let rate = self.pace.of(state);
-        let turned = rate * (time - self.time);
-        self.travel = self.travel + turned;
-        let change = if self.steps > 0 {
-            (rate - self.rate).abs()
-        } else {
-            S::zero()
-        };
-        for (sum, x) in self.cubes.iter_mut().zip([turned, change]) {
-            *sum = (x * x).fused(x, *sum);
-        }
+        self.travel = self.travel + rate * (time - self.time);
         self.rate = rate;
         self.fastest = self.fastest.max(rate);
         if self.velocity_lead > S::zero() {
@@ -427,6 +416,16 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     #[inline]
     pub(crate) fn steps(&self) -> usize {
         self.steps
+    }
+
+    /// Whether the next step is to be judged by a rule of higher order.
+    pub(crate) fn judges(&self) -> bool {
+        Lag::<S, M>::is_due(self.steps)
+    }
+
+    /// Takes where the next step has led to, and where a rule of higher order leads.
+    pub(crate) fn judge(&mut self, ends: [&M::State<S>; 2]) {
+        self.lag.take(&self.pace, self.steps, ends);
     }
 
     /// Forces may jump here.
@@ -516,6 +515,13 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     #[must_use]
     pub fn orientation_drift(&self) -> S {
         self.stretch
+    }
+
+    /// What a body is off by at the worst because its coordinates lag behind (rad, or lengths of the mechanism; over what it has moved by where that is less than one), as far as single
+    /// steps tell: they do not tell of a motion that takes errors apart. Estimated with methods of order 2, zero with others.
+    #[must_use]
+    pub fn lag(&self) -> S {
+        self.lag.worst()
     }
 
     /// What was accepted without convergence.

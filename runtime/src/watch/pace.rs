@@ -47,6 +47,13 @@ impl<S: Real, M: Mechanism> Pace<S, M> {
         }
     }
 
+    /// The length by which a body moves in a radian.
+    pub(super) fn length_of(&self, body: usize) -> S {
+        let place = M::REPORT.bodies.get(body).map_or(0, |info| info.velocity);
+        let [length] = read(self.lengths.as_slice(), place);
+        length
+    }
+
     /// The rate of the fastest body (rad/s).
     pub(super) fn of(&self, state: &M::State<S>) -> S {
         let velocities = state.velocities().as_slice();

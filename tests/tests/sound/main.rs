@@ -6,6 +6,7 @@ mod between;
 mod clock;
 mod digits;
 mod gradients;
+mod lag;
 mod limits;
 mod long;
 mod orientation;

@@ -292,10 +292,6 @@ impl<S: Real> Integrator<S> for Integration {
         with_own_type!(*self, integrator => integrator.fixed_step())
     }
 
-    fn silent_phase(&self) -> f64 {
-        with_own_type!(*self, integrator => Integrator::<S>::silent_phase(&integrator))
-    }
-
     fn velocity_lead(&self) -> f64 {
         with_own_type!(*self, integrator => Integrator::<S>::velocity_lead(&integrator))
     }
@@ -420,6 +416,11 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
         let system = &mut Behind { system };
         on_course!(self, course => course.at(system, time))
+    }
+
+    fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
+        let system = &mut Behind { system };
+        on_course!(self, course => course.better_end(system))
     }
 
     fn replace(&mut self, state: X) {

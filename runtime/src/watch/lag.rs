@@ -1,0 +1,155 @@
+//! By how much coordinates lag behind, with a method of low order whose energy does not tell.
+
+use super::pace::Pace;
+use crate::array::{Array, StateParts};
+use crate::mechanism::Mechanism;
+use crate::report::{BodyInfo, BodyKind};
+use crate::rotation::{conjugate, minus, product, read, write};
+use crate::scalar::{Real, Scalar};
+use crate::view::square;
+
+/// Of how many steps one is judged.
+const EVERY: usize = 4;
+
+/// What part of the farthest motion counts as none.
+const HARDLY: f64 = 1e-2;
+
+/// What steps miss, body by body, in radians and in lengths of the body.
+///
+/// What a step misses along the motion, over its velocity, is a time. It adds up with its sign, so that neither the noise of a fast vibration nor what an oscillation takes back counts; weighted
+/// by the squares of the velocities, it is that of the motion proper. Times the velocity it is what a body is off by. Translations and rotations count by themselves: a fast spin would hide
+/// what an axis does.
+pub(super) struct Lag<S: Scalar, M: Mechanism> {
+    /// Of each translation and each rotation the sums of what was missed along the velocity, and of the squares of velocities, and what it is off by at the worst.
+    sums: M::Velocities<S>,
+    /// In their first places the farthest from where they began.
+    excursions: M::Velocities<S>,
+    first: M::State<S>,
+}
+
+impl<S: Scalar, M: Mechanism> Clone for Lag<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Lag<S, M> {}
+
+impl<S: Real, M: Mechanism> Lag<S, M> {
+    pub(super) fn none(start: &M::State<S>) -> Self {
+        Self {
+            sums: M::Velocities::<S>::zeros(),
+            excursions: M::Velocities::<S>::zeros(),
+            first: *start,
+        }
+    }
+
+    /// Whether the step after so many is to be judged.
+    pub(super) fn is_due(steps: usize) -> bool {
+        steps % EVERY == 1
+    }
+
+    /// Takes where a step has led to, and where a rule of higher order leads.
+    pub(super) fn take(
+        &mut self,
+        pace: &Pace<S, M>,
+        steps: usize,
+        [end, better]: [&M::State<S>; 2],
+    ) {
+        let steps = S::constant(steps as f64);
+        let first = self.first;
+        let velocities = end.velocities().as_slice();
+        for (body, info) in M::REPORT.bodies.iter().enumerate() {
+            let part = S::one().quotient(pace.length_of(body));
+            let translation = |from: &M::State<S>, to: &M::State<S>| {
+                let [from, to] = [from, to].map(|state| state.coordinates().as_slice());
+                let [from, to]: [[S; 3]; 2] = [from, to].map(|x| read(x, info.coordinate));
+                minus(&to, &from).map(|x| x * part)
+            };
+            let motion = Motion {
+                missed: translation(better, end),
+                way: translation(&first, end),
+                velocity: read(velocities, info.velocity).map(|v: S| v * part),
+            };
+            self.add(info.velocity, steps, &motion);
+            if info.kind == BodyKind::Rigid {
+                let motion = Motion {
+                    missed: rotation::<S, M>(info.coordinate, [better, end]),
+                    way: rotation::<S, M>(info.coordinate, [&first, end]),
+                    velocity: read(velocities, info.velocity + 3),
+                };
+                self.add(info.velocity + 3, steps, &motion);
+            }
+        }
+    }
+
+    fn add(&mut self, place: usize, steps: S, motion: &Motion<S>) {
+        let [before] = read(self.excursions.as_slice(), place);
+        let excursion = square(&motion.way).sqrt().max(before);
+        write(self.excursions.as_mut_slice(), place, [excursion]);
+
+        let [along, speeds, mut worst]: [S; 3] = read(self.sums.as_slice(), place);
+        let terms = motion.missed.iter().zip(&motion.velocity);
+        let along = terms.fold(along, |sum, (&x, &v)| x.fused(v, sum));
+        let here = square(&motion.velocity);
+        let speeds = speeds + here;
+        if speeds > S::zero() {
+            let lag = along.abs().quotient(speeds) * steps;
+            worst = worst.max(lag * here.sqrt());
+        }
+        write(self.sums.as_mut_slice(), place, [along, speeds, worst]);
+    }
+
+    /// What a body is off by, at the worst (rad), or over what it has moved by where that is less than a radian.
+    pub(super) fn worst(&self) -> S {
+        let farthest = M::REPORT.bodies.iter().fold(S::zero(), |farthest, body| {
+            let [way, _] = self.of(body);
+            farthest.max(way)
+        });
+        // What hardly moves beside the others is vibration of what holds it.
+        let least = S::constant(HARDLY) * farthest.min(S::one());
+        M::REPORT.bodies.iter().fold(S::zero(), |worst, body| {
+            let [way, off] = self.of(body);
+            let moved = way.min(S::one()).max(least);
+            if moved > S::zero() {
+                worst.max(off.quotient(moved))
+            } else {
+                worst
+            }
+        })
+    }
+
+    /// How far from where it began a body was, and what it is off by.
+    fn of(&self, body: &BodyInfo) -> [S; 2] {
+        let parts: &[usize] = match body.kind {
+            BodyKind::Rigid => &[0, 3],
+            BodyKind::Particle => &[0],
+        };
+        let mut largest = [S::zero(); 2];
+        for part in parts {
+            let place = body.velocity + part;
+            let [_, _, off]: [S; 3] = read(self.sums.as_slice(), place);
+            let [way] = read(self.excursions.as_slice(), place);
+            for (largest, x) in largest.iter_mut().zip([way, off]) {
+                *largest = largest.max(x);
+            }
+        }
+        largest
+    }
+}
+
+/// A translation or a rotation, in lengths or radians.
+struct Motion<S> {
+    missed: [S; 3],
+    /// From where it began; a chord where that is far.
+    way: [S; 3],
+    velocity: [S; 3],
+}
+
+/// The rotation (rad, body axes) from one orientation to another that is near; a chord where it is not.
+fn rotation<S: Real, M: Mechanism>(place: usize, states: [&M::State<S>; 2]) -> [S; 3] {
+    let [p, q]: [[S; 4]; 2] = states.map(|x| read(x.coordinates().as_slice(), place + 3));
+    let [e0, e1, e2, e3] = product(&conjugate(&p), &q);
+    let two = S::constant(if e0 < S::zero() { -2.0 } else { 2.0 });
+    [two * e1, two * e2, two * e3]
+}
