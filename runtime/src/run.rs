@@ -106,7 +106,8 @@ where
                 better = better_end(watch, &mut self.moving, &course, &last_good.1);
                 look_within(watch, &mut self.moving, &mut course, &last_good.1);
             }
-            let looks = course.counts().evaluations.saturating_sub(before);
+            let after = course.counts().evaluations;
+            let looks = after.saturating_sub(before);
             // What output within the step evaluates is not what the watch is shown, which is its end.
             let mut seen = None;
             while let Some(time) = self.schedule.within(course.time()) {
@@ -123,10 +124,16 @@ where
                     return Ok(());
                 }
             }
-            if let Some(seen) = seen {
-                self.moving.recall(seen);
-            } else if looks > 1 || self.treatment.is_some() {
-                // Shared with no report, nor as the slope at the start of the next step.
+            let is_shared = match seen {
+                // With reports, which find what interpolation needs where a look has evaluated it, or evaluate for each time anew.
+                Some(seen) => {
+                    self.moving.recall(seen);
+                    course.counts().evaluations == after
+                }
+                // Or as the slope at the start of the next step.
+                None => looks <= 1 && self.treatment.is_none(),
+            };
+            if !is_shared {
                 of_watch = of_watch.saturating_add(looks);
             }
             let time = course.time();

@@ -449,6 +449,46 @@ fn equations_that_are_kept_hide_nothing_by_joints() {
     }
 }
 
+/// With reports within steps and without, whether a method evaluates for them once a step or for each.
+#[test]
+fn what_the_watch_looks_at_is_no_part_of_a_run() {
+    fn check(integrator: impl Integrator<f64>) {
+        let model = Rhombus::default();
+        for (is_projected, step) in [(false, 0.013), (true, 0.013), (false, 2.0), (true, 2.0)] {
+            let run = |is_watched: bool| {
+                let mut simulation = Simulation::new(&model, StandardLagrange, integrator);
+                if is_projected {
+                    simulation = simulation.projection(Projection::default());
+                }
+                if !is_watched {
+                    simulation = simulation.unwatched();
+                }
+                let simulation = simulation.joint_coordinates();
+                let report = simulation.run(0.0..=2.0, every(step), |_| ControlFlow::Continue(()));
+                report.map(|report| (report.state, report.evaluations, report.accepted))
+            };
+            match (run(true), run(false)) {
+                (Ok(watched), Ok(unwatched)) => assert_eq!(watched, unwatched, "{integrator:?}"),
+                (watched, unwatched) => assert_eq!(watched.is_ok(), unwatched.is_ok()),
+            }
+        }
+    }
+    for exponent in [4, 6, 8] {
+        let relative = 10.0_f64.powi(-exponent);
+        let absolute = 1e-2 * relative;
+        let tolerance = Tolerance { relative, absolute };
+        check(DormandPrince::new(tolerance));
+        check(DormandPrince853::new(tolerance));
+        check(RadauIIA::new(tolerance));
+        check(Bdf::new(tolerance));
+        check(Adams::new(tolerance));
+    }
+    for step in [0.1, 0.02] {
+        check(Rk4::every(step));
+        check(Heun::every(step));
+    }
+}
+
 #[test]
 fn a_fast_rotor_makes_no_loop_singular() {
     let model = BesideRotor::default();
