@@ -2,7 +2,7 @@
 
 #![forbid(unsafe_code)]
 
-#[path = "../kernels/scalars/dual.rs"]
+#[path = "../../tests/kernels/scalars/dual.rs"]
 mod dual;
 mod laws;
 
