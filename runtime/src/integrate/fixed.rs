@@ -65,6 +65,10 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
         self.scheme.turning_error_of_short_steps()
     }
 
+    fn silent_phase(&self) -> f64 {
+        self.scheme.silent_phase()
+    }
+
     fn velocity_lead(&self) -> f64 {
         self.scheme.velocity_lead()
     }

@@ -82,6 +82,12 @@ impl<S: Real> GeneralizedAlpha<S> {
     pub fn spectral_radius(self, rho: S) -> Self {
         Self { rho, ..self }
     }
+
+    /// `(1 - rho) / (1 + rho)`, from 0 to 1.
+    fn damping(&self) -> f64 {
+        let rho = self.rho.to_f64();
+        (1.0 - rho) / (1.0 + rho)
+    }
 }
 
 /// The coefficients of a step of the generalized-alpha method.
@@ -193,6 +199,11 @@ impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
     /// `|p|` stays 1 and says nothing of the angle.
     fn turning_error(&self) -> f64 {
         1.0
+    }
+
+    /// Three times that of a linear oscillation: a rod that swings by a right angle to either side is off by 2.3 times as much.
+    fn silent_phase(&self) -> f64 {
+        3.0 * (1.0 / 12.0 + 0.375 * self.damping() * self.damping())
     }
 }
 

@@ -91,6 +91,10 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
         1.0
     }
 
+    fn silent_phase(&self) -> f64 {
+        1.0 / 12.0
+    }
+
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
         dense::cubic(&stride, theta)
     }

@@ -233,6 +233,11 @@ pub trait Integrator<S: Real>: Copy + Debug {
         0.0
     }
 
+    /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a method of order 2, whose energy does not tell; zero for others.
+    fn silent_phase(&self) -> f64 {
+        0.0
+    }
+
     /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that takes these by velocities at the end of a step; zero for others.
     fn velocity_lead(&self) -> f64 {
         0.0
@@ -321,6 +326,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
 
     /// Whether [`Course::better_end`] judges steps of this method: those of order 2, whose energy does not tell what they miss.
     const IS_JUDGED: bool = false;
+
+    /// See [`Integrator::silent_phase`].
+    fn silent_phase(&self) -> f64 {
+        0.0
+    }
 
     /// See [`Integrator::velocity_lead`].
     fn velocity_lead(&self) -> f64 {

@@ -73,6 +73,10 @@ impl<S: Real> Scheme<S> for Midpoint {
         TURNING_ERROR_OF_SHORT_STEPS
     }
 
+    fn silent_phase(&self) -> f64 {
+        1.0 / 6.0
+    }
+
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
         dense::cubic(&stride, theta)
     }
@@ -107,6 +111,10 @@ impl<S: Real> Scheme<S> for Heun {
 
     fn turning_error_of_short_steps(&self) -> f64 {
         TURNING_ERROR_OF_SHORT_STEPS
+    }
+
+    fn silent_phase(&self) -> f64 {
+        1.0 / 6.0
     }
 
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {

@@ -11,6 +11,10 @@ use crate::view::square;
 /// Of how many steps one is judged.
 const EVERY: usize = 4;
 
+/// The square of a velocity over the largest before, from which on a body begins to move, and under which it rests.
+const STARTS: f64 = 1e6;
+const RESTS: f64 = 1e-6;
+
 /// What part of the farthest motion counts as none.
 const HARDLY: f64 = 1e-2;
 
@@ -22,9 +26,11 @@ const HARDLY: f64 = 1e-2;
 pub(super) struct Lag<S: Scalar, M: Mechanism> {
     /// Of each translation and each rotation the sums of what was missed along the velocity, and of the squares of velocities, and what it is off by at the worst.
     sums: M::Velocities<S>,
-    /// In their first places the farthest from where they began.
+    /// How far each was from where it began, in how many steps it moved, and the square of its largest velocity.
     excursions: M::Velocities<S>,
     first: M::State<S>,
+    /// The sums of what bodies missed at the most, whatever its direction: of coordinates, and of velocities (1/s).
+    missed: [S; 2],
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Lag<S, M> {
@@ -41,6 +47,7 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
             sums: M::Velocities::<S>::zeros(),
             excursions: M::Velocities::<S>::zeros(),
             first: *start,
+            missed: [S::zero(); 2],
         }
     }
 
@@ -50,15 +57,10 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
     }
 
     /// Takes where a step has led to, and where a rule of higher order leads.
-    pub(super) fn take(
-        &mut self,
-        pace: &Pace<S, M>,
-        steps: usize,
-        [end, better]: [&M::State<S>; 2],
-    ) {
-        let steps = S::constant(steps as f64);
+    pub(super) fn take(&mut self, pace: &Pace<S, M>, [end, better]: [&M::State<S>; 2]) {
         let first = self.first;
         let velocities = end.velocities().as_slice();
+        let mut most = [S::zero(); 2];
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
             let part = S::one().quotient(pace.length_of(body));
             let translation = |from: &M::State<S>, to: &M::State<S>| {
@@ -71,33 +73,65 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
                 way: translation(&first, end),
                 velocity: read(velocities, info.velocity).map(|v: S| v * part),
             };
-            self.add(info.velocity, steps, &motion);
+            self.add(info.velocity, &motion);
+            let off = |place, part: S| {
+                let [is, should]: [[S; 3]; 2] =
+                    [end, better].map(|state| read(state.velocities().as_slice(), place));
+                square(&minus(&is, &should)).sqrt() * part
+            };
+            most = larger(
+                most,
+                [square(&motion.missed).sqrt(), off(info.velocity, part)],
+            );
             if info.kind == BodyKind::Rigid {
                 let motion = Motion {
                     missed: rotation::<S, M>(info.coordinate, [better, end]),
                     way: rotation::<S, M>(info.coordinate, [&first, end]),
                     velocity: read(velocities, info.velocity + 3),
                 };
-                self.add(info.velocity + 3, steps, &motion);
+                self.add(info.velocity + 3, &motion);
+                let off = off(info.velocity + 3, S::one());
+                most = larger(most, [square(&motion.missed).sqrt(), off]);
             }
+        }
+        for (sum, most) in self.missed.iter_mut().zip(most) {
+            *sum = most.fused(S::constant(EVERY as f64), *sum);
         }
     }
 
-    fn add(&mut self, place: usize, steps: S, motion: &Motion<S>) {
-        let [before] = read(self.excursions.as_slice(), place);
-        let excursion = square(&motion.way).sqrt().max(before);
-        write(self.excursions.as_mut_slice(), place, [excursion]);
+    /// What all steps have missed, whatever its direction: of coordinates, and of velocities beside the fastest. Nothing of what a method does exactly.
+    pub(super) fn missed(&self, fastest: S) -> S {
+        let [coordinates, velocities] = self.missed;
+        if velocities > S::zero() {
+            coordinates.max(velocities.quotient(fastest))
+        } else {
+            coordinates
+        }
+    }
 
-        let [along, speeds, mut worst]: [S; 3] = read(self.sums.as_slice(), place);
-        let terms = motion.missed.iter().zip(&motion.velocity);
-        let along = terms.fold(along, |sum, (&x, &v)| x.fused(v, sum));
+    fn add(&mut self, place: usize, motion: &Motion<S>) {
         let here = square(&motion.velocity);
-        let speeds = speeds + here;
+        let [mut along, mut speeds, mut worst]: [S; 3] = read(self.sums.as_slice(), place);
+        let [way, mut moving, fastest]: [S; 3] = read(self.excursions.as_slice(), place);
+        if here > S::constant(STARTS) * fastest {
+            // What was before is rest.
+            (along, speeds, moving) = (S::zero(), S::zero(), S::zero());
+        }
+        let fastest = fastest.max(here);
+        if here > S::constant(RESTS) * fastest {
+            moving = moving + S::constant(EVERY as f64);
+        }
+        let terms = motion.missed.iter().zip(&motion.velocity);
+        along = terms.fold(along, |sum, (&x, &v)| x.fused(v, sum));
+        speeds = speeds + here;
         if speeds > S::zero() {
-            let lag = along.abs().quotient(speeds) * steps;
+            let lag = along.abs().quotient(speeds) * moving;
             worst = worst.max(lag * here.sqrt());
         }
+        let way = square(&motion.way).sqrt().max(way);
         write(self.sums.as_mut_slice(), place, [along, speeds, worst]);
+        let rest = [way, moving, fastest];
+        write(self.excursions.as_mut_slice(), place, rest);
     }
 
     /// What a body is off by, at the worst (rad), or over what it has moved by where that is less than a radian.
@@ -130,12 +164,14 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
             let place = body.velocity + part;
             let [_, _, off]: [S; 3] = read(self.sums.as_slice(), place);
             let [way] = read(self.excursions.as_slice(), place);
-            for (largest, x) in largest.iter_mut().zip([way, off]) {
-                *largest = largest.max(x);
-            }
+            largest = larger(largest, [way, off]);
         }
         largest
     }
+}
+
+fn larger<S: Real>([a, b]: [S; 2], [x, y]: [S; 2]) -> [S; 2] {
+    [a.max(x), b.max(y)]
 }
 
 /// A translation or a rotation, in lengths or radians.

@@ -70,13 +70,16 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     turning_error: S,
     turning_error_of_short_steps: S,
     lag: Lag<S, M>,
+    /// What a phase is off by for the third power of a step (rad), of a method whose energy does not tell.
+    silent_phase: S,
     /// By what part of a step velocities are ahead of coordinates.
     velocity_lead: S,
     /// The longest step (s).
     longest: S,
-    /// The last rate of motion (rad/s) and the largest.
+    /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of what was turned (rad), and of what the rate changed by.
     rate: S,
     fastest: S,
+    cubes: [S; 2],
     /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
     changed: S,
     /// What the digits of the positions resolve at the start (m).
@@ -256,6 +259,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             turning_error: S::one(),
             turning_error_of_short_steps: S::zero(),
             lag: Lag::none(state),
+            silent_phase: S::zero(),
+            cubes: [S::zero(); 2],
             velocity_lead: S::zero(),
             longest: S::zero(),
             rate: S::zero(),
@@ -280,6 +285,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
         self.turning_error = S::constant(integrator.turning_error());
         self.turning_error_of_short_steps = S::constant(integrator.turning_error_of_short_steps());
+        self.silent_phase = S::constant(integrator.silent_phase());
         self.velocity_lead = S::constant(integrator.velocity_lead());
         self
     }
@@ -354,7 +360,16 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.speed = self.speed.max(speed);
         self.spin = self.spin.max(spin);
         let rate = self.pace.of(state);
-        self.travel = self.travel + rate * (time - self.time);
+        let turned = rate * (time - self.time);
+        self.travel = self.travel + turned;
+        let change = if self.steps > 0 {
+            (rate - self.rate).abs()
+        } else {
+            S::zero()
+        };
+        for (sum, x) in self.cubes.iter_mut().zip([turned, change]) {
+            *sum = (x * x).fused(x, *sum);
+        }
         self.rate = rate;
         self.fastest = self.fastest.max(rate);
         if self.velocity_lead > S::zero() {
@@ -425,7 +440,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Takes where the next step has led to, and where a rule of higher order leads.
     pub(crate) fn judge(&mut self, ends: [&M::State<S>; 2]) {
-        self.lag.take(&self.pace, self.steps, ends);
+        self.lag.take(&self.pace, ends);
     }
 
     /// Forces may jump here.

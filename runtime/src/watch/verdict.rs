@@ -225,10 +225,24 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Of methods whose energy does not tell.
     fn long_steps(&self) -> Option<Doubt> {
-        let shift = self.lag.worst().max(self.led_shift());
+        let mut shift = self.lag.worst().max(self.led_shift());
+        if !above(shift, limits::PHASE) {
+            shift = shift.max(self.silent_shift().min(self.lag.missed(self.fastest)));
+        }
         above(shift, limits::PHASE).then(|| Doubt::LongSteps {
             shift: shift.to_f64(),
         })
+    }
+
+    /// A rate that changes by a part `x` of the largest in a step is that of an oscillation of `x` radians a step.
+    fn silent_shift(&self) -> S {
+        let [turned, changed] = self.cubes;
+        let fastest = self.fastest * self.fastest * self.fastest;
+        if self.silent_phase > S::zero() && fastest > S::zero() {
+            self.silent_phase * turned.max(changed.quotient(fastest))
+        } else {
+            S::zero()
+        }
     }
 
     /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a rate changes by over so much time.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use holonom::forces::{ConstantMoment, SpringDamper};
+use holonom::forces::{Actuator, ConstantMoment, SpringDamper, TorsionalActuator};
 use holonom::joints::{AngleDriver, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{Doubt, Doubts, GeneralizedAlpha, Heun, ImplicitMidpoint, Integrator, Midpoint};
@@ -87,13 +87,16 @@ fn oscillations_that_are_off_are_doubted() {
                     _ => None,
                 });
                 let all = doubts.to_string();
+                // The bound of generalized-alpha is three times that of an oscillation, and one that hardly swings is off by less.
+                let is_coarse = name.ends_with("alpha") || ratio > 0.1;
+                let right = if is_coarse { 2e-3 } else { 8e-3 };
                 println!("{ratio} {step} {name}: {off:.1e} {shift:?}");
                 assert!(
                     off < 1.7e-2 || shift.is_some(),
                     "{ratio} {step} {name}: {off:e}, {all}"
                 );
                 assert!(
-                    off > 8e-3 || doubts.is_empty(),
+                    off > right || doubts.is_empty(),
                     "{ratio} {step} {name}: {off:e}, {all}"
                 );
                 let nearly = shift.is_none_or(|shift| (shift / off - 1.0).abs() < 0.15);
@@ -206,4 +209,89 @@ fn a_wheel_by_its_bodies_is_off_by_what_is_said() {
         let shift = shift.expect("it is doubted");
         assert!((shift / off - 1.0).abs() < 0.02, "{step}: {off}, {shift}");
     }
+}
+
+/// A block that swings across the way of its cart.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Across {
+    #[body(mass = 10.0, inertia = [1.0, 1.0, 1.0], velocity = [10.0, 0.0, 0.0])]
+    cart: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 1.0, 0.0], velocity = [10.0, 0.0, 0.0])]
+    block: Body,
+    #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    track: Prismatic,
+    #[joint(between = [cart, block], point = [0.0, 1.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    guide: Prismatic,
+    #[force(
+        between = [cart, block],
+        head = [0.0, -1.5, 0.0],
+        tail = [0.0, 1.0, 0.0],
+        stiffness = 1.0,
+        free_length = 1.5
+    )]
+    spring: SpringDamper,
+}
+
+/// A weight on a shaft with friction, which goes over the top until it is slow.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Weight {
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], angular_velocity = [0.0, 0.0, 10.0])]
+    wheel: Body,
+    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+    #[force(between = [ground, wheel], axis = [0.0, 0.0, 1.0], moment = -0.05 * rate - sin(angle))]
+    load: TorsionalActuator,
+}
+
+/// What is missed across the motion, or of the velocities, is no lag; a bound by the length of the steps tells.
+#[test]
+fn what_is_no_lag_is_doubted() {
+    fn with(integrator: impl Integrator<f64>) {
+        let (across, weight) = (Across::default(), Weight::default());
+        for found in [
+            doubts!(Simulation::new(&across, StandardLagrange, integrator)),
+            doubts!(Simulation::new(&weight, StandardLagrange, integrator)),
+        ] {
+            let is_told = |doubt| matches!(doubt, Doubt::LongSteps { .. });
+            assert!(found.into_iter().any(is_told), "{integrator:?}: {found}");
+        }
+    }
+    with(Heun::every(0.1));
+    with(Midpoint::every(0.1));
+    with(ImplicitMidpoint::every(0.1));
+    with(GeneralizedAlpha::every(0.1));
+}
+
+/// A cart that is at rest for long before it swings.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Late {
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0])]
+    cart: Body,
+    #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    track: Prismatic,
+    #[force(
+        between = [ground, cart],
+        head = [-10.0, 0.0, 0.0],
+        tail = [0.0, 0.0, 0.0],
+        force = smooth_step((time - 190.0) / 1.0) - (length - 10.0)
+    )]
+    spring: Actuator,
+}
+
+/// Of what rests nothing lags behind.
+#[test]
+fn a_late_start_is_not_doubted() {
+    fn with(integrator: impl Integrator<f64>) {
+        let late = Late::default();
+        let simulation = Simulation::new(&late, StandardLagrange, integrator).joint_coordinates();
+        let report = simulation.run(0.0..=200.0, every(1.0), |_| ControlFlow::Continue(()));
+        let doubts = report.expect("nothing stops it").doubts();
+        assert!(doubts.is_empty(), "{integrator:?}: {doubts}");
+    }
+    with(Heun::every(0.02));
+    with(Midpoint::every(0.02));
+    with(ImplicitMidpoint::every(0.02));
 }

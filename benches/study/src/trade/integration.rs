@@ -292,6 +292,10 @@ impl<S: Real> Integrator<S> for Integration {
         with_own_type!(*self, integrator => integrator.fixed_step())
     }
 
+    fn silent_phase(&self) -> f64 {
+        with_own_type!(*self, integrator => Integrator::<S>::silent_phase(&integrator))
+    }
+
     fn velocity_lead(&self) -> f64 {
         with_own_type!(*self, integrator => Integrator::<S>::velocity_lead(&integrator))
     }
