@@ -91,7 +91,7 @@ pub enum Doubt {
     },
     /// Steps are long for the motion, of a method of low order, whose energy does not tell.
     LongSteps {
-        /// What the fastest body may be off by at the worst (rad, or over what it has moved by where that is less): of all steps, estimated.
+        /// What a body may be off by at the worst (rad, or over what it has moved by where that is less): of all steps, estimated.
         shift: f64,
     },
     /// The absolute tolerance is coarse for a mechanism of this size.

@@ -27,7 +27,7 @@ pub(super) struct Lag<S: Scalar, M: Mechanism> {
     /// Of each translation and each rotation the sums of what was missed along the velocity, and of the squares of velocities, and what it is off by at the worst.
     sums: M::Velocities<S>,
     /// How far each was from where it began, in how many steps it moved, and the square of its largest velocity.
-    excursions: M::Velocities<S>,
+    courses: M::Velocities<S>,
     first: M::State<S>,
     /// The sums of what bodies missed at the most, whatever its direction: of coordinates, and of velocities (1/s).
     missed: [S; 2],
@@ -45,7 +45,7 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
     pub(super) fn none(start: &M::State<S>) -> Self {
         Self {
             sums: M::Velocities::<S>::zeros(),
-            excursions: M::Velocities::<S>::zeros(),
+            courses: M::Velocities::<S>::zeros(),
             first: *start,
             missed: [S::zero(); 2],
         }
@@ -112,7 +112,7 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
     fn add(&mut self, place: usize, motion: &Motion<S>) {
         let here = square(&motion.velocity);
         let [mut along, mut speeds, mut worst]: [S; 3] = read(self.sums.as_slice(), place);
-        let [way, mut moving, fastest]: [S; 3] = read(self.excursions.as_slice(), place);
+        let [way, mut moving, fastest]: [S; 3] = read(self.courses.as_slice(), place);
         if here > S::constant(STARTS) * fastest {
             // What was before is rest.
             (along, speeds, moving) = (S::zero(), S::zero(), S::zero());
@@ -130,8 +130,8 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         }
         let way = square(&motion.way).sqrt().max(way);
         write(self.sums.as_mut_slice(), place, [along, speeds, worst]);
-        let rest = [way, moving, fastest];
-        write(self.excursions.as_mut_slice(), place, rest);
+        let course = [way, moving, fastest];
+        write(self.courses.as_mut_slice(), place, course);
     }
 
     /// What a body is off by, at the worst (rad), or over what it has moved by where that is less than a radian.
@@ -163,7 +163,7 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         for part in parts {
             let place = body.velocity + part;
             let [_, _, off]: [S; 3] = read(self.sums.as_slice(), place);
-            let [way] = read(self.excursions.as_slice(), place);
+            let [way] = read(self.courses.as_slice(), place);
             largest = larger(largest, [way, off]);
         }
         largest

@@ -17,7 +17,7 @@ pub(super) const SLIPPING: f64 = 1e-2;
 pub(super) const NEARLY_SINGULAR: f64 = 1e-3;
 
 /// The same over the largest violation, in lengths of the mechanism or radians: near to a configuration in which an equation is a product of two distances, up to the scales of these, an
-/// equation that is off by `d` keeps a pivot of `2 d`. Of a rhombus that goes on along the wrong branch it is up to 4.5 times the largest violation of the run.
+/// equation that is off by `d` keeps a pivot of `2 d`. A rhombus that goes on along the wrong branch keeps several times the largest violation of the run.
 pub(super) const PASSED_OPEN: f64 = 15.0;
 
 /// A change of energy that no force accounts for, over the energy that the mechanism exchanges.
