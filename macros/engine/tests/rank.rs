@@ -3,7 +3,6 @@
 mod common;
 
 use std::fmt::Write;
-use std::time::Instant;
 
 use common::{delivery, model, tokens};
 use holonom_engine::emit::documentation::documentation;
@@ -371,20 +370,5 @@ fn rows_of_every_unit_stand_side_by_side() {
             decided(6, 6),
             "{scale}"
         );
-    }
-}
-
-/// `cargo test -p holonom-engine --test rank -- --nocapture times` prints what judging costs beside the kernels.
-#[test]
-fn times() {
-    for (name, model) in [
-        ("pendulum", chain(1)),
-        ("chain of 8", chain(8)),
-        ("Bricard", bricard("redundant = \"keep\"")),
-        ("5 four-bars", four_bars(5, 0.0, "redundant = \"keep\"")),
-    ] {
-        let start = Instant::now();
-        let found = judge(&model);
-        println!("{name}: {:?}, rank {:?}", start.elapsed(), found.rank);
     }
 }

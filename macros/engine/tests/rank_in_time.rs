@@ -2,8 +2,6 @@
 
 mod common;
 
-use std::time::Instant;
-
 use common::{delivered, delivery_of, tokens};
 use holonom_engine::model::{ElementKind, Model, Rank};
 use proc_macro2::TokenStream;
@@ -439,31 +437,6 @@ fn a_nut_goes_on_over_many_turns() {
         }",
     );
     assert_eq!(dropped(&model), [("second".into(), vec![0, 1, 2, 3, 4])]);
-}
-
-/// `cargo test -p holonom-engine --test rank_in_time -- --nocapture times` prints what time costs.
-#[test]
-fn times() {
-    let cases = [
-        (
-            "two motors",
-            wheel("redundant = \"keep\"", &["time", "time"]),
-        ),
-        ("five cranks", parallelogram("redundant = \"keep\"", 5)),
-        ("one motor", wheel("", &["time"])),
-        (
-            "four-bar",
-            four_bar([1.0, 0.5, 1.1, 0.8], 1.0, "10.0 * time")
-                .expect("it closes")
-                .replace("drop", "keep"),
-        ),
-    ];
-    for (name, text) in cases {
-        let model = model(&text);
-        let start = Instant::now();
-        let found = holonom_engine::rank::judge(&model);
-        println!("{name}: {:?}, rank {:?}", start.elapsed(), found.rank);
-    }
 }
 
 /// A four-bar of spatial hinges in the plane z = 0 with links of given lengths, its crank at an angle, and a motor of it.
