@@ -2,11 +2,12 @@
 //!
 //! A row that determines a velocity leaves no multiplier to solve for. But the velocity must follow from the others wherever the rows are independent, not
 //! here and there: so the mechanism is led on a tour, and where some velocities come near to being undetermined by rows that determine others, the rows stay
-//! behind.
+//! behind. Where there is no tour, what rows determine by numbers alone is certain ([`certain`]).
 
 use std::collections::BTreeMap;
 
 use super::beginning::Beginning;
+use super::certain;
 use super::from_bodies::from_bodies;
 use super::links::Links;
 use crate::plan::Pivot;
@@ -14,7 +15,7 @@ use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::evaluate::evaluate;
 
 /// A determinant that falls to this fraction of the volume that its rows span is not relied on.
-const STEADY: f64 = 0.1;
+pub(super) const STEADY: f64 = 0.1;
 /// Where the volume falls to this fraction of the largest along a tour, the mechanism is near a singular position, and no choice is better than another.
 const SINGULAR: f64 = 1e-3;
 /// An entry below this fraction of the largest of its row is round-off.
@@ -96,11 +97,9 @@ pub(super) fn dependent(
     tour: &[(f64, Vec<f64>)],
 ) -> (Vec<Pivot>, Vec<f64>) {
     let (mut pivots, mut determinants) = (Vec::new(), Vec::new());
-    if tour.len() < STOPS {
-        return (pivots, determinants);
-    }
-    let Some(stops) = values(arena, rows, tour) else {
-        return (pivots, determinants);
+    let told = values(arena, rows, tour).filter(|stops| stops.len() >= STOPS);
+    let Some(stops) = told else {
+        return certain::certain(arena, rows);
     };
     let mut open = Open::new(stops, joints);
     while let Some(chosen) = open.best() {

@@ -6,6 +6,7 @@ mod angles;
 mod articulated;
 pub mod beginning;
 pub mod candidates;
+mod certain;
 mod dependent;
 pub mod frames;
 pub mod from_bodies;

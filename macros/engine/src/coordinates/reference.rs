@@ -14,7 +14,7 @@ use crate::symbolic::vector::{Frame, Triple};
 
 impl Reduced {
     /// Finds out what the rows are on free bodies, along a tour; `None` of those that no number is known of.
-    pub(super) fn find_references(&mut self, beginning: &Beginning<'_>) {
+    pub fn find_references(&mut self, beginning: &Beginning<'_>) {
         let mut trial = self.clone();
         let mobilities = trial.mobilities();
         let arena = &trial.scene.space.arena;
@@ -37,7 +37,8 @@ impl Reduced {
     }
 
     /// The same pivots, compared with what their rows are on free bodies; those that do not change with the state never vanish.
-    pub(super) fn referred(&mut self, checks: &[Check]) -> Vec<Check> {
+    #[must_use]
+    pub fn referred(&mut self, checks: &[Check]) -> Vec<Check> {
         let mut mobilities = None;
         let referred = checks.iter().map(|check| {
             if self.scene.space.arena.stage(check.before) < Stage::State {
@@ -53,11 +54,12 @@ impl Reduced {
         referred.collect()
     }
 
-    /// `d M^-1 d^T` of every row `d` of the Jacobian of the bodies.
+    /// `d M^-1 d^T` of every row `d` of the Jacobian of the bodies. An angle that the coordinates
+    /// hold acts on velocities by itself, but on free bodies by moments as any other.
     fn mobilities(&mut self) -> Vec<Expr> {
         let mut mobilities = Vec::new();
         for place in 0..self.scene.constraints.len() {
-            for gradient in self.scene.gradients(place, Frame::Global) {
+            for gradient in self.scene.gradients_by_bodies(place, Frame::Global) {
                 let scene = &mut self.scene;
                 let mut sum = Arena::ZERO;
                 for body in 0..scene.mass.len() {

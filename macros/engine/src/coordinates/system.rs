@@ -400,7 +400,8 @@ impl Reduced {
     }
 
     /// Whether every row determines a velocity where rows have no compliance.
-    pub(super) fn determines(&self) -> bool {
+    #[must_use]
+    pub fn determines(&self) -> bool {
         let taken = self.together.0.iter().flat_map(|pivot| pivot.unknowns());
         taken.filter(|&k| k >= self.links.velocities).count() == self.scene.layout.rows
     }

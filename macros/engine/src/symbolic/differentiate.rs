@@ -80,9 +80,20 @@ pub struct Gradient {
     moment: BTreeMap<usize, Vec<(Expr, VectorId)>>,
     /// What is along a velocity by itself, not by way of a body.
     along: Vec<(usize, Expr)>,
+    /// Whether nothing goes along velocities by itself, but all by way of the bodies.
+    pub(super) is_by_bodies: bool,
 }
 
 impl Gradient {
+    /// A gradient that is made of forces and moments on bodies alone, whatever coordinates know.
+    #[must_use]
+    pub fn by_bodies() -> Self {
+        Self {
+            is_by_bodies: true,
+            ..Self::default()
+        }
+    }
+
     /// Adds a moment on a body.
     pub fn add_moment(&mut self, body: usize, moment: VectorId) {
         let moments = self.moment.entry(body).or_default();

@@ -229,14 +229,16 @@ impl AngleExpr {
         seed: Expr,
         gradient: &mut Gradient,
     ) {
-        if let Some(paired) = &self.paired {
+        if let (Some(paired), false) = (&self.paired, gradient.is_by_bodies) {
             for &(velocity, sign) in &paired.along {
                 let factor = space.arena.mul(sign, seed);
                 gradient.push_along(velocity, factor);
             }
             return;
         }
-        let (s, c) = self.parts(space, motion);
+        // Not those of pairs, which lack the positive number that both are multiplied with.
+        let s = self.sine.value(space, motion);
+        let c = self.cosine.value(space, motion);
         let inverse = inverse_square(&mut space.arena, s, c);
         let seed = space.arena.mul(seed, inverse);
         let (on_sine, on_cosine) = (space.arena.mul(seed, c), space.arena.mul(seed, s));

@@ -356,6 +356,20 @@ impl Scene {
 
     /// The gradients of a constraint's rows, in the given axes.
     pub fn gradients(&mut self, constraint: usize, frame: Frame) -> Vec<Gradient> {
+        self.pulled_back(constraint, frame, Gradient::default)
+    }
+
+    /// The same, by forces and moments on the bodies alone.
+    pub(crate) fn gradients_by_bodies(&mut self, constraint: usize, frame: Frame) -> Vec<Gradient> {
+        self.pulled_back(constraint, frame, Gradient::by_bodies)
+    }
+
+    fn pulled_back(
+        &mut self,
+        constraint: usize,
+        frame: Frame,
+        empty: fn() -> Gradient,
+    ) -> Vec<Gradient> {
         let Self {
             space,
             motion,
@@ -364,7 +378,7 @@ impl Scene {
         } = self;
         match &constraints[constraint].constraint {
             Constraint::Scalar(scalar) => {
-                let mut gradient = Gradient::default();
+                let mut gradient = empty();
                 scalar.pull_back(space, motion, Arena::ONE, &mut gradient);
                 vec![gradient]
             }
@@ -373,7 +387,7 @@ impl Scene {
                     let mut unit = super::vector::ZERO;
                     unit[k] = Arena::ONE;
                     let covector = space.native(frame, unit);
-                    let mut gradient = Gradient::default();
+                    let mut gradient = empty();
                     vector.pull_back(space, motion, Arena::ONE, covector, &mut gradient);
                     gradient
                 })

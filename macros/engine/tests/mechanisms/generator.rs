@@ -10,6 +10,9 @@ use crate::writing::{Dice, Statement, Written, definition};
 /// Definitions are shorter than this, in characters.
 const LONG: usize = 450;
 
+/// Run-time values of a mechanism.
+const MOST_VALUES: usize = 24;
+
 /// A field of the struct.
 #[derive(Clone)]
 pub(crate) struct Field {
@@ -120,8 +123,9 @@ impl Generator {
         let mut dice = Dice::with_choices(seed.wrapping_add(0x5851_f42d), choices);
         // The first numbers of neighbouring seeds are alike.
         (0..8).for_each(|_| _ = dice.number());
-        let run_time = if dice.below(3) == 0 {
-            1 + dice.below(3)
+        // A third of all numbers, most of them in half of the mechanisms.
+        let run_time = if dice.below(2) == 0 {
+            5 + dice.below(3)
         } else {
             0
         };
@@ -220,7 +224,7 @@ impl Generator {
 
     fn perhaps(&mut self, value: f64, word: &'static str) -> String {
         if self.dice.below(10) >= self.run_time
-            || self.fields.iter().filter(|f| f.ty == "f64").count() > 6
+            || self.fields.iter().filter(|f| f.ty == "f64").count() > MOST_VALUES
         {
             return format!("{:?}", value + 0.0);
         }

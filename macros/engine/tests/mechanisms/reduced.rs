@@ -1,12 +1,14 @@
 //! The same mechanism in joint coordinates: the accelerations of its bodies against a dense solution over all equations.
 
-use holonom_engine::coordinates::candidates::{Method, Strategy};
+use holonom_engine::coordinates::beginning::Beginning;
+use holonom_engine::coordinates::candidates::Strategy;
 use holonom_engine::coordinates::from_bodies::from_bodies;
 use holonom_engine::coordinates::links::{Freedom, Links};
 use holonom_engine::coordinates::system::{Reduced, Solution};
-use holonom_engine::model::BodyKind;
+use holonom_engine::model::{BodyKind, Model};
+use holonom_engine::plan::eliminate::Check;
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::arena::{Arena, Expr, Input, Node};
+use holonom_engine::symbolic::arena::{Arena, Expr, Input, Node, Stage};
 
 use crate::comparison::{Comparison, difference};
 use crate::inputs::{Coefficients, Inputs, in_axes, transposed, turned, user_axes};
@@ -116,6 +118,16 @@ fn coordinate_rates(links: &Links, coordinates: &[f64], velocities: &[f64]) -> V
     rates
 }
 
+/// The pivots as kernels record them: compared with what their rows are on free bodies.
+fn recorded(reduced: &mut Reduced, model: &Model, checks: &[Check]) -> Vec<Check> {
+    let arena = &reduced.scene.space.arena;
+    let is_compared = |check: &Check| arena.stage(check.before) == Stage::State;
+    if checks.iter().any(is_compared) && !reduced.determines() {
+        reduced.find_references(&Beginning::new(model));
+    }
+    reduced.referred(checks)
+}
+
 impl Comparison<'_> {
     /// Joint coordinates of a state, the state that they describe, and its accelerations.
     pub(crate) fn reduced(
@@ -213,6 +225,7 @@ impl Comparison<'_> {
             multipliers,
             checks,
         } = reduced.solve(terms);
+        let checks = recorded(&mut reduced, model, &checks);
         let arena = &reduced.scene.space.arena;
         let pairs: Vec<Expr> = checks
             .iter()
@@ -221,10 +234,7 @@ impl Comparison<'_> {
         let pairs = inputs.values(arena, &pairs);
         let pivots = pairs.chunks(2).map(|pair| (pair[0] / pair[1]).abs());
         // A pivot that is not a number comes behind one that vanishes.
-        let smallest = match strategy.method {
-            Method::Dependent => pivots.fold(1.0_f64, f64::min),
-            _ => 1.0,
-        };
+        let smallest = pivots.fold(1.0_f64, f64::min);
         if smallest < SMALL {
             // The kernel says so. Off the constraints velocities may be undetermined that follow from the others on them.
             if equations.hold() && system.condition() < SOUND {

@@ -1,0 +1,98 @@
+//! Which velocities rows determine whatever the configuration is: by an entry that is a number.
+//!
+//! This needs no numbers of the mechanism, so it serves where the macro cannot see them, and where
+//! nothing can move but by its drivers. The driver of a hinge determines the hinge's velocity, the
+//! closing joint of a slider-crank that of the slide.
+
+use super::dependent::STEADY;
+use crate::plan::Pivot;
+use crate::symbolic::arena::{Arena, Expr};
+
+/// The velocities with the rows that determine them, in the order of elimination, and the entries.
+/// Velocities count from 0, rows from the number of velocities.
+pub(super) fn certain(arena: &Arena, rows: &[Vec<Expr>]) -> (Vec<Pivot>, Vec<f64>) {
+    let mut left = Left {
+        arena: arena.clone(),
+        rows: rows.iter().cloned().map(Some).collect(),
+    };
+    let (mut pivots, mut entries) = (Vec::new(), Vec::new());
+    while let Some((row, velocity, entry)) = left.best() {
+        pivots.push(Pivot::Dependent(velocity, rows[row].len() + row));
+        entries.push(entry);
+        left.eliminate(row, velocity);
+    }
+    (pivots, entries)
+}
+
+/// The rows that are not taken yet, without the velocities that are.
+struct Left {
+    arena: Arena,
+    rows: Vec<Option<Vec<Expr>>>,
+}
+
+impl Left {
+    /// The entry, with its row and its velocity, that the fewest other rows know of.
+    fn best(&self) -> Option<(usize, usize, f64)> {
+        let mut best: Option<(usize, (usize, usize, f64))> = None;
+        for (place, row) in self.rows.iter().enumerate() {
+            let Some(row) = row else { continue };
+            let numbers: Vec<Option<f64>> =
+                row.iter().map(|&entry| self.arena.literal(entry)).collect();
+            let size = |k: usize, number: f64| number.abs() / self.size(k);
+            let known = numbers.iter().enumerate();
+            let known = known.filter_map(|(k, number)| number.map(|number| size(k, number)));
+            let largest = known.fold(0.0, f64::max);
+            for (k, number) in numbers.iter().enumerate() {
+                let Some(number) = number.filter(|number| *number != 0.0) else {
+                    continue;
+                };
+                // Round-off is a number as well.
+                if size(k, number) < STEADY * largest {
+                    continue;
+                }
+                let others = self.others(place, k);
+                if best.is_none_or(|(fewest, _)| others < fewest) {
+                    best = Some((others, (place, k, number)));
+                }
+            }
+        }
+        best.map(|(_, found)| found)
+    }
+
+    /// The largest number of a column, 1 where there is none: lengths and angles have different units.
+    fn size(&self, velocity: usize) -> f64 {
+        let column = self.rows.iter().flatten().map(|row| row[velocity]);
+        let numbers = column.filter_map(|entry| self.arena.literal(entry));
+        let largest = numbers.fold(0.0, |largest: f64, number| largest.max(number.abs()));
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+
+    /// How many other rows know of a velocity.
+    fn others(&self, row: usize, velocity: usize) -> usize {
+        let rows = self.rows.iter().enumerate();
+        let knowing = rows.filter(|(place, other)| {
+            let knows = |other: &Vec<Expr>| other[velocity] != Arena::ZERO;
+            *place != row && other.as_ref().is_some_and(knows)
+        });
+        knowing.count()
+    }
+
+    /// Puts what the velocity follows from into the other rows.
+    fn eliminate(&mut self, row: usize, velocity: usize) {
+        let Some(chosen) = self.rows[row].take() else {
+            return;
+        };
+        let arena = &mut self.arena;
+        for other in self.rows.iter_mut().flatten() {
+            if other[velocity] == Arena::ZERO {
+                continue;
+            }
+            let share = arena.div(other[velocity], chosen[velocity]);
+            for (entry, &by) in other.iter_mut().zip(&chosen) {
+                let change = arena.mul(share, by);
+                *entry = arena.sub(*entry, change);
+            }
+            other[velocity] = Arena::ZERO;
+        }
+    }
+}
