@@ -66,6 +66,10 @@ where
         last_good: &mut (S, M::State<S>),
     ) -> Result<RunReport<S, M>, Fault> {
         let mut from = start;
+        if start == end {
+            self.evaluate(start, &last_good.1)
+                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+        }
         self.show(start, &last_good.1);
         while from < end && self.log.flow.is_continue() {
             let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
@@ -79,6 +83,14 @@ where
             from = until;
         }
         Ok(self.report(*last_good))
+    }
+
+    /// Evaluates the rates once: a run of no length is refused where any other would be.
+    fn evaluate(&mut self, time: S, state: &M::State<S>) -> Result<(), Fault> {
+        let state = self.moving.of(state);
+        self.moving.rates(time, &state)?;
+        self.counts.evaluations += 1;
+        Ok(())
     }
 
     /// Integrates over an interval without breaks.

@@ -320,6 +320,10 @@ pub(crate) fn number(expr: &Expr, values: &Values) -> f64 {
             let name = &path.path.segments.last().expect("a name").ident;
             match (name.to_string().as_str(), &call.args[0]) {
                 ("deg", angle) => of(angle).to_radians(),
+                ("sqrt", number) => of(number).sqrt(),
+                ("sin", angle) => of(angle).sin(),
+                ("cos", angle) => of(angle).cos(),
+                ("exp", number) => of(number).exp(),
                 // What the engine makes of a number that it cannot see: `identity({ let value: f64 = number; value })`.
                 ("identity", Expr::Block(block)) => match block.block.stmts.first() {
                     Some(syn::Stmt::Local(local)) => {

@@ -39,7 +39,8 @@ fn all() -> &'static [(String, ElementKind, String)] {
     })
 }
 
-fn definition_of(item: &Item) -> Option<(String, ElementKind, String)> {
+/// Name, kind and text of a definition.
+pub(crate) fn definition_of(item: &Item) -> Option<(String, ElementKind, String)> {
     let Item::Macro(item) = item else { return None };
     let kind = match item.mac.path.segments.last()?.ident.to_string().as_str() {
         "joint" => ElementKind::Joint,

@@ -28,6 +28,7 @@ mod shrink;
 mod solutions;
 mod states;
 mod text;
+mod twins;
 #[path = "../common/writing.rs"]
 mod writing;
 

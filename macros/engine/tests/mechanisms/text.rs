@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::{Display, Formatter};
 
-use holonom_engine::model::{ElementKind, Model};
+use holonom_engine::model::{ElementKind, Model, Rank};
 use holonom_engine::plan::candidates::choose;
 use holonom_engine::plan::kernels::evaluation;
 use holonom_engine::plan::system::Terms;
@@ -137,6 +137,14 @@ impl Text {
             }
         }
         Ok((model, described))
+    }
+
+    /// What the engine finds of the rank of its equations, or why it refuses it.
+    pub(crate) fn rank(&self) -> Result<Rank, String> {
+        let model = checked(&tokens(&self.item), |name| {
+            self.find(name).map(|(kind, text)| (kind, tokens(&text)))
+        })?;
+        Ok(model.independence.rank)
     }
 
     /// Compares everything, also with the same fields in another order; the error says what differs.
