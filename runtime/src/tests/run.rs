@@ -366,3 +366,19 @@ fn a_configuration_without_a_hinge_is_singular() {
     ));
     assert_eq!(error.state, state);
 }
+
+#[test]
+fn a_run_of_no_length_is_refused_where_any_other_would_be() {
+    let state = State::from_parts([0.0, 0.0, 0.0, 1e-100, 0.0, 0.0, 0.0], [0.0; 6]);
+    let rod = rod();
+    let run = |end: f64| {
+        Simulation::new(&rod, StandardLagrange, ODE45)
+            .orientation::<Raw>()
+            .initial_state(state)
+            .run(0.0..=end, every(0.1), proceed)
+            .map(|report| report.evaluations)
+    };
+    assert_eq!(run(0.0).unwrap_err().fault, run(1.0).unwrap_err().fault);
+    let report = Simulation::new(&rod, StandardLagrange, ODE45).run(0.0..=0.0, every(0.1), proceed);
+    assert_eq!(report.expect("regular").evaluations, 1);
+}
