@@ -71,6 +71,10 @@ where
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
         }
         self.show(start, &last_good.1);
+        if let Some(watch) = self.watch.as_mut().filter(|_| from < end) {
+            let dynamics = self.moving.dynamics();
+            dynamics.begin(watch, start, &last_good.1);
+        }
         while from < end && self.log.flow.is_continue() {
             let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
             let span = Span {

@@ -7,7 +7,7 @@ use crate::load::AppliedForces;
 use crate::mechanism::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::sample::Evaluate;
 use crate::scalar::Real;
-use crate::watch::{Step, Watch};
+use crate::watch::{Beginning, Step, Watch};
 
 /// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as the forces do.
 const BIAS_EVERY: usize = 16;
@@ -74,6 +74,30 @@ where
             self.show_bias(watch, time, state);
         }
         watch.step(step);
+    }
+
+    /// Shows the watch what acts at the start of a run, by two evaluations: whether anything moves, and what round-off there is.
+    #[inline(never)]
+    pub(crate) fn begin(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
+        let there = self.evaluation(time, &watch.shaken(state));
+        let (Ok(here), Ok(there)) = (self.evaluation(time, state), there) else {
+            return;
+        };
+        if Self::YIELDS {
+            self.show_bias(watch, time, state);
+        }
+        let bias = if F::Terms::COMPLIANT {
+            self.inconsistency(time, state, &here).0
+        } else {
+            S::zero()
+        };
+        let beginning = Beginning {
+            accelerations: [here.rates.velocities(), there.rates.velocities()],
+            forces: &self.all_forces(time, &Self::read(state)),
+            mass: &M::mass(&self.constants),
+            bias,
+        };
+        watch.begin(state, &beginning);
     }
 
     #[inline(never)]

@@ -31,6 +31,20 @@ const ITERATIONS: usize = 100;
 /// From here on changes that do not fall are taken for divergence: what decays critically may change by more before.
 const TRANSIENT: usize = 10;
 
+/// Changes that are no more than so many times what the last digit of the state changes are round-off, however large they are beside the state: forces that balance each other leave nothing
+/// but that.
+const ROUND_OFF: f64 = 16.0;
+
+/// A state whose elements are changed in their last digits: of about one at least, for an element may be near zero beside the lengths that it is added to.
+fn shaken<S: Real, X: Vector<S>>(state: &X) -> X {
+    let mut is_up = false;
+    state.zip(state, |x, _| {
+        is_up = !is_up;
+        let change = S::constant(ROUND_OFF) * S::EPSILON * x.abs().max(S::one());
+        if is_up { x + change } else { x - change }
+    })
+}
+
 impl<S: Real> Scheme<S> for ImplicitMidpoint {
     type Stages<X: Vector<S>> = NoStages;
 
@@ -54,9 +68,9 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
             iterations,
         };
         // Elements that are small beside the largest may be round-off throughout.
-        let noise = S::EPSILON.sqrt();
+        let small = S::EPSILON.sqrt();
         let mut floor = S::smallest();
-        state.for_each(|element| floor = floor.max(noise * element.abs()));
+        state.for_each(|element| floor = floor.max(small * element.abs()));
         let (mut middle, mut next) = (slope.clone(), slope.clone());
         // Changes go down every other time: coordinates and velocities may take turns.
         let mut changes = [S::constant(f64::INFINITY); 2];
@@ -72,13 +86,23 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
             let [before, last] = changes;
             let fell = change < before;
             let is_known = change <= S::EPSILON
-                || (change <= noise && !fell)
+                || (change <= small && !fell)
                 || (!change.is_finite() && falls);
             if is_known {
                 return Ok(state.plus([(step, &middle)]));
             }
             falls = fell;
-            if !fell && (iteration >= TRANSIENT || !change.is_finite()) {
+            if !fell && !change.is_finite() {
+                return Err(too_long(iteration));
+            }
+            if !fell && iteration >= TRANSIENT {
+                let shaken = shaken(&stage);
+                system.stage(time + half, &shaken, &mut next)?;
+                let terms = [(step, &next), (-step, &middle)];
+                let noise = state.relative_norm(&stage, floor, terms);
+                if change <= S::constant(ROUND_OFF) * noise {
+                    return Ok(state.plus([(step, &middle)]));
+                }
                 return Err(too_long(iteration));
             }
             changes = [last, change];

@@ -1,5 +1,6 @@
 //! The balance of energy of a run.
 
+use super::limits::DIGITS;
 use crate::scalar::Real;
 
 /// Change of energy against the work that was put in.
@@ -15,6 +16,8 @@ pub(super) struct Balance<S> {
     kinetic: S,
     exchanged: S,
     height: S,
+    /// What energies that cancel are made of at least (J): weights over the length of the mechanism.
+    parts: S,
     /// By how much the integral of the power may be off (J): what the parabola changes of the trapezoid, step by step.
     unsure: S,
     /// The work whatever its sign (J).
@@ -37,6 +40,7 @@ impl<S: Real> Balance<S> {
             kinetic,
             exchanged: zero,
             height: potential.abs(),
+            parts: zero,
             unsure: zero,
             turnover: zero,
             before: None,
@@ -44,6 +48,11 @@ impl<S: Real> Balance<S> {
             worst: (zero, zero),
             last: zero,
         }
+    }
+
+    /// Takes what energies are made of at least (J), of which their round-off is.
+    pub(super) fn made_of(&mut self, parts: S) {
+        self.parts = parts;
     }
 
     /// The power jumps here: what was before says nothing of what comes.
@@ -141,7 +150,8 @@ impl<S: Real> Balance<S> {
 
     fn relative(&self, energy: S) -> S {
         // Round-off of the energies themselves, as in a mechanism far from the origin, and what is not known of the work.
-        let digits = S::constant(64.0) * S::EPSILON * (self.height + self.kinetic);
+        let parts = self.parts + self.height + self.kinetic;
+        let digits = S::constant(DIGITS) * S::EPSILON * parts;
         let sure = energy.abs() - digits - self.unsure;
         if sure > S::zero() {
             (if energy < S::zero() { -sure } else { sure }).quotient(self.size())

@@ -51,6 +51,11 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         }
     }
 
+    /// The state at the start of the run.
+    pub(super) fn first(&self) -> &M::State<S> {
+        &self.first
+    }
+
     /// Whether the step after so many is to be judged.
     pub(super) fn is_due(steps: usize) -> bool {
         steps % EVERY == 1

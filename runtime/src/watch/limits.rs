@@ -47,3 +47,12 @@ pub(super) const LENGTH: f64 = 1e-3;
 
 /// What a compliance leaves of the accelerations, over the accelerations themselves, times the radians of motion over which it adds up.
 pub(super) const BIAS: f64 = 1e-2;
+
+/// What round-off comes to, in last digits of what a number is made of.
+pub(super) const DIGITS: f64 = 64.0;
+
+/// How far the errors of steps may add up at rest, over the tolerance of one and over what joints are open by: a damped or oscillating error stays within a few.
+pub(super) const ALLOWED: f64 = 4.0;
+
+/// A violation, in lengths of the mechanism, up to which a mechanism that sags by as much is at rest: what penalties of the usual size leave. A motion that is larger is judged.
+pub(super) const SAGS: f64 = 1e-6;

@@ -10,6 +10,7 @@ mod gradients;
 mod lag;
 mod limits;
 mod pace;
+mod rest;
 mod rows;
 mod seen;
 mod singular;
@@ -17,6 +18,7 @@ mod verdict;
 mod within;
 
 pub use doubt::{Doubt, Doubts};
+pub(crate) use rest::Beginning;
 pub(crate) use rows::{Meanings, extent};
 pub(crate) use seen::Seen;
 pub(crate) use within::Nearness;
@@ -25,6 +27,7 @@ use self::energy::Balance;
 use self::gradients::Gradients;
 use self::lag::Lag;
 use self::pace::Pace;
+use self::rest::Rest;
 use self::singular::Approach;
 use crate::array::{Array, StateParts};
 use crate::handle::JointHandle;
@@ -52,6 +55,7 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     /// The index of the joint of the smallest pivot, which is found at the end of a run.
     joint: usize,
     balance: Balance<S>,
+    rest: Rest<S>,
     /// The end of the last step, where potentials change with time by themselves.
     before: Option<(S, M::State<S>)>,
     /// The largest speed (m/s) and angular velocity (rad/s).
@@ -248,6 +252,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             nearest: (time, *state),
             joint: 0,
             balance: Balance::new(kinetic, M::potential_energy(constants, time, state)),
+            rest: Rest::unknown(),
             before: None,
             speed: S::zero(),
             spin: S::zero(),
@@ -377,6 +382,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
         self.longest = self.longest.max(time - self.time);
         self.time = time;
+        self.look_at_rest(state, turned);
     }
 
     /// With a compliance `e` accelerations satisfy `D u' - gamma* = e lambda`.

@@ -31,6 +31,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn energy(&self) -> Option<Doubt> {
+        if self.rests() {
+            return None;
+        }
         let (change, time) = self.balance.worst();
         above(change.abs(), limits::ENERGY).then(|| Doubt::Energy {
             change: change.to_f64(),
@@ -83,6 +86,10 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn slipping(&self) -> Option<Doubt> {
+        if self.rests() {
+            return None;
+        }
+        let least = self.speed_of_round_off();
         let spin = self.spin.max(self.speed.quotient(self.length));
         let speed = self.speed.max(self.spin * self.length);
         let limit = S::constant(limits::SLIPPING);
@@ -93,7 +100,13 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
                 angle,
                 time,
             },
-        ) = self.worst(&self.velocity, (limit * speed, limit * spin))?;
+        ) = self.worst(
+            &self.velocity,
+            (
+                (limit * speed).max(least),
+                (limit * spin).max(least.quotient(self.length)),
+            ),
+        )?;
         Some(Doubt::Slipping {
             joint: info.name,
             length: length.to_f64(),
@@ -167,7 +180,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     /// By how much a joint was open, in lengths of the mechanism or radians.
-    fn largest_violation(&self) -> S {
+    pub(super) fn largest_violation(&self) -> S {
         let mut largest = S::zero();
         for info in M::REPORT.joints {
             let violation = self.position.of(&self.rows, info);
@@ -201,7 +214,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Only where there is no balance of energy that tells more.
     fn many_steps(&self) -> Option<Doubt> {
-        if self.balance.tells(limits::ENERGY) {
+        if self.rests() || self.balance.tells(limits::ENERGY) {
             return None;
         }
         let (relative, _) = self.tolerance?;
@@ -216,7 +229,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     fn coarse_steps(&self) -> Option<Doubt> {
         let share = self.balance.doubt_of_work();
         // The work of a first step is not known, that of the next ones depends on it.
-        let begun = self.steps > 8;
+        let begun = self.steps > 8 && !self.rests();
         let doubted = begun && self.tolerance.is_none() && above(share, limits::FOLLOWED);
         doubted.then(|| Doubt::CoarseSteps {
             share: share.to_f64(),
@@ -225,6 +238,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Of methods whose energy does not tell.
     fn long_steps(&self) -> Option<Doubt> {
+        if self.rests() {
+            return None;
+        }
         let mut shift = self.lag.worst().max(self.led_shift());
         if !above(shift, limits::PHASE) {
             shift = shift.max(self.silent_shift().min(self.lag.missed(self.fastest)));
@@ -252,7 +268,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     fn coarse(&self) -> Option<Doubt> {
         let (_, absolute) = self.tolerance?;
-        let moved = self.travel > S::zero() && !M::REPORT.bodies.is_empty();
+        let moved = self.travel > S::zero() && !self.rests();
+        let moved = moved && !M::REPORT.bodies.is_empty();
         let coarse = absolute > S::constant(limits::COARSE) * self.length;
         (coarse && moved).then(|| Doubt::CoarseTolerance {
             absolute: absolute.to_f64(),
@@ -287,7 +304,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     fn compliance(&self) -> Option<Doubt> {
         let bias = self.bias();
-        if bias == S::zero() {
+        if bias == S::zero() || self.rests() {
             return None;
         }
         above(bias * self.travel, limits::BIAS).then(|| Doubt::Compliance {
