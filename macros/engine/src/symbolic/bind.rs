@@ -283,8 +283,12 @@ fn expand(arena: &mut Arena, law: &LawTerm, arguments: &[ScalarExpr]) -> ScalarE
     }
 }
 
-/// A sum; a constant where all terms are.
-fn sum(arena: &mut Arena, terms: Vec<(Expr, ScalarExpr)>) -> ScalarExpr {
+/// A sum; a constant where all terms are, and the one term that is left where the others are zero.
+fn sum(arena: &mut Arena, mut terms: Vec<(Expr, ScalarExpr)>) -> ScalarExpr {
+    terms.retain(|(_, term)| !matches!(term, ScalarExpr::Constant(Arena::ZERO)));
+    if let [(Arena::ONE, term)] = &terms[..] {
+        return term.clone();
+    }
     let mut total = Arena::ZERO;
     for (factor, term) in &terms {
         let ScalarExpr::Constant(value) = term else {
@@ -306,7 +310,26 @@ fn product(arena: &mut Arena, a: ScalarExpr, b: ScalarExpr) -> ScalarExpr {
         (ScalarExpr::Constant(factor), other) | (other, ScalarExpr::Constant(factor)) => {
             ScalarExpr::Sum(vec![(factor, other)])
         }
-        (a, b) => ScalarExpr::Product(Box::new(a), Box::new(b)),
+        (a, b) => square(&a, &b).unwrap_or_else(|| ScalarExpr::Product(Box::new(a), Box::new(b))),
+    }
+}
+
+/// What stands under a root, where a product is its square: it has a gradient where it vanishes, and the root has none. So a spring of free length zero passes its anchor.
+fn square(a: &ScalarExpr, b: &ScalarExpr) -> Option<ScalarExpr> {
+    let ScalarExpr::Function(Function::SquareRoot, under) = b else {
+        return None;
+    };
+    if a == b {
+        return Some((**under).clone());
+    }
+    match a {
+        ScalarExpr::Sum(terms) => match &terms[..] {
+            [(factor, root)] if root == b => {
+                Some(ScalarExpr::Sum(vec![(*factor, (**under).clone())]))
+            }
+            _ => None,
+        },
+        _ => None,
     }
 }
 

@@ -12,7 +12,7 @@ use super::vector::{Frame, Space, Triple, VectorId, ZERO};
 use crate::model::Function;
 
 /// A vector expression of a constraint, bound to the bodies of a mechanism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum VectorExpr {
     /// A vector fixed on a body (in its principal axes), or on the ground (`None`).
     Fixed(Option<usize>, Triple),
@@ -27,7 +27,7 @@ pub enum VectorExpr {
 }
 
 /// A scalar expression of a constraint.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ScalarExpr {
     /// A number that does not depend on the state.
     Constant(Expr),

@@ -100,7 +100,7 @@ fn unit(arena: &mut Arena, x: Expr) -> (Expr, Expr) {
 }
 
 /// An angle by multiples of its sine and cosine, and the auxiliary variable near which it lies.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AngleExpr {
     /// The sine, times a positive number.
     pub sine: ScalarExpr,
