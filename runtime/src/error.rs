@@ -100,6 +100,11 @@ pub enum Fault {
         /// The rate (1/s).
         rate: f64,
     },
+    /// A fixed step that is too long for what moves or acts: a spin, a spring, a damper. The motion grew beyond all numbers.
+    Unstable {
+        /// The step (s).
+        step: f64,
+    },
     /// The equation of an implicit step was not solved: the step is too long for an iteration by fixed points, see [`ImplicitMidpoint`](crate::ImplicitMidpoint).
     NoFixedPoint {
         /// The step (s).

@@ -145,6 +145,12 @@ impl fmt::Display for Fault {
                 Given(rate),
                 Measured(2.0 / rate)
             ),
+            Self::Unstable { step } => write!(
+                f,
+                "the numbers grew without bound: a step of {} s is too long for the spin, the springs or the dampers here, unless a force grows \
+                 by itself; take a shorter step, or a method for stiff systems such as `RadauIIA`",
+                Given(step)
+            ),
             Self::NoFixedPoint { step, iterations } => write!(
                 f,
                 "the equation of a step of {} s was not solved in {iterations} iterations: the step is too long for an iteration by fixed points, \

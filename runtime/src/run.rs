@@ -12,7 +12,7 @@ use crate::run_report::RunReport;
 use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::treatment::Treatment;
-use crate::watch::Watch;
+use crate::watch::{Watch, fastest};
 use crate::within::{better_end, look_within};
 
 /// A run under way.
@@ -255,6 +255,16 @@ where
             return Fault::StepTooLong {
                 step: step.to_f64(),
                 rate: rate.to_f64(),
+            };
+        }
+        // A step in which something turns by radians, or moves by lengths of the mechanism, is too long whatever came of it.
+        let (constants, state) = (self.moving.dynamics().constants(), &last_good.1);
+        if not_finite
+            && let Some(step) = integrator.fixed_step()
+            && step * fastest::<S, M>(constants, state) > S::one()
+        {
+            return Fault::Unstable {
+                step: step.to_f64(),
             };
         }
         let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);

@@ -215,6 +215,17 @@ fn speeds<S: Real, M: Mechanism>(state: &M::State<S>) -> (S, S) {
     (speed.sqrt(), spin.sqrt())
 }
 
+/// How fast something turns at the most, or moves by lengths of the mechanism (rad/s).
+pub(crate) fn fastest<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+) -> S {
+    let (speed, spin) = speeds::<S, M>(state);
+    // Lengths of the description: bodies may be anywhere by now.
+    let described = M::initial_state(constants);
+    spin.max(speed.quotient(extent::<S, M>(constants, &described)))
+}
+
 /// Whether a value is above a bound; NaN is above every bound.
 fn exceeds<S: Real>(value: S, bound: S) -> bool {
     let within = value <= bound;
