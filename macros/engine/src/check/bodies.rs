@@ -11,6 +11,14 @@ use crate::model::number::literals;
 use crate::model::{Body, BodyKind, Name, Number};
 use crate::syntax::{List, ungroup};
 
+/// What a link without a mass may have: base parameters tell no more of it.
+const MASS_MOVES: &str = "; a mass at a point on the axis of a hinge may be counted to either of its bodies: take \
+     some from the other one, and no motion changes";
+
+/// The same of moments, which measurements, taken link by link, get wrong by what motions do not tell.
+const MOMENTS_MOVE: &str = "; if they were measured, raise both moments across the axis of a hinge by one amount and \
+     take it from the other body of the hinge, unless that is the ground: no motion changes";
+
 /// Checks the attribute of a body.
 pub fn check(
     name: &Name,
@@ -92,10 +100,11 @@ impl Reader<'_, '_> {
         self.at("mass");
         let mass = self.numbers.scalar(expr, self.faults)?;
         if let Some(value) = mass.literal().filter(|&value| value <= 0.0) {
+            let instead = if value == 0.0 { MASS_MOVES } else { "" };
             self.faults.at(
                 expr,
                 format!(
-                    "the mass of `{}` must be positive, in kg; this is {value}",
+                    "the mass of `{}` must be positive, in kg; this is {value}{instead}",
                     self.name
                 ),
             );
@@ -132,12 +141,18 @@ impl Reader<'_, '_> {
             .iter()
             .any(|m| m.literal().is_some_and(|moment| moment <= 0.0))
         {
+            let is_measured = |m: &Number| m.literal().is_none_or(|moment| moment >= 0.0);
+            let instead = if moments.iter().all(is_measured) {
+                MOMENTS_MOVE
+            } else {
+                ""
+            };
             let found = moments.map(|m| m.literal().map_or("..".into(), |m| brief(m).to_string()));
             self.faults.at(
                 expr,
                 format!(
                     "the moments of inertia of `{name}` must be positive, in kg m^2; these are {}; a point mass is a \
-                     `Particle`",
+                     `Particle`{instead}",
                     found.join(", ")
                 ),
             );
@@ -146,12 +161,14 @@ impl Reader<'_, '_> {
         if let Some([a, b, c]) = literals(&moments) {
             let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
             if excess(a, b, c) || excess(b, c, a) || excess(c, a, b) {
+                let largest = a.max(b).max(c);
+                let excess = brief(largest - (a + b + c - largest));
                 let [a, b, c] = [a, b, c].map(brief);
                 self.faults.at(
                     expr,
                     format!(
                         "no body has the moments of inertia of `{name}`: of {a}, {b} and {c}, one exceeds the sum of \
-                         the others; a point mass is a `Particle`"
+                         the others by {excess}; a point mass is a `Particle`{MOMENTS_MOVE}"
                     ),
                 );
                 return None;

@@ -1,0 +1,6 @@
+//! What a user would not see: springs that pass their anchor, steps that are too long, closures with a memory, what the elements of a joint state are.
+
+#[path = "silent/moments.rs"]
+mod moments;
+#[path = "silent/springs.rs"]
+mod springs;
