@@ -100,6 +100,13 @@ pub enum Fault {
         /// The rate (1/s).
         rate: f64,
     },
+    /// The closure of [`Simulation::forces`](crate::Simulation::forces) gives two answers for one time and state: it remembers something.
+    TwoAnswers {
+        /// The body's field on which its forces differ.
+        body: &'static str,
+        /// The time (s) at which it was asked twice.
+        time: f64,
+    },
     /// A fixed step that is too long for what moves or acts: a spin, a spring, a damper. The motion grew beyond all numbers.
     Unstable {
         /// The step (s).

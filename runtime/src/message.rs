@@ -145,6 +145,13 @@ impl fmt::Display for Fault {
                 Given(rate),
                 Measured(2.0 / rate)
             ),
+            Self::TwoAnswers { body, time } => write!(
+                f,
+                "the closure's forces on body `{body}` differ between two calls with the same time, {} s, and the same state: it is called at trial states, \
+                 for times that go back and forth, and may depend on time and state alone; a controller with memory is called once a period, between \
+                 runs or steps of that length, and its output held as an input",
+                Given(time)
+            ),
             Self::Unstable { step } => write!(
                 f,
                 "the numbers grew without bound: a step of {} s is too long for the spin, the springs or the dampers here, unless a force grows \

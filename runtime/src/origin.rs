@@ -79,14 +79,28 @@ fn joint<S: Real>(report: &Report, rows: [&[S]; 3], jacobian: &[S]) -> Option<&'
 
 /// The first body with an element that is not finite.
 fn body<S: Real>(report: &Report, elements: &[S]) -> Option<&'static str> {
+    let of = |body: &&BodyInfo| !all_finite(elements.iter().skip(body.velocity).take(count(body)));
+    report.bodies.iter().find(of).map(|body| body.name)
+}
+
+/// The first body on which two loads differ in any digit.
+pub(crate) fn differing<S: Real>(report: &Report, [a, b]: [&[S]; 2]) -> Option<&'static str> {
     let of = |body: &&BodyInfo| {
-        let count = match body.kind {
-            BodyKind::Rigid => 6,
-            BodyKind::Particle => 3,
-        };
-        !all_finite(elements.iter().skip(body.velocity).take(count))
+        let pairs = a.iter().zip(b).skip(body.velocity).take(count(body));
+        let is_number = |x: &S| x == x;
+        !pairs
+            .into_iter()
+            .all(|(x, y)| x == y || !(is_number(x) || is_number(y)))
     };
     report.bodies.iter().find(of).map(|body| body.name)
+}
+
+/// Velocities of a body.
+fn count(body: &BodyInfo) -> usize {
+    match body.kind {
+        BodyKind::Rigid => 6,
+        BodyKind::Particle => 3,
+    }
 }
 
 fn all_finite<'a, S: Real>(mut elements: impl Iterator<Item = &'a S>) -> bool {

@@ -26,8 +26,13 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
     pub(crate) breaks: &'r [S],
     pub(crate) watch: Option<Watch<S, M>>,
     pub(crate) log: Log<'r, S, M>,
+    /// Steps so far.
+    pub(crate) steps: usize,
     pub(crate) counts: Counts,
 }
+
+/// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at the cost of three calls.
+const ASKED_TWICE: usize = 1024;
 
 /// Whom states are shown to. Behind a pointer, so that a run is compiled once for all observers.
 pub(crate) type Observer<'o, S, M> = dyn FnMut(&Sample<'_, S, M>) -> ControlFlow<()> + 'o;
@@ -74,6 +79,10 @@ where
         if let Some(watch) = self.watch.as_mut().filter(|_| from < end) {
             let dynamics = self.moving.dynamics();
             dynamics.begin(watch, start, &last_good.1);
+        }
+        if from < end {
+            let start = (start, &last_good.1);
+            self.moving.dynamics().ask_twice(start, (end, start.1))?;
         }
         while from < end && self.log.flow.is_continue() {
             let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
@@ -166,6 +175,11 @@ where
                 self.moving.watch(watch, time, &state);
                 let excused = self.moving.iterations().excused;
                 watch.excuse_evaluations(excused, time);
+            }
+            self.steps = self.steps.saturating_add(1);
+            if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
+                let dynamics = self.moving.dynamics();
+                dynamics.ask_twice((time, &state), (last_good.0, &last_good.1))?;
             }
             *last_good = (time, state);
             self.log.unseen += 1;

@@ -172,6 +172,9 @@ where
 {
     /// Applies forces as a function of time and state, `|time, state, loads| loads.force(body, ...)`.
     ///
+    /// It is called at trial states, for times that go back and forth, and may remember nothing: what gives two answers for one time and state ends a run with
+    /// [`Fault::TwoAnswers`]. A controller with memory belongs between runs of a period, see [`guide::forces`](mod@crate::guide::forces).
+    ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
     pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, P, ForceLaw<G>, C>
@@ -283,6 +286,7 @@ where
             breaks: self.breaks,
             watch,
             log: Log::new(observe),
+            steps: 0,
             counts: Counts::default(),
         };
         run.go(&self.integrator, (start, end), last_good)

@@ -1,5 +1,7 @@
 //! What a user would not see: springs that pass their anchor, steps that are too long, closures with a memory, what the elements of a joint state are.
 
+#[path = "silent/closures.rs"]
+mod closures;
 #[path = "silent/moments.rs"]
 mod moments;
 #[path = "silent/springs.rs"]

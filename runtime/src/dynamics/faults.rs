@@ -6,7 +6,7 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::load::AppliedForces;
 use crate::mechanism::{Evaluation, Mechanism, Orientation, Pivot, Terms};
-use crate::origin::origin;
+use crate::origin::{differing, origin};
 use crate::rotation::check_state;
 use crate::scalar::Real;
 use crate::start::farthest;
@@ -45,6 +45,32 @@ where
                 joint: self.nearly_singular(time, &state),
             },
             _ => fault,
+        }
+    }
+
+    /// Asks a closure twice at a time and a state, and at another time and state in between, so that a sum over times does not stand still.
+    ///
+    /// # Errors
+    /// [`Fault::TwoAnswers`] where its forces differ in any digit.
+    #[inline]
+    pub(crate) fn ask_twice(
+        &self,
+        (time, state): (S, &M::State<S>),
+        between: (S, &M::State<S>),
+    ) -> Result<(), Fault> {
+        if !A::PRESENT {
+            return Ok(());
+        }
+        let read = Self::read(state);
+        let one = self.applied(time, &read);
+        let _ = self.applied(between.0, &Self::read(between.1));
+        let other = self.applied(time, &read);
+        match differing(&M::REPORT, [one.as_slice(), other.as_slice()]) {
+            None => Ok(()),
+            Some(body) => Err(Fault::TwoAnswers {
+                body,
+                time: time.to_f64(),
+            }),
         }
     }
 

@@ -1,9 +1,9 @@
 //! A spring whose points meet, and steps that are too long for a damper or a spin.
 
+use holonom::NotFinite;
 use holonom::forces::{SpringDamper, TorsionalActuator};
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
-use holonom::NotFinite;
 
 const ACCURATE: Tolerance<f64> = Tolerance {
     relative: 1e-9,
