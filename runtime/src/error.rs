@@ -164,6 +164,15 @@ pub enum Fault {
         /// The share of a trial motion's energy that stays free, from 0 to 1.
         share: f64,
     },
+    /// A kinematic analysis found no pose that goes on with the motion, however short its stride: a law that jumps, or a branch that ends.
+    Jump {
+        /// The body that the nearest pose would let jump most.
+        body: &'static str,
+        /// By how much (rad, or lengths of the mechanism).
+        size: f64,
+        /// The joint whose pivot has nearly vanished, where a singular configuration is the cause, see [`crate::Pivot`].
+        joint: Option<&'static str>,
+    },
     /// A tolerance, a step or a coefficient that is not finite and positive.
     Setting {
         /// Which one.

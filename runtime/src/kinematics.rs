@@ -1,20 +1,22 @@
 //! The motion of a mechanism whose drivers leave it no freedom: positions, velocities, accelerations, and what it takes.
 
+mod motion;
+
 use core::ops::{ControlFlow, RangeInclusive};
 
+use self::motion::Motion;
 use crate::array::{Array, StateParts};
-use crate::displace::advanced;
 use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
 use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
-use crate::mechanism::{Evaluation, Mechanism};
-use crate::newton::{FREE, free_share};
+use crate::mechanism::Mechanism;
 use crate::project::Projection;
 use crate::reporting::{Reporting, Schedule, check_interval};
 use crate::rotation::check_state;
 use crate::sample::Sample;
 use crate::scalar::Real;
+use crate::watch::Doubts;
 
 /// Kinematics and inverse dynamics of a mechanism that is driven fully: as many independent equations as velocities.
 ///
@@ -25,9 +27,12 @@ use crate::scalar::Real;
 /// 3. accelerations and multipliers by one evaluation of the equations of motion: [`Sample::accelerations`],
 ///    [`Sample::reaction`], [`Sample::driving_effort`] show what the prescribed motion takes.
 ///
-/// Nothing is integrated, so no error accumulates. Of several poses that satisfy the equations, the analysis follows the one that is
-/// nearest to the prediction: between two reporting times a body should turn by less than about half a radian where the equations leave a choice.
-/// Where Newton's method fails, the way to the next time is halved, ten times at most.
+/// Nothing is integrated, so no error accumulates.
+///
+/// **The analysis keeps its branch**, however far apart the reporting times are. Between them it goes by strides, in each of which a body
+/// turns by 0.2 rad at most, or moves by as much of the mechanism's size. A stride is shortened where the pose that is found is far from the one
+/// that positions, velocities and accelerations predict, or where its velocities are. The relative pivots are followed along the way:
+/// a singular configuration, at which another branch begins, is among [`KinematicReport::doubts`], with its joint.
 ///
 /// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the equations are independent; where
 /// some are redundant, [`Penalty`](crate::Penalty) or [`AugmentedLagrangian`](crate::AugmentedLagrangian), with accelerations that are exact up to
@@ -44,8 +49,12 @@ pub struct KinematicAnalysis<'a, S: Real, M: Mechanism, F, A = NoForces> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct KinematicReport<S, X> {
-    /// Poses that were found: one for every reporting time, and those between where the way was halved.
+    /// Poses that were reported: at the start, at the reporting times and at the end.
     pub poses: usize,
+    /// Strides between poses, reported or not.
+    pub strides: usize,
+    /// How often a stride was tried that turned out too long.
+    pub shortened: usize,
     /// Steps of Newton's method for all of them.
     pub iterations: usize,
     /// The largest `Phi^T Phi` at a reporting time.
@@ -56,6 +65,16 @@ pub struct KinematicReport<S, X> {
     pub state: X,
     /// Whether the observer stopped the analysis.
     pub stopped: bool,
+    doubts: Doubts,
+}
+
+impl<S, X> KinematicReport<S, X> {
+    /// What is to be doubted; empty where the motion was followed without a choice. A branch point ([`Doubt::BranchPoint`](crate::Doubt::BranchPoint))
+    /// is found by pivots: not where equations are kept that depend on others.
+    #[must_use]
+    pub fn doubts(&self) -> Doubts {
+        self.doubts
+    }
 }
 
 /// The report of a kinematic analysis, or why it could not go on.
@@ -109,27 +128,6 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M
         }
     }
 }
-
-/// A pose that was found, with velocities, accelerations and multipliers.
-struct Found<S: Real, M: Mechanism> {
-    time: S,
-    state: M::State<S>,
-    evaluation: Evaluation<S, M>,
-}
-
-impl<S: Real, M: Mechanism> Clone for Found<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Real, M: Mechanism> Copy for Found<S, M> {}
-
-/// How often the way to a reporting time is halved: to a thousandth. A pose that is not found from there is beyond a limit of the motion.
-const HALVINGS: i32 = 10;
-
-/// A rest of the way of up to this many strides is gone in one, so that round-off leaves no sliver of it; halfway between one and two.
-const LAST_STRIDE: f64 = 1.5;
 
 impl<S, M, F, A> KinematicAnalysis<'_, S, M, F, A>
 where
@@ -191,14 +189,10 @@ where
         if degrees_of_freedom > 0 {
             return Err(Fault::NotDriven { degrees_of_freedom });
         }
-        let mut motion = Motion {
-            dynamics,
-            projection: self.projection,
-            poses: 0,
-            iterations: 0,
-        };
-        let mut found = motion.find(start, state)?;
+        let mut motion = Motion::new(dynamics, self.projection, start, &state);
+        let mut found = motion.begin(start, state)?;
         let mut worst_violation = S::zero();
+        let mut poses = 1;
         loop {
             *last_good = (found.time, found.state);
             let view = motion.dynamics.view(found.time, &found.state);
@@ -207,94 +201,20 @@ where
             let stopped = observe(&sample).is_break();
             if stopped || found.time >= end {
                 return Ok(KinematicReport {
-                    poses: motion.poses,
+                    poses,
+                    strides: motion.strides,
+                    shortened: motion.shortened,
                     iterations: motion.iterations,
                     worst_violation,
                     time: found.time,
                     state: found.state,
                     stopped,
+                    doubts: motion.passage.doubts(),
                 });
             }
             let time = schedule.following().unwrap_or(end);
             found = motion.follow(found, time, last_good)?;
+            poses += 1;
         }
     }
-}
-
-/// The motion under way.
-struct Motion<S: Real, M: Mechanism, F: Formulation<S>, A> {
-    dynamics: Dynamics<S, M, F, crate::Normalised, A>,
-    projection: Projection<S>,
-    poses: usize,
-    iterations: usize,
-}
-
-impl<S, M, F, A> Motion<S, M, F, A>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-{
-    /// The pose at a time near a state, and all that follows from it.
-    fn find(&mut self, time: S, near: M::State<S>) -> Result<Found<S, M>, Fault> {
-        let constants = self.dynamics.constants();
-        let mut state = near;
-        let correction = self.projection.correct::<M>(constants, time, &mut state)?;
-        let share = free_share::<S, M>(constants, time, &state);
-        let determined = share < S::constant(FREE);
-        if !determined {
-            let share = share.to_f64();
-            return Err(Fault::Undetermined { share });
-        }
-        let (evaluation, _) = self.dynamics.evaluate(time, &state)?;
-        self.poses += 1;
-        self.iterations += correction.iterations;
-        Ok(Found {
-            time,
-            state,
-            evaluation,
-        })
-    }
-
-    /// The pose at a later time, in one stride or, where that fails, in shorter ones.
-    fn follow(
-        &mut self,
-        from: Found<S, M>,
-        to: S,
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<Found<S, M>, Fault> {
-        let mut found = from;
-        let mut stride = to - from.time;
-        let shortest = stride * S::constant(2.0).powf(-f64::from(HALVINGS));
-        loop {
-            let rest = to - found.time;
-            let time = if rest <= stride * S::constant(LAST_STRIDE) {
-                to
-            } else {
-                found.time + stride
-            };
-            match self.stride(&found, time) {
-                Ok(next) if time >= to => return Ok(next),
-                Ok(next) => {
-                    found = next;
-                    *last_good = (found.time, found.state);
-                }
-                Err(fault) if stride <= shortest || !retried(&fault) => return Err(fault),
-                Err(_) => stride = stride * S::constant(0.5),
-            }
-        }
-    }
-
-    fn stride(&mut self, from: &Found<S, M>, time: S) -> Result<Found<S, M>, Fault> {
-        let accelerations = from.evaluation.rates.velocities();
-        let constants = self.dynamics.constants();
-        let near = advanced::<S, M>(constants, &from.state, accelerations, time - from.time);
-        self.find(time, near)
-    }
-}
-
-/// Whether a shorter stride may help.
-fn retried(fault: &Fault) -> bool {
-    matches!(fault, Fault::NotConverged { .. } | Fault::StateNotFinite)
 }

@@ -36,6 +36,7 @@ compile_error!(
 );
 
 mod access;
+mod apart;
 mod array;
 mod blocks;
 mod clock;

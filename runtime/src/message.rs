@@ -260,6 +260,20 @@ impl fmt::Display for Fault {
                 "the equations leave a motion free here ({} of a trial motion): they depend on each other, or a driver is missing",
                 Measured(share)
             ),
+            Self::Jump { body, size, joint } => {
+                write!(
+                    f,
+                    "no pose goes on with the motion: body `{body}` would jump by {} rad, or so many lengths of the mechanism; ",
+                    Measured(size)
+                )?;
+                match joint {
+                    Some(joint) => write!(
+                        f,
+                        "its branch ends in a singular configuration at joint `{joint}`"
+                    ),
+                    None => write!(f, "a law that jumps is the usual cause"),
+                }
+            }
             Self::Setting { name, value } => {
                 write!(
                     f,

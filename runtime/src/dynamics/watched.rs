@@ -157,7 +157,7 @@ where
 
     /// The smallest relative pivot without a compliance.
     #[inline]
-    fn rigid_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
+    pub(crate) fn rigid_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
         M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1
     }
 

@@ -52,6 +52,15 @@ pub enum Doubt {
         /// When (s).
         time: f64,
     },
+    /// A kinematic analysis passed a singular configuration, or nearly: another branch of the motion begins there.
+    BranchPoint {
+        /// The joint whose pivot, or whose gradient, all but vanished.
+        joint: &'static str,
+        /// The smallest relative pivot, or square of a gradient, over the largest on the way.
+        fall: f64,
+        /// When (s).
+        time: f64,
+    },
     /// Energy came or went that no force and no driver accounts for.
     Energy {
         /// The change over the energy that the mechanism exchanges, where it was largest.
@@ -183,6 +192,13 @@ impl fmt::Display for Doubt {
                 Measured(time),
                 Measured(length)
             ),
+            Self::BranchPoint { joint, fall, time } => write!(
+                f,
+                "passed a branch point, or nearly, at {} s, joint `{joint}` (its pivot fell to {} of the largest): the motion went straight on; \
+                 the equations allow another branch from there",
+                Measured(time),
+                Measured(fall)
+            ),
             Self::Energy { change, time } if !change.is_finite() => write!(
                 f,
                 "the energy is beyond all numbers at {} s",
@@ -308,6 +324,13 @@ pub struct Doubts {
 
 impl Doubts {
     pub(super) fn new(doubts: [Option<Doubt>; KINDS]) -> Self {
+        Self { doubts }
+    }
+
+    /// Of some that were found.
+    pub(crate) fn of<const N: usize>(found: [Option<Doubt>; N]) -> Self {
+        let mut doubts = [None; KINDS];
+        doubts.iter_mut().zip(found).for_each(|(place, doubt)| *place = doubt);
         Self { doubts }
     }
 

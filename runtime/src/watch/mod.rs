@@ -10,6 +10,7 @@ mod gradients;
 mod lag;
 mod limits;
 mod pace;
+mod passage;
 mod rest;
 mod rows;
 mod seen;
@@ -18,6 +19,7 @@ mod verdict;
 mod within;
 
 pub use doubt::{Doubt, Doubts};
+pub(crate) use passage::Passage;
 pub(crate) use rest::Beginning;
 pub(crate) use rows::{Meanings, extent};
 pub(crate) use seen::Seen;

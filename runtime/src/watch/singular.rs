@@ -124,6 +124,12 @@ impl<S: Real> Approach<S> {
         self.before[1].map(|(_, pivot)| pivot)
     }
 
+    /// The last pivot over the largest.
+    pub(super) fn left(&self) -> Option<S> {
+        let last = self.last()?;
+        (self.largest > S::zero()).then(|| last.quotient(self.largest))
+    }
+
     /// The smallest over the largest.
     pub(super) fn fall(&self) -> S {
         if self.largest > S::zero() {
