@@ -3,13 +3,15 @@
 use nalgebra::{Quaternion, Vector3};
 
 use crate::array::{Array, StateParts};
+use crate::assembly::assembled;
 use crate::error::{Fault, ParameterError};
 use crate::handle::{BodyHandle, CountsTurns, HasAngle, HasDisplacement, Joint, JointHandle};
 use crate::mechanism::Mechanism;
 use crate::placing::Carrying;
 use crate::project::{Correction, Projection};
 use crate::rotation::{
-    conjugate, cross, normalised, normalised_or_zero, product, read, rotate, rotate_back, write,
+    check_state, conjugate, cross, normalised, normalised_or_zero, product, read, rotate,
+    rotate_back, write,
 };
 use crate::scalar::{Real, Scalar};
 
@@ -58,7 +60,23 @@ pub trait MechanismExt: Mechanism {
         state: &mut Self::State<S>,
     ) -> Result<Correction<S>, Fault> {
         let constants = self.constants()?;
-        Projection::default().correct::<Self>(&constants, time, state)
+        let from = Self::initial_state(&constants);
+        assembled::<S, Self>(&Projection::default(), &constants, time, state, &from)
+    }
+
+    /// The same from another state than the described one: the last that satisfied the constraints, whose branch is to be kept.
+    ///
+    /// # Errors
+    /// As [`MechanismExt::assemble`].
+    fn assemble_from<S: Real>(
+        &self,
+        time: S,
+        state: &mut Self::State<S>,
+        from: &Self::State<S>,
+    ) -> Result<Correction<S>, Fault> {
+        let constants = self.constants()?;
+        check_state::<S, Self>(from)?;
+        assembled::<S, Self>(&Projection::default(), &constants, time, state, from)
     }
 
     /// The Euler parameters (scalar first, of length 1) of the rotation from the user's body axes to the global axes.

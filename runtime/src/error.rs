@@ -164,6 +164,18 @@ pub enum Fault {
         /// The share of a trial motion's energy that stays free, from 0 to 1.
         share: f64,
     },
+    /// A joint is on a side that is not meant: its equations hold, but the other way round (`require .. > 0` in its definition).
+    WrongSide {
+        /// The joint's field.
+        joint: &'static str,
+    },
+    /// Assembly found no way from the reference configuration, or from the state it was to start from, to what was set, along one branch.
+    WayEnds {
+        /// The joint whose pivot has nearly vanished where it ends, or that cannot be brought to where it was set; `None` where none of these is known.
+        joint: Option<&'static str>,
+        /// The share of the way that was gone.
+        share: f64,
+    },
     /// A kinematic analysis found no pose that goes on with the motion, however short its stride: a law that jumps, or a branch that ends.
     Jump {
         /// The body that the nearest pose would let jump most.

@@ -38,6 +38,7 @@ compile_error!(
 mod access;
 mod apart;
 mod array;
+mod assembly;
 mod blocks;
 mod clock;
 mod compliance;
@@ -226,7 +227,7 @@ pub use mechanism::{
 };
 pub use moving::{Bodies, Description, Joints, Moving};
 pub use nalgebra;
-pub use project::{Correction, Projection};
+pub use project::{Correction, Moved, Projection};
 pub use reaction::Wrench;
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 #[cfg(feature = "recorder")]

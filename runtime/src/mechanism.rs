@@ -280,6 +280,16 @@ pub trait Mechanism: Sized + 'static {
         DisplacementParts::none()
     }
 
+    /// Positive where a joint is on the side that is meant, of the configurations that satisfy its equations; what is least where its definition says more than
+    /// one thing (`require .. > 0`), and 1 where it says nothing.
+    fn joint_side<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _state: &Self::State<S>,
+        _joint: usize,
+    ) -> S {
+        S::one()
+    }
+
     /// The joint's point on one of its bodies, by its place in `between`: from the centre of mass to the point, in
     /// principal body axes (m); in global axes from the origin for the ground.
     fn joint_point<S: Scalar>(constants: &Self::Constants<S>, joint: usize, place: usize)

@@ -260,6 +260,25 @@ impl fmt::Display for Fault {
                 "the equations leave a motion free here ({} of a trial motion): they depend on each other, or a driver is missing",
                 Measured(share)
             ),
+            Self::WrongSide { joint } => write!(
+                f,
+                "joint `{joint}` is upside down: its equations hold, or nearly, on a side that its definition excludes; set its bodies on the right side, \
+                 or describe its axes so that they point the same way"
+            ),
+            Self::WayEnds { joint, share } => {
+                write!(
+                    f,
+                    "the branch of the start does not lead to what was set: it was followed to {} of the way",
+                    Measured(share)
+                )?;
+                match joint {
+                    Some(joint) => write!(
+                        f,
+                        " and ends at joint `{joint}`, in a singular configuration or at a limit of its motion"
+                    ),
+                    None => Ok(()),
+                }
+            }
             Self::Jump { body, size, joint } => {
                 write!(
                     f,

@@ -72,6 +72,26 @@ pub struct Correction<S> {
     /// The largest `|Phi|` or `|Phi'|` beyond the tolerance that was kept as nearly a state of self-stress, in sizes of its row; zero where
     /// all is within. A run may keep some, [`Projection::correct`] keeps none. Of a [`DirectCorrection`](crate::DirectCorrection) also what its one application left.
     pub excused: S,
+    /// How far an assembly moved; `None` of a correction of another kind.
+    pub moved: Option<Moved<S>>,
+}
+
+/// How far an assembly moved a state, see [`MechanismExt::assemble`](crate::MechanismExt::assemble): the body that stands furthest, in radians or lengths of the mechanism, from where it
+/// stood in the state that was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moved<S> {
+    /// The body's field.
+    pub body: &'static str,
+    /// The field of the joint that carries it in the spanning tree; `None` where it moves freely.
+    pub joint: Option<&'static str>,
+    /// Its rotation (rad).
+    pub angle: S,
+    /// The movement of its centre of mass (m).
+    pub length: S,
+    /// The strides by which a branch was followed; zero where the state was near enough to be corrected at once.
+    pub strides: usize,
+    /// The joint of a singular configuration that was passed on the way, or nearly: another branch begins there.
+    pub passed: Option<&'static str>,
 }
 
 /// The largest violation that a state on its way may keep, in sizes of its row, however coarse the tolerance is.
@@ -230,6 +250,7 @@ pub(crate) fn in_turn<S: Real, M: Mechanism>(
         velocity_violation_before: square(velocity_before.as_slice()),
         velocity_violation_after: square(phi_rate(state).as_slice()),
         excused: left.max(rates_left),
+        moved: None,
     })
 }
 

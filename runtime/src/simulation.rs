@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 use core::ops::{ControlFlow, RangeInclusive};
 
 use crate::array::{Array, StateParts};
+use crate::assembly::assembled;
 use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
@@ -267,7 +268,8 @@ where
         check_state::<S, M>(&state)?;
         M::recount(&constants, &mut state);
         if let Some(projection) = self.assemble {
-            projection.correct::<M>(&constants, start, &mut state)?;
+            let from = M::initial_state(&constants);
+            assembled::<S, M>(&projection, &constants, start, &mut state, &from)?;
         }
         last_good.1 = state;
         if !self.accepts_any_start || C::HAS_EXACT_JOINTS {

@@ -1,6 +1,7 @@
 //! Whether a run may begin where it is told to.
 
 use crate::array::{Array, StateParts};
+use crate::assembly::check_sides;
 use crate::error::{Fault, Quantity};
 use crate::mechanism::Mechanism;
 use crate::report::{Block, BodyInfo};
@@ -20,6 +21,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
     state: &M::State<S>,
     is_final: bool,
 ) -> Result<(), Fault> {
+    check_sides::<S, M>(constants, state)?;
     let fault = |row: usize, quantity: Quantity, violation: S| Fault::InconsistentStart {
         joint: M::REPORT.joint_of(row).unwrap_or_default(),
         quantity,

@@ -17,5 +17,6 @@ crate::joint! {
         let n_j = fixed(j, n_i - (dot(n_i, j.axis_j) / scale) * bisector);
         let b_j = fixed(j, b_i - (dot(b_i, j.axis_j) / scale) * bisector);
         dot(b_i, n_j) - dot(n_i, b_j);
+        require dot(n_i, n_j) + dot(b_i, b_j) > 0;
     }
 }

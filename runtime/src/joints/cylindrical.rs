@@ -9,6 +9,7 @@ crate::joint! {
         dot(i.axis.normals(), j.axis);
         dot(i.axis.normals(), j.point - i.point);
         angle about axis;
+        require dot(i.axis, j.axis) > 0;
         displacement dot(i.axis, j.point - i.point);
         motion turn axis at point, slide axis;
     }

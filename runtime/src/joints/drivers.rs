@@ -41,5 +41,6 @@ crate::joint! {
         dot(i.axis.normals(), j.axis);
         drive angle(i, j, axis) to motion();
         angle about axis;
+        require dot(i.axis, j.axis) > 0;
     }
 }

@@ -13,5 +13,8 @@ crate::joint! {
         dot(fixed(i, z), fixed(j, x));
         dot(fixed(i, y), fixed(j, z));
         motion none;
+        require dot(fixed(i, x), fixed(j, x)) > 0;
+        require dot(fixed(i, y), fixed(j, y)) > 0;
+        require dot(fixed(i, z), fixed(j, z)) > 0;
     }
 }

@@ -22,5 +22,6 @@ crate::joint! {
         dot(i.axis.normals(), j.axis);
         dot(i.axis, arm) - initial(dot(i.axis, arm));
         squared(arm) - initial(squared(arm));
+        require dot(i.axis, j.axis) > 0;
     }
 }

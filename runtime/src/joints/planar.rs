@@ -6,6 +6,7 @@ crate::joint! {
     pub joint Planar(i, j; point: Point, normal: Axis) {
         dot(i.normal.normals(), j.normal);
         dot(i.normal, j.point - i.point);
+        require dot(i.normal, j.normal) > 0;
         motion slide normal.normal(), slide normal.binormal(), turn normal at point;
     }
 }

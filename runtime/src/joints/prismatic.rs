@@ -11,5 +11,7 @@ crate::joint! {
         dot(i.axis.normal(), j.axis.binormal());
         displacement dot(i.axis, j.point - i.point);
         motion slide axis;
+        require dot(i.axis, j.axis) > 0;
+        require dot(i.axis.binormal(), j.axis.binormal()) > 0;
     }
 }

@@ -9,6 +9,7 @@ crate::joint! {
         j.point - i.point;
         dot(i.axis.normals(), j.axis);
         angle about axis;
+        require dot(i.axis, j.axis) > 0;
         motion turn axis at point;
     }
 }

@@ -15,9 +15,10 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// Parallel, type 1: an axis of `i` and an axis of `j` stay parallel.
+    /// Parallel, type 1: an axis of `i` and an axis of `j` stay parallel, and go on pointing the same way, or opposite ways, as in the reference configuration.
     pub joint Parallel1(i, j; axis_i: Axis, axis_j: Axis) {
         dot(i.axis_i.normals(), j.axis_j);
+        require initial(dot(i.axis_i, j.axis_j)) * dot(i.axis_i, j.axis_j) > 0;
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::apart::{apart, reach};
 use crate::array::{Array, StateParts};
+use crate::assembly::assembled;
 use crate::displace::advanced;
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
@@ -90,7 +91,12 @@ where
 
     /// The first pose, near a state.
     pub(super) fn begin(&mut self, time: S, near: M::State<S>) -> Result<Found<S, M>, Fault> {
-        let found = self.find(time, near)?;
+        let mut state = near;
+        let constants = self.dynamics.constants();
+        let from = M::initial_state(constants);
+        let correction = assembled::<S, M>(&self.projection, constants, time, &mut state, &from)?;
+        self.iterations += correction.iterations;
+        let found = self.find(time, state)?;
         self.take(&found, S::zero());
         Ok(found)
     }
@@ -175,7 +181,8 @@ where
                     *last_good = (found.time, found.state);
                 }
                 Err(fault) => {
-                    let least = self.longest.max(stride) * S::constant(2.0).powf(-f64::from(HALVINGS));
+                    let least =
+                        self.longest.max(stride) * S::constant(2.0).powf(-f64::from(HALVINGS));
                     let least = least.max(S::constant(16.0) * found.time.ulp());
                     if stride <= least || !retried(&fault) {
                         return Err(fault);

@@ -49,7 +49,8 @@ fn the_crank_follows_its_law<F: Formulation<f64>>(formulation: F, tolerance: f64
         .unwrap();
     assert_eq!((times, report.poses, report.time), (61, 61, 3.0));
     assert!(report.worst_violation < 1e-24 && !report.stopped);
-    assert!(report.iterations < 4 * report.poses);
+    assert!(report.iterations < 4 * report.strides);
+    assert!(report.doubts().is_empty());
     // More than four turns.
     assert!(report.state.coordinates()[7] > 4.0 * TAU);
 }

@@ -330,7 +330,10 @@ impl Doubts {
     /// Of some that were found.
     pub(crate) fn of<const N: usize>(found: [Option<Doubt>; N]) -> Self {
         let mut doubts = [None; KINDS];
-        doubts.iter_mut().zip(found).for_each(|(place, doubt)| *place = doubt);
+        doubts
+            .iter_mut()
+            .zip(found)
+            .for_each(|(place, doubt)| *place = doubt);
         Self { doubts }
     }
 

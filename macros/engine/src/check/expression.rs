@@ -12,7 +12,7 @@ use crate::model::{ElementKind, Extent, Function, Parameter, ParameterKind, Term
 use crate::syntax::ungroup;
 
 /// Words that begin statements, or join two halves of one.
-const STATEMENTS: [&str; 8] = [
+const STATEMENTS: [&str; 9] = [
     "along",
     "angle",
     "displacement",
@@ -21,6 +21,7 @@ const STATEMENTS: [&str; 8] = [
     "moment",
     "motion",
     "potential",
+    "require",
 ];
 
 /// Makes a term of two.

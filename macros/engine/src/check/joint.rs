@@ -75,6 +75,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         actions: Vec::new(),
         angle: None,
         displacement: None,
+        requirements: Vec::new(),
         motions: None,
         drive: None,
     };
@@ -91,6 +92,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         actions,
         angle,
         displacement,
+        requirements,
         motions,
         drive,
         ..
@@ -129,6 +131,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
             actions,
             angle,
             displacement,
+            requirements,
             motions,
             drive,
             turns: Vec::new(),
@@ -180,6 +183,7 @@ struct Reader<'a> {
     actions: Vec<Action>,
     angle: Option<Turn>,
     displacement: Option<Term>,
+    requirements: Vec<Term>,
     motions: Option<Vec<Motion>>,
     drive: Option<usize>,
 }
@@ -262,6 +266,7 @@ impl Reader<'_> {
                     self.displacement = term;
                 }
             }
+            Statement::Require(keyword, written) => self.require(keyword, written, faults),
             Statement::Motion {
                 keyword, motions, ..
             } => self.read_motions(keyword, motions, faults),
@@ -339,6 +344,29 @@ impl Reader<'_> {
                     self.actions.push(Action::Moment { vector, body });
                 }
             }
+        }
+    }
+
+    /// What is positive on the side that is meant: a function of the configuration alone.
+    fn require(&mut self, keyword: &Ident, written: &syn::Expr, faults: &mut Faults) {
+        let term = self.context.scalar(written, faults);
+        if !self.joint_only(keyword, "what tells a side", faults) {
+            return;
+        }
+        let Some(term) = term else { return };
+        let not_of_places = term.has(|term| {
+            matches!(
+                term,
+                Term::Rate(_) | Term::Time | Term::Law { .. } | Term::Angle(_)
+            )
+        });
+        if not_of_places {
+            faults.at(
+                written,
+                "what tells a side depends on points and directions alone: no rate, no time, no law, no angle over many turns",
+            );
+        } else if self.must_move(&term, written, "this requirement", faults) {
+            self.requirements.push(term);
         }
     }
 

@@ -127,6 +127,13 @@ fn documentation(joint: &ElementDef) -> TokenStream {
              configuration{turns}."
         ));
     }
+    if !joint.requirements.is_empty() {
+        lines.push(String::new());
+        lines.push(
+            "The equations hold on another side as well: which one is meant is checked where a state is assembled and where a run begins."
+                .into(),
+        );
+    }
     if let Some(motions) = &joint.motions {
         let (i, j) = (&joint.bodies[0], &joint.bodies[1]);
         let motions = motions.iter().map(|motion| self::motion(joint, *motion));

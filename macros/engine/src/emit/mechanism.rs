@@ -74,6 +74,7 @@ impl Writer<'_> {
         let angles = self.angles();
         let points = self.points();
         let displacements = self.displacements();
+        let sides = self.sides();
         let recount = self.recount();
         let forces = self.force_readouts();
         let user_axes = self.user_axes();
@@ -170,6 +171,7 @@ impl Writer<'_> {
                     #angles
                     #points
                     #displacements
+                    #sides
                     #recount
                     #forces
                     #user_axes

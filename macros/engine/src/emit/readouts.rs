@@ -92,6 +92,41 @@ impl Writer<'_> {
         }
     }
 
+    /// Only where joints tell a side; the trait says that all is well by default.
+    pub(super) fn sides(&mut self) -> TokenStream {
+        if self.kernels.readouts.sides.is_empty() {
+            return TokenStream::new();
+        }
+        let facade = self.facade;
+        let (constants, state, joint) = (local("constants"), local("state"), local("joint"));
+        let unpack = Self::unpack();
+        let mut arms = TokenStream::new();
+        for (place, kernel) in &self.kernels.readouts.sides {
+            let StraightLine {
+                statements,
+                outputs,
+            } = self.line(kernel);
+            let least = outputs
+                .iter()
+                .map(|output| quote!(#output))
+                .reduce(|least, output| quote!(<__S as #facade::Scalar>::min(#least, #output)));
+            arms.extend(quote!(#place => { #statements #least }));
+        }
+        quote! {
+            fn joint_side<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #state: &Self::State<__S>,
+                #joint: usize,
+            ) -> __S {
+                #unpack
+                match #joint {
+                    #arms
+                    _ => __S::one(),
+                }
+            }
+        }
+    }
+
     pub(super) fn points(&mut self) -> TokenStream {
         let facade = self.facade;
         let (constants, joint, place) = (local("constants"), local("joint"), local("place"));

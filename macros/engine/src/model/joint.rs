@@ -495,6 +495,8 @@ pub struct ElementDef {
     pub angle: Option<Turn>,
     /// The displacement that can be read.
     pub displacement: Option<Term>,
+    /// What is positive on the side that is meant, of the configurations that satisfy its equations.
+    pub requirements: Vec<Term>,
     /// The motions that it leaves free, of its second body against its first: each carries those behind it. `None` where the definition
     /// does not say; none are left where it says so. What stands in them is fixed on no body by that: they change nothing in the equations.
     pub motions: Option<Vec<Motion>>,
@@ -541,7 +543,8 @@ impl ElementDef {
     pub fn terms(&self) -> impl Iterator<Item = &Term> {
         let rows = self.rows.iter().map(Row::term);
         let actions = self.actions.iter().flat_map(Action::terms);
-        rows.chain(actions).chain(&self.displacement)
+        let readings = self.displacement.iter().chain(&self.requirements);
+        rows.chain(actions).chain(readings)
     }
 
     /// The first body on which a vector parameter is used; the first of all if it is used nowhere.

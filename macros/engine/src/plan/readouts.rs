@@ -15,6 +15,8 @@ pub struct Readouts {
     pub angles: Vec<(usize, Kernel)>,
     /// Value and rate of the displacement of each joint that has one.
     pub displacements: Vec<(usize, Kernel)>,
+    /// What is positive on the side that is meant, of each joint that says so.
+    pub sides: Vec<(usize, Kernel)>,
     /// The reaction point of each joint on each of its bodies.
     pub points: Vec<(usize, usize, Kernel)>,
     /// The potential energy of each force, and the power of what it does besides.
@@ -30,6 +32,7 @@ impl Readouts {
         Self {
             angles: angles(scene, model),
             displacements: displacements(scene, model),
+            sides: sides(scene, model),
             points: points(scene, model),
             energies: (0..model.forces.len())
                 .map(|force| with_scene(scene, |scene| scene.energy_and_power(force).into()))
@@ -118,6 +121,24 @@ fn displacements(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
                 displacement.value(space, motion),
                 displacement.rate(space, motion),
             ]
+        });
+        (joint, kernel)
+    })
+    .collect()
+}
+
+fn sides(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
+    let says = |joint: &usize| {
+        let definition = model.definition(&model.joints[*joint]);
+        !definition.requirements.is_empty()
+    };
+    let with = (0..model.joints.len()).filter(says);
+    with.map(|joint| {
+        let kernel = with_scene(scene, |scene| {
+            let sides = scene.sides(model, joint);
+            let (space, motion) = (&mut scene.space, &scene.motion);
+            let values = sides.iter().map(|side| side.value(space, motion));
+            values.collect()
         });
         (joint, kernel)
     })

@@ -322,6 +322,22 @@ impl Scene {
         }
     }
 
+    /// What is positive on the side of a joint that is meant. Bound where it is asked for: no other kernel has a part of it.
+    pub(crate) fn sides(&mut self, model: &Model, joint: usize) -> Vec<ScalarExpr> {
+        let element = &model.joints[joint];
+        let binder = Binder {
+            model,
+            element,
+            copies: &self.copies[joint],
+            // No angle over turns stands in it.
+            first_counter: 0,
+            paired: &|_, _, _| None,
+        };
+        let terms = model.definition(element).requirements.iter();
+        let arena = &mut self.space.arena;
+        terms.map(|term| binder.scalar(arena, term)).collect()
+    }
+
     /// The scene of a model for a solution of its equations: vectors are computed in whatever axes are cheapest, and every
     /// entry of a rotation matrix is its own cofactor.
     ///

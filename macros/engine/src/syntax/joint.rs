@@ -7,6 +7,7 @@
 //!     dot(i.axis.normals(), j.axis);       // normals are two vectors: two equations
 //!     angle about axis;                    // the joint has an angle
 //!     motion turn axis at point;           // what the equations leave free
+//!     require dot(i.axis, j.axis) > 0;     // which of the solutions is meant
 //! }
 //!
 //! pub force Name(i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0) {
@@ -17,6 +18,7 @@
 //! ```
 
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Attribute, Token, Visibility};
 
@@ -86,6 +88,8 @@ pub enum Statement {
         /// The motions; none of `motion none`.
         motions: Vec<MotionSyntax>,
     },
+    /// `require expr > 0`.
+    Require(Ident, Box<syn::Expr>),
     /// `drive expr to expr`.
     Drive(Ident, Box<syn::Expr>, Box<syn::Expr>),
     /// `potential expr`.
@@ -364,6 +368,7 @@ fn keyword(piece: &Piece) -> Option<(Ident, Piece)> {
     };
     let is_statement = match keyword.to_string().as_str() {
         "potential" | "displacement" => true,
+        "require" => is_inequality(&rest),
         "drive" => around(&rest, "to").is_some(),
         "force" => around(&rest, "at").is_some(),
         "moment" => around(&rest, "on").is_some(),
@@ -377,6 +382,12 @@ fn keyword(piece: &Piece) -> Option<(Ident, Piece)> {
         Some(_) => true,
     };
     operand.then_some((keyword, rest))
+}
+
+/// Whether a comparison stands in a piece, which is no expression of the language.
+fn is_inequality(piece: &Piece) -> bool {
+    let mut tokens = piece.tokens.clone().into_iter();
+    tokens.any(|token| matches!(&token, TokenTree::Punct(punct) if matches!(punct.as_char(), '<' | '>' | '=')))
 }
 
 fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
@@ -450,6 +461,7 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
         "displacement" => {
             expression(&rest, faults).map(|expr| Statement::Displacement(keyword, expr))
         }
+        "require" => requirement(&rest, faults).map(|expr| Statement::Require(keyword, expr)),
         "potential" => expression(&rest, faults).map(|expr| Statement::Potential(keyword, expr)),
         "drive" => pair("to", "drive length(j.tail - i.head) to motion()")
             .map(|(driven, law)| Statement::Drive(keyword, driven, law)),
@@ -459,6 +471,26 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
             .map(|(vector, body)| Statement::Moment(keyword, vector, body)),
         _ => expression(piece, faults).map(Statement::Zero),
     }
+}
+
+/// What is positive: `expr > 0`.
+fn requirement(rest: &Piece, faults: &mut Faults) -> Option<Box<syn::Expr>> {
+    let whole = expression(rest, faults)?;
+    if let syn::Expr::Binary(syn::ExprBinary {
+        left, op, right, ..
+    }) = &*whole
+        && let syn::BinOp::Gt(_) = op
+        && let syn::Expr::Lit(literal) = &**right
+        && let syn::Lit::Int(_) | syn::Lit::Float(_) = &literal.lit
+        && literal.lit.to_token_stream().to_string().parse() == Ok(0.0)
+    {
+        return Some(left.clone());
+    }
+    faults.at(
+        &rest.tokens,
+        "expected `> 0` behind a scalar, as in `require dot(i.axis, j.axis) > 0`",
+    );
+    None
 }
 
 fn binding(rest: &Piece, faults: &mut Faults) -> Option<Statement> {
@@ -525,6 +557,14 @@ mod tests {
             Displacement(..)
         ));
         assert!(matches!(read(quote!(displacement - a)), Displacement(..)));
+        assert!(matches!(
+            read(quote!(require - a > 0)),
+            Statement::Require(..)
+        ));
+        assert!(matches!(
+            read(quote!(require(a + b) * c > 0.0)),
+            Statement::Require(..)
+        ));
     }
 
     #[test]
@@ -537,6 +577,8 @@ mod tests {
         assert!(matches!(read(quote!(motion * a)), Zero(..)));
         assert!(matches!(read(quote!(motion along a)), Along(..)));
         assert!(matches!(read(quote!(motion slide a)), Motion { .. }));
+        assert!(matches!(read(quote!(require - a)), Zero(..)));
+        assert!(matches!(read(quote!(require(a) - b)), Zero(..)));
         assert!(matches!(read(quote!(force(a) - drive(b))), Zero(..)));
     }
 }

@@ -262,6 +262,11 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
     let first: Expr = input.parse()?;
     Ok(match word.as_str() {
         "displacement" => Statement::Reading,
+        "require" => {
+            input.parse::<Token![>]>()?;
+            input.parse::<TokenTree>()?;
+            Statement::Reading
+        }
         "potential" => Statement::Potential(first),
         "drive" => {
             input.parse::<Ident>()?;

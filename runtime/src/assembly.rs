@@ -1,0 +1,111 @@
+//! Assembly: a state that satisfies the constraints, on the branch that is meant.
+//!
+//! A correction by Newton's method goes to some solution near by. Where what was set is far from the solution, that may be one of another branch. So the way there is
+//! followed in short strides, from the reference configuration, in which the branch is known, to what was set.
+
+mod set;
+mod side;
+mod way;
+
+use self::set::Set;
+pub(crate) use self::side::check_sides;
+use self::side::righted;
+use self::way::Way;
+use crate::apart::apart;
+use crate::array::StateParts;
+use crate::error::Fault;
+use crate::mechanism::Mechanism;
+use crate::project::{Correction, Moved, Projection};
+use crate::rotation::{check_state, with_unit_orientations};
+use crate::scalar::Real;
+use crate::watch::extent;
+
+/// A movement (rad, or lengths of the mechanism) that is round-off or a number of few digits: no branch is that near.
+const NEAR: f64 = 1e-3;
+
+/// A movement that Newton's method may do at once, where nothing tells what was set.
+const MODERATE: f64 = 0.1;
+
+/// Puts a state on the constraints. The branch is that of a state to start from, which need not satisfy them.
+pub(crate) fn assembled<S: Real, M: Mechanism>(
+    projection: &Projection<S>,
+    constants: &M::Constants<S>,
+    time: S,
+    state: &mut M::State<S>,
+    from: &M::State<S>,
+) -> Result<Correction<S>, Fault> {
+    check_state::<S, M>(state)?;
+    let given = *state;
+    let length = extent::<S, M>(constants, from);
+    let mut direct = given;
+    let at_once = projection.correct::<M>(constants, time, &mut direct);
+    let moved = |to: &M::State<S>| apart::<S, M>(&given, to, length).size;
+    let is_direct = |limit: f64| {
+        at_once.is_ok()
+            && moved(&direct) <= S::constant(limit)
+            && check_sides::<S, M>(constants, &direct).is_ok()
+    };
+    let finish = |to: M::State<S>, correction: Correction<S>, strides: usize, passed| {
+        let most = apart::<S, M>(&given, &to, length);
+        let carrier = M::REPORT.carriers.get(most.body);
+        let joint = carrier.and_then(|carrier| M::REPORT.joints.get(carrier.joint?));
+        let moved = Moved {
+            body: M::REPORT.bodies.get(most.body).map_or("", |info| info.name),
+            joint: joint.map(|info| info.name),
+            angle: most.angle,
+            length: most.length,
+            strides,
+            passed,
+        };
+        Correction {
+            moved: Some(moved),
+            ..correction
+        }
+    };
+    if M::REPORT.equations == 0 || is_direct(NEAR) {
+        let correction = at_once?;
+        *state = direct;
+        return Ok(finish(direct, correction, 0, None));
+    }
+    let set = Set::<S, M>::of(constants, time, &given, from, length);
+    if !set.is_clean() && is_direct(MODERATE) {
+        let correction = at_once?;
+        *state = direct;
+        return Ok(finish(direct, correction, 0, None));
+    }
+    // What was not set goes along from where the branch is known; where all was set, or nothing, the state itself is the guess.
+    let start = if set.is_part() { from } else { &given };
+    let mut start = with_unit_orientations::<S, M>(start);
+    M::recount(constants, &mut start);
+    let start = righted::<S, M>(constants, &start, from);
+    let found = Way::<S, M>::new(constants, time, length, &start, &set)
+        .go()
+        .and_then(|end| {
+            let mut to: M::State<S> = end.state;
+            *to.velocities_mut() = *given.velocities();
+            let correction = projection.correct::<M>(constants, time, &mut to)?;
+            check_sides::<S, M>(constants, &to)?;
+            let correction = Correction {
+                iterations: correction.iterations + end.iterations,
+                ..correction
+            };
+            Ok((to, finish(to, correction, end.strides, end.passed)))
+        });
+    match (found, at_once) {
+        (Ok((to, mut correction)), direct) => {
+            if let Ok(direct) = direct {
+                correction.violation_before = direct.violation_before;
+                correction.velocity_violation_before = direct.velocity_violation_before;
+            }
+            *state = to;
+            Ok(correction)
+        }
+        (Err(fault), _) if set.is_clean() && set.is_part() => Err(fault),
+        (Err(fault), Err(_)) => Err(fault),
+        (Err(_), Ok(correction)) => {
+            check_sides::<S, M>(constants, &direct)?;
+            *state = direct;
+            Ok(finish(direct, correction, 0, None))
+        }
+    }
+}

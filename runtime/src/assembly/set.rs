@@ -1,0 +1,315 @@
+//! What was set in a state: which bodies stand otherwise against what carries them than in another state.
+
+use crate::apart::angle_between;
+use crate::array::{Array, StateParts};
+use crate::extent::norm;
+use crate::mechanism::Mechanism;
+use crate::newton::Iterate;
+use crate::report::BodyKind;
+use crate::rotation::{
+    conjugate, from_rotation_vector, minus, normalised, product, read, rotate, rotate_back, write,
+};
+use crate::scalar::{Real, Scalar};
+
+/// A violation, in sizes of its row, that opens a joint: setting an angle opens none of the tree.
+const OPENS: f64 = 1e-6;
+
+/// The motions of bodies against what carries them in the spanning tree, from one state to another.
+pub(super) struct Set<S: Scalar, M: Mechanism> {
+    /// Of each body in the places of its velocities: how the point of its joint moves (m) and how it turns (rad), in the axes of what carries it. Zeros where it was not set.
+    motion: M::Velocities<S>,
+    /// How bodies stand before.
+    from: M::State<S>,
+    /// Bodies that stand otherwise, and bodies that do not although they could.
+    changed: usize,
+    kept: usize,
+    /// Whether no joint of the tree was opened.
+    is_closed: bool,
+}
+
+/// Where a body is, seen from what carries it: its joint's point, and its orientation.
+#[derive(Clone, Copy)]
+struct Relative<S> {
+    point: [S; 3],
+    orientation: [S; 4],
+}
+
+impl<S: Real, M: Mechanism> Set<S, M> {
+    pub(super) fn of(
+        constants: &M::Constants<S>,
+        time: S,
+        given: &M::State<S>,
+        from: &M::State<S>,
+        length: S,
+    ) -> Self {
+        let mut set = Self {
+            motion: M::Velocities::<S>::zeros(),
+            from: *from,
+            changed: 0,
+            kept: 0,
+            is_closed: closes_tree::<S, M>(constants, time, given),
+        };
+        let least = S::EPSILON.sqrt();
+        for (body, info) in M::REPORT.bodies.iter().enumerate() {
+            let [before, after] =
+                [from, given].map(|state| relative::<S, M>(constants, state, body));
+            let slide = minus(&after.point, &before.point);
+            let is_rigid = info.kind == BodyKind::Rigid;
+            let angle = if is_rigid {
+                angle_between(&before.orientation, &after.orientation)
+            } else {
+                S::zero()
+            };
+            if angle > least || norm(&slide) > least * length {
+                set.changed += 1;
+                let mut turn = rotation_vector(&before.orientation, &after.orientation);
+                if let Some(whole) = counted::<S, M>(given, from, body, &turn, constants) {
+                    turn = whole;
+                }
+                let motion = set.motion.as_mut_slice();
+                write(motion, info.velocity, slide);
+                if is_rigid {
+                    write(motion, info.velocity + 3, turn);
+                }
+            } else if is_movable::<M>(body) {
+                set.kept += 1;
+            }
+        }
+        set
+    }
+
+    /// Whether some bodies were set and others not.
+    pub(super) fn is_part(&self) -> bool {
+        self.changed > 0 && self.kept > 0
+    }
+
+    /// Whether what was set are motions of joints, of which others are left to follow.
+    pub(super) fn is_clean(&self) -> bool {
+        self.is_closed && self.is_part()
+    }
+
+    /// The largest turn (rad), or slide in lengths of the mechanism.
+    pub(super) fn size(&self, length: S) -> S {
+        crate::apart::reach::<S, M>(&self.motion, length).size
+    }
+
+    /// Whether a body is to be moved against what carries it.
+    pub(super) fn holds(&self, body: usize) -> bool {
+        let place = M::REPORT
+            .bodies
+            .get(body)
+            .map_or(usize::MAX, |info| info.velocity);
+        let motion: [S; 6] = read(self.motion.as_slice(), place);
+        let [a, b, c, d, e, f] = motion;
+        let rotation = match M::REPORT.bodies.get(body).map(|info| info.kind) {
+            Some(BodyKind::Rigid) => norm(&[d, e, f]),
+            _ => S::zero(),
+        };
+        rotation > S::zero() || norm(&[a, b, c]) > S::zero()
+    }
+
+    /// What is left of the motions up to a share of the way, in a state: slides of the joints' points over the length, and turns, both along global axes, in the places of
+    /// the velocities of the bodies.
+    pub(super) fn left(
+        &self,
+        constants: &M::Constants<S>,
+        state: &M::State<S>,
+        share: S,
+        length: S,
+    ) -> M::Velocities<S> {
+        let mut left = M::Velocities::<S>::zeros();
+        for (body, info) in M::REPORT.bodies.iter().enumerate() {
+            if !self.holds(body) {
+                continue;
+            }
+            let before = relative::<S, M>(constants, &self.from, body);
+            let now = relative::<S, M>(constants, state, body);
+            let motion = self.motion.as_slice();
+            let slide = read::<S, 3>(motion, info.velocity);
+            let [x, y, z] = slide.map(|x| x * share);
+            let [a, b, c] = before.point;
+            let axes = carrier_axes::<S, M>(state, body);
+            let slide = rotate(&axes, &minus(&[a + x, b + y, c + z], &now.point));
+            let slide = slide.map(|x| x.quotient(length));
+            write(left.as_mut_slice(), info.velocity, slide);
+            if info.kind == BodyKind::Rigid {
+                let turn = read::<S, 3>(motion, info.velocity + 3).map(|x| x * share);
+                let wanted = product(&from_rotation_vector(&turn), &before.orientation);
+                let turn = rotate(&axes, &rotation_vector(&now.orientation, &wanted));
+                write(left.as_mut_slice(), info.velocity + 3, turn);
+            }
+        }
+        left
+    }
+}
+
+/// Whether a body could stand otherwise against what carries it.
+fn is_movable<M: Mechanism>(body: usize) -> bool {
+    let carrier = M::REPORT.carriers.get(body);
+    let joint = carrier.and_then(|carrier| carrier.joint);
+    let joint = joint.and_then(|joint| M::REPORT.joints.get(joint));
+    joint.is_none_or(|info| info.rows < 6)
+}
+
+/// Whether the joints of the spanning tree are closed in a state.
+fn closes_tree<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> bool {
+    let at = Iterate::<S, M>::positions(constants, time, state);
+    let mut violation = at.violation;
+    for (place, joint) in M::REPORT.joints.iter().enumerate() {
+        let carries = |carrier: &crate::report::Carrier| carrier.joint == Some(place);
+        if !M::REPORT.carriers.iter().any(carries) {
+            let rows = violation.as_mut_slice().iter_mut();
+            let own = rows.skip(joint.row).take(joint.rows);
+            own.for_each(|row| *row = S::zero());
+        }
+    }
+    at.sizes.within(&violation, S::constant(OPENS))
+}
+
+/// The body that carries another one; `None` for the ground.
+pub(super) fn carrier_of<M: Mechanism>(body: usize) -> Option<usize> {
+    M::REPORT
+        .carriers
+        .get(body)
+        .and_then(|carrier| carrier.body)
+}
+
+/// From the axes of what carries a body to global ones.
+fn carrier_axes<S: Real, M: Mechanism>(state: &M::State<S>, body: usize) -> [S; 4] {
+    axes_of::<S, M>(state, carrier_of::<M>(body))
+}
+
+/// From the axes of a body to global ones.
+pub(super) fn axes_of<S: Real, M: Mechanism>(state: &M::State<S>, body: Option<usize>) -> [S; 4] {
+    let body = body.and_then(|body| M::REPORT.bodies.get(body));
+    match body {
+        Some(body) if body.kind == BodyKind::Rigid => {
+            normalised(&read(state.coordinates().as_slice(), body.coordinate + 3))
+        }
+        _ => [S::one(), S::zero(), S::zero(), S::zero()],
+    }
+}
+
+/// The centre of mass (m, global); the origin of the ground.
+pub(super) fn centre_of<S: Real, M: Mechanism>(state: &M::State<S>, body: Option<usize>) -> [S; 3] {
+    let body = body.and_then(|body| M::REPORT.bodies.get(body));
+    body.map_or([S::zero(); 3], |body| {
+        read(state.coordinates().as_slice(), body.coordinate)
+    })
+}
+
+/// The point (m, global) of a joint on the body that it carries.
+pub(super) fn point_of<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+    joint: usize,
+    body: usize,
+) -> [S; 3] {
+    let bodies = M::REPORT
+        .joints
+        .get(joint)
+        .map_or(&[][..], |info| info.bodies);
+    let place = bodies.iter().position(|&other| other == Some(body));
+    let arm = place.map_or([S::zero(); 3], |place| {
+        M::joint_point(constants, joint, place)
+    });
+    let [x, y, z] = centre_of::<S, M>(state, Some(body));
+    let [a, b, c] = rotate(&axes_of::<S, M>(state, Some(body)), &arm);
+    [x + a, y + b, z + c]
+}
+
+/// The point (m, global) by which a body hangs on what carries it; its centre of mass where no joint carries it.
+pub(super) fn hanging_point<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+    body: usize,
+) -> [S; 3] {
+    let carrier = M::REPORT.carriers.get(body);
+    match carrier.and_then(|carrier| carrier.joint) {
+        Some(joint) => point_of::<S, M>(constants, state, joint, body),
+        None => centre_of::<S, M>(state, Some(body)),
+    }
+}
+
+fn relative<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+    body: usize,
+) -> Relative<S> {
+    let axes = carrier_axes::<S, M>(state, body);
+    let point = hanging_point::<S, M>(constants, state, body);
+    let origin = centre_of::<S, M>(state, carrier_of::<M>(body));
+    Relative {
+        point: rotate_back(&axes, &minus(&point, &origin)),
+        orientation: product(&conjugate(&axes), &axes_of::<S, M>(state, Some(body))),
+    }
+}
+
+/// The rotation vector (rad, up to half a turn) from one orientation to another, along the axes that both refer to.
+fn rotation_vector<S: Real>(from: &[S; 4], to: &[S; 4]) -> [S; 3] {
+    let [e0, e1, e2, e3] = product(to, &conjugate(from));
+    let sine = norm(&[e1, e2, e3]);
+    if sine <= S::zero() {
+        return [S::zero(); 3];
+    }
+    let sign = if e0 < S::zero() { -S::one() } else { S::one() };
+    let angle = S::constant(2.0) * sine.atan2(e0 * sign);
+    [e1, e2, e3].map(|e| (e * sign).quotient(sine) * angle)
+}
+
+/// The rotation vector with the turns that an element counts between a body and what carries it.
+fn counted<S: Real, M: Mechanism>(
+    given: &M::State<S>,
+    from: &M::State<S>,
+    body: usize,
+    turn: &[S; 3],
+    constants: &M::Constants<S>,
+) -> Option<[S; 3]> {
+    use core::f64::consts::TAU;
+    /// Off one, the rate of a counter is that of another angle.
+    const ALIKE: f64 = 1e-3;
+    let carrier = carrier_of::<M>(body);
+    let is_pair = |bodies: &[Option<usize>]| match bodies {
+        [a, b] => (*a, *b) == (carrier, Some(body)) || (*a, *b) == (Some(body), carrier),
+        _ => false,
+    };
+    let joints = M::REPORT.joints.iter();
+    let joints = joints.map(|info| (info.bodies, info.auxiliary, info.auxiliaries));
+    let forces = M::REPORT.forces.iter();
+    let forces = forces.map(|info| (info.bodies, info.auxiliary, info.auxiliaries));
+    let mut counters = joints.chain(forces);
+    let (_, place, _) = counters.find(|(bodies, _, count)| *count == 1 && is_pair(bodies))?;
+    let angle = norm(turn);
+    if angle <= S::zero() {
+        return None;
+    }
+    let axis = turn.map(|x| x.quotient(angle));
+    // What the counter gains as the body turns about the axis.
+    let mut turning = *from;
+    *turning.velocities_mut() = Array::zeros();
+    let info = M::REPORT.bodies.get(body)?;
+    let global = rotate(&carrier_axes::<S, M>(from, body), &axis);
+    let own = rotate_back(&axes_of::<S, M>(from, Some(body)), &global);
+    write(
+        turning.velocities_mut().as_mut_slice(),
+        info.velocity + 3,
+        own,
+    );
+    let rates = M::coordinate_rates(constants, &turning);
+    let [rate] = read(rates.as_slice(), place);
+    if (rate.abs() - S::one()).abs() > S::constant(ALIKE) {
+        return None;
+    }
+    let [before, after] = [from, given].map(|state| {
+        let [counter] = read::<S, 1>(state.coordinates().as_slice(), place);
+        counter
+    });
+    let whole = (after - before) * rate;
+    let turns = ((whole - angle) * S::constant(TAU.recip())).round();
+    let whole = turns.fused(S::constant(TAU), angle);
+    Some(axis.map(|x| x * whole))
+}

@@ -1,0 +1,161 @@
+//! On which side of its equations a joint is.
+
+use super::set::{axes_of, carrier_of};
+use crate::array::{Array, StateParts};
+use crate::error::Fault;
+use crate::mechanism::Mechanism;
+use crate::report::BodyKind;
+use crate::rotation::{
+    conjugate, from_rotation_vector, minus, normalised, product, read, rotate, write,
+};
+use crate::scalar::Real;
+
+/// Refuses a state in which a joint is on a side that is not meant.
+pub(crate) fn check_sides<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+) -> Result<(), Fault> {
+    match wrong::<S, M>(constants, state, 0) {
+        None => Ok(()),
+        Some(joint) => Err(Fault::WrongSide {
+            joint: M::REPORT.joints.get(joint).map_or("", |info| info.name),
+        }),
+    }
+}
+
+/// The first joint, from one on, that is on a side that is not meant. Round-off tells no side.
+pub(crate) fn wrong<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+    from: usize,
+) -> Option<usize> {
+    let is_wrong = |&joint: &usize| M::joint_side(constants, state, joint) < -S::EPSILON.sqrt();
+    (from..M::REPORT.joints.len()).find(is_wrong)
+}
+
+/// The state with what joints of the spanning tree carry turned over, where these are on a side that is not meant; as in another state, where no turn about an axis leads over.
+pub(super) fn righted<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+    from: &M::State<S>,
+) -> M::State<S> {
+    let mut state = *state;
+    let mut next = 0;
+    while let Some(joint) = wrong::<S, M>(constants, &state, next) {
+        let carriers = M::REPORT.carriers.iter();
+        let body = carriers
+            .enumerate()
+            .find(|(_, carrier)| carrier.joint == Some(joint));
+        if let Some((body, _)) = body {
+            state = turned_over::<S, M>(constants, state, joint, body);
+            if M::joint_side(constants, &state, joint) <= S::zero() {
+                let rotation = back::<S, M>(&state, from, body);
+                state = turned::<S, M>(constants, &state, (joint, body), &rotation);
+            }
+        }
+        next = joint + 1;
+    }
+    state
+}
+
+/// The rotation (global) that lets a body stand against what carries it as in another state.
+fn back<S: Real, M: Mechanism>(state: &M::State<S>, from: &M::State<S>, body: usize) -> [S; 4] {
+    let [base, base_before] =
+        [state, from].map(|state| axes_of::<S, M>(state, carrier_of::<M>(body)));
+    let [own, own_before] = [state, from].map(|state| axes_of::<S, M>(state, Some(body)));
+    let relative = product(&conjugate(&base_before), &own_before);
+    product(&product(&base, &relative), &conjugate(&own))
+}
+
+/// Turns what hangs on a joint up the gradient of its side.
+fn turned_over<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    mut state: M::State<S>,
+    joint: usize,
+    body: usize,
+) -> M::State<S> {
+    /// Turns, each of up to this angle (rad): more than half a turn about two axes.
+    const TURNS: usize = 40;
+    const TURN: f64 = 0.25;
+    /// Near an upper end of it.
+    const RIGHT: f64 = 0.1;
+    let side = |state: &M::State<S>| M::joint_side(constants, state, joint);
+    let trial = S::EPSILON.sqrt().sqrt();
+    for _ in 0..TURNS {
+        let now = side(&state);
+        if now > S::constant(RIGHT) {
+            break;
+        }
+        let unit = |k: usize, size: S| {
+            let mut vector = [S::zero(); 3];
+            write(&mut vector, k, [size]);
+            vector
+        };
+        let along = |k: usize| {
+            let [up, down] = [trial, -trial].map(|size| {
+                let rotation = from_rotation_vector(&unit(k, size));
+                side(&turned::<S, M>(constants, &state, (joint, body), &rotation))
+            });
+            up - down
+        };
+        let mut way = [along(0), along(1), along(2)];
+        let [x, y, z] = way;
+        let size = (x * x + y * y + z * z).sqrt();
+        if size > trial * trial {
+            way = way.map(|x| x.quotient(size) * S::constant(TURN));
+        } else {
+            // At its lowest a side has no gradient: any way may lead up.
+            let third = S::constant(TURN * 0.57);
+            way = [third, -third, third * S::constant(0.9)];
+        }
+        let rotation = from_rotation_vector(&way);
+        state = turned::<S, M>(constants, &state, (joint, body), &rotation);
+    }
+    state
+}
+
+/// The state with all that hangs on a joint turned about its point (global Euler parameters).
+fn turned<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+    (joint, carried): (usize, usize),
+    rotation: &[S; 4],
+) -> M::State<S> {
+    let point = super::set::point_of::<S, M>(constants, state, joint, carried);
+    let mut moved = *state;
+    for (place, body) in M::REPORT.bodies.iter().enumerate() {
+        if !hangs::<M>(place, carried) {
+            continue;
+        }
+        let coordinates = moved.coordinates_mut().as_mut_slice();
+        let [x, y, z] = rotate(
+            rotation,
+            &minus(&read(coordinates, body.coordinate), &point),
+        );
+        let [a, b, c] = point;
+        write(coordinates, body.coordinate, [a + x, b + y, c + z]);
+        if body.kind == BodyKind::Rigid {
+            let p = product(rotation, &read(coordinates, body.coordinate + 3));
+            write(coordinates, body.coordinate + 3, normalised(&p));
+        }
+    }
+    M::recount(constants, &mut moved);
+    moved
+}
+
+/// Whether a body is another one, or hangs on it in the spanning tree.
+fn hangs<M: Mechanism>(body: usize, on: usize) -> bool {
+    let mut place = Some(body);
+    // No way is longer than there are bodies.
+    for _ in M::REPORT.bodies {
+        match place {
+            Some(found) if found == on => return true,
+            Some(found) => {
+                let carrier = M::REPORT.carriers.get(found);
+                place = carrier.and_then(|carrier| carrier.body);
+            }
+            None => return false,
+        }
+    }
+    false
+}
