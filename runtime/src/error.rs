@@ -24,6 +24,21 @@ pub enum ParameterFault {
     TriangleInequality,
     /// A vector of length zero where a direction is needed.
     ZeroLength,
+    /// With this parameter no configuration near the described one satisfies all equations.
+    NotAssembled {
+        /// The joint that stays open most.
+        joint: &'static str,
+    },
+    /// With this parameter equations depend on each other at the start, and do not where parameters are what they are said to be like.
+    Dependent {
+        /// The joint whose pivot vanishes.
+        joint: &'static str,
+    },
+    /// With this parameter an equation follows from no others, and was left out because it does where parameters are what they are said to be like.
+    Independent {
+        /// The joint that it belongs to.
+        joint: &'static str,
+    },
 }
 
 impl core::error::Error for ParameterError {}

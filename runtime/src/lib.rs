@@ -57,6 +57,7 @@ mod joint_dynamics;
 mod joint_state;
 mod joint_stepper;
 mod kinematics;
+mod likes;
 mod load;
 mod mechanism;
 mod message;

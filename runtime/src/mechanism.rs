@@ -66,6 +66,35 @@ pub trait Mechanism: Sized + 'static {
     /// A mass or an inertia that is not positive, an axis of length zero, a number that is not finite.
     fn parameters<S: Scalar>(&self) -> Result<Self::Parameters<S>, ParameterError>;
 
+    /// Checks by numbers that what was decided where parameters are what they are said to be like (`#[param(like = 0.8)]`) holds for those of this value, unless they are
+    /// those that were accepted before: the mechanism is put together, its equations are independent at the start, and those that were left out follow from them.
+    ///
+    /// It is done by [`Dynamics::new`](crate::Dynamics::new) and its `update`, and by `new` of the mechanism: in double precision, at the cost of some dozens of evaluations. Without
+    /// effect where nothing was decided so.
+    ///
+    /// # Errors
+    /// The parameter, and the joint where it shows: [`ParameterFault::NotAssembled`](crate::ParameterFault::NotAssembled), `Dependent` or `Independent`; what
+    /// [`Mechanism::parameters`] refuses.
+    #[inline]
+    fn check_likes<S: Real>(
+        &self,
+        _since: Option<&Self::Parameters<S>>,
+    ) -> Result<(), ParameterError> {
+        Ok(())
+    }
+
+    /// An equation that was left out because it follows from others where parameters are what they are said to be like, by its number among these: its value, and its
+    /// gradient over the velocities. `None` behind the last one, and where nothing was decided so.
+    #[inline]
+    fn left_out<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _number: usize,
+    ) -> Option<(S, Self::Velocities<S>)> {
+        None
+    }
+
     /// The inputs of this value.
     fn inputs<S: Scalar>(&self) -> Self::Inputs<S>;
 

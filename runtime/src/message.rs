@@ -14,6 +14,27 @@ impl fmt::Display for ParameterError {
                 "must satisfy the triangle inequality: no principal moment exceeds the sum of the others"
             }
             ParameterFault::ZeroLength => "must not be the zero vector",
+            ParameterFault::NotAssembled { joint } => {
+                return write!(
+                    f,
+                    "with this `{}` the mechanism cannot be assembled: joint `{joint}` stays open",
+                    self.field
+                );
+            }
+            ParameterFault::Dependent { joint } => {
+                return write!(
+                    f,
+                    "with this `{}` the constraints depend on each other at joint `{joint}` at the start, where they do not with what it is like",
+                    self.field
+                );
+            }
+            ParameterFault::Independent { joint } => {
+                return write!(
+                    f,
+                    "with this `{}` an equation of joint `{joint}` does not follow from the others: it was left out because it does with what `{}` is like",
+                    self.field, self.field
+                );
+            }
         };
         write!(f, "`{}` of `{}` {fault}", self.attribute, self.field)
     }

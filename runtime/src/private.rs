@@ -2,6 +2,8 @@
 
 pub use holonom_macros::{assemble, force_impl, joint_impl};
 
+pub use crate::likes::{Like, check_likes};
+
 use crate::array::StateParts;
 use crate::dynamics::stabilised;
 use crate::error::{ParameterError, ParameterFault};

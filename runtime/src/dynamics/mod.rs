@@ -68,6 +68,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
         let stabilisation = formulation.stabilisation()?;
         let parameters = parameters(mechanism)?;
+        mechanism.check_likes::<S>(None)?;
         let constants = M::prepare(&parameters);
         let radian = formulation.radian();
         let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation, radian)?;
@@ -143,6 +144,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     /// A parameter that is not acceptable; the former ones then stay.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
         let parameters = parameters(mechanism)?;
+        mechanism.check_likes(Some(&self.parameters))?;
         let constants = M::prepare(&parameters);
         let radian = self.formulation.radian();
         self.compliances = compliances::<S, M, F::Terms>(&constants, &self.stabilisation, radian)?;

@@ -3,7 +3,7 @@
 use proc_macro2::Span;
 use syn::Expr;
 
-use super::number::{Numbers, elements};
+use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use crate::diag::Faults;
 use crate::model::inertia::{IDENTITY, principal};
@@ -99,12 +99,13 @@ impl Reader<'_, '_> {
     fn mass(&mut self, expr: &Expr) -> Option<Number> {
         self.at("mass");
         let mass = self.numbers.scalar(expr, self.faults)?;
-        if let Some(value) = mass.literal().filter(|&value| value <= 0.0) {
+        if let Some(value) = self.numbers.seen(mass).filter(|&value| value <= 0.0) {
+            let place = place_of(&[mass]);
             let instead = if value == 0.0 { MASS_MOVES } else { "" };
             self.faults.at(
                 expr,
                 format!(
-                    "the mass of `{}` must be positive, in kg; this is {value}{instead}",
+                    "the mass of `{}` must be positive, in kg; this is {value}{place}{instead}",
                     self.name
                 ),
             );
@@ -136,29 +137,27 @@ impl Reader<'_, '_> {
         } else {
             (self.numbers.array(expr, self.faults)?, IDENTITY)
         };
-        let name = self.name;
-        if moments
-            .iter()
-            .any(|m| m.literal().is_some_and(|moment| moment <= 0.0))
-        {
-            let is_measured = |m: &Number| m.literal().is_none_or(|moment| moment >= 0.0);
-            let instead = if moments.iter().all(is_measured) {
+        let (name, place) = (self.name, place_of(&moments));
+        let seen = moments.map(|moment| self.numbers.seen(moment));
+        if seen.iter().any(|m| m.is_some_and(|moment| moment <= 0.0)) {
+            let is_measured = |m: &Option<f64>| m.is_none_or(|moment| moment >= 0.0);
+            let instead = if seen.iter().all(is_measured) {
                 MOMENTS_MOVE
             } else {
                 ""
             };
-            let found = moments.map(|m| m.literal().map_or("..".into(), |m| brief(m).to_string()));
+            let found = seen.map(|m| m.map_or("..".into(), |m| brief(m).to_string()));
             self.faults.at(
                 expr,
                 format!(
-                    "the moments of inertia of `{name}` must be positive, in kg m^2; these are {}; a point mass is a \
+                    "the moments of inertia of `{name}` must be positive, in kg m^2; these are {}{place}; a point mass is a \
                      `Particle`{instead}",
                     found.join(", ")
                 ),
             );
             return None;
         }
-        if let Some([a, b, c]) = literals(&moments) {
+        if let [Some(a), Some(b), Some(c)] = seen {
             let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
             if excess(a, b, c) || excess(b, c, a) || excess(c, a, b) {
                 let largest = a.max(b).max(c);
@@ -167,7 +166,7 @@ impl Reader<'_, '_> {
                 self.faults.at(
                     expr,
                     format!(
-                        "no body has the moments of inertia of `{name}`: of {a}, {b} and {c}, one exceeds the sum of \
+                        "no body has the moments of inertia of `{name}`: of {a}, {b} and {c}{place}, one exceeds the sum of \
                          the others by {excess}; a point mass is a `Particle`{MOMENTS_MOVE}"
                     ),
                 );
@@ -226,18 +225,22 @@ impl Reader<'_, '_> {
             return None;
         }
         let p: [Number; 4] = self.numbers.array(expr, self.faults)?;
-        let Some(values) = literals(&p) else {
+        let Some(values) = self.numbers.all_seen(&p) else {
             return Some(p);
         };
         let norm = values.iter().map(|e| e * e).sum::<f64>().sqrt();
         if norm == 0.0 {
+            let place = place_of(&p);
             self.faults.at(
                 expr,
-                "Euler parameters may be of any length but zero; these are zero",
+                format!("Euler parameters may be of any length but zero; these are zero{place}"),
             );
             return None;
         }
-        Some(values.map(|e| Number::Literal(e / norm)))
+        Some(match literals(&p) {
+            Some(values) => values.map(|e| Number::Literal(e / norm)),
+            None => p,
+        })
     }
 
     fn rotation(&mut self, call: &syn::ExprCall) -> Option<[Number; 4]> {
@@ -271,6 +274,12 @@ impl Reader<'_, '_> {
         let [x, y, z] = vector.map(|component| Number::Literal(sine * component / length));
         Some([Number::Literal(cosine), x, y, z])
     }
+}
+
+/// Where numbers are what the macro sees, if that is not everywhere.
+fn place_of(numbers: &[Number]) -> &'static str {
+    let is_seen_everywhere = numbers.iter().all(|number| number.literal().is_some());
+    if is_seen_everywhere { "" } else { AT_LIKES }
 }
 
 /// A number to seven digits, for messages: principal moments of a tensor come with round-off.

@@ -8,7 +8,7 @@ use super::elements::{Found, Reference, bare, known};
 use super::expression::too_large;
 use super::laws::LawReader;
 use super::mechanism::{Definition, Definitions, definition};
-use super::number::{Numbers, elements};
+use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::number::literals;
@@ -376,11 +376,15 @@ impl JointChecker<'_> {
             return None;
         }
         let vector = numbers.vector(expr, faults)?;
-        if kind == ParameterKind::Axis && literals(&vector) == Some([0.0; 3]) {
+        if kind == ParameterKind::Axis && numbers.all_seen(&vector) == Some([0.0; 3]) {
+            let place = match literals(&vector) {
+                Some(_) => "",
+                None => AT_LIKES,
+            };
             faults.at(
                 expr,
                 format!(
-                    "`{}` of `{}` is the zero vector; an axis has a direction, as in `[1.0, 0.0, 0.0]`",
+                    "`{}` of `{}` is the zero vector{place}; an axis has a direction, as in `[1.0, 0.0, 0.0]`",
                     numbers.attribute, self.field.name
                 ),
             );

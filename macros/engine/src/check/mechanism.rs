@@ -59,7 +59,7 @@ pub fn check<'a>(
 ) -> Option<Checked<'a>> {
     let owner = Name::from(syntax.name.clone());
     let mut numbers = Numbers::new(owner, &syntax.unmeasured, facade);
-    numbers.values = super::values::values(syntax, faults);
+    numbers.values = super::values::values(syntax, facade, faults);
     refuse_index(syntax, faults);
     let Attributes {
         gravity,

@@ -7,6 +7,7 @@ mod functions;
 pub mod joint;
 mod joints;
 pub mod kinds;
+mod later;
 mod laws;
 pub mod mechanism;
 mod motion;

@@ -8,7 +8,9 @@ use syn::spanned::Spanned;
 use syn::{BinOp, Expr, Lit, UnOp};
 
 use super::elements::{Found, Reference, bare, known};
+use super::later::{Later, Value, union};
 use crate::diag::{Faults, code, did_you_mean, list};
+use crate::model::number::literals;
 use crate::model::{Name, Number, RunTimeValue, Symbol};
 use crate::syntax::array::is_index;
 use crate::syntax::integer::integer;
@@ -51,61 +53,6 @@ pub struct Numbers<'a> {
     pub attribute: String,
 }
 
-/// A number, or an expression of type `f64`.
-enum Value {
-    Literal(f64),
-    Later(Later),
-}
-
-/// An expression of type `f64`.
-struct Later {
-    expression: TokenStream,
-    /// The same over `S`, where it depends on run-time values.
-    scalar: Option<TokenStream>,
-    is_const: bool,
-    /// Whether it depends on inputs.
-    is_varying: bool,
-}
-
-impl Value {
-    fn tokens(&self) -> TokenStream {
-        match self {
-            Self::Literal(value) => quote!(#value),
-            Self::Later(later) => later.expression.clone(),
-        }
-    }
-
-    fn is_const(&self) -> bool {
-        match self {
-            Self::Literal(_) => true,
-            Self::Later(later) => later.is_const,
-        }
-    }
-
-    /// The value over `S`.
-    fn scalar(&self) -> TokenStream {
-        match self {
-            Self::Later(Later {
-                scalar: Some(scalar),
-                ..
-            }) => scalar.clone(),
-            other => {
-                let value = other.tokens();
-                quote!(__S::constant(#value))
-            }
-        }
-    }
-
-    fn is_varying(&self) -> bool {
-        matches!(self, Self::Later(later) if later.is_varying)
-    }
-
-    /// Whether it depends on run-time values.
-    fn is_run_time(&self) -> bool {
-        matches!(self, Self::Later(later) if later.scalar.is_some())
-    }
-}
-
 impl<'a> Numbers<'a> {
     /// No symbols so far; what is read first describes the owner.
     #[must_use]
@@ -131,7 +78,12 @@ impl<'a> Numbers<'a> {
                 scalar,
                 is_const,
                 is_varying,
+                values,
+                like,
             }) => {
+                if let Some(like) = like {
+                    in_range_where(like, AT_LIKES, expr, faults)?;
+                }
                 let number = if is_varying {
                     Number::Varying
                 } else {
@@ -157,6 +109,8 @@ impl<'a> Numbers<'a> {
                 self.symbols.push(Symbol {
                     expression,
                     scalar,
+                    values,
+                    like,
                     constant,
                     span: expr.span(),
                     field: self.field.clone(),
@@ -164,6 +118,25 @@ impl<'a> Numbers<'a> {
                 });
                 Some(number(place))
             }
+        }
+    }
+
+    /// A number that must be written: literals and their arithmetic.
+    pub fn written(&mut self, expr: &Expr, faults: &mut Faults) -> Option<f64> {
+        if let Some(unseen) = unseen(expr) {
+            faults.at(
+                unseen,
+                format!(
+                    "`{}` takes a number that the macro can see: literals, their arithmetic, `PI` and `TAU`; `{}` is none",
+                    self.attribute,
+                    code(unseen)
+                ),
+            );
+            return None;
+        }
+        match self.value(expr, faults)? {
+            Value::Literal(value) => in_range(value, expr, faults),
+            Value::Later(_) => None,
         }
     }
 
@@ -240,11 +213,15 @@ impl<'a> Numbers<'a> {
                         scalar,
                         is_const,
                         is_varying,
+                        values,
+                        like,
                     }) => Value::Later(Later {
                         expression: quote!((-(#expression))),
                         scalar: scalar.map(|scalar| quote!((-(#scalar)))),
                         is_const,
                         is_varying,
+                        values,
+                        like: like.map(|like| -like),
                     }),
                 })
             }
@@ -252,19 +229,21 @@ impl<'a> Numbers<'a> {
                 let left = self.value(&binary.left, faults);
                 let right = self.value(&binary.right, faults);
                 let (left, right) = (left?, right?);
-                let folded = |f: fn(f64, f64) -> f64| match (&left, &right) {
-                    (Value::Literal(x), Value::Literal(y)) => Some(Value::Literal(f(*x, *y))),
-                    _ => None,
-                };
-                let folded = match binary.op {
-                    BinOp::Add(_) => folded(|x, y| x + y),
-                    BinOp::Sub(_) => folded(|x, y| x - y),
-                    BinOp::Mul(_) => folded(|x, y| x * y),
-                    BinOp::Div(_) => folded(|x, y| x / y),
+                let operation: fn(f64, f64) -> f64 = match binary.op {
+                    BinOp::Add(_) => |x, y| x + y,
+                    BinOp::Sub(_) => |x, y| x - y,
+                    BinOp::Mul(_) => |x, y| x * y,
+                    BinOp::Div(_) => |x, y| x / y,
                     _ => {
                         super::refuse_operator(&binary.op, faults);
                         return None;
                     }
+                };
+                let folded = match (&left, &right) {
+                    (Value::Literal(x), Value::Literal(y)) => {
+                        Some(Value::Literal(operation(*x, *y)))
+                    }
+                    _ => None,
                 };
                 Some(folded.unwrap_or_else(|| {
                     let (x, y, op) = (left.tokens(), right.tokens(), binary.op);
@@ -280,6 +259,8 @@ impl<'a> Numbers<'a> {
                         scalar,
                         is_const: left.is_const() && right.is_const(),
                         is_varying: left.is_varying() || right.is_varying(),
+                        values: union(left.values(), right.values()),
+                        like: left.like().zip(right.like()).map(|(x, y)| operation(x, y)),
                     })
                 }))
             }
@@ -298,6 +279,8 @@ impl<'a> Numbers<'a> {
                         scalar: None,
                         is_const: true,
                         is_varying: false,
+                        values: Vec::new(),
+                        like: None,
                     })
                 }),
                 Found::Refused => None,
@@ -390,6 +373,8 @@ impl<'a> Numbers<'a> {
             scalar: Some(quote!(#parameters[#place])),
             is_const: false,
             is_varying: value.is_input,
+            values: vec![place],
+            like: value.like,
         })
     }
 
@@ -424,8 +409,11 @@ impl<'a> Numbers<'a> {
                 expression,
                 scalar,
                 is_varying,
+                values,
+                like,
                 ..
             }) => {
+                let like = like.map(function);
                 let (facade, function) = (self.facade, quote::format_ident!("{name}"));
                 let scalar = scalar.map(|x| match *name {
                     "tan" => quote!((__S::sin(#x) * __S::reciprocal(__S::cos(#x)))),
@@ -440,9 +428,28 @@ impl<'a> Numbers<'a> {
                     scalar,
                     is_const: false,
                     is_varying,
+                    values,
+                    like,
                 })
             }
         })
+    }
+
+    /// A number as the macro sees it: written, or where parameters are what they are said to be like.
+    #[must_use]
+    pub fn seen(&self, number: Number) -> Option<f64> {
+        match number {
+            Number::Literal(value) => Some(value),
+            Number::Symbol(symbol) | Number::Varying(symbol) => {
+                self.symbols.get(symbol as usize)?.like
+            }
+        }
+    }
+
+    /// Several of them.
+    #[must_use]
+    pub fn all_seen<const N: usize>(&self, numbers: &[Number; N]) -> Option<[f64; N]> {
+        literals(&numbers.map(|number| self.seen(number).map_or(number, Number::Literal)))
     }
 
     fn refuse(&self, expr: &Expr, faults: &mut Faults) -> Option<Value> {
@@ -479,6 +486,18 @@ pub fn literal(lit: &Lit) -> syn::Result<f64> {
     ))
 }
 
+/// What stands in an expression that the macro cannot see: a name, or an entry of an array.
+fn unseen(expr: &Expr) -> Option<&Expr> {
+    match ungroup(expr) {
+        Expr::Path(path) if path.path.is_ident("PI") || path.path.is_ident("TAU") => None,
+        found @ (Expr::Path(_) | Expr::Index(_)) => Some(found),
+        Expr::Unary(unary) => unseen(&unary.expr),
+        Expr::Binary(binary) => unseen(&binary.left).or_else(|| unseen(&binary.right)),
+        Expr::Call(call) => call.args.iter().find_map(unseen),
+        _ => None,
+    }
+}
+
 /// Whether numbers of an attribute must be positive.
 fn must_be_positive(attribute: &str) -> bool {
     matches!(attribute, "mass" | "inertia")
@@ -498,6 +517,11 @@ pub fn value_name(name: &Name) -> Ident {
 
 /// A number that is finite, and of a size that products and reciprocals bear.
 pub fn in_range(value: f64, at: impl ToTokens, faults: &mut Faults) -> Option<f64> {
+    in_range_where(value, "", at, faults)
+}
+
+/// The same of a number that is what it is somewhere, which a refusal says.
+fn in_range_where(value: f64, place: &str, at: impl ToTokens, faults: &mut Faults) -> Option<f64> {
     if value == 0.0 || SIZES.contains(&value.abs()) {
         return Some(value);
     }
@@ -506,14 +530,20 @@ pub fn in_range(value: f64, at: impl ToTokens, faults: &mut Faults) -> Option<f6
         faults.at(
             at,
             format!(
-                "this is {value:e}; a number that is not 0 has a size from {least:e} to {most:e}"
+                "this is {value:e}{place}; a number that is not 0 has a size from {least:e} to {most:e}"
             ),
         );
     } else {
-        faults.at(at, format!("this is {value}; a finite number is needed"));
+        faults.at(
+            at,
+            format!("this is {value}{place}; a finite number is needed"),
+        );
     }
     None
 }
+
+/// Behind a number that the macro sees by what parameters are like.
+pub const AT_LIKES: &str = " where parameters are what they are said to be like";
 
 /// The elements of an expression in brackets.
 #[must_use]

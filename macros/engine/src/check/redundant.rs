@@ -176,6 +176,7 @@ fn undecided(model: &Model) -> String {
     let mut places: Vec<String> = model
         .symbols
         .iter()
+        .filter(|s| s.like.is_none())
         .filter(|s| {
             is_joint(&s.field) || matches!(s.attribute.as_str(), "position" | "orientation")
         })
@@ -189,7 +190,7 @@ fn undecided(model: &Model) -> String {
     };
     format!(
         "no equations can be left out, because the constraints depend on numbers that the macro cannot see{among}: write literals in \
-         the place of constants and parameters, choose joints without redundant equations, or write `redundant = \"keep\"` for \
+         the place of constants, say what a parameter is like (`#[param(like = 0.8)]`), choose joints without redundant equations, or write `redundant = \"keep\"` for \
          formulations with a compliance"
     )
 }

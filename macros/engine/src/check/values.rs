@@ -1,16 +1,24 @@
 //! Run-time values: parameters and inputs.
 
+use proc_macro2::TokenStream;
 use quote::ToTokens;
+use syn::Expr;
 
+use super::number::{Numbers, elements};
+use super::pairs::Pairs;
 use crate::diag::{Faults, code};
-use crate::model::RunTimeValue;
-use crate::syntax::mechanism::{MechanismSyntax, Role};
+use crate::model::{Name, RunTimeValue};
+use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
 
 /// Words that numbers and laws are written with.
 const TAKEN: [&str; 5] = ["PI", "TAU", "ground", "time", "local"];
 
 /// The run-time values in the order of the fields.
-pub(super) fn values(syntax: &MechanismSyntax, faults: &mut Faults) -> Vec<RunTimeValue> {
+pub(super) fn values(
+    syntax: &MechanismSyntax,
+    facade: &TokenStream,
+    faults: &mut Faults,
+) -> Vec<RunTimeValue> {
     let mut values = Vec::new();
     for field in &syntax.fields {
         let is_input = match &field.role {
@@ -37,10 +45,66 @@ pub(super) fn values(syntax: &MechanismSyntax, faults: &mut Faults) -> Vec<RunTi
                 );
             });
         }
+        let like = faults.within(name, |faults| like(syntax, field, facade, faults));
         values.push(RunTimeValue {
             name: name.clone(),
             is_input,
+            like,
         });
     }
     values
+}
+
+/// What a parameter is said to be like.
+fn like(
+    syntax: &MechanismSyntax,
+    field: &Field,
+    facade: &TokenStream,
+    faults: &mut Faults,
+) -> Option<f64> {
+    let (_, word) = field.role.as_ref()?;
+    let owner = word.segments.first()?.ident.span();
+    let mut pairs = Pairs::new(format!("parameter `{}`", field.name), owner, &field.list);
+    let written = pairs.optional("like", faults);
+    pairs.finish(faults);
+    let written = of_element(syntax, &field.name, written?, faults)?;
+    let mut numbers = Numbers::new(field.name.clone(), &syntax.unmeasured, facade);
+    numbers.attribute = "like".into();
+    numbers.written(written, faults)
+}
+
+/// The number for one element of an array: its own, or the one that is given for all.
+fn of_element<'a>(
+    syntax: &MechanismSyntax,
+    name: &Name,
+    written: &'a Expr,
+    faults: &mut Faults,
+) -> Option<&'a Expr> {
+    let Some(several) = elements(written) else {
+        return Some(written);
+    };
+    let fields = syntax.fields.iter();
+    let count = fields.filter(|field| field.name.field() == name.field());
+    let field = name.field();
+    match (name.index(), count.count()) {
+        (Some(index), count) if several.len() == count => several.get(index).copied(),
+        (Some(_), count) => {
+            let found = several.len();
+            faults.at(
+                written,
+                format!(
+                    "`{field}` has {count} elements, and `like` {found}; give one number for each, or one for all of them, in which `k` may \
+                     stand"
+                ),
+            );
+            None
+        }
+        (None, _) => {
+            faults.at(
+                written,
+                format!("`{field}` is one number, and so is what it is like, as in `like = 0.8`"),
+            );
+            None
+        }
+    }
 }

@@ -79,6 +79,7 @@ impl Writer<'_> {
         let forces = self.force_readouts();
         let user_axes = self.user_axes();
         let initial = self.initial_state();
+        let likes = self.likes();
         let coefficients = self.store.write_coefficients();
         let (coefficient_statements, coefficient_outputs) =
             (coefficients.statements, coefficients.outputs);
@@ -139,6 +140,7 @@ impl Writer<'_> {
 
                     #parameters
                     #inputs
+                    #likes
 
                     fn prepare<__S: #facade::Scalar>(
                         #given: &Self::Parameters<__S>,

@@ -6,6 +6,7 @@ pub mod fallback;
 mod inputs;
 pub mod joint;
 mod joint_report;
+mod likes;
 pub mod mechanism;
 pub mod parameters;
 mod parts;

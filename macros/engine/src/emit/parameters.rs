@@ -92,11 +92,16 @@ pub fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
 /// `Default` without parameters, else `new` with one argument for each.
 pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
     let name = &model.name;
-    let parts = parts(model).into_iter().map(|(part, length)| match length {
-        // The standard library has a default of short arrays only.
-        Some(_) => quote!(#part: ::core::array::from_fn(|_| ::core::default::Default::default()),),
-        None => quote!(#part: ::core::default::Default::default(),),
-    });
+    let parts = parts(model).into_iter();
+    let parts: Vec<_> = parts
+        .map(|(part, length)| match length {
+            // The standard library has a default of short arrays only.
+            Some(_) => {
+                quote!(#part: ::core::array::from_fn(|_| ::core::default::Default::default()),)
+            }
+            None => quote!(#part: ::core::default::Default::default(),),
+        })
+        .collect();
     let of = |wanted: bool| {
         let values = model.values.iter();
         let values = values.filter(move |value| value.is_input == wanted);
@@ -104,47 +109,78 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
     };
     let (inputs, given) = (of(true), of(false));
     let has_inputs = !inputs.is_empty();
-    let inputs = inputs.into_iter().map(|(input, length)| match length {
-        Some(length) => quote!(#input: [0.0; #length],),
-        None => quote!(#input: 0.0,),
-    });
+    let inputs = inputs.into_iter();
+    let inputs: Vec<_> = inputs
+        .map(|(input, length)| match length {
+            Some(length) => quote!(#input: [0.0; #length],),
+            None => quote!(#input: 0.0,),
+        })
+        .collect();
     let arguments = given.iter().map(|(argument, length)| match length {
         Some(length) => quote!(#argument: [f64; #length]),
         None => quote!(#argument: f64),
     });
-    let given: Vec<_> = given.iter().map(|(argument, _)| argument).collect();
     let mechanism = local("mechanism");
-    if given.is_empty() {
-        return quote! {
+    let default = |values: TokenStream| {
+        quote! {
             #[automatically_derived]
             impl ::core::default::Default for #name {
                 fn default() -> Self {
                     Self {
                         #(#parts)*
+                        #values
                         #(#inputs)*
                     }
                 }
             }
-        };
+        }
+    };
+    if given.is_empty() {
+        return default(TokenStream::new());
     }
+    let likes = super::likes::defaults(model).map(|likes| {
+        let mut likes = likes.into_iter();
+        let values = given.iter().map(|(argument, length)| {
+            let own: Vec<f64> = likes.by_ref().take(length.unwrap_or(1)).collect();
+            match length {
+                Some(_) => quote!(#argument: [#(#own),*],),
+                None => quote!(#argument: #(#own)*,),
+            }
+        });
+        default(values.collect())
+    });
+    let given: Vec<_> = given.iter().map(|(argument, _)| argument).collect();
     let documentation = format!(
         " The mechanism with these parameters, in the order of its fields{}.",
         if has_inputs { "; inputs are zero" } else { "" }
     );
+    let (checked, refused) = if model.independence.likes.is_empty() {
+        (quote!(parameters::<f64>(&#mechanism)?), TokenStream::new())
+    } else {
+        let refused = " A value with which the mechanism cannot be assembled, or with which equations do not depend on each other as they do where \
+             parameters are what they are said to be like.";
+        (
+            quote!(check_likes::<f64>(&#mechanism, ::core::option::Option::None)?),
+            quote!(#[doc = #refused]),
+        )
+    };
     quote! {
+        #likes
+
         #[automatically_derived]
         impl #name {
             #[doc = #documentation]
             ///
             /// # Errors
             /// A number that is not finite, or a mass, inertia, axis or orientation made of it that is not acceptable.
+            #refused
             pub fn new(#(#arguments),*) -> ::core::result::Result<Self, #facade::ParameterError> {
                 let #mechanism = Self {
                     #(#parts)*
                     #( #given, )*
                     #(#inputs)*
                 };
-                <Self as #facade::Mechanism>::parameters::<f64>(&#mechanism)?;
+                <Self as #facade::Mechanism>::#checked;
                 ::core::result::Result::Ok(#mechanism)
             }
         }

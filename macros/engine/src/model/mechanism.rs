@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 
 use super::joint::{ElementDef, Extent, Function, Turn};
 use super::name::Name;
-use super::number::{Number, Symbol};
+use super::number::{Number, Symbol, literals};
 use super::rank::Independence;
 
 /// Whether a body has an orientation.
@@ -135,6 +135,8 @@ pub struct RunTimeValue {
     pub name: Name,
     /// Whether it may change at every step; if not, it is set on construction.
     pub is_input: bool,
+    /// What a parameter is said to be like: where the rank is decided, and its default.
+    pub like: Option<f64>,
 }
 
 /// An angle over many turns: an auxiliary variable of the state.
@@ -205,6 +207,27 @@ pub struct Model {
 }
 
 impl Model {
+    /// A number as the macro sees it: written, or where parameters are what they are said to be like.
+    #[must_use]
+    pub fn seen(&self, number: Number) -> Option<f64> {
+        match number {
+            Number::Literal(value) => Some(value),
+            Number::Symbol(symbol) | Number::Varying(symbol) => self.like(symbol),
+        }
+    }
+
+    /// Several of them.
+    #[must_use]
+    pub fn all_seen<const N: usize>(&self, numbers: &[Number; N]) -> Option<[f64; N]> {
+        literals(&numbers.map(|number| self.seen(number).map_or(number, Number::Literal)))
+    }
+
+    /// What a symbol is where parameters are what they are said to be like.
+    #[must_use]
+    pub fn like(&self, symbol: u32) -> Option<f64> {
+        self.symbols.get(symbol as usize)?.like
+    }
+
     /// The definition of a joint.
     #[must_use]
     pub fn definition(&self, joint: &Element) -> &ElementDef {

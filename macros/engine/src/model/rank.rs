@@ -86,6 +86,9 @@ pub struct Independence {
     pub is_alone: bool,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
+    /// The places, in order, of the run-time values that the constraints depend on, where all this was found with these being what they are
+    /// said to be like.
+    pub likes: Vec<usize>,
     /// Whether they are gone.
     pub dropped: bool,
     /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from the reference configuration on, where there was a

@@ -1,7 +1,6 @@
 //! Rotations, screws, and the size of a mechanism.
 
 use super::dense::{dot, norm};
-use crate::model::number::literals;
 use crate::model::{Binding, Model, ParameterKind};
 
 /// Euler parameters, of unit length, after a rotation about an axis of the body.
@@ -46,7 +45,7 @@ pub(super) fn length(model: &Model) -> f64 {
     let mut points: Vec<[f64; 3]> = model
         .bodies
         .iter()
-        .filter_map(|body| literals(&body.position))
+        .filter_map(|body| model.all_seen(&body.position))
         .collect();
     for joint in &model.joints {
         let parameters = &model.definition(joint).parameters;
@@ -55,14 +54,14 @@ pub(super) fn length(model: &Model) -> f64 {
                 continue;
             }
             match binding {
-                Binding::Global(point) => points.extend(literals(point)),
+                Binding::Global(point) => points.extend(model.all_seen(point)),
                 Binding::Local(arms) => {
                     for (arm, body) in arms.iter().zip(&joint.bodies) {
                         let centre = body.map_or(Some([0.0; 3]), |body| {
-                            literals(&model.bodies[body].position)
+                            model.all_seen(&model.bodies[body].position)
                         });
                         // Its direction does not matter for a size.
-                        if let (Some(arm), Some(centre)) = (literals(arm), centre) {
+                        if let (Some(arm), Some(centre)) = (model.all_seen(arm), centre) {
                             points.push([0, 1, 2].map(|k| centre[k] + arm[k]));
                         }
                     }

@@ -176,6 +176,7 @@ pub fn judge(model: &Model) -> Independence {
             .collect(),
         is_alone,
         is_driven: constraints.is_driven(),
+        likes: constraints.values.clone(),
         tour: stops,
         ..not(Rank::Decided { rank, at_start })
     }

@@ -67,27 +67,32 @@ pub(super) struct Constraints {
     pub(super) sizes: Vec<Option<f64>>,
     /// What the size of a row is at least: that of an angle, a length or a squared length.
     least: f64,
+    /// What symbols are where parameters are what they are said to be like.
+    likes: Vec<Option<f64>>,
+    /// The places of the run-time values that the constraints depend on, in order.
+    pub(super) values: Vec<usize>,
 }
 
 impl Constraints {
     /// The constraints, and the configuration that the attributes describe; `None` where the macro cannot see a number that
-    /// they depend on.
+    /// they depend on, not even by what parameters are said to be like.
     pub(super) fn new(
         model: &Model,
         mut motion: impl FnMut(usize) -> Vec<f64>,
     ) -> Option<(Self, Configuration)> {
         let layout = model.layout();
-        let initial = initial_state(model);
-        let start: Option<Vec<f64>> = evaluate(&initial.arena, &initial.outputs, |_| None)
-            .into_iter()
-            .take(layout.coordinates + layout.auxiliaries)
-            .collect();
-        let start = start?;
+        let mut initial = initial_state(model);
+        let count = layout.coordinates + layout.auxiliaries;
+        initial.outputs.truncate(count);
+        let known = |input| symbol(input).and_then(|symbol| model.like(symbol));
+        let start = evaluate(&initial.arena, &initial.outputs, known);
+        let start = start.into_iter().collect::<Option<Vec<f64>>>()?;
         let scene = Scene::new(model);
         let (jacobian, blocks) = jacobian(&scene, model);
         let length = length(model);
         let phi = rows(&scene, [Arena::ONE, Arena::ZERO, Arena::ZERO]);
-        let breaks = breaks(&phi);
+        let breaks = breaks(&phi, model);
+        let initial = tape(&initial);
         let phi = tape(&phi);
         let is_driven = phi.reads(|input| input == Input::Time);
         let counts = phi.reads(
@@ -109,6 +114,8 @@ impl Constraints {
             counted: counts
                 .then(|| [counter_rates(&scene), counters(&scene)].map(|kernel| tape(&kernel))),
             jacobian: tape(&jacobian),
+            likes: model.symbols.iter().map(|symbol| symbol.like).collect(),
+            values: Vec::new(),
             breaks,
             blocks,
             length,
@@ -117,6 +124,8 @@ impl Constraints {
             layout,
         };
         constraints.evaluate(&constraints.phi, &start)?;
+        let tapes = [&initial, &constraints.phi, &constraints.jacobian];
+        constraints.values = values(model, &tapes);
         // Off the constraints, so that a gradient that vanishes on them has a size.
         let mut places = vec![start.clone()];
         for _ in 1..3 {
@@ -188,7 +197,9 @@ impl Constraints {
             Input::Velocity(place) => {
                 Some(velocities.get(place as usize).copied().unwrap_or_default())
             }
-            Input::Symbol(_) | Input::Varying(_) => None,
+            Input::Symbol(place) | Input::Varying(place) => {
+                self.likes.get(place as usize).copied().flatten()
+            }
             // Nothing that is evaluated here depends on the others.
             Input::RateGain
             | Input::PositionGain
@@ -388,19 +399,43 @@ impl Constraints {
     }
 }
 
+/// The symbol that an input is.
+fn symbol(input: Input) -> Option<u32> {
+    match input {
+        Input::Symbol(place) | Input::Varying(place) => Some(place),
+        _ => None,
+    }
+}
+
+/// The places of the run-time values that some tapes read, in order.
+fn values(model: &Model, tapes: &[&Tape]) -> Vec<usize> {
+    let symbols = model.symbols.iter().enumerate();
+    let read = symbols.filter(|(place, _)| {
+        let is_it = |input| symbol(input).is_some_and(|symbol| symbol as usize == *place);
+        tapes.iter().any(|tape| tape.reads(is_it))
+    });
+    let mut values: Vec<usize> = read.flat_map(|(_, symbol)| symbol.values.clone()).collect();
+    values.sort_unstable();
+    values.dedup();
+    values
+}
+
 fn tape(kernel: &Kernel) -> Tape {
     Tape::new(&kernel.arena, &kernel.outputs)
 }
 
 /// See [`Constraints::breaks`].
-fn breaks(Kernel { arena, outputs }: &Kernel) -> Vec<f64> {
+fn breaks(Kernel { arena, outputs }: &Kernel, model: &Model) -> Vec<f64> {
     let mut breaks = Vec::new();
     for place in arena.live(outputs, Stage::Literal) {
         let Node::Clamp(argument) = arena.node(place) else {
             continue;
         };
         let at = |time: f64| {
-            let known = |input| (input == Input::Time).then_some(time);
+            let known = |input| match symbol(input) {
+                Some(symbol) => model.like(symbol),
+                None => (input == Input::Time).then_some(time),
+            };
             evaluate(arena, &[argument], known)
                 .first()
                 .copied()

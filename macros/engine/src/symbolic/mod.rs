@@ -13,6 +13,7 @@ mod gather;
 mod identities;
 mod index;
 mod kept;
+pub mod left_out;
 mod node;
 pub mod rotation;
 pub mod scene;

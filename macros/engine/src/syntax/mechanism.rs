@@ -198,17 +198,13 @@ fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
             continue;
         }
         result.role = Some((role, attribute.path().clone()));
-        if role.is_part() {
+        if role.is_part() || role == Role::Param {
             result.list = super::list(attribute, faults);
         } else if !matches!(attribute.meta, syn::Meta::Path(_)) {
             let word = attribute.path().to_token_stream();
-            let given = match role {
-                Role::Input => "it is 0 until the field is set",
-                _ => "`new` takes its value",
-            };
             faults.at(
                 attribute,
-                format!("`#[{word}]` takes nothing besides: it stands above a field of type `f64`, and {given}"),
+                format!("`#[{word}]` takes nothing besides: it stands above a field of type `f64`, and it is 0 until the field is set"),
             );
         }
     }

@@ -167,6 +167,7 @@ pub fn list(attribute: &syn::Attribute, faults: &mut Faults) -> List {
                 "body" => "#[body(mass = 7.02, ..)]",
                 "joint" => "#[joint(between = [ground, rod], ..)]",
                 "force" => "#[force(between = [ground, rod], ..)]",
+                "param" => "#[param(like = 0.8)]",
                 _ => "#[mechanism(gravity = [0.0, 0.0, -9.81])]",
             };
             faults.at(

@@ -1,0 +1,89 @@
+//! Values of expressions: known at expansion, or later.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// A number, or an expression of type `f64`.
+pub(super) enum Value {
+    Literal(f64),
+    Later(Later),
+}
+
+/// An expression of type `f64`.
+pub(super) struct Later {
+    /// As it was written.
+    pub(super) expression: TokenStream,
+    /// The same over `S`, where it depends on run-time values.
+    pub(super) scalar: Option<TokenStream>,
+    /// Whether the compiler can evaluate it.
+    pub(super) is_const: bool,
+    /// Whether it depends on inputs.
+    pub(super) is_varying: bool,
+    /// The places of the run-time values that it depends on, in order.
+    pub(super) values: Vec<usize>,
+    /// What it is where these are what they are said to be like.
+    pub(super) like: Option<f64>,
+}
+
+impl Value {
+    pub(super) fn tokens(&self) -> TokenStream {
+        match self {
+            Self::Literal(value) => quote!(#value),
+            Self::Later(later) => later.expression.clone(),
+        }
+    }
+
+    pub(super) fn is_const(&self) -> bool {
+        match self {
+            Self::Literal(_) => true,
+            Self::Later(later) => later.is_const,
+        }
+    }
+
+    /// The value over `S`.
+    pub(super) fn scalar(&self) -> TokenStream {
+        match self {
+            Self::Later(Later {
+                scalar: Some(scalar),
+                ..
+            }) => scalar.clone(),
+            other => {
+                let value = other.tokens();
+                quote!(__S::constant(#value))
+            }
+        }
+    }
+
+    pub(super) fn is_varying(&self) -> bool {
+        matches!(self, Self::Later(later) if later.is_varying)
+    }
+
+    /// The places of the run-time values that it depends on.
+    pub(super) fn values(&self) -> &[usize] {
+        match self {
+            Self::Literal(_) => &[],
+            Self::Later(later) => &later.values,
+        }
+    }
+
+    /// What it is where these are what they are said to be like.
+    pub(super) fn like(&self) -> Option<f64> {
+        match self {
+            Self::Literal(value) => Some(*value),
+            Self::Later(later) => later.like,
+        }
+    }
+
+    /// Whether it depends on run-time values.
+    pub(super) fn is_run_time(&self) -> bool {
+        matches!(self, Self::Later(later) if later.scalar.is_some())
+    }
+}
+
+/// Places of two lists, in order.
+pub(super) fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
+    let mut all = [a, b].concat();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
