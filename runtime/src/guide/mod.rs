@@ -18,14 +18,18 @@
 //!
 //! # A first program
 //!
+//! In the folder that has the repository under the name `holonom`: `cargo new pendulum`, into `pendulum/Cargo.toml`
+//!
 //! ```toml
 //! [dependencies]
-//! holonom = "0.1"    # or { path = ".." }, as the README says
+//! holonom = { path = "../holonom/runtime" }    # by its path: it is not published yet. Then: holonom = "0.1"
 //!
 //! # The macros run while the program is compiled: optimised, they take a fraction of the time in a debug build.
 //! [profile.dev.build-override]
 //! opt-level = 2
 //! ```
+//!
+//! and into `pendulum/src/main.rs`
 //!
 //! ```
 //! use holonom::joints::Revolute;
