@@ -3,6 +3,7 @@
 use comfy_table::{
     Cell, CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table as Grid, TableStyle,
 };
+use console::Term;
 use holonom_study::StudyError;
 use holonom_study::document::{Block, Document, Figure, Table};
 
@@ -21,9 +22,8 @@ const HEIGHT: usize = 20;
 /// The width of the terminal (letters) within what tables can be read at; 100 where there is none.
 #[must_use]
 pub fn width() -> usize {
-    Grid::new()
-        .width()
-        .map_or(100, |width| usize::from(width).clamp(72, 120))
+    let size = Term::stdout().size_checked();
+    size.map_or(100, |(_, width)| usize::from(width).clamp(72, 120))
 }
 
 /// The document as text, `width` letters wide. Of the figures only the headline is drawn.

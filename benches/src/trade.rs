@@ -70,7 +70,7 @@ pub fn problem(name: &str) -> Result<Box<dyn Subject>, String> {
             let more = if cfg!(feature = "large") {
                 ""
             } else {
-                "; more with --features large"
+                "; more with --large"
             };
             Err(format!(
                 "there is no problem `{name}` here; there are {}{more}",

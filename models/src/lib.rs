@@ -20,40 +20,77 @@
 //! IFToMM: the library of benchmark problems of its Technical Committee for Multibody Dynamics. Models that move in a
 //! plane are made of spatial bodies and joints. With the feature `problems`, `problems` has their motions with known answers. What follows from the initial configuration (a distance of points, an
 //! axis on a body) is not written twice.
+//!
+//! Every model but [`RodPendulum`] has a feature of its name, such as `slider-crank`: with default features off, only what is asked for is compiled. `catalogue`, the default, is all of them.
 #![no_std]
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "problems")]
 extern crate std;
 
+#[cfg(feature = "bricard")]
 mod bricard;
+#[cfg(feature = "cart-pole")]
 mod cart_pole;
+#[cfg(feature = "door")]
 mod door;
+#[cfg(feature = "flyball-governor")]
 mod flyball_governor;
+#[cfg(feature = "four-bar")]
 mod four_bar;
+#[cfg(feature = "four-bars")]
+mod four_bars;
+#[cfg(feature = "heavy-chain")]
 mod heavy_chain;
+#[cfg(feature = "heavy-top")]
 mod heavy_top;
+#[cfg(feature = "panda")]
 mod panda;
 #[cfg(feature = "problems")]
 pub mod problems;
 mod rod_pendulum;
+#[cfg(feature = "simple-pendulum")]
 mod simple_pendulum;
+#[cfg(feature = "slider-crank")]
 mod slider_crank;
+#[cfg(feature = "squeezing-mechanism")]
 mod squeezing_mechanism;
+#[cfg(feature = "ur5")]
 mod ur5;
+#[cfg(feature = "variable-length-pendulum")]
 mod variable_length_pendulum;
 
+#[cfg(feature = "bricard")]
 pub use bricard::Bricard;
+#[cfg(feature = "cart-pole")]
 pub use cart_pole::CartPole;
+#[cfg(feature = "door")]
 pub use door::Door;
+#[cfg(feature = "flyball-governor")]
 pub use flyball_governor::FlyballGovernor;
-pub use four_bar::{DoubleFourBar, FourBar, QuintupleFourBar};
+#[cfg(feature = "four-bar")]
+pub use four_bar::FourBar;
+#[cfg(feature = "four-bars")]
+pub use four_bars::{DoubleFourBar, QuintupleFourBar};
+#[cfg(feature = "heavy-chain")]
 pub use heavy_chain::HeavyChain;
+#[cfg(feature = "heavy-top")]
 pub use heavy_top::HeavyTop;
+#[cfg(feature = "panda")]
 pub use panda::Panda;
 pub use rod_pendulum::RodPendulum;
+#[cfg(feature = "simple-pendulum")]
 pub use simple_pendulum::SimplePendulum;
+#[cfg(feature = "slider-crank")]
 pub use slider_crank::{DrivenSliderCrank, SliderCrank};
+#[cfg(feature = "squeezing-mechanism")]
 pub use squeezing_mechanism::SqueezingMechanism;
+#[cfg(feature = "ur5")]
 pub use ur5::Ur5;
+#[cfg(feature = "variable-length-pendulum")]
 pub use variable_length_pendulum::VariableLengthPendulum;
+
+/// The example of the README is compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

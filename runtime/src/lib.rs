@@ -262,5 +262,5 @@ pub mod prelude {
 
 /// The examples of the README are compiled.
 #[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;

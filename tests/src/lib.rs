@@ -13,6 +13,7 @@ pub mod assembler;
 pub mod bodies;
 mod couplings;
 pub mod drivers;
+#[cfg(feature = "dual")]
 pub mod dual;
 pub mod forces;
 pub mod formulation;
@@ -29,9 +30,15 @@ pub mod scalars;
 pub mod scenes;
 pub mod schur;
 pub mod smatrix;
+#[cfg(feature = "random")]
 pub mod states;
 mod symmetric;
 mod writers;
 
-#[cfg(test)]
+#[cfg(all(test, feature = "dual", feature = "random"))]
 mod tests;
+
+/// The examples of the README are compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

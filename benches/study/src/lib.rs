@@ -18,11 +18,14 @@
 
 pub mod chapter15;
 pub mod chart;
+#[cfg(feature = "compare")]
 pub mod compare;
+#[cfg(feature = "compare")]
 pub mod counted;
 pub mod document;
 pub mod elliptic;
 mod error;
+#[cfg(feature = "extremes")]
 pub mod extremes;
 pub mod files;
 pub mod format;
@@ -32,6 +35,7 @@ pub mod run;
 pub mod statistics;
 pub mod target;
 pub mod timing;
+#[cfg(feature = "trade")]
 pub mod trade;
 
 pub use error::StudyError;

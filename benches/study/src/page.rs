@@ -1,8 +1,7 @@
 //! A document as a page of HTML that needs nothing but a browser: no network, no scripts, light and dark.
 
+use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
-
-use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::chart::Picture;
 use crate::document::{Block, Document, Figure, Section, Table};
@@ -12,37 +11,43 @@ use crate::files::write_atomically;
 /// The style sheet of the page; the pictures bring their own.
 const STYLE: &str = include_str!("page.css");
 
+/// Text between tags or in an attribute: what would be markup is escaped.
+struct Text<'a>(&'a str);
+
+impl fmt::Display for Text<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for letter in self.0.chars() {
+            match letter {
+                '&' => f.write_str("&amp;"),
+                '<' => f.write_str("&lt;"),
+                '>' => f.write_str("&gt;"),
+                '"' => f.write_str("&quot;"),
+                other => f.write_char(other),
+            }?;
+        }
+        Ok(())
+    }
+}
+
+/// Each text between an opening and a closing tag, one behind the other.
+fn each<T: AsRef<str>>(opening: &str, texts: impl IntoIterator<Item = T>, closing: &str) -> String {
+    let one = |text: T| format!("{opening}{}{closing}", Text(text.as_ref()));
+    texts.into_iter().map(one).collect()
+}
+
 /// The page as HTML.
 ///
 /// # Errors
 /// [`StudyError::Picture`] where a figure has nothing to draw.
 pub fn html_page(document: &Document) -> Result<String, StudyError> {
-    let sections = document
-        .sections
-        .iter()
-        .map(section)
-        .collect::<Result<Vec<Markup>, StudyError>>()?;
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (document.title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                header {
-                    h1 { (document.title) }
-                    @for paragraph in &document.lead { p { (paragraph) } }
-                }
-                main { @for section in sections { (section) } }
-                footer { @for paragraph in &document.colophon { p { (paragraph) } } }
-            }
-        }
-    };
-    Ok(page.into_string())
+    let sections = document.sections.iter().map(section);
+    let sections = sections.collect::<Result<String, StudyError>>()?;
+    let title = Text(&document.title);
+    let lead = each("<p>", &document.lead, "</p>");
+    let colophon = each("<p>", &document.colophon, "</p>");
+    Ok(format!(
+        r#"<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark"><title>{title}</title><style>{STYLE}</style></head><body><header><h1>{title}</h1>{lead}</header><main>{sections}</main><footer>{colophon}</footer></body></html>"#
+    ))
 }
 
 /// Writes `index.html` and one SVG file per figure into a directory; the paths of what was written, the page first.
@@ -61,56 +66,45 @@ pub fn write_page(document: &Document, directory: &Path) -> Result<Vec<PathBuf>,
     Ok(written)
 }
 
-fn section(section: &Section) -> Result<Markup, StudyError> {
-    let blocks = section
-        .blocks
-        .iter()
-        .map(|block| match block {
-            Block::Text(paragraph) => Ok(html! { p { (paragraph) } }),
-            Block::Table(content) => Ok(table(content)),
-            Block::Figure(content) => Ok(figure(content, &content.chart.draw()?)),
-        })
-        .collect::<Result<Vec<_>, StudyError>>()?;
-    Ok(html! {
-        section {
-            h2 { (section.heading) }
-            @for block in blocks { (block) }
-        }
-    })
+fn section(section: &Section) -> Result<String, StudyError> {
+    let block = |block: &Block| match block {
+        Block::Text(paragraph) => Ok(each("<p>", [paragraph], "</p>")),
+        Block::Table(content) => Ok(table(content)),
+        Block::Figure(content) => Ok(figure(content, &content.chart.draw()?)),
+    };
+    let blocks = section.blocks.iter().map(block);
+    let blocks = blocks.collect::<Result<String, StudyError>>()?;
+    let heading = Text(&section.heading);
+    Ok(format!("<section><h2>{heading}</h2>{blocks}</section>"))
 }
 
-fn table(table: &Table) -> Markup {
-    html! {
-        div.table {
-            table {
-                caption { (table.caption) }
-                thead { tr { @for column in &table.columns { th scope="col" { (column) } } } }
-                tbody {
-                    @for row in &table.rows {
-                        tr {
-                            @for (place, cell) in row.iter().enumerate() {
-                                @if place == 0 { th scope="row" { (cell) } } @else { td { (cell) } }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        @if !table.note.is_empty() { p.note { (table.note) } }
-    }
+fn table(table: &Table) -> String {
+    let row = |row: &Vec<String>| {
+        let name = each(r#"<th scope="row">"#, row.first(), "</th>");
+        let cells = each("<td>", row.iter().skip(1), "</td>");
+        format!("<tr>{name}{cells}</tr>")
+    };
+    let caption = Text(&table.caption);
+    let heads = each(r#"<th scope="col">"#, &table.columns, "</th>");
+    let rows: String = table.rows.iter().map(row).collect();
+    let note = Some(&table.note).filter(|note| !note.is_empty());
+    let note = each(r#"<p class="note">"#, note, "</p>");
+    format!(
+        r#"<div class="table"><table><caption>{caption}</caption><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>{note}"#
+    )
 }
 
-fn figure(figure: &Figure, picture: &Picture) -> Markup {
-    html! {
-        figure id=(figure.name) {
-            h3 { (picture.title) }
-            div.picture { (PreEscaped(&picture.svg)) }
-            figcaption {
-                (figure.caption)
-                @if let Some(sentence) = picture.left_out.sentence() { " " (sentence) }
-            }
-        }
+fn figure(figure: &Figure, picture: &Picture) -> String {
+    let (name, title) = (Text(&figure.name), Text(&picture.title));
+    let mut caption = Text(&figure.caption).to_string();
+    if let Some(sentence) = picture.left_out.sentence() {
+        caption.push(' ');
+        caption.push_str(&Text(&sentence).to_string());
     }
+    let svg = &picture.svg;
+    format!(
+        r#"<figure id="{name}"><h3>{title}</h3><div class="picture">{svg}</div><figcaption>{caption}</figcaption></figure>"#
+    )
 }
 
 #[cfg(test)]

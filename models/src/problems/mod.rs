@@ -14,17 +14,29 @@
 //! | [`Chain`] | E02, a ratio of masses of 1e6, 1 s | place of the bob (m) at the end | tensions and angles |
 //! | [`Leaf`] | E04, a door on two hinges, 10 s | angle (rad), every 0.1 s | closed form |
 //!
-//! The integrated references agree with each other to 1e-11 or better.
+//! The integrated references agree with each other to 1e-11 or better. Those of the pendulum and of the parallelograms are there with their models, all others with the whole `catalogue`.
 
+#[cfg(feature = "catalogue")]
 mod loops;
+#[cfg(feature = "catalogue")]
 mod others;
+#[cfg(feature = "four-bar")]
+mod parallelograms;
+mod pendulum;
+#[cfg(feature = "catalogue")]
 mod pendulums;
 
-pub use loops::{
-    Crank, DoubleParallelogram, Parallelogram, QuintupleParallelogram, Ring, Squeezer,
-};
+#[cfg(feature = "catalogue")]
+pub use loops::{Crank, Ring, Squeezer};
+#[cfg(feature = "catalogue")]
 pub use others::{Chain, Governor, Slide, Top};
-pub use pendulums::{Leaf, LongPendulum, Pendulum};
+#[cfg(feature = "four-bar")]
+pub use parallelograms::Parallelogram;
+#[cfg(feature = "four-bars")]
+pub use parallelograms::{DoubleParallelogram, QuintupleParallelogram};
+pub use pendulum::Pendulum;
+#[cfg(feature = "catalogue")]
+pub use pendulums::{Leaf, LongPendulum};
 
 /// A problem in a few lines. Behind `angles` values count modulo a whole turn.
 macro_rules! problem {
@@ -90,6 +102,7 @@ macro_rules! problem {
 use problem;
 
 /// The largest difference of angles, modulo a whole turn.
+#[cfg(feature = "catalogue")]
 fn angles(read: &[f64], reference: &[f64]) -> f64 {
     let differences = read.iter().zip(reference);
     let sizes = differences.map(|(a, b)| holonom_study::pendulum::wrapped(a - b).abs());
@@ -97,6 +110,7 @@ fn angles(read: &[f64], reference: &[f64]) -> f64 {
 }
 
 /// The value of the instant at this time, of those where something is known.
+#[cfg(feature = "catalogue")]
 fn at<const N: usize>(time: f64, known: &[(f64, [f64; N])]) -> Option<std::vec::Vec<f64>> {
     /// Of times in single precision.
     const SAME: f64 = 1e-6;

@@ -6,13 +6,12 @@ use std::path::PathBuf;
 use clap::Args;
 use holonom::Mechanism as _;
 use holonom_benches::opponents;
+use holonom_benches::output::{bar, show_all};
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::run::Subject;
 use holonom_study::chapter15::{self, Settings};
 use holonom_study::target::Target;
 use holonom_study::timing::Schedule;
-
-use crate::output::{bar, show_all};
 
 #[derive(Debug, Args)]
 pub(crate) struct Chapter15 {

@@ -1,20 +1,22 @@
 //! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores (2015), `study compare` shows what an evaluation costs,
-//! `study trade` what accuracy costs, `study recommend` which setting does, and `study extremes` where the numerics stop to hold.
+//! `study trade` what accuracy costs, `study recommend` which setting does, and `study extremes` where the numerics stop to hold. The latter are a program of
+//! their own, which is built where it is asked for.
 
 #![forbid(unsafe_code)]
 
 mod chapter15;
-mod comparison;
-mod extremes;
-mod output;
-mod trade;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use holonom_benches::measures::{self, Arguments as Handed};
+
 /// One pendulum, four formulations: chapter 15 of Flores, Concepts and Formulations for Spatial Multibody Dynamics
 /// (2015), with what it cost and how right it is.
+///
+/// The other studies measure many mechanisms in many kinds, which takes longer to compile: each is built when it is first asked for, and says before how long
+/// that takes. With `--large` they have all mechanisms, without it those that compile soon.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
 struct Arguments {
@@ -26,32 +28,27 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Study {
-    /// What an evaluation costs: every mechanism in both descriptions, all formulations and both number types, beside a
-    /// pendulum written by hand and the run-time assembler.
-    Compare(comparison::Compare),
-    /// What accuracy costs: one problem with every description, formulation, treatment after steps, integrator, step or tolerance, and number type. An
-    /// interrupted study goes on with the same command.
-    Trade(trade::Trade),
-    /// The cheapest setting for an error, or the most exact one for a time, that does so from ten starts nearby as well, and the lines of Rust that run it.
-    Recommend(trade::Recommend),
-    /// Where the numerics stop to hold: motions with closed forms, swept to where they break. An interrupted map goes on with the same command.
-    Extremes(extremes::Extremes),
+    /// What an evaluation costs: mechanisms in both descriptions, all formulations and both number types.
+    Compare(Handed),
+    /// What accuracy costs: a problem with every setting.
+    Trade(Handed),
+    /// Which setting does for an error or a time, and the lines of Rust that run it.
+    Recommend(Handed),
+    /// Where the numerics stop to hold.
+    Extremes(Handed),
 }
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match &arguments.study {
-        None => chapter15::study(&arguments.chapter15),
-        Some(Study::Compare(arguments)) => comparison::study(arguments),
-        Some(Study::Trade(arguments)) => trade::study(arguments),
-        Some(Study::Recommend(arguments)) => trade::recommend(arguments),
-        Some(Study::Extremes(arguments)) => extremes::study(arguments),
+        None => chapter15::study(&arguments.chapter15).map(|()| ExitCode::SUCCESS),
+        Some(Study::Compare(handed)) => measures::COMPARE.run(handed),
+        Some(Study::Trade(handed)) => measures::TRADE.run(handed),
+        Some(Study::Recommend(handed)) => measures::RECOMMEND.run(handed),
+        Some(Study::Extremes(handed)) => measures::EXTREMES.run(handed),
     };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("study: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome.unwrap_or_else(|error| {
+        eprintln!("study: {error}");
+        ExitCode::FAILURE
+    })
 }

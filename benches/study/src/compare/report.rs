@@ -13,10 +13,9 @@ use crate::page::write_page;
 use crate::target::Target;
 
 /// The command that the numbers are made with.
-pub const COMMAND: &str = "RUSTFLAGS=\"-C target-cpu=native\" cargo run --release -p holonom-benches --features large --target-dir target/native --bin study -- compare";
+pub const COMMAND: &str = "RUSTFLAGS=\"-C target-cpu=native\" cargo run --release --target-dir target/native --bin study -- compare --large";
 /// The command for a plain build.
-pub const PLAIN_COMMAND: &str =
-    "cargo run --release -p holonom-benches --features large --bin study -- compare --plain";
+pub const PLAIN_COMMAND: &str = "cargo run --release --bin study -- compare --large --plain";
 
 /// The file of the numbers of a plain build.
 const PLAIN: &str = "plain.json";

@@ -13,8 +13,7 @@ use crate::target::Target;
 use crate::trade::json;
 
 /// The command that the map is made with.
-pub const COMMAND: &str =
-    "cargo run --release -p holonom-benches --features large --bin study -- extremes";
+pub const COMMAND: &str = "cargo run --release --bin study -- extremes --large";
 
 /// The map as a document.
 #[must_use]

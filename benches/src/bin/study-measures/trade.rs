@@ -17,7 +17,7 @@ use holonom_study::trade::{
     report,
 };
 
-use crate::output::{bar, show, show_all};
+use holonom_benches::output::{announce, bar, show, show_all};
 
 /// Which part of the grid.
 #[derive(Debug, Args)]
@@ -88,17 +88,23 @@ impl Part {
         journal: &Path,
     ) -> Result<trade::Trade, Box<dyn Error>> {
         let beside = beside()?;
-        let bar = bar(0, "runs")?;
-        let trade = measure(
-            subject,
-            &self.grid(),
-            self.timing(&beside),
-            journal,
-            |done, all| {
-                bar.set_length(all as u64);
-                bar.set_position(done as u64);
-            },
+        let (grid, timing) = (self.grid(), self.timing(&beside));
+        let planned = grid.settings(subject);
+        let runs = planned.iter().filter(|planned| planned.refused.is_none());
+        let runs = u32::try_from(runs.count()).unwrap_or(u32::MAX);
+        // A run and the yardstick take turns; the first round is not counted.
+        let turns = 2 * (u32::from(self.rounds) + 1) * runs;
+        let name = subject.facts().name;
+        announce(
+            &format!("{runs} runs of {name} where none is known, by the count of turns at least"),
+            timing.schedule.turn * turns,
         );
+        let bar = bar(0, "reference")?;
+        let trade = measure(subject, &grid, timing, journal, |done, all| {
+            bar.set_message("runs");
+            bar.set_length(all as u64);
+            bar.set_position(done as u64);
+        });
         bar.finish_and_clear();
         Ok(trade?)
     }
@@ -168,12 +174,12 @@ fn measured(out: &Path, problem: &str) -> PathBuf {
 /// What the numbers are made with.
 fn command(problem: &str) -> String {
     let large = if cfg!(feature = "large") {
-        " --features large"
+        " --large"
     } else {
         ""
     };
     format!(
-        "RUSTFLAGS=\"-C target-cpu=native\" cargo run --release -p holonom-benches{large} --target-dir target/native --bin study -- trade --problem {problem}"
+        "RUSTFLAGS=\"-C target-cpu=native\" cargo run --release --target-dir target/native --bin study -- trade{large} --problem {problem}"
     )
 }
 

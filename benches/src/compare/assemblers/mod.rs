@@ -5,22 +5,25 @@
     allow(dead_code, reason = "most scenes stand behind the feature")
 )]
 
+#[cfg(any(feature = "large", test))]
+mod catalogue;
+
 use std::hint::black_box;
 
 use holonom::{Array as _, Fault, Mechanism, MechanismExt as _, NotFinite, StateParts as _};
-use holonom_models::{
-    CartPole, HeavyTop, Panda, RodPendulum, SliderCrank, SqueezingMechanism, Ur5,
-};
+use holonom_models::RodPendulum;
 use holonom_study::chapter15::{Method, Settings};
 use holonom_study::compare::measure::contestant;
 use holonom_study::compare::run::Opponent;
 use holonom_study::timing::Contestant;
 use holonom_tests::assembler::Assembler;
 use holonom_tests::bodies::{Body, BodyId, GROUND};
-use holonom_tests::forces::Force;
 use holonom_tests::formulation::{Evaluator, SolveError};
 use holonom_tests::joints::Joint;
 use holonom_tests::schur::SchurEvaluator;
+
+#[cfg(feature = "large")]
+pub(super) use catalogue::{cart_pole, heavy_top, panda, slider_crank, squeezer, ur5};
 
 use crate::opponents::formulation;
 
@@ -162,107 +165,6 @@ pub(super) fn pendulum() -> Assembler {
     scene::<RodPendulum>([0.0, 0.0, -9.81], in_a_row(1, |_| Join::Hinge([0.0; 3], X)))
 }
 
-pub(super) fn heavy_top() -> Assembler {
-    scene::<HeavyTop>([0.0, 0.0, -9.81], in_a_row(1, |_| Join::Ball([0.0; 3])))
-}
-
-pub(super) fn slider_crank() -> Assembler {
-    let pin = [0.459, 0.0, 0.0];
-    let joints = [
-        ([None, Some(0)], Join::Hinge([0.0; 3], Z)),
-        ([Some(0), Some(1)], Join::Hinge([0.153, 0.0, 0.0], Z)),
-        ([None, Some(2)], Join::Slider(pin, X)),
-        ([Some(2), Some(1)], Join::OnLine(pin, Z)),
-    ];
-    scene::<SliderCrank>([0.0, -9.81, 0.0], joints)
-}
-
-pub(super) fn cart_pole() -> Assembler {
-    let joints = [
-        ([None, Some(0)], Join::Slider([0.0; 3], X)),
-        ([Some(0), Some(1)], Join::Hinge([0.0; 3], [0.0, 0.0, -1.0])),
-    ];
-    scene::<CartPole>([0.0, -9.81, 0.0], joints)
-}
-
-pub(super) fn ur5() -> Assembler {
-    let hinges = [
-        ([0.0, 0.0, 0.089159], Z),
-        ([0.0, 0.13585, 0.089159], Y),
-        ([0.425, 0.016149999999999998, 0.08915900000208107], Y),
-        ([0.81725, 0.016149999999999998, 0.08915900000400177], Y),
-        (
-            [0.81725, 0.10915, 0.08915900000400177],
-            [9.793277300218506e-12, 0.0, -1.0],
-        ),
-        ([0.817250000000927, 0.10915, -0.005490999995998225], Y),
-    ];
-    arm::<Ur5, 6>(hinges)
-}
-
-pub(super) fn panda() -> Assembler {
-    let hinges = [
-        ([0.0, 0.0, 0.333], Z),
-        ([0.0, 0.0, 0.333], Y),
-        ([0.0, 0.0, 0.649], Z),
-        ([0.0825, 0.0, 0.649], [0.0, -1.0, 0.0]),
-        ([0.0, 0.0, 1.033], Z),
-        ([0.0, 0.0, 1.033], [0.0, -1.0, 0.0]),
-        ([0.088, 0.0, 1.033], [0.0, 0.0, -1.0]),
-    ];
-    arm::<Panda, 7>(hinges)
-}
-
-/// Points and axes of an arm's hinges from the ground outwards; the motors are off.
-fn arm<M: Mechanism + Default, const N: usize>(hinges: [([f64; 3], [f64; 3]); N]) -> Assembler {
-    let joint = |link: usize| Join::Hinge(hinges[link].0, hinges[link].1);
-    scene::<M>([0.0, 0.0, -9.81], in_a_row(N, joint))
-}
-
-pub(super) fn squeezer() -> Assembler {
-    let [rocker, e] = [
-        [-0.06934, -0.00227, 0.0],
-        [-0.020960022346354336, 0.0012951691937066864, 0.0],
-    ];
-    let joints = [
-        ([None, Some(0)], Join::Hinge([0.0; 3], Z)),
-        (
-            [Some(0), Some(1)],
-            Join::Hinge([0.006986674115451445, -0.0004317230645688955, 0.0], Z),
-        ),
-        ([None, Some(2)], Join::Hinge([-0.03635, 0.03273, 0.0], Z)),
-        ([None, Some(4)], Join::Hinge(rocker, Z)),
-        (
-            [Some(4), Some(3)],
-            Join::Hinge([-0.03399720388583998, 0.01646197167499768, 0.0], Z),
-        ),
-        ([None, Some(6)], Join::Hinge(rocker, Z)),
-        (
-            [Some(6), Some(5)],
-            Join::Hinge([-0.03163313450740889, -0.015618868668304533, 0.0], Z),
-        ),
-        ([Some(2), Some(1)], Join::OnLine(e, Z)),
-        ([Some(2), Some(3)], Join::OnLine(e, Z)),
-        ([Some(2), Some(5)], Join::OnLine(e, Z)),
-    ];
-    let mut scene = Assembler::new([0.0; 3]);
-    let bodies = add_bodies::<SqueezingMechanism>(&mut scene);
-    join(&mut scene, &bodies, joints);
-    let motor = Force::constant_moment(&scene, [GROUND, bodies[0]], [0.0, 0.0, 0.033]);
-    scene.add_force(motor);
-    let spring = Force::spring_damper(
-        &scene,
-        [GROUND, bodies[2]],
-        [0.014, 0.072, 0.0],
-        [-0.010472393888814626, 0.025357788530275246, 0.0],
-        4530.0,
-        0.0,
-        0.07785,
-    );
-    scene.add_force(spring);
-    scene
-}
-
 /// The forms of an assembler in a formulation, timed at some states; a form that cannot be solved there is left out.
 pub(super) fn opponents(
     (scene, n): (&'static str, usize),
@@ -338,7 +240,9 @@ fn timed(
 #[cfg(test)]
 mod tests {
     use holonom::{Dynamics, StandardLagrange, System as _};
+    use holonom_models::Ur5;
 
+    use super::catalogue::ur5;
     use super::*;
 
     /// An arm at rest whose motors are off: its six counted angles are no coordinates of the assembler.

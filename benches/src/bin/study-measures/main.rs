@@ -1,0 +1,61 @@
+//! The studies beside chapter 15, those that this build has: `study compare` and so on build and run it.
+
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "compare")]
+mod comparison;
+#[cfg(feature = "extremes")]
+mod extremes;
+#[cfg(feature = "trade")]
+mod trade;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// What evaluations and accuracy cost, and where the numerics stop to hold.
+#[derive(Debug, Parser)]
+#[command(version, bin_name = "study")]
+struct Arguments {
+    #[command(subcommand)]
+    study: Study,
+}
+
+#[derive(Debug, Subcommand)]
+enum Study {
+    /// What an evaluation costs: every mechanism in both descriptions, all formulations and both number types, beside a
+    /// pendulum written by hand and the run-time assembler.
+    #[cfg(feature = "compare")]
+    Compare(comparison::Compare),
+    /// What accuracy costs: one problem with every description, formulation, treatment after steps, integrator, step or tolerance, and number type. An
+    /// interrupted study goes on with the same command.
+    #[cfg(feature = "trade")]
+    Trade(trade::Trade),
+    /// The cheapest setting for an error, or the most exact one for a time, that does so from ten starts nearby as well, and the lines of Rust that run it.
+    #[cfg(feature = "trade")]
+    Recommend(trade::Recommend),
+    /// Where the numerics stop to hold: motions with closed forms, swept to where they break. An interrupted map goes on with the same command.
+    #[cfg(feature = "extremes")]
+    Extremes(extremes::Extremes),
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match &arguments.study {
+        #[cfg(feature = "compare")]
+        Study::Compare(arguments) => comparison::study(arguments),
+        #[cfg(feature = "trade")]
+        Study::Trade(arguments) => trade::study(arguments),
+        #[cfg(feature = "trade")]
+        Study::Recommend(arguments) => trade::recommend(arguments),
+        #[cfg(feature = "extremes")]
+        Study::Extremes(arguments) => extremes::study(arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("study: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
