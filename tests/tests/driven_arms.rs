@@ -5,7 +5,7 @@ use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
 use holonom::{Array, JointCoordinates, JointDynamics, JointHandle};
 
-#[path = "runs/references/arms/data.rs"]
+#[path = "references/arms/data.rs"]
 mod data;
 
 /// What is known of an arm of `N` joints. Of it only the states are used here.

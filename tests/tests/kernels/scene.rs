@@ -79,7 +79,11 @@ pub(crate) fn dense<S: Real, M: Mechanism>(blocks: &[S]) -> DMatrix<f64> {
 }
 
 /// How many states of a kind are tried.
-pub(crate) const STATES: usize = 1000;
+pub(crate) const STATES: usize = if cfg!(feature = "exhaustive") {
+    1000
+} else {
+    100
+};
 
 /// States on the constraints, in position and velocity: a walk that starts in the initial configuration and gets far
 /// from it without leaving its branch, each corrected by the assembler's own Newton method.

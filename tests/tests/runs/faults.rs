@@ -5,7 +5,7 @@ use holonom::prelude::*;
 use holonom::{Dynamics, Fault, NotFinite, StateParts};
 use holonom_models::RodPendulum;
 
-use crate::pendulum::flat;
+use crate::flat::flat;
 
 holonom::joint! {
     /// A massless rod between two points.

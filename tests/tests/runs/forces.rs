@@ -6,7 +6,7 @@ use holonom::prelude::*;
 use holonom_models::RodPendulum;
 use holonom_tests::accuracy::assert_close;
 
-use crate::pendulum::flat;
+use crate::flat::flat;
 
 /// The rod of chapter 15 without gravity.
 #[derive(Debug, Mechanism)]

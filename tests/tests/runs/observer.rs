@@ -4,7 +4,7 @@ use holonom::Reporting;
 use holonom::prelude::*;
 use holonom_models::RodPendulum;
 
-use crate::pendulum::flat;
+use crate::flat::flat;
 
 fn times(interval: core::ops::RangeInclusive<f64>, reporting: Reporting<f64>) -> Vec<f64> {
     let mut times = Vec::new();

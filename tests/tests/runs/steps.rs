@@ -5,7 +5,7 @@ use holonom::{DormandPrince5, Fault, FixedStep, Scheme};
 use holonom_models::{DrivenSliderCrank, RodPendulum};
 use holonom_tests::accuracy::assert_close;
 
-use crate::pendulum::flat;
+use crate::flat::flat;
 
 /// Adds up without rounding.
 const STEP: f64 = 1.0 / 128.0;

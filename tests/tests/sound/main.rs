@@ -5,15 +5,11 @@
 mod between;
 mod clock;
 mod digits;
-mod gradients;
 mod lag;
 mod limits;
-mod long;
 mod orientation;
 mod origins;
 mod outside;
 mod readings;
-mod scales;
-mod singular;
 mod start;
 mod turns;

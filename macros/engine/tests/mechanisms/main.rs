@@ -67,7 +67,7 @@ fn side_by_side(
 
 #[test]
 fn random_mechanisms_against_a_dense_solution() {
-    let wanted = setting("HOLONOM_MECHANISMS", 300);
+    let wanted = setting("HOLONOM_MECHANISMS", 60);
     let first = setting("HOLONOM_SEED", 0);
     let mut statistics = Statistics::default();
     let mut used: BTreeMap<&str, usize> = library::names().map(|name| (name, 0)).collect();

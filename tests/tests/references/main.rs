@@ -1,6 +1,8 @@
 //! Motion and reactions against closed forms and published references, problem by problem; what a model gains and loses
 //! in energy.
 
+#![forbid(unsafe_code)]
+
 mod arms;
 mod bricard;
 mod cart_pole;
@@ -11,6 +13,8 @@ mod flyball_governor;
 mod four_bar;
 mod heavy_chain;
 mod heavy_top;
+#[path = "../methods/pendulum.rs"]
+mod pendulum;
 mod rod_pendulum;
 mod row_of_four_bars;
 mod simple_pendulum;

@@ -3,18 +3,15 @@
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use holonom::prelude::*;
-use holonom::{Array, HasAngle, Integrator, JointHandle, Orientation, Real, StateParts, View};
+use holonom::{HasAngle, Integrator, JointHandle, Orientation, Real, View};
 use holonom_models::RodPendulum;
 
-/// Motion and reaction at an instant. `phi` (rad) is counted from the downward vertical, the force (N) of the hinge on the rod is
-/// along the rod towards the hinge and across it in the direction of growing `phi`.
+/// Motion at an instant: `phi` (rad) is counted from the downward vertical.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Swing {
     pub(crate) time: f64,
     pub(crate) angle: f64,
     pub(crate) rate: f64,
-    pub(crate) radial: f64,
-    pub(crate) transverse: f64,
 }
 
 /// The closed form in elliptic functions, to the last digit: `I phi'' = -m g d sin(phi)` from `phi = pi / 2` at rest, `I = 2.3405265`
@@ -24,22 +21,16 @@ pub(crate) const SWINGS: [Swing; 3] = [
         time: 1.0,
         angle: -1.562_676_795_263_082_5,
         rate: 0.488_775_443_886_885_43,
-        radial: 1.397_699_173_704_197,
-        transverse: -17.227_600_661_249_58,
     },
     Swing {
         time: 5.0,
         angle: -1.368_085_820_598_437_2,
         rate: 2.433_857_865_939_373_7,
-        radial: 34.656_553_861_985_28,
-        transverse: -16.875_412_913_594_165,
     },
     Swing {
         time: 10.0,
         angle: 0.776_118_948_971_797_9,
         rate: -4.582_317_240_185_013,
-        radial: 122.847_198_297_600_27,
-        transverse: 12.068_591_148_374_754,
     },
 ];
 
@@ -67,13 +58,4 @@ pub(crate) fn final_swing<F: Formulation<f64>, I: Integrator<f64>, P: Orientatio
     let view = View::new(&constants, report.time, &report.state);
     let pivot = RodPendulum::HANDLES.pivot;
     [angle(&view, pivot), view.angle_rate(pivot)]
-}
-
-/// A state as `(q, u)`.
-pub(crate) fn flat<S: Real, M: Mechanism>(state: &M::State<S>) -> Vec<f64> {
-    let parts = [
-        state.coordinates().as_slice(),
-        state.velocities().as_slice(),
-    ];
-    parts.into_iter().flatten().map(|x| x.to_f64()).collect()
 }

@@ -1,0 +1,9 @@
+//! What may be described, in which coordinates, at which place and of which size; what depends on what.
+
+#![forbid(unsafe_code)]
+
+mod dependent;
+mod descriptions;
+mod placing;
+mod redundant;
+mod scales;
