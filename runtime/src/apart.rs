@@ -35,6 +35,15 @@ pub(crate) fn apart<S: Real, M: Mechanism>(
     })
 }
 
+/// The largest change (rad) of an angle that counts turns: a whole turn leads to where it began.
+pub(crate) fn counted_apart<S: Real, M: Mechanism>(from: &M::State<S>, to: &M::State<S>) -> S {
+    let angles = |state: &M::State<S>| *state.coordinates();
+    let (from, to) = (angles(from), angles(to));
+    let pairs = from.as_slice().iter().zip(to.as_slice());
+    let changes = pairs.skip(M::REPORT.coordinates);
+    changes.fold(S::zero(), |most, (&a, &b)| most.max((b - a).abs()))
+}
+
 /// The same of a displacement, or of velocities, of all bodies.
 pub(crate) fn reach<S: Real, M: Mechanism>(step: &M::Velocities<S>, length: S) -> Apart<S> {
     let step = step.as_slice();

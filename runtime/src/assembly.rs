@@ -8,14 +8,15 @@ mod side;
 mod way;
 
 use self::set::Set;
-pub(crate) use self::side::check_sides;
 use self::side::righted;
+pub(crate) use self::side::{check_sides, wrong};
 use self::way::Way;
 use crate::apart::apart;
 use crate::array::StateParts;
 use crate::error::Fault;
 use crate::mechanism::Mechanism;
 use crate::project::{Correction, Moved, Projection};
+use crate::report::JointInfo;
 use crate::rotation::{check_state, with_unit_orientations};
 use crate::scalar::Real;
 use crate::watch::extent;
@@ -49,6 +50,8 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
         let most = apart::<S, M>(&given, &to, length);
         let carrier = M::REPORT.carriers.get(most.body);
         let joint = carrier.and_then(|carrier| M::REPORT.joints.get(carrier.joint?));
+        let is_of = |info: &&JointInfo| info.bodies.contains(&Some(most.body));
+        let joint = joint.or_else(|| M::REPORT.joints.iter().find(is_of));
         let moved = Moved {
             body: M::REPORT.bodies.get(most.body).map_or("", |info| info.name),
             joint: joint.map(|info| info.name),

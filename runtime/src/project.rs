@@ -82,7 +82,7 @@ pub struct Correction<S> {
 pub struct Moved<S> {
     /// The body's field.
     pub body: &'static str,
-    /// The field of the joint that carries it in the spanning tree; `None` where it moves freely.
+    /// The field of the joint that carries it in the spanning tree, else of the first joint that speaks of it; `None` where none does.
     pub joint: Option<&'static str>,
     /// Its rotation (rad).
     pub angle: S,

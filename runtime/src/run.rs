@@ -233,6 +233,7 @@ where
     fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
         if let Some(watch) = &mut self.watch {
             self.moving.name_smallest_pivot(watch);
+            watch.end(self.moving.dynamics().constants(), time, &state);
         }
         RunReport {
             evaluations: self.counts.evaluations,

@@ -3,6 +3,7 @@
 use super::set::{axes_of, carrier_of};
 use crate::array::{Array, StateParts};
 use crate::error::Fault;
+use crate::extent::norm;
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
 use crate::rotation::{
@@ -33,7 +34,7 @@ pub(crate) fn wrong<S: Real, M: Mechanism>(
     (from..M::REPORT.joints.len()).find(is_wrong)
 }
 
-/// The state with what joints of the spanning tree carry turned over, where these are on a side that is not meant; as in another state, where no turn about an axis leads over.
+/// The state with what joints carry turned over, where these are on a side that is not meant; as in another state, where no turn about an axis leads over.
 pub(super) fn righted<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     state: &M::State<S>,
@@ -42,11 +43,7 @@ pub(super) fn righted<S: Real, M: Mechanism>(
     let mut state = *state;
     let mut next = 0;
     while let Some(joint) = wrong::<S, M>(constants, &state, next) {
-        let carriers = M::REPORT.carriers.iter();
-        let body = carriers
-            .enumerate()
-            .find(|(_, carrier)| carrier.joint == Some(joint));
-        if let Some((body, _)) = body {
+        if let Some(body) = moved_by::<M>(joint) {
             state = turned_over::<S, M>(constants, state, joint, body);
             if M::joint_side(constants, &state, joint) <= S::zero() {
                 let rotation = back::<S, M>(&state, from, body);
@@ -56,6 +53,17 @@ pub(super) fn righted<S: Real, M: Mechanism>(
         next = joint + 1;
     }
     state
+}
+
+/// The body that a joint carries; the last one of a joint that carries none.
+fn moved_by<M: Mechanism>(joint: usize) -> Option<usize> {
+    let mut carriers = M::REPORT.carriers.iter();
+    let carried = carriers.position(|carrier| carrier.joint == Some(joint));
+    let bodies = M::REPORT
+        .joints
+        .get(joint)
+        .map_or(&[][..], |info| info.bodies);
+    carried.or_else(|| bodies.iter().rev().copied().flatten().next())
 }
 
 /// The rotation (global) that lets a body stand against what carries it as in another state.
@@ -74,42 +82,46 @@ fn turned_over<S: Real, M: Mechanism>(
     joint: usize,
     body: usize,
 ) -> M::State<S> {
-    /// Turns, each of up to this angle (rad): more than half a turn about two axes.
-    const TURNS: usize = 40;
+    /// Turns, and the angle (rad) of the first ones.
+    const TURNS: usize = 60;
     const TURN: f64 = 0.25;
-    /// Near an upper end of it.
-    const RIGHT: f64 = 0.1;
+    /// A turn that is less leads to the top as well as none.
+    const LEAST: f64 = 1e-3;
     let side = |state: &M::State<S>| M::joint_side(constants, state, joint);
+    let by = |state: &M::State<S>, vector: &[S; 3]| {
+        let rotation = from_rotation_vector(vector);
+        turned::<S, M>(constants, state, (joint, body), &rotation)
+    };
     let trial = S::EPSILON.sqrt().sqrt();
+    let mut turn = S::constant(TURN);
     for _ in 0..TURNS {
         let now = side(&state);
-        if now > S::constant(RIGHT) {
-            break;
-        }
-        let unit = |k: usize, size: S| {
-            let mut vector = [S::zero(); 3];
-            write(&mut vector, k, [size]);
-            vector
-        };
         let along = |k: usize| {
             let [up, down] = [trial, -trial].map(|size| {
-                let rotation = from_rotation_vector(&unit(k, size));
-                side(&turned::<S, M>(constants, &state, (joint, body), &rotation))
+                let mut vector = [S::zero(); 3];
+                write(&mut vector, k, [size]);
+                side(&by(&state, &vector))
             });
             up - down
         };
-        let mut way = [along(0), along(1), along(2)];
-        let [x, y, z] = way;
-        let size = (x * x + y * y + z * z).sqrt();
-        if size > trial * trial {
-            way = way.map(|x| x.quotient(size) * S::constant(TURN));
-        } else {
-            // At its lowest a side has no gradient: any way may lead up.
-            let third = S::constant(TURN * 0.57);
-            way = [third, -third, third * S::constant(0.9)];
+        let gradient = [along(0), along(1), along(2)];
+        let size = norm(&gradient);
+        let is_flat = !(size > trial * trial);
+        if turn < S::constant(LEAST) || is_flat && now > S::zero() {
+            break;
         }
-        let rotation = from_rotation_vector(&way);
-        state = turned::<S, M>(constants, &state, (joint, body), &rotation);
+        let direction = if is_flat {
+            // At its lowest a side has no gradient: any way may lead up.
+            [0.6, -0.6, 0.5].map(S::constant)
+        } else {
+            gradient.map(|x| x.quotient(size))
+        };
+        let next = by(&state, &direction.map(|x| x * turn));
+        if is_flat || side(&next) > now {
+            state = next;
+        } else {
+            turn = turn * S::constant(0.5);
+        }
     }
     state
 }

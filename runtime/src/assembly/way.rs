@@ -118,6 +118,9 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
                     if is_free.is_none() {
                         is_free = Some(self.missed(&next, to) < S::constant(0.1) * motion);
                     }
+                    if is_free == Some(true) && self.is_lost(&next, to) {
+                        return Err(self.ends(share));
+                    }
                     self.state = next;
                     self.pass(to, &next, motion);
                     let faster = S::constant(0.7 * TURN) * (to - share);
@@ -154,6 +157,13 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         }
         let left = self.set.left(self.constants, state, share, self.length);
         reach::<S, M>(&left, S::one()).size
+    }
+
+    /// Whether a motion that was free has come to a limit.
+    fn is_lost(&self, state: &M::State<S>, share: S) -> bool {
+        /// What it may be behind (rad, or lengths of the mechanism): a tenth of a stride.
+        const BEHIND: f64 = 0.02;
+        self.set.is_clean() && self.missed(state, share) > S::constant(BEHIND)
     }
 
     fn holds(&self) -> bool {

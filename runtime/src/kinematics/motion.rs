@@ -1,6 +1,6 @@
 //! A driven motion that is followed in strides.
 
-use crate::apart::{apart, reach};
+use crate::apart::{apart, counted_apart, reach};
 use crate::array::{Array, StateParts};
 use crate::assembly::assembled;
 use crate::displace::advanced;
@@ -222,7 +222,8 @@ where
         let near = advanced::<S, M>(constants, &from.state, accelerations, step);
         let found = self.find(time, near)?;
         let turn = apart::<S, M>(&from.state, &found.state, self.length).size;
-        let off = apart::<S, M>(&near, &found.state, self.length);
+        let mut off = apart::<S, M>(&near, &found.state, self.length);
+        off.size = off.size.max(counted_apart::<S, M>(&near, &found.state));
         let mut change = *found.state.velocities();
         let places = change.as_mut_slice().iter_mut();
         for (change, &predicted) in places.zip(near.velocities().as_slice()) {

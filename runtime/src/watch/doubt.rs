@@ -12,6 +12,13 @@ use crate::readable::Measured;
 pub enum Doubt {
     /// The run was not watched.
     Unwatched,
+    /// A joint was on a side of its equations that is not meant: as after a start that was accepted as it is.
+    WrongSide {
+        /// The joint's field.
+        joint: &'static str,
+        /// When (s).
+        time: f64,
+    },
     /// A joint was open.
     Open {
         /// The joint's field.
@@ -146,6 +153,12 @@ impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Unwatched => write!(f, "nothing was watched: the run was told not to"),
+            Self::WrongSide { joint, time } => write!(
+                f,
+                "joint `{joint}` is upside down at {} s: its equations hold on a side that its definition excludes; start with `.assembled()`, or set its \
+                 bodies on the right side",
+                Measured(time)
+            ),
             Self::Open {
                 joint,
                 length,
@@ -312,7 +325,7 @@ fn amount(
 }
 
 /// The kinds of doubt that one run may raise.
-const KINDS: usize = 15;
+const KINDS: usize = 16;
 
 /// What is to be doubted of a run, the gravest first; empty where nothing is.
 ///

@@ -32,6 +32,7 @@ use self::pace::Pace;
 use self::rest::Rest;
 use self::singular::Approach;
 use crate::array::{Array, StateParts};
+use crate::assembly::wrong;
 use crate::handle::JointHandle;
 use crate::integrate::Integrator;
 use crate::mechanism::Mechanism;
@@ -54,6 +55,8 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     gradients: Gradients<S, M>,
     /// The end of the step of the smallest pivot.
     nearest: (S, M::State<S>),
+    /// A joint that was upside down at the end, and when.
+    wrong: Option<(usize, S)>,
     /// The index of the joint of the smallest pivot, which is found at the end of a run.
     joint: usize,
     balance: Balance<S>,
@@ -264,6 +267,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             gradients: Gradients::none(),
             nearest: (time, *state),
             joint: 0,
+            wrong: None,
             balance: Balance::new(kinetic, M::potential_energy(constants, time, state)),
             rest: Rest::unknown(),
             before: None,
@@ -444,6 +448,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// Takes the joint of the smallest pivot.
     pub(crate) fn name(&mut self, joint: usize) {
         self.joint = joint;
+    }
+
+    /// Looks at the end of a run, on which side of its equations every joint is: none gets to another one without being wide open on the way.
+    pub(crate) fn end(&mut self, constants: &M::Constants<S>, time: S, state: &M::State<S>) {
+        let wrong = wrong::<S, M>(constants, state, 0);
+        self.wrong = wrong.map(|joint| (joint, time));
     }
 
     /// Steps that were looked at.

@@ -12,6 +12,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     #[must_use]
     pub(crate) fn doubts(&self) -> Doubts {
         Doubts::new([
+            self.wrong_side(),
             self.energy(),
             self.open(),
             self.slipping(),
@@ -28,6 +29,14 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.coarse_steps(),
             self.long_steps(),
         ])
+    }
+
+    fn wrong_side(&self) -> Option<Doubt> {
+        let (joint, time) = self.wrong?;
+        Some(Doubt::WrongSide {
+            joint: M::REPORT.joints.get(joint)?.name,
+            time: time.to_f64(),
+        })
     }
 
     fn energy(&self) -> Option<Doubt> {

@@ -1,0 +1,123 @@
+//! A kinematic analysis stays on its branch however far apart its reports are.
+
+use holonom::Doubt;
+use holonom::joints::{AngleDriver, Cylindrical, Revolute, Spherical};
+use holonom::prelude::*;
+
+use super::linkages::{CRANK_ROCKER, DrivenFourBar, Lengths, Random};
+
+/// The analysis over 36 rad of the crank; strides, and reports that are off.
+fn analysed<F: Formulation<f64>>(
+    lengths: Lengths,
+    formulation: F,
+    every_so: f64,
+) -> (usize, usize) {
+    let mechanism = lengths.driven();
+    let handles = DrivenFourBar::HANDLES;
+    let mut wrong = 0;
+    let report = KinematicAnalysis::new(&mechanism, formulation)
+        .run(0.0..=36.0, every(every_so), |sample| {
+            let off = lengths.error(sample.time(), sample.angle(handles.d));
+            wrong += usize::from(off > 1e-8);
+            ControlFlow::Continue(())
+        })
+        .unwrap_or_else(|error| panic!("{lengths:?}: {error}"));
+    assert!(
+        report.doubts().is_empty(),
+        "{lengths:?}: {}",
+        report.doubts()
+    );
+    (report.strides, wrong)
+}
+
+#[test]
+fn reports_of_a_crank_rocker_are_right_however_far_apart_they_are() {
+    for every_so in [0.5, 2.0, 5.0, 6.0, 6.28, 7.0, 12.0] {
+        let (strides, wrong) = analysed(CRANK_ROCKER, StandardLagrange, every_so);
+        assert_eq!(wrong, 0, "every {every_so} rad");
+        // Strides of up to 0.2 rad, of the coupler or the rocker too.
+        assert!((180..500).contains(&strides), "{strides}");
+    }
+    let (_, wrong) = analysed(CRANK_ROCKER, AugmentedLagrangian::default(), 7.0);
+    assert_eq!(wrong, 0);
+}
+
+#[test]
+fn random_crank_rockers_stay_on_their_branch() {
+    let mut random = Random(2);
+    for _ in 0..25 {
+        let (_, wrong) = analysed(random.crank_rocker(), StandardLagrange, 12.0);
+        assert_eq!(wrong, 0);
+    }
+}
+
+/// A parallelogram from its quarter turn on: at every half turn it is flat.
+#[derive(Mechanism)]
+struct Parallelogram {
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.0, 0.2, 0.0])]
+    crank: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.5, 0.4, 0.0])]
+    coupler: Body,
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [1.0, 0.2, 0.0])]
+    rocker: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [crank, coupler], point = [0.0, 0.4, 0.0], axis = [0.0, 0.0, 1.0])]
+    b: Revolute,
+    #[joint(between = [coupler, rocker], point = [1.0, 0.4, 0.0])]
+    c: Spherical,
+    #[joint(between = [ground, rocker], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    d: Cylindrical,
+    #[joint(between = [ground, crank], axis = [0.0, 0.0, 1.0], motion = time)]
+    motor: AngleDriver,
+}
+
+#[test]
+fn a_branch_point_is_passed_straight_on_and_said() {
+    let mechanism = Parallelogram::default();
+    let handles = Parallelogram::HANDLES;
+    for (end, is_passed) in [(1.3, false), (12.0, true)] {
+        let report = KinematicAnalysis::new(&mechanism, StandardLagrange)
+            .run(0.0_f64..=end, every(5.0), |sample| {
+                let coupler = sample.pose(handles.coupler).position;
+                let (sine, cosine) = sample.time().sin_cos();
+                assert!((coupler.x - (0.5 - 0.4 * sine)).abs() < 1e-8, "{coupler}");
+                assert!((coupler.y - 0.4 * cosine).abs() < 1e-8, "{coupler}");
+                ControlFlow::Continue(())
+            })
+            .expect("a way");
+        let mut told = report.doubts().into_iter();
+        let is_told = told.any(|doubt| matches!(doubt, Doubt::BranchPoint { .. }));
+        assert_eq!(is_told, is_passed, "{}", report.doubts());
+        assert_eq!(report.doubts().is_empty(), !is_passed);
+    }
+}
+
+/// A crank that is turned by a whole turn between two reports, from rest to rest.
+#[derive(Mechanism)]
+struct Pulse {
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.2, 0.0, 0.0])]
+    crank: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [ground, crank], axis = [0.0, 0.0, 1.0], motion = TAU * smooth_step(time - 1.0))]
+    motor: AngleDriver,
+}
+
+#[test]
+fn a_turn_between_two_reports_is_followed() {
+    let mechanism = Pulse::default();
+    let handles = Pulse::HANDLES;
+    let report = KinematicAnalysis::new(&mechanism, StandardLagrange)
+        .run(0.0..=3.0, every(3.0), |sample| {
+            let turned = if sample.time() > 2.0 {
+                std::f64::consts::TAU
+            } else {
+                0.0
+            };
+            assert!((sample.angle(handles.motor) - turned).abs() < 1e-9);
+            ControlFlow::Continue(())
+        })
+        .expect("a way");
+    assert!(report.strides > 30 && report.shortened > 0, "{report:?}");
+}

@@ -1,0 +1,198 @@
+//! What is set by `set_angle` is kept by `assemble`, on the branch of the description.
+
+use holonom::joints::{Cylindrical, Revolute, Spherical};
+use holonom::{Correction, View};
+
+use holonom::prelude::*;
+
+use super::linkages::{CRANK_ROCKER, DrivenFourBar, FourBar, Lengths, Random, wrapped};
+
+/// Assembles a four-bar from its description with the crank at an angle; what crank and rocker are off by.
+fn assembled(lengths: Lengths, angle: f64) -> (f64, f64, Correction<f64>) {
+    let mechanism = lengths.four_bar();
+    let handles = FourBar::HANDLES;
+    let constants = mechanism.constants().expect("lengths");
+    let mut state = mechanism.described_state::<f64>().expect("lengths");
+    mechanism
+        .set_angle(&mut state, handles.a, angle)
+        .expect("it carries the crank");
+    let correction = mechanism
+        .assemble(0.0, &mut state)
+        .unwrap_or_else(|fault| panic!("{lengths:?} at {angle}: {fault}"));
+    let view = View::new(&constants, 0.0, &state);
+    let crank = wrapped(view.angle(handles.a) - angle).abs();
+    (
+        crank,
+        lengths.error(angle, view.angle(handles.d)),
+        correction,
+    )
+}
+
+#[test]
+fn every_angle_of_a_crank_is_assembled_on_its_own_branch() {
+    for degrees in (0..360).step_by(5) {
+        let angle = f64::from(degrees).to_radians();
+        let (crank, rocker, correction) = assembled(CRANK_ROCKER, angle);
+        assert!(crank < 1e-9, "{degrees}: the crank is off by {crank}");
+        assert!(rocker < 1e-9, "{degrees}: the rocker is off by {rocker}");
+        let moved = correction.moved.expect("of an assembly");
+        assert_eq!(moved.passed, None);
+        assert!(correction.violation_after < 1e-24);
+        assert_eq!(moved.strides > 0, degrees > 0);
+    }
+}
+
+#[test]
+fn an_assembly_says_what_it_moved_most() {
+    let (_, _, correction) = assembled(CRANK_ROCKER, 2.0);
+    let moved = correction.moved.expect("of an assembly");
+    // The coupler hung on the crank and was turned with it.
+    assert_eq!((moved.body, moved.joint), ("coupler", Some("b")));
+    assert!(moved.angle > 1.0, "{moved:?}");
+}
+
+#[test]
+fn random_crank_rockers_are_assembled_on_their_own_branch() {
+    let mut random = Random(1);
+    for _ in 0..60 {
+        let lengths = random.crank_rocker();
+        for _ in 0..3 {
+            let angle = random.within(-12.0, 12.0);
+            let (crank, rocker, _) = assembled(lengths, angle);
+            assert!(crank < 1e-7 && rocker < 1e-7, "{lengths:?} at {angle}");
+        }
+    }
+}
+
+#[test]
+fn a_driver_leads_the_way_whether_its_angle_is_set_or_not() {
+    let mechanism = CRANK_ROCKER.driven();
+    let handles = DrivenFourBar::HANDLES;
+    let constants = mechanism.constants().expect("lengths");
+    for degrees in (0..360).step_by(5) {
+        for is_set in [false, true] {
+            let time = f64::from(degrees).to_radians();
+            let mut state = mechanism.described_state::<f64>().expect("lengths");
+            if is_set {
+                mechanism
+                    .set_angle(&mut state, handles.a, time)
+                    .expect("it carries the crank");
+            }
+            mechanism.assemble(time, &mut state).expect("a way");
+            let view = View::new(&constants, time, &state);
+            let off = CRANK_ROCKER.error(time, view.angle(handles.d));
+            assert!(off < 1e-9, "{degrees}, {is_set}: {off}");
+            assert!((view.angle(handles.motor) - time).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_rocker_beyond_its_limit_is_refused_by_name() {
+    let mechanism = CRANK_ROCKER.four_bar();
+    let handles = FourBar::HANDLES;
+    let described = mechanism.described_state::<f64>().expect("lengths");
+    let mut state = described;
+    mechanism
+        .set_angle(&mut state, handles.d, 2.5)
+        .expect("it carries the rocker");
+    let given = state;
+    let fault = mechanism
+        .assemble(0.0, &mut state)
+        .expect_err("no such configuration");
+    let Fault::WayEnds { joint, share } = fault else {
+        panic!("{fault}");
+    };
+    assert_eq!(joint, Some("d"), "{fault}");
+    assert!(share > 0.1 && share < 0.9, "{fault}");
+    assert!(fault.to_string().contains("joint `d`"), "{fault}");
+    assert_eq!(state, given);
+    // Within its limits it is kept.
+    let mut state = described;
+    mechanism
+        .set_angle(&mut state, handles.d, 0.3)
+        .expect("it carries the rocker");
+    mechanism.assemble(0.0, &mut state).expect("a way");
+    let constants = mechanism.constants().expect("lengths");
+    let view = View::new(&constants, 0.0, &state);
+    assert!((view.angle(handles.d) - 0.3).abs() < 1e-9);
+    let off = CRANK_ROCKER.error(view.angle(handles.a), view.angle(handles.d));
+    assert!(off < 1e-9, "{off}");
+}
+
+#[test]
+fn a_state_to_start_from_says_which_branch() {
+    let mechanism = CRANK_ROCKER.four_bar();
+    let handles = FourBar::HANDLES;
+    let constants = mechanism.constants().expect("lengths");
+    let mirrored = Lengths {
+        sign: -1.0,
+        ..CRANK_ROCKER
+    };
+    // The other branch: the mirror image of the description, both pins turned over.
+    let mut other = mechanism.described_state::<f64>().expect("lengths");
+    let turn = mirrored.rocker(0.0) - CRANK_ROCKER.rocker(0.0);
+    mechanism
+        .set_angle(&mut other, handles.d, turn)
+        .expect("it carries the rocker");
+    let [_, _, rocker, base] = CRANK_ROCKER.links;
+    let direction = |lengths: Lengths| {
+        let (sine, cosine) = lengths.rocker(0.0).sin_cos();
+        let x = base + rocker * cosine - CRANK_ROCKER.links[0];
+        (rocker * sine).atan2(x)
+    };
+    let coupler = direction(mirrored) - direction(CRANK_ROCKER);
+    mechanism
+        .set_angle(&mut other, handles.b, coupler)
+        .expect("it carries the coupler");
+    mechanism.assemble(0.0, &mut other).expect("it is closed");
+    let mut state = other;
+    mechanism
+        .set_angle(&mut state, handles.a, 2.0)
+        .expect("it carries the crank");
+    mechanism
+        .assemble_from(0.0, &mut state, &other)
+        .expect("a way");
+    let view = View::new(&constants, 0.0, &state);
+    assert!((view.angle(handles.a) - 2.0).abs() < 1e-9);
+    let off = wrapped(view.angle(handles.d) - (mirrored.rocker(2.0) - CRANK_ROCKER.rocker(0.0)));
+    assert!(off.abs() < 1e-9, "{off}");
+}
+
+/// Crank and rocker of one length, coupler and ground too: flat at half a turn, where a second branch begins.
+#[derive(Mechanism)]
+struct Parallelogram {
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.0, 0.2, 0.0])]
+    crank: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.5, 0.4, 0.0])]
+    coupler: Body,
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [1.0, 0.2, 0.0])]
+    rocker: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [crank, coupler], point = [0.0, 0.4, 0.0], axis = [0.0, 0.0, 1.0])]
+    b: Revolute,
+    #[joint(between = [coupler, rocker], point = [1.0, 0.4, 0.0])]
+    c: Spherical,
+    #[joint(between = [ground, rocker], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    d: Cylindrical,
+}
+
+#[test]
+fn a_branch_point_on_the_way_is_said_by_its_joint() {
+    let mechanism = Parallelogram::default();
+    let handles = Parallelogram::HANDLES;
+    let constants = mechanism.constants().expect("literals");
+    // From a quarter of a turn: the links are in line at 90 degrees more.
+    for (angle, is_passed) in [(1.2, false), (2.3, true), (-1.2, false), (-2.0, true)] {
+        let mut state = mechanism.described_state::<f64>().expect("literals");
+        mechanism
+            .set_angle(&mut state, handles.a, angle)
+            .expect("it carries the crank");
+        let correction = mechanism.assemble(0.0, &mut state).expect("a way");
+        let view = View::new(&constants, 0.0, &state);
+        assert!((view.angle(handles.d) - angle).abs() < 1e-9, "{angle}");
+        let passed = correction.moved.expect("of an assembly").passed;
+        assert_eq!(passed.is_some(), is_passed, "{angle}: {passed:?}");
+    }
+}
