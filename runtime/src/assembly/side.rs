@@ -34,23 +34,30 @@ pub(crate) fn wrong<S: Real, M: Mechanism>(
     (from..M::REPORT.joints.len()).find(is_wrong)
 }
 
-/// The state with what joints carry turned over, where these are on a side that is not meant; as in another state, where no turn about an axis leads over.
+/// The state with what joints carry turned over, where these are not well on the side that is meant; as in another state, where no turn about an axis leads over.
 pub(super) fn righted<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     state: &M::State<S>,
     from: &M::State<S>,
 ) -> M::State<S> {
+    /// From here on a correction may lead to the other side.
+    const DOUBTFUL: f64 = 0.5;
     let mut state = *state;
-    let mut next = 0;
-    while let Some(joint) = wrong::<S, M>(constants, &state, next) {
-        if let Some(body) = moved_by::<M>(joint) {
-            state = turned_over::<S, M>(constants, state, joint, body);
-            if M::joint_side(constants, &state, joint) <= S::zero() {
-                let rotation = back::<S, M>(&state, from, body);
-                state = turned::<S, M>(constants, &state, (joint, body), &rotation);
-            }
+    for joint in 0..M::REPORT.joints.len() {
+        let side = |state: &M::State<S>| M::joint_side(constants, state, joint);
+        let wanted = (S::constant(DOUBTFUL) * side(from)).max(S::zero());
+        if side(&state) > wanted {
+            continue;
         }
-        next = joint + 1;
+        let Some(body) = moved_by::<M>(joint) else {
+            continue;
+        };
+        state = turned_over::<S, M>(constants, state, joint, body);
+        // Where several vectors are wrong at once, that may end on a ridge.
+        if side(&state) <= wanted {
+            let rotation = back::<S, M>(&state, from, body);
+            state = turned::<S, M>(constants, &state, (joint, body), &rotation);
+        }
     }
     state
 }
