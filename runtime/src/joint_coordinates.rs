@@ -156,6 +156,9 @@ pub trait JointParts<S: Scalar>: Vector<S> + Copy + Debug + PartialEq {
     /// Nothing turned, nothing moved; of a slope, nothing that moves.
     fn zeros() -> Self;
 
+    /// Cosine and sine of every turn; of a slope, the rate of the angle first.
+    fn pairs_slice(&self) -> &[[S; 2]];
+
     /// The further coordinates.
     fn rest_slice(&self) -> &[S];
 
@@ -179,6 +182,11 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Joint
             [S::zero(); REST],
             [S::zero(); RATES],
         )
+    }
+
+    #[inline(always)]
+    fn pairs_slice(&self) -> &[[S; 2]] {
+        self.pairs()
     }
 
     #[inline(always)]
@@ -215,6 +223,8 @@ pub struct JointReport {
     pub kernels: &'static [Kernel],
     /// The places of Euler parameters among the further coordinates.
     pub euler_parameters: &'static [usize],
+    /// What the auxiliary variables count, one after the other.
+    pub counters: &'static [JointCounter],
     /// How many of the further coordinates are auxiliary variables; they are the last.
     pub auxiliaries: usize,
     /// Whether some of these count angles that are no sums of the turns of joints, so that they are put right after every step.
@@ -224,7 +234,7 @@ pub struct JointReport {
 }
 
 /// One motion of a joint that carries a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointMotion {
     /// The joint; empty for a body that no joint carries, which moves freely.
     pub joint: &'static str,
@@ -232,13 +242,30 @@ pub struct JointMotion {
     pub body: &'static str,
     /// What it is.
     pub freedom: Freedom,
+    /// The place of its first coordinate: of a turn among [`pairs`](JointState::pairs), of others among [`rest`](JointState::rest).
+    pub coordinate: usize,
+    /// The place of its first velocity among [`rates`](JointState::rates).
+    pub velocity: usize,
+    /// The motion whose angle and rate are to be taken off, because both are measured against what carries a run of parallel axes: those of this motion are sums along the run.
+    pub against: Option<usize>,
+    /// The angle (rad) in the reference configuration, where that of the joint is zero. Zero of a slide and of a ball.
+    pub zero: f64,
+}
+
+/// An auxiliary variable of a state: an angle that counts turns (rad).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointCounter {
+    /// The field of the joint or force that counts it.
+    pub element: &'static str,
+    /// Its place among [`rest`](JointState::rest).
+    pub coordinate: usize,
 }
 
 /// What a motion is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
-    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may be measured against what carries the run;
-    /// and the angle need not be zero in the reference configuration.
+    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may be measured against what carries the run
+    /// ([`JointMotion::against`]); and the angle need not be zero in the reference configuration ([`JointMotion::zero`]).
     Turn {
         /// Whether it counts against the joint's own angle.
         is_reversed: bool,

@@ -54,6 +54,7 @@ mod handle;
 mod integrate;
 mod joint_coordinates;
 mod joint_dynamics;
+mod joint_report;
 mod joint_state;
 mod joint_stepper;
 mod kinematics;
@@ -215,7 +216,7 @@ pub use integrate::{
     StepLimits, Stride, System, Tolerance,
 };
 pub use joint_coordinates::{
-    Freedom, JointCoordinates, JointEvaluation, JointMotion, JointParts, JointReport,
+    Freedom, JointCoordinates, JointCounter, JointEvaluation, JointMotion, JointParts, JointReport,
 };
 pub use joint_dynamics::JointDynamics;
 pub use joint_state::JointState;

@@ -259,6 +259,8 @@ where
         /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5 up to about this over `a`, and grows for some time
         /// from somewhat less on.
         const STABLE: f64 = 2.0;
+        /// Radians in a step that no motion has.
+        const BEYOND: f64 = 1e6;
         let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
         if not_finite
             && let (Some(step), Some(rate)) = (
@@ -272,11 +274,14 @@ where
                 rate: rate.to_f64(),
             };
         }
-        // A step in which something turns by radians, or moves by lengths of the mechanism, is too long whatever came of it.
+        // A step in which something turns by radians, or moves by lengths of the mechanism, is too long whatever came of it: pivots of such numbers may vanish, too.
+        let turned = match fault {
+            Fault::Singular { .. } => Some(BEYOND),
+            _ => not_finite.then_some(1.0),
+        };
         let (constants, state) = (self.moving.dynamics().constants(), &last_good.1);
-        if not_finite
-            && let Some(step) = integrator.fixed_step()
-            && step * fastest::<S, M>(constants, state) > S::one()
+        if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())
+            && step * fastest::<S, M>(constants, state) > S::constant(turned)
         {
             return Fault::Unstable {
                 step: step.to_f64(),

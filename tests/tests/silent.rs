@@ -4,5 +4,7 @@
 mod closures;
 #[path = "silent/moments.rs"]
 mod moments;
+#[path = "silent/report.rs"]
+mod report;
 #[path = "silent/springs.rs"]
 mod springs;

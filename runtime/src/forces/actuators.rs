@@ -13,7 +13,8 @@ crate::force! {
 crate::force! {
     /// An actuator about an axis: `moment` (N m) acts on `j`, and the opposite on `i`, right-handed about `axis`. It is an
     /// expression of `angle` (rad, of `j` against `i`, zero in the reference configuration), `rate` (rad/s) and `time` (s), as in
-    /// `moment = 0.5 * sin(10.0 * time) - 0.1 * rate`. Turns are counted by an auxiliary variable of the state.
+    /// `moment = 0.5 * sin(10.0 * time) - 0.1 * rate`. Turns are counted by an auxiliary variable of the state
+    /// where the law reads the angle.
     pub force TorsionalActuator(i, j; axis: Axis, moment: Law(angle, rate)) {
         let a = angle(i, j, axis);
         moment(a, rate(a)) along a;

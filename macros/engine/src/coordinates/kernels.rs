@@ -51,6 +51,14 @@ pub struct Described {
     pub body: usize,
     /// What it moves by.
     pub meaning: Meaning,
+    /// The place of its first coordinate: among the pairs of a turn, among the further coordinates otherwise.
+    pub coordinate: usize,
+    /// Its first velocity.
+    pub velocity: usize,
+    /// The link whose angle is to be taken off: both are measured against what carries the run.
+    pub against: Option<usize>,
+    /// The angle in the reference configuration (rad).
+    pub zero: f64,
 }
 
 /// Everything that is generated for a mechanism in joint coordinates.
@@ -140,6 +148,13 @@ impl JointKernels {
                 .map(|link| Described {
                     joint: link.joint,
                     body: link.body,
+                    coordinate: match link.freedom {
+                        Freedom::Turn { pair, .. } => pair,
+                        Freedom::Slide { rest, .. } | Freedom::Ball { rest } => rest,
+                    },
+                    velocity: link.velocity,
+                    against: links.measured_with(link),
+                    zero: links.zero(&reduced.scene.space.arena, link),
                     meaning: match link.freedom {
                         Freedom::Turn { is_reversed, .. } => Meaning::Turn(is_reversed),
                         Freedom::Slide { .. } => Meaning::Slide,

@@ -461,6 +461,25 @@ impl Links {
         }
     }
 
+    /// The carrier of a turn, where the angles of both are measured against what carries a run of parallel axes.
+    pub(super) fn measured_with(&self, link: &Link) -> Option<usize> {
+        let carrier = link.carrier?;
+        let [own, other] = [link, &self.links[carrier]].map(|link| match link.freedom {
+            Freedom::Turn { .. } => Some(self.frames.base(link.frame)),
+            _ => None,
+        });
+        (own.is_some() && own == other).then_some(carrier)
+    }
+
+    /// The angle of a turn in the reference configuration (rad); zero of other motions.
+    pub(super) fn zero(&self, arena: &Arena, link: &Link) -> f64 {
+        let Freedom::Turn { pair, .. } = link.freedom else {
+            return 0.0;
+        };
+        let [c, s] = self.angles[pair].map(|part| arena.literal(part));
+        s.zip(c).map_or(0.0, |(s, c)| s.atan2(c))
+    }
+
     /// The links from the leaves to the ground.
     pub fn leaves_first(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.links.len()).rev()

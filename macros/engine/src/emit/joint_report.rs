@@ -11,12 +11,20 @@ use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
 use crate::symbolic::scene::Normalisation;
 
+/// An index that may not be.
+fn option(index: Option<usize>) -> TokenStream {
+    match index {
+        Some(index) => quote!(::core::option::Option::Some(#index)),
+        None => quote!(::core::option::Option::None),
+    }
+}
+
 impl Writer<'_> {
     /// The coordinates, what remains of the joints, and what an evaluation costs.
     pub(super) fn documentation(&self) -> TokenStream {
         let (model, kernels) = (self.model, self.kernels);
         let joint = |joint: usize| model.joints[joint].name.to_string();
-        let mut text = String::from("| body | joint | moves by |\n|---|---|---|\n");
+        let mut text = String::from("| body | joint | moves by | measured |\n|---|---|---|---|\n");
         for link in &kernels.links {
             let by = link
                 .joint
@@ -27,7 +35,11 @@ impl Writer<'_> {
                 Meaning::Ball => "every rotation",
             };
             let body = &model.bodies[link.body].name;
-            text += &format!("| `{body}` | {by} | {motion} |\n");
+            let measured = match link.against.map(|place| kernels.links[place].joint) {
+                Some(Some(place)) => format!("with `{}`", joint(place)),
+                _ => String::from("by itself"),
+            };
+            text += &format!("| `{body}` | {by} | {motion} | {measured} |\n");
         }
         let mut closing: Vec<String> = kernels.rows.iter().map(|&row| joint(row)).collect();
         closing.dedup();
@@ -78,14 +90,23 @@ impl Writer<'_> {
                 Meaning::Slide => quote!(Slide),
                 Meaning::Ball => quote!(Ball),
             };
+            let (coordinate, velocity, zero) = (link.coordinate, link.velocity, link.zero);
+            let against = option(link.against);
             quote! {
-                #facade::JointMotion { joint: #joint, body: #body, freedom: #facade::Freedom::#motion }
+                #facade::JointMotion {
+                    joint: #joint, body: #body, freedom: #facade::Freedom::#motion, coordinate: #coordinate, velocity: #velocity,
+                    against: #against, zero: #zero,
+                }
             }
         });
         let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
-        let rows = kernels.rows_of_bodies.iter().map(|row| match row {
-            Some(row) => quote!(::core::option::Option::Some(#row)),
-            None => quote!(::core::option::Option::None),
+        let rows = kernels.rows_of_bodies.iter().map(|&row| option(row));
+        let first = kernels.rest - kernels.auxiliaries;
+        let elements: Vec<_> = self.model.elements().collect();
+        let counters = self.model.counters().into_iter().enumerate();
+        let counters = counters.map(|(place, counter)| {
+            let (place, element) = (first + place, elements[counter.element].name.to_string());
+            quote!(#facade::JointCounter { element: #element, coordinate: #place })
         });
         let counts = self.counts().into_iter();
         let counts = counts.map(|(name, count)| kernel(&name, count, facade));
@@ -99,6 +120,7 @@ impl Writer<'_> {
                 rows: &[#(#rows),*],
                 kernels: &[#(#counts),*],
                 euler_parameters: &[#(#balls),*],
+                counters: &[#(#counters),*],
                 auxiliaries: #auxiliaries,
                 recounts: #recounts,
                 determines: #determines,

@@ -256,8 +256,8 @@ impl Model {
         let elements = self.elements().enumerate();
         elements
             .flat_map(|(element, joint)| {
-                let turns = self.definition(joint).turns.iter();
-                turns.map(move |&turn| Counter { element, turn })
+                let turns = self.counted(joint).into_iter();
+                turns.map(move |turn| Counter { element, turn })
             })
             .collect()
     }

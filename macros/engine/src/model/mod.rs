@@ -1,6 +1,7 @@
 //! What a description means: bodies, joints and numbers, names bound, shapes known, independent of how it was written.
 
 pub mod comparison;
+mod counted;
 pub mod inertia;
 pub mod joint;
 pub mod mechanism;

@@ -228,7 +228,7 @@ impl Binder<'_> {
             paired,
             sine: dot(1),
             cosine: dot(0),
-            // An angle that stands within `initial` alone has none: it is zero there.
+            // An angle that stands within `initial` alone has none: it is zero there. Nor has one whose value nobody reads.
             near: self
                 .counter(turn)
                 .map_or(Arena::ZERO, |place| arena.input(Input::Coordinate(place))),
@@ -237,7 +237,7 @@ impl Binder<'_> {
 
     /// The place of the auxiliary variable of an angle in the state.
     fn counter(&self, turn: Turn) -> Option<u32> {
-        let turns = &self.model.definition(self.element).turns;
+        let turns = self.model.counted(self.element);
         let place = turns.iter().position(|known| *known == turn)?;
         let place = u32::try_from(self.first_counter + place);
         Some(place.expect("fewer than 2^32 coordinates"))

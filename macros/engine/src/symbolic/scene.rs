@@ -294,7 +294,7 @@ impl Scene {
                     effects.push(actions.map(|action| binder.effect(arena, action)).collect());
                 }
             }
-            for &turn in &definition.turns {
+            for turn in model.counted(element) {
                 let axis = Term::Fixed {
                     body: turn.from,
                     parameter: turn.axis,
