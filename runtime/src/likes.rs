@@ -1,8 +1,11 @@
-//! Whether what was decided where parameters are what they are said to be like holds for other values.
+//! Whether what was decided where parameters are what they are said to be like holds for other
+//! values.
 //!
-//! The macro finds the rank, and the equations that follow from others, with every parameter as it is said to be like. Elsewhere the mechanism is put together and
-//! looked at: its equations must be independent at the start, and each equation that was left out must hold where the others hold, with a gradient that is made of
-//! theirs, at the start and where motions lead to that the others leave free.
+//! The macro finds the rank, and the equations that follow from others, with every parameter as it
+//! is said to be like. Elsewhere the mechanism is put together and looked at: its equations must be
+//! independent at the start, and each equation that was left out must hold where the others hold,
+//! with a gradient that is made of theirs, at the start and where motions lead to that the others
+//! leave free.
 
 use crate::array::{Array, StateParts};
 use crate::displace::displaced;
@@ -11,7 +14,7 @@ use crate::error::{Fault, ParameterError, ParameterFault};
 use crate::extent::{extent, norm};
 use crate::mechanism::{Mechanism, Plain, Stabilisation};
 use crate::project::Projection;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// What a parameter is said to be like, for generated code.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +27,8 @@ pub struct Like {
     pub value: f64,
 }
 
-/// What is left of a gradient beside those that it follows from, over its length, and a violation over the size of its row, that count as none: as at expansion.
+/// What is left of a gradient beside those that it follows from, over its length, and a violation
+/// over the size of its row, that count as none: as at expansion.
 const FOLLOWS: f64 = 1e-7;
 /// Configurations that motions lead to, besides the start.
 const MOTIONS: usize = 3;
@@ -37,7 +41,8 @@ const LEAST_STEP: f64 = 1.0 / 256.0;
 /// Times (s) at which a mechanism with drivers is looked at.
 const TIMES: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
 
-/// [`Mechanism::check_likes`]: checks given values, unless they are those that were accepted before.
+/// [`Mechanism::check_likes`]: checks given values, unless they are those that were accepted
+/// before.
 ///
 /// # Errors
 /// A parameter with which something does not hold.
@@ -65,7 +70,8 @@ where
     })
 }
 
-/// The first parameter that would mend it if it were what it is like, else the one that is farthest from that.
+/// The first parameter that would mend it if it were what it is like, else the one that is farthest
+/// from that.
 #[cold]
 fn blamed<M, const N: usize>(given: &[f64; N], likes: &[Like]) -> &'static str
 where
@@ -125,7 +131,8 @@ where
     Ok(())
 }
 
-/// The described state on the constraints: from there, or where that leads nowhere, from what parameters are like.
+/// The described state on the constraints: from there, or where that leads nowhere, from what
+/// parameters are like.
 fn assembled<M, const N: usize>(
     constants: &M::Constants<f64>,
     given: &[f64; N],
@@ -260,7 +267,8 @@ impl<'a, M: Mechanism> Look<'a, M> {
         Ok(())
     }
 
-    /// What is left of a gradient beside those of the equations, over what it is, in the metric of the mass; nothing where these depend on each other.
+    /// What is left of a gradient beside those of the equations, over what it is, in the metric of
+    /// the mass; nothing where these depend on each other.
     fn share_beside(&self, gradient: &M::Velocities<f64>) -> f64 {
         if self.singular.is_some() {
             return 0.0;
@@ -274,7 +282,7 @@ impl<'a, M: Mechanism> Look<'a, M> {
             whole += gradient * gradient / mass;
         }
         if whole > 0.0 {
-            (left / whole).sqrt()
+            Scalar::sqrt(left / whole)
         } else {
             0.0
         }
@@ -287,7 +295,8 @@ impl<'a, M: Mechanism> Look<'a, M> {
         M::solve::<f64, Plain>(constants, coefficients, &self.factors, forces, &still).0
     }
 
-    /// Goes on along a random motion that the equations leave free; `false` where there is none, or none that leads back onto them.
+    /// Goes on along a random motion that the equations leave free; `false` where there is none, or
+    /// none that leads back onto them.
     fn goes_on(&mut self) -> bool {
         let length = extent::<f64, M>(self.constants, &self.state);
         let mut motion = M::mass(self.constants);

@@ -1,4 +1,5 @@
-//! What is asked at run time of what was decided where parameters are what they are said to be like.
+//! What is asked at run time of what was decided where parameters are what they are said to be
+//! like.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -11,7 +12,8 @@ use crate::symbolic::left_out::left_out;
 use crate::syntax::words::local;
 
 impl Writer<'_> {
-    /// The check of given parameters, and the equations that were left out; nothing where all was decided by what is written.
+    /// The check of given parameters, and the equations that were left out; nothing where all was
+    /// decided by what is written.
     pub(super) fn likes(&mut self) -> TokenStream {
         let (model, facade) = (self.model, self.facade);
         if model.independence.likes.is_empty() {

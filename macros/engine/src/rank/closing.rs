@@ -61,8 +61,12 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     )
 }
 
-/// Times and coordinates of the bodies along a motion that the constraints leave free, from the reference configuration on; none where nothing can be told.
+/// Times and coordinates of the bodies along a motion that the constraints leave free, from the reference configuration on; none where nothing can be told. What
+/// parameters are like says nothing of where a mechanism with others gets to.
 pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
+    if !model.independence.likes.is_empty() {
+        return Vec::new();
+    }
     if !model.independence.tour.is_empty() {
         return model.independence.tour.clone();
     }

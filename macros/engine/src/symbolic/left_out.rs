@@ -6,7 +6,8 @@ use super::scene::Scene;
 use super::vector::Frame;
 use crate::model::{BodyKind, Model};
 
-/// Value and gradient of every equation that was left out, one after the other, joint by joint. Gradients go over all velocities.
+/// Value and gradient of every equation that was left out, one after the other, joint by joint.
+/// Gradients go over all velocities.
 #[must_use]
 pub fn left_out(model: &Model) -> Kernel {
     let mut others = model.clone();
