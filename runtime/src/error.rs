@@ -29,12 +29,14 @@ pub enum ParameterFault {
         /// The joint that stays open most.
         joint: &'static str,
     },
-    /// With this parameter equations depend on each other at the start, and do not where parameters are what they are said to be like.
+    /// With this parameter equations depend on each other at the start. They do not at the typical
+    /// values of parameters (`like`).
     Dependent {
         /// The joint whose pivot vanishes.
         joint: &'static str,
     },
-    /// With this parameter an equation follows from no others, and was left out because it does where parameters are what they are said to be like.
+    /// With this parameter an equation that was left out does not follow from the others. It does at
+    /// the typical values of parameters (`like`).
     Independent {
         /// The joint that it belongs to.
         joint: &'static str,

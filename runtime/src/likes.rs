@@ -1,11 +1,9 @@
-//! Whether what was decided where parameters are what they are said to be like holds for other
-//! values.
+//! Whether what was decided at the typical values of parameters holds for other values.
 //!
-//! The macro finds the rank, and the equations that follow from others, with every parameter as it
-//! is said to be like. Elsewhere the mechanism is put together and looked at: its equations must be
-//! independent at the start, and each equation that was left out must hold where the others hold,
-//! with a gradient that is made of theirs, at the start and where motions lead to that the others
-//! leave free.
+//! The macro finds the rank and the redundant equations at the typical values. Here the mechanism is
+//! assembled with the given ones. Its equations must be independent at the start. Each equation that
+//! was left out must hold, and its gradient must be a combination of those of the others: at the
+//! start, and at configurations that motions within the constraints lead to.
 
 use crate::array::{Array, StateParts};
 use crate::displace::displaced;
@@ -16,14 +14,14 @@ use crate::mechanism::{Mechanism, Plain, Stabilisation};
 use crate::project::Projection;
 use crate::scalar::{Real, Scalar};
 
-/// What a parameter is said to be like, for generated code.
+/// The typical value of a parameter, for generated code.
 #[derive(Clone, Copy, Debug)]
 pub struct Like {
     /// Its place among the run-time values.
     pub place: usize,
     /// Its field.
     pub field: &'static str,
-    /// What it is like.
+    /// Its typical value.
     pub value: f64,
 }
 

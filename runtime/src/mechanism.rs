@@ -66,15 +66,19 @@ pub trait Mechanism: Sized + 'static {
     /// A mass or an inertia that is not positive, an axis of length zero, a number that is not finite.
     fn parameters<S: Scalar>(&self) -> Result<Self::Parameters<S>, ParameterError>;
 
-    /// Checks by numbers that what was decided where parameters are what they are said to be like (`#[param(like = 0.8)]`) holds for those of this value, unless they are
-    /// those that were accepted before: the mechanism is put together, its equations are independent at the start, and those that were left out follow from them.
+    /// Checks by numbers that what was decided at typical values (`#[param(like = 0.8)]`) holds for
+    /// the parameters of this value, unless they were accepted before: the mechanism can be
+    /// assembled, its equations are independent at the start, and those that were left out follow
+    /// from them.
     ///
-    /// It is done by [`Dynamics::new`](crate::Dynamics::new) and its `update`, and by `new` of the mechanism: in double precision, at the cost of some dozens of evaluations. Without
-    /// effect where nothing was decided so.
+    /// `new` of the mechanism, [`Dynamics::new`](crate::Dynamics::new) and `update` call it. It uses
+    /// double precision and takes some dozens of evaluations. It does nothing where no typical value
+    /// was used.
     ///
     /// # Errors
-    /// The parameter, and the joint where it shows: [`ParameterFault::NotAssembled`](crate::ParameterFault::NotAssembled), `Dependent` or `Independent`; what
-    /// [`Mechanism::parameters`] refuses.
+    /// The parameter, and the joint where it shows:
+    /// [`ParameterFault::NotAssembled`](crate::ParameterFault::NotAssembled), `Dependent` or
+    /// `Independent`; what [`Mechanism::parameters`] refuses.
     #[inline]
     fn check_likes<S: Real>(
         &self,
@@ -83,8 +87,9 @@ pub trait Mechanism: Sized + 'static {
         Ok(())
     }
 
-    /// An equation that was left out because it follows from others where parameters are what they are said to be like, by its number among these: its value, and its
-    /// gradient over the velocities. `None` behind the last one, and where nothing was decided so.
+    /// The value and the gradient, over the velocities, of an equation that was left out at typical
+    /// values of parameters, by its number among those. `None` behind the last one, and where no
+    /// typical value was used.
     #[inline]
     fn left_out<S: Scalar>(
         _constants: &Self::Constants<S>,

@@ -24,15 +24,15 @@ impl fmt::Display for ParameterError {
             ParameterFault::Dependent { joint } => {
                 return write!(
                     f,
-                    "with this `{}` the constraints depend on each other at joint `{joint}` at the start, where they do not with what it is like",
+                    "with this `{}` the constraints depend on each other at joint `{joint}` at the start; at the typical values of the parameters they do not",
                     self.field
                 );
             }
             ParameterFault::Independent { joint } => {
                 return write!(
                     f,
-                    "with this `{}` an equation of joint `{joint}` does not follow from the others: it was left out because it does with what `{}` is like",
-                    self.field, self.field
+                    "with this `{}` an equation of joint `{joint}` does not follow from the others; it was left out because it does at the typical values of the parameters",
+                    self.field
                 );
             }
         };

@@ -74,6 +74,9 @@ impl ExplicitTime {
 /// It is judged at the start and at configurations that random motions of about 0.2 rad lead to, each put back onto the
 /// constraints. A row counts as dependent where it stands out from the others by less than `1e-7` of its length, with
 /// translations measured by the size of the mechanism.
+///
+/// Parameters have their typical values (`#[param(like = 0.8)]`). `new` of the mechanism checks that
+/// the rank is the same at the given ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rank {
     /// Found.

@@ -4,7 +4,7 @@
 use holonom::prelude::*;
 use holonom::{Array, Dynamics, JointCoordinates, JointDynamics, Scheme, StateParts};
 
-/// Coordinates and velocities after some steps from the assembled start, by bodies and by joints.
+/// Positions and velocities of rigid bodies after some steps from the assembled start, by bodies and by joints.
 pub(crate) fn runs<M: JointCoordinates>(
     mechanism: &M,
     (step, steps): (f64, u32),
@@ -20,8 +20,10 @@ pub(crate) fn runs<M: JointCoordinates>(
         Rk4.step(&mut by_joints, time, &mut joints, step)?;
     }
     Ok([bodies, by_joints.bodies(&joints)].map(|state| {
-        let velocities = state.velocities().as_slice();
-        [state.coordinates().as_slice(), velocities].concat()
+        // Euler parameters have two signs.
+        let poses = state.coordinates().as_slice().chunks(7);
+        let positions: Vec<f64> = poses.flat_map(|pose| pose[..3].to_vec()).collect();
+        [&positions, state.velocities().as_slice()].concat()
     }))
 }
 

@@ -21,7 +21,7 @@ pub(super) struct Later {
     pub(super) is_varying: bool,
     /// The places of the run-time values that it depends on, in order.
     pub(super) values: Vec<usize>,
-    /// What it is where these are what they are said to be like.
+    /// What it is at their typical values.
     pub(super) like: Option<f64>,
 }
 
@@ -66,7 +66,7 @@ impl Value {
         }
     }
 
-    /// What it is where these are what they are said to be like.
+    /// What it is at their typical values.
     pub(super) fn like(&self) -> Option<f64> {
         match self {
             Self::Literal(value) => Some(*value),

@@ -435,7 +435,7 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// A number as the macro sees it: written, or where parameters are what they are said to be like.
+    /// A number as the macro sees it: written, or at the typical values of parameters.
     #[must_use]
     pub fn seen(&self, number: Number) -> Option<f64> {
         match number {
@@ -542,8 +542,8 @@ fn in_range_where(value: f64, place: &str, at: impl ToTokens, faults: &mut Fault
     None
 }
 
-/// Behind a number that the macro sees by what parameters are like.
-pub const AT_LIKES: &str = " where parameters are what they are said to be like";
+/// Behind a number that the macro sees at the typical values of parameters.
+pub const AT_LIKES: &str = " at the typical values of parameters (`like`)";
 
 /// The elements of an expression in brackets.
 #[must_use]

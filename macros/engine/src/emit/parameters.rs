@@ -157,8 +157,8 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
     let (checked, refused) = if model.independence.likes.is_empty() {
         (quote!(parameters::<f64>(&#mechanism)?), TokenStream::new())
     } else {
-        let refused = " A value with which the mechanism cannot be assembled, or with which equations do not depend on each other as they do where \
-             parameters are what they are said to be like.";
+        let refused = " A value with which the mechanism cannot be assembled, or with which its equations do not depend on each other \
+             as they do at the typical values of the parameters.";
         (
             quote!(check_likes::<f64>(&#mechanism, ::core::option::Option::None)?),
             quote!(#[doc = #refused]),

@@ -135,7 +135,7 @@ pub struct RunTimeValue {
     pub name: Name,
     /// Whether it may change at every step; if not, it is set on construction.
     pub is_input: bool,
-    /// What a parameter is said to be like: where the rank is decided, and its default.
+    /// The typical value of a parameter (`like`): the rank is decided there, and it is the default.
     pub like: Option<f64>,
 }
 
@@ -207,7 +207,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// A number as the macro sees it: written, or where parameters are what they are said to be like.
+    /// A number as the macro sees it: written, or at the typical values of parameters.
     #[must_use]
     pub fn seen(&self, number: Number) -> Option<f64> {
         match number {
@@ -222,7 +222,7 @@ impl Model {
         literals(&numbers.map(|number| self.seen(number).map_or(number, Number::Literal)))
     }
 
-    /// What a symbol is where parameters are what they are said to be like.
+    /// What a symbol is at the typical values of parameters.
     #[must_use]
     pub fn like(&self, symbol: u32) -> Option<f64> {
         self.symbols.get(symbol as usize)?.like

@@ -50,7 +50,8 @@ pub struct Symbol {
     pub scalar: Option<TokenStream>,
     /// The places of the run-time values that it depends on, in order.
     pub values: Vec<usize>,
-    /// What it is where these are what they are said to be like; `None` where one of them says nothing, and of a constant by its path.
+    /// What it is at their typical values; `None` where one of them has none, and for a constant by
+    /// its path.
     pub like: Option<f64>,
     /// Where it must be positive and the compiler can evaluate it: a constant of the generated code, and its value. The expression is
     /// its name then, so that one of a wrong type is refused once.

@@ -86,8 +86,8 @@ pub struct Independence {
     pub is_alone: bool,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
-    /// The places, in order, of the run-time values that the constraints depend on, where all this was found with these being what they are
-    /// said to be like.
+    /// The places, in order, of the run-time values that the constraints depend on, where all this
+    /// was found at their typical values.
     pub likes: Vec<usize>,
     /// Whether they are gone.
     pub dropped: bool,

@@ -61,8 +61,9 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     )
 }
 
-/// Times and coordinates of the bodies along a motion that the constraints leave free, from the reference configuration on; none where nothing can be told. What
-/// parameters are like says nothing of where a mechanism with others gets to.
+/// Times and coordinates of the bodies along a motion that the constraints leave free, from the
+/// reference configuration on; none where nothing can be told. Typical values of parameters do not
+/// tell where a mechanism with other values gets to.
 pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
     if !model.independence.likes.is_empty() {
         return Vec::new();

@@ -67,15 +67,15 @@ pub(super) struct Constraints {
     pub(super) sizes: Vec<Option<f64>>,
     /// What the size of a row is at least: that of an angle, a length or a squared length.
     least: f64,
-    /// What symbols are where parameters are what they are said to be like.
+    /// What symbols are at the typical values of parameters.
     likes: Vec<Option<f64>>,
     /// The places of the run-time values that the constraints depend on, in order.
     pub(super) values: Vec<usize>,
 }
 
 impl Constraints {
-    /// The constraints, and the configuration that the attributes describe; `None` where the macro cannot see a number that
-    /// they depend on, not even by what parameters are said to be like.
+    /// The constraints, and the configuration that the attributes describe, at the typical values of
+    /// parameters; `None` where the macro cannot see a number that they depend on.
     pub(super) fn new(
         model: &Model,
         mut motion: impl FnMut(usize) -> Vec<f64>,

@@ -59,7 +59,7 @@ struct Refused {
 /// Not all that the constraints depend on.
 #[derive(Mechanism)]
 #[mechanism(redundant = "drop")]
-struct Some {
+struct Partly {
     #[param(like = 1.0)]
     known: f64,
     #[param]
