@@ -24,7 +24,8 @@ pub enum ParameterFault {
     TriangleInequality,
     /// A vector of length zero where a direction is needed.
     ZeroLength,
-    /// With this parameter no configuration near the described one satisfies all equations.
+    /// With this parameter no configuration was found that satisfies all equations: neither from the
+    /// described one, nor by continuation from the typical values of parameters.
     NotAssembled {
         /// The joint that stays open most.
         joint: &'static str,
