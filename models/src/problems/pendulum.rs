@@ -2,6 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use holonom::Mechanism as _;
 use holonom_study::pendulum::{RigidPendulum, from_vertical};
 
 use super::problem;
