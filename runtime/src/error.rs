@@ -25,7 +25,7 @@ pub enum ParameterFault {
     /// A vector of length zero where a direction is needed.
     ZeroLength,
     /// With this parameter no configuration was found that satisfies all equations: neither from the
-    /// described one, nor by continuation from the typical values of parameters.
+    /// described one and near it, nor by continuation from the typical values of parameters.
     NotAssembled {
         /// The joint that stays open most.
         joint: &'static str,

@@ -34,7 +34,9 @@ const MOTIONS: usize = 3;
 const MOTION: f64 = 0.2;
 /// How often a motion that does not lead back onto the constraints is halved.
 const HALVINGS: usize = 4;
-/// The least part of the way from what parameters are like to what is given.
+/// How many motions of the described state are tried where it does not lead onto the constraints.
+const SHAKES: u8 = 4;
+/// The least part of the way from the typical values to the given ones.
 const LEAST_STEP: f64 = 1.0 / 256.0;
 /// Times (s) at which a mechanism with drivers is looked at.
 const TIMES: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
@@ -129,8 +131,8 @@ where
     Ok(())
 }
 
-/// The described state on the constraints: from there, or where that leads nowhere, from what
-/// parameters are like.
+/// A state on the constraints: from the described one, by continuation from the typical values, or
+/// from near the described one, which may be singular.
 fn assembled<M, const N: usize>(
     constants: &M::Constants<f64>,
     given: &[f64; N],
@@ -139,10 +141,22 @@ fn assembled<M, const N: usize>(
 where
     M: Mechanism<Parameters<f64> = [f64; N]>,
 {
-    let at_once = put_together::<M>(constants, at_rest::<M>(constants));
-    let Err(fault) = at_once else {
-        return at_once.map_err(|fault| not_assembled::<M>(constants, fault));
+    let described = at_rest::<M>(constants);
+    let fault = match put_together::<M>(constants, described) {
+        Ok(state) => return Ok(state),
+        Err(fault) => fault,
     };
+    continued::<M, N>(given, likes)
+        .or_else(|| shaken::<M>(constants, described))
+        .ok_or_else(|| not_assembled::<M>(constants, fault))
+}
+
+/// A state with the given values, by steps from the typical ones.
+#[cold]
+fn continued<M, const N: usize>(given: &[f64; N], likes: &[Like]) -> Option<M::State<f64>>
+where
+    M: Mechanism<Parameters<f64> = [f64; N]>,
+{
     let between = |part: f64| {
         let mut values = *given;
         for like in likes {
@@ -152,20 +166,37 @@ where
         }
         M::prepare(&values)
     };
-    let described = between(0.0);
-    let mut state = put_together::<M>(&described, at_rest::<M>(&described));
+    let typical = between(0.0);
+    let mut state = put_together::<M>(&typical, at_rest::<M>(&typical)).ok()?;
     let (mut reached, mut step) = (0.0, 0.25);
-    while let Ok(from) = state
-        && reached < 1.0
-    {
+    while reached < 1.0 {
         let next = 1.0_f64.min(reached + step);
-        match put_together::<M>(&between(next), from) {
-            Ok(found) => (state, reached, step) = (Ok(found), next, 2.0 * step),
+        match put_together::<M>(&between(next), state) {
+            Ok(found) => (state, reached, step) = (found, next, 2.0 * step),
             Err(_) if step > LEAST_STEP => step *= 0.5,
-            Err(_) => return Err(not_assembled::<M>(constants, fault)),
+            Err(_) => return None,
         }
     }
-    state.map_err(|_| not_assembled::<M>(constants, fault))
+    Some(state)
+}
+
+/// A state from random motions of the described one.
+#[cold]
+fn shaken<M: Mechanism>(
+    constants: &M::Constants<f64>,
+    described: M::State<f64>,
+) -> Option<M::State<f64>> {
+    let length = extent::<f64, M>(constants, &described);
+    let mut random = Random::new();
+    let mut motions = (1..=SHAKES).map(|shake| {
+        let mut motion = M::Velocities::<f64>::zeros();
+        let elements = motion.as_mut_slice().iter_mut();
+        elements.for_each(|element| *element = random.number());
+        scale_translations::<M>(&mut motion, length);
+        let factor = MOTION * f64::from(shake);
+        displaced::<f64, M>(constants, &described, &motion, factor)
+    });
+    motions.find_map(|moved| put_together::<M>(constants, moved).ok())
 }
 
 /// The described state without velocities.
@@ -209,7 +240,7 @@ struct Look<'a, M: Mechanism> {
     factors: M::Factors<f64>,
     /// The joint whose pivot vanishes.
     singular: Option<usize>,
-    random: u64,
+    random: Random,
 }
 
 impl<'a, M: Mechanism> Look<'a, M> {
@@ -228,7 +259,7 @@ impl<'a, M: Mechanism> Look<'a, M> {
             state,
             factors,
             singular,
-            random: 0x9e37_79b9_7f4a_7c15,
+            random: Random::new(),
         }
     }
 
@@ -299,7 +330,7 @@ impl<'a, M: Mechanism> Look<'a, M> {
         let length = extent::<f64, M>(self.constants, &self.state);
         let mut motion = M::mass(self.constants);
         for element in motion.as_mut_slice() {
-            *element *= self.number();
+            *element *= self.random.number();
         }
         if self.singular.is_none() {
             motion = self.free(&motion);
@@ -341,13 +372,22 @@ impl<'a, M: Mechanism> Look<'a, M> {
         (self.time, self.state) = (time, state);
         true
     }
+}
 
-    /// Between -1 and 1, without a pattern (Marsaglia's xorshift).
+/// Numbers without a pattern, the same for every mechanism (Marsaglia's xorshift).
+struct Random(u64);
+
+impl Random {
+    const fn new() -> Self {
+        Self(0x9e37_79b9_7f4a_7c15)
+    }
+
+    /// Between -1 and 1.
     fn number(&mut self) -> f64 {
-        self.random ^= self.random << 13;
-        self.random ^= self.random >> 7;
-        self.random ^= self.random << 17;
-        (self.random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
 

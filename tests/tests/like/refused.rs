@@ -216,6 +216,7 @@ struct Flat {
 fn a_start_that_is_singular_as_it_is_like_may_be_singular() {
     const { assert!(Flat::REPORT.rank.starts_singular()) };
     assert!(Flat::new(1.0).is_ok());
+    assert!(Flat::new(0.9).is_ok());
     let error = Flat::new(2.5).err().expect("out of reach");
     assert_eq!(error.field, "coupler");
 }
