@@ -1,12 +1,10 @@
-//! What was once wrong without a word, over formulations, tolerances, steps and scales: each run is right, or refused, or doubted by its report.
+//! What was once wrong without a word, over formulations, tolerances and steps: each run is right, or refused, or doubted by its report.
 //!
 //! Some of each sweep in `cargo test`, all of it with the feature `exhaustive`.
 
 #![forbid(unsafe_code)]
 
 mod gradients;
-mod long;
-mod scales;
 mod singular;
 
 /// Whether nothing is left out.

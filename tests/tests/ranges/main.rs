@@ -1,0 +1,11 @@
+//! Mechanisms of any size, mass and place, and runs of any length: each is right, or refused, or doubted by its report.
+//!
+//! Some of each sweep in `cargo test`, all of it with the feature `exhaustive`.
+
+#![forbid(unsafe_code)]
+
+mod long;
+mod scales;
+
+/// Whether nothing is left out.
+const IS_EXHAUSTIVE: bool = cfg!(feature = "exhaustive");
