@@ -114,8 +114,12 @@ pub struct RedundantRow {
 
 impl Report {
     /// Whether equations stand in `Phi` that follow from others.
-    pub(crate) fn keeps_redundant(&self) -> bool {
-        self.redundant.iter().any(|row| !row.dropped)
+    pub(crate) const fn keeps_redundant(&self) -> bool {
+        // One choice for all.
+        match self.redundant {
+            [row, ..] => !row.dropped,
+            [] => false,
+        }
     }
 
     /// The operations of a kernel by its name, such as `"evaluate standard"`.

@@ -2,6 +2,8 @@
 
 #[path = "silent/closures.rs"]
 mod closures;
+#[path = "silent/kept.rs"]
+mod kept;
 #[path = "silent/moments.rs"]
 mod moments;
 #[path = "silent/report.rs"]

@@ -2,6 +2,7 @@
 
 mod faults;
 mod jacobian;
+mod kept;
 mod on_constraints;
 mod secants;
 mod trial;

@@ -22,6 +22,9 @@ where
     P: Orientation,
     A: AppliedForces<S, M>,
 {
+    /// Whether equations that depend on others are kept and not solved.
+    const HAS_NO_RANK: bool = M::REPORT.keeps_redundant() && !F::Terms::COMPLIANT;
+
     /// Whether accelerations are off by what a compliance leaves.
     const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
 
@@ -126,11 +129,11 @@ where
         Some(power)
     }
 
-    /// The smallest relative pivot at the end of a step; with a compliance, by a factorisation without it. `None` where equations that depend on others are
-    /// kept: their pivots tell nothing.
+    /// The smallest relative pivot at the end of a step; with a compliance, by a factorisation without it. Where equations that depend on others are kept, whose
+    /// pivots tell nothing, it is their least eigenvalue; `None` where these have no solution anyway.
     #[inline]
     fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<S> {
-        if M::REPORT.equations == 0 || M::REPORT.keeps_redundant() {
+        if M::REPORT.equations == 0 || Self::HAS_NO_RANK {
             return None;
         }
         if F::Terms::COMPLIANT {
@@ -143,7 +146,7 @@ where
 
     /// The smallest relative pivot between steps; `None` as at their ends.
     pub(crate) fn pivot_within(&self, time: S, state: &M::State<S>) -> Option<S> {
-        if M::REPORT.equations == 0 || M::REPORT.keeps_redundant() {
+        if M::REPORT.equations == 0 || Self::HAS_NO_RANK {
             return None;
         }
         if F::Terms::COMPLIANT {
@@ -158,6 +161,9 @@ where
     /// The smallest relative pivot without a compliance.
     #[inline]
     pub(crate) fn rigid_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
+        if M::REPORT.keeps_redundant() {
+            return self.kept_pivot(time, state);
+        }
         M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1
     }
 

@@ -50,7 +50,7 @@ where
     /// Finds the joint of the smallest pivot of a run.
     #[cold]
     pub(crate) fn name_smallest_pivot(&self, watch: &mut Watch<S, M>) {
-        if !M::REPORT.keeps_redundant() {
+        if !M::REPORT.keeps_redundant() || F::Terms::COMPLIANT {
             return self.bodies.name_smallest_pivot(watch);
         }
         // Those of the bodies tell nothing, and the tree has taken what follows from others.
