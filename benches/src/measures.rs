@@ -28,21 +28,21 @@ pub struct Measures {
     name: &'static str,
     /// The feature that has it.
     feature: &'static str,
-    /// What the build takes (s of processor time) where only chapter 15 was built, with few mechanisms and with many.
-    seconds: [u64; 2],
+    /// What the build took (s of processor time) where only chapter 15 was built, with few mechanisms and with many; where it was measured.
+    seconds: [Option<u64>; 2],
 }
 
 /// `study compare`.
 pub const COMPARE: Measures = Measures {
     name: "compare",
     feature: "compare",
-    seconds: [100, 1000],
+    seconds: [None, None],
 };
 /// `study trade`.
 pub const TRADE: Measures = Measures {
     name: "trade",
     feature: "trade",
-    seconds: [100, 1000],
+    seconds: [Some(260), None],
 };
 /// `study recommend`.
 pub const RECOMMEND: Measures = Measures {
@@ -53,7 +53,7 @@ pub const RECOMMEND: Measures = Measures {
 pub const EXTREMES: Measures = Measures {
     name: "extremes",
     feature: "extremes",
-    seconds: [100, 1000],
+    seconds: [None, None],
 };
 
 /// Whose seconds these are.
@@ -136,10 +136,13 @@ impl Measures {
             Extent::Large => format!("{},large", self.feature),
             Extent::Huge => format!("{},huge", self.feature),
         };
+        // As `cargo run --bin study` there: what it built is built with the same features.
+        let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+        let workspace = workspace.ok_or("the benches lie in no workspace")?;
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
         command
             .args(["build", "--manifest-path"])
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml"))
+            .arg(workspace.join("Cargo.toml"))
             .arg("--profile")
             .arg(profile)
             .args([
@@ -155,30 +158,29 @@ impl Measures {
 
     /// Says what is built and how long that takes, and shows how long it still does.
     fn announce(&self, extent: Extent, command: &str) -> Result<ProgressBar, Box<dyn Error>> {
-        let seconds = self.seconds[usize::from(extent != Extent::Few)];
-        let beyond = if extent == Extent::Huge {
-            "more than "
-        } else {
-            ""
-        };
+        let seconds =
+            self.seconds[usize::from(extent != Extent::Few)].filter(|_| extent != Extent::Huge);
+        eprintln!("study: `{}` is built first, with {command}", self.name);
+        match seconds {
+            Some(seconds) => eprintln!(
+                "study: that took {seconds} s of the processors of {MACHINE}, of which it keeps two busy"
+            ),
+            None => eprintln!("study: that takes minutes"),
+        }
         let processors = std::thread::available_parallelism()
             .map_or(1, usize::from)
             .min(2);
-        eprintln!(
-            "study: `{}` is built first, with {command}\nstudy: that took {beyond}{seconds} s of the processors of {MACHINE}, of which it keeps two busy",
-            self.name
-        );
-        let expected = Duration::from_secs(seconds / processors as u64);
+        let expected = seconds.map(|seconds| Duration::from_secs(seconds / processors as u64));
         let left = move |state: &ProgressState, text: &mut dyn std::fmt::Write| {
-            let left = expected.saturating_sub(state.elapsed());
+            let left = expected.map(|expected| expected.saturating_sub(state.elapsed()));
             // Nobody to tell where it cannot be written.
-            let _ = if left.is_zero() {
-                write!(text, "longer than expected")
-            } else {
-                write!(text, "about {} left", HumanDuration(left))
+            let _ = match left {
+                None => Ok(()),
+                Some(Duration::ZERO) => write!(text, ", longer than expected"),
+                Some(left) => write!(text, ", about {} left", HumanDuration(left)),
             };
         };
-        let style = ProgressStyle::with_template("{spinner} compiling {msg}: {elapsed}, {left}")?;
+        let style = ProgressStyle::with_template("{spinner} compiling {msg}: {elapsed}{left}")?;
         let bar = ProgressBar::new_spinner().with_style(style.with_key("left", left));
         bar.enable_steady_tick(Duration::from_millis(200));
         Ok(bar)
