@@ -86,11 +86,9 @@ fn body<S: Real>(report: &Report, elements: &[S]) -> Option<&'static str> {
 /// The first body on which two loads differ in any digit.
 pub(crate) fn differing<S: Real>(report: &Report, [a, b]: [&[S]; 2]) -> Option<&'static str> {
     let of = |body: &&BodyInfo| {
-        let pairs = a.iter().zip(b).skip(body.velocity).take(count(body));
-        let is_number = |x: &S| x == x;
-        !pairs
-            .into_iter()
-            .all(|(x, y)| x == y || !(is_number(x) || is_number(y)))
+        let pairs = a.iter().zip(b).skip(body.velocity);
+        let mut pairs = pairs.take(count(body));
+        !pairs.all(|(x, y)| x == y || !(x.is_finite() || y.is_finite()))
     };
     report.bodies.iter().find(of).map(|body| body.name)
 }

@@ -70,7 +70,7 @@ where
         let mut eigenvalue = S::one();
         for _ in 0..ITERATIONS {
             let size = norm(x.as_slice());
-            if !(size > S::smallest()) {
+            if size <= S::smallest() || !size.is_finite() {
                 break;
             }
             for x in x.as_mut_slice() {

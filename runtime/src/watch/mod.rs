@@ -515,8 +515,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// The smallest relative pivot with its joint and its time; `None` where constraints were never factorised without a compliance, because equations
-    /// are kept that depend on others.
+    /// The smallest relative pivot with its joint and its time; `None` without equations. Where equations are kept that depend on others it is their least
+    /// eigenvalue beside zero.
     #[must_use]
     pub fn smallest_pivot(&self) -> Option<SmallestPivot<S>> {
         let nearest = self.approach.as_ref()?.least()?;

@@ -2,7 +2,7 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Doubt, Formulation, JointCoordinates};
+use holonom::{Doubt, Formulation};
 
 /// A parallelogram of hinges with links of 1 m, all equations kept, which turns all around: it passes the line twice a turn.
 #[derive(Mechanism)]
