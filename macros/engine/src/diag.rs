@@ -21,10 +21,12 @@ pub struct Faults {
 struct Fault {
     error: syn::Error,
     element: Option<usize>,
+    /// How much of its end is advice.
+    advice: usize,
 }
 
 impl Fault {
-    /// Whether two faults, of two elements of an array, say the same at the same place, but for numbers.
+    /// Whether two faults, of two elements of an array, say the same at the same place, but for numbers and advice.
     fn is_repeated_by(&self, other: &Self) -> bool {
         let place = |fault: &Self| {
             let span = fault.error.span();
@@ -33,6 +35,7 @@ impl Fault {
         };
         let words = |fault: &Self| {
             let mut text = fault.error.to_string();
+            text.truncate(text.len() - fault.advice);
             text.retain(|c| !c.is_ascii_digit() && !matches!(c, '.' | '-'));
             text
         };
@@ -55,6 +58,12 @@ impl Faults {
         self.add(syn::Error::new_spanned(tokens, message));
     }
 
+    /// A fault at some tokens, and what to do about it.
+    pub fn advised(&mut self, tokens: impl ToTokens, message: impl Display, advice: &str) {
+        let error = syn::Error::new_spanned(tokens, format!("{message}{advice}"));
+        self.push(error, advice.len());
+    }
+
     /// A fault at a span.
     pub fn at_span(&mut self, span: Span, message: impl Display) {
         self.add(syn::Error::new(span, message));
@@ -67,8 +76,16 @@ impl Faults {
 
     /// A fault found by the parser.
     pub fn add(&mut self, error: syn::Error) {
+        self.push(error, 0);
+    }
+
+    fn push(&mut self, error: syn::Error, advice: usize) {
         let element = self.element;
-        let fault = Fault { error, element };
+        let fault = Fault {
+            error,
+            element,
+            advice,
+        };
         // Only the first element says what is wrong with all of them.
         if !self.faults.iter().any(|known| known.is_repeated_by(&fault)) {
             self.faults.push(fault);

@@ -102,12 +102,13 @@ impl Reader<'_, '_> {
         if let Some(value) = self.numbers.seen(mass).filter(|&value| value <= 0.0) {
             let place = place_of(&[mass]);
             let instead = if value == 0.0 { MASS_MOVES } else { "" };
-            self.faults.at(
+            self.faults.advised(
                 expr,
                 format!(
-                    "the mass of `{}` must be positive, in kg; this is {value}{place}{instead}",
+                    "the mass of `{}` must be positive, in kg; this is {value}{place}",
                     self.name
                 ),
+                instead,
             );
             return None;
         }
@@ -147,13 +148,14 @@ impl Reader<'_, '_> {
                 ""
             };
             let found = seen.map(|m| m.map_or("..".into(), |m| brief(m).to_string()));
-            self.faults.at(
+            self.faults.advised(
                 expr,
                 format!(
                     "the moments of inertia of `{name}` must be positive, in kg m^2; these are {}{place}; a point mass is a \
-                     `Particle`{instead}",
+                     `Particle`",
                     found.join(", ")
                 ),
+                instead,
             );
             return None;
         }
@@ -163,12 +165,13 @@ impl Reader<'_, '_> {
                 let largest = a.max(b).max(c);
                 let excess = brief(largest - (a + b + c - largest));
                 let [a, b, c] = [a, b, c].map(brief);
-                self.faults.at(
+                self.faults.advised(
                     expr,
                     format!(
                         "no body has the moments of inertia of `{name}`: of {a}, {b} and {c}{place}, one exceeds the sum of \
-                         the others by {excess}; a point mass is a `Particle`{MOMENTS_MOVE}"
+                         the others by {excess}; a point mass is a `Particle`"
                     ),
+                    MOMENTS_MOVE,
                 );
                 return None;
             }
