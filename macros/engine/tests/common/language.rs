@@ -477,9 +477,11 @@ impl<'a> Interpreter<'a> {
         self.avoid(sine * sine + cosine * cosine);
         let mut turns = self.element.turns.iter().zip(self.turns);
         let known = |turn: &(usize, usize, String)| (turn.0, turn.1, &*turn.2) == (from, to, axis);
+        // Of a force only what nobody reads is not counted: these turns would show.
+        let uncounted = if self.element.is_force { 5.0 } else { 0.0 };
         let turns = turns
             .find(|(turn, _)| known(turn))
-            .map_or(0.0, |(_, turns)| *turns);
+            .map_or(uncounted, |(_, turns)| *turns);
         arc(sine, cosine) + TAU * turns
     }
 

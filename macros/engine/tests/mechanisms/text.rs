@@ -123,7 +123,8 @@ impl Text {
         let start = |body: Option<usize>| body.map_or_else(Pose::ground, |body| poses[body]);
         for (element, used) in described.elements.iter_mut().zip(model.elements()) {
             let definition = model.definition(used);
-            let turns = definition.turns.iter().map(|turn| {
+            let counted = model.counted(used);
+            let turns = counted.iter().map(|turn| {
                 let axis = definition.parameters[turn.axis].name.to_string();
                 (turn.from, turn.to, axis)
             });
