@@ -49,9 +49,9 @@ pub(crate) struct Crane {
     hook: Spherical,
     #[force(between = [cart, boom], axis = [1.0, 0.0, 0.0], stiffness = 60.0, damping = 0.4, free_angle = 0.2)]
     coil: TorsionalSpringDamper,
-    #[force(between = [ground, cart], axis = [1.0, 0.0, 0.0], moment = moment - 0.1 * rate)]
+    #[force(between = [ground, cart], axis = [1.0, 0.0, 0.0], moment = moment - 0.1 * rate - 0.01 * angle)]
     lean: TorsionalActuator,
-    #[force(between = [boom, cart], axis = [1.0, 0.0, 0.0], moment = moment - 0.1 * rate)]
+    #[force(between = [boom, cart], axis = [1.0, 0.0, 0.0], moment = moment - 0.1 * rate - 0.01 * angle)]
     motor: TorsionalActuator,
     #[force(between = [ground, rod], head = [0.4, 1.0, 0.5], tail = [0.0, length, -0.4], stiffness = 25.0, damping = 0.8, free_length = 0.5)]
     rope: SpringDamper,
