@@ -78,16 +78,19 @@ fn what_passes_a_singular_configuration_is_doubted() {
     let mechanism = Parallelogram::default();
     let augmented = AugmentedLagrangian::of(&mechanism).expect("coefficients");
     let penalty = Penalty::default();
+    let mut runs = 0;
     for joints in [true, false] {
-        for run in [
+        let both = [
             run(augmented, joints, 8.0, 4.0),
             run(penalty, joints, 8.0, 4.0),
-        ] {
-            if let Some((doubts, off)) = run {
-                assert!(is_near(&doubts), "{joints}, off by {off} m: {doubts}");
-            }
+        ];
+        for (doubts, off) in both.into_iter().flatten() {
+            assert!(is_near(&doubts), "{joints}, off by {off} m: {doubts}");
+            runs += 1;
         }
     }
+    // By bodies the augmented Lagrangian may end in an error there.
+    assert!(runs >= 3);
 }
 
 /// What swings and stays away from the line is not.
