@@ -50,10 +50,15 @@ pub trait MechanismExt: Mechanism {
         Ok(Self::initial_state(&self.constants()?))
     }
 
-    /// Corrects positions and velocities so that they satisfy the constraints at a time, see [`Projection`].
+    /// Corrects positions and velocities so that they satisfy the constraints at a time, on the branch of the described state.
+    ///
+    /// What stands otherwise against what carries it in the spanning tree ([`Report::carriers`](crate::Report::carriers)) than in the described state was set, and is moved there in strides of
+    /// at most 0.2 rad, or lengths of the mechanism; the other bodies follow the constraints. So what was set by [`MechanismExt::set_angle`] and its like is kept. A state that is off by a thousandth, or a guess of
+    /// all bodies up to half a radian, is corrected at once, see [`Projection`]. Joints come out on the side that is meant ([`Mechanism::joint_side`]). [`Correction::moved`] says how far
+    /// the state was moved.
     ///
     /// # Errors
-    /// A parameter that is not acceptable, or no convergence; the state is then as before.
+    /// A parameter that is not acceptable; [`Fault::WayEnds`] where the branch does not reach what was set; [`Fault::NotConverged`]; [`Fault::WrongSide`]. The state is then as before.
     fn assemble<S: Real>(
         &self,
         time: S,
@@ -64,7 +69,7 @@ pub trait MechanismExt: Mechanism {
         assembled::<S, Self>(&Projection::default(), &constants, time, state, &from)
     }
 
-    /// The same from another state than the described one: the last that satisfied the constraints, whose branch is to be kept.
+    /// [`MechanismExt::assemble`] from another state than the described one: the last that satisfied the constraints, whose branch is to be kept.
     ///
     /// # Errors
     /// As [`MechanismExt::assemble`].

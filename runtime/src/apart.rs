@@ -69,7 +69,8 @@ fn farthest<S: Real, M: Mechanism>(length: S, movement: impl Fn(usize) -> (S, S)
         };
         let size = angle.max(moved.quotient(length));
         // What is no number is farther than anything.
-        if !(size <= most.size) {
+        let is_less = size <= most.size;
+        if !is_less {
             most = Apart {
                 size,
                 body,

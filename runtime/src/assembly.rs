@@ -24,8 +24,11 @@ use crate::watch::extent;
 /// A movement (rad, or lengths of the mechanism) that is round-off or a number of few digits: no branch is that near.
 const NEAR: f64 = 1e-3;
 
-/// A movement that Newton's method may do at once, where nothing tells what was set.
+/// A movement that Newton's method may do at once, where what was set opens joints of the tree.
 const MODERATE: f64 = 0.1;
+
+/// The same of a guess of all that can move, which says itself which branch is meant.
+const GUESS: f64 = 0.5;
 
 /// Puts a state on the constraints. The branch is that of a state to start from, which need not satisfy them.
 pub(crate) fn assembled<S: Real, M: Mechanism>(
@@ -71,7 +74,8 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
         return Ok(finish(direct, correction, 0, None));
     }
     let set = Set::<S, M>::of(constants, time, &given, from, length);
-    if !set.is_clean() && is_direct(MODERATE) {
+    let at_once_by = if set.is_all() { GUESS } else { MODERATE };
+    if !set.is_clean() && is_direct(at_once_by) {
         let correction = at_once?;
         *state = direct;
         return Ok(finish(direct, correction, 0, None));

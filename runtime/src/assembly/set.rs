@@ -83,6 +83,11 @@ impl<S: Real, M: Mechanism> Set<S, M> {
         self.changed > 0 && self.kept > 0
     }
 
+    /// Whether all was set that can move.
+    pub(super) fn is_all(&self) -> bool {
+        self.changed > 0 && self.kept == 0
+    }
+
     /// Whether what was set are motions of joints, of which others are left to follow.
     pub(super) fn is_clean(&self) -> bool {
         self.is_closed && self.is_part()

@@ -113,18 +113,18 @@ fn turned_over<S: Real, M: Mechanism>(
         };
         let gradient = [along(0), along(1), along(2)];
         let size = norm(&gradient);
-        let is_flat = !(size > trial * trial);
-        if turn < S::constant(LEAST) || is_flat && now > S::zero() {
+        let is_steep = size > trial * trial;
+        if turn < S::constant(LEAST) || !is_steep && now > S::zero() {
             break;
         }
-        let direction = if is_flat {
+        let direction = if is_steep {
+            gradient.map(|x| x.quotient(size))
+        } else {
             // At its lowest a side has no gradient: any way may lead up.
             [0.6, -0.6, 0.5].map(S::constant)
-        } else {
-            gradient.map(|x| x.quotient(size))
         };
         let next = by(&state, &direction.map(|x| x * turn));
-        if is_flat || side(&next) > now {
+        if !is_steep || side(&next) > now {
             state = next;
         } else {
             turn = turn * S::constant(0.5);

@@ -215,7 +215,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             let size = reach::<S, M>(&step, self.length).size;
             self.iterations += 1;
             let Some(motion) = first else {
-                if !(size <= turn) {
+                let is_short = size <= turn;
+                if !is_short {
                     return None;
                 }
                 (first, last) = (Some(size), size);
@@ -224,11 +225,11 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             };
             sum = sum + size;
             let [part, besides] = CURVED.map(S::constant);
-            let is_long = !(sum <= part * motion + besides);
+            let is_straight = sum <= part * motion + besides;
             let small = S::constant(SMALL).max(S::constant(64.0) * S::EPSILON);
             let is_small = size <= small;
             // Newton's method converges: corrections become less.
-            if is_long || !is_small && size > S::constant(0.5) * last {
+            if !is_straight || !is_small && size > S::constant(0.5) * last {
                 return None;
             }
             state = displaced::<S, M>(self.constants, &state, &step, S::one());
@@ -271,7 +272,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         let mut way = descent;
         for _ in 0..SEARCHES {
             let unhindered = load_over(&self.load(state, &left), &mass);
-            if !(decrease > S::constant(FORBIDDEN) * unhindered) {
+            let is_free = decrease > S::constant(FORBIDDEN) * unhindered;
+            if !is_free {
                 break;
             }
             let moved = self.relative(state, &way);

@@ -39,10 +39,10 @@ impl<S: Real, M: Mechanism> Passage<S, M> {
         motion: S,
     ) {
         self.travel = self.travel + motion;
-        if let Some(pivot) = pivot {
-            if self.approach.step(time, pivot.relative, motion) {
-                self.joint = pivot.joint.to_f64() as usize;
-            }
+        if let Some(pivot) = pivot
+            && self.approach.step(time, pivot.relative, motion)
+        {
+            self.joint = pivot.joint.to_f64() as usize;
         }
         if M::REPORT.equations > 0 {
             let fall = self.gradients.measure(constants, (time, state));
