@@ -30,6 +30,17 @@ const MODERATE: f64 = 0.1;
 /// The same of a guess of all that can move, which says itself which branch is meant.
 const GUESS: f64 = 0.5;
 
+/// Whether joints close loops: a tree has no branches but the sides of its joints.
+fn has_loops<M: Mechanism>() -> bool {
+    let carries = |joint: usize| {
+        let mut carriers = M::REPORT.carriers.iter();
+        carriers.any(|carrier| carrier.joint == Some(joint))
+    };
+    let joints = M::REPORT.joints.iter().enumerate();
+    let mut with_equations = joints.filter(|(_, info)| info.rows > 0);
+    with_equations.any(|(joint, _)| !carries(joint))
+}
+
 /// Puts a state on the constraints. The branch is that of a state to start from, which need not satisfy them.
 pub(crate) fn assembled<S: Real, M: Mechanism>(
     projection: &Projection<S>,
@@ -74,7 +85,13 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
         return Ok(finish(direct, correction, 0, None));
     }
     let set = Set::<S, M>::of(constants, time, &given, from, length);
-    let at_once_by = if set.is_all() { GUESS } else { MODERATE };
+    let at_once_by = if !has_loops::<M>() {
+        f64::INFINITY
+    } else if set.is_all() {
+        GUESS
+    } else {
+        MODERATE
+    };
     if !set.is_clean() && is_direct(at_once_by) {
         let correction = at_once?;
         *state = direct;
