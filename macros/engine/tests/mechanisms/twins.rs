@@ -104,8 +104,8 @@ fn is_ours(attribute: &Attribute) -> bool {
         .any(|word| attribute.path().is_ident(word))
 }
 
-/// A struct without what does not matter, its literals replaced.
-fn twin(item: &ItemStruct, which: Which) -> String {
+/// A struct without what does not matter, its literals replaced; parameters may tell what they are like.
+fn twin(item: &ItemStruct, which: Which, is_told: bool) -> String {
     let mut parameters = Parameters {
         which,
         seen: Vec::new(),
@@ -132,7 +132,14 @@ fn twin(item: &ItemStruct, which: Which) -> String {
         .collect();
     let values = parameters.values.iter().enumerate();
     let declared: String = values
-        .map(|(place, value)| format!("/// {value:?}\n#[param]\nnumber_{place}: f64,\n"))
+        .map(|(place, value)| {
+            let like = if is_told {
+                format!("(like = {value:?})")
+            } else {
+                String::new()
+            };
+            format!("/// {value:?}\n#[param{like}]\nnumber_{place}: f64,\n")
+        })
         .collect();
     format!(
         "{}\npub struct {name} {{\n{declared}{fields}}}",
@@ -218,37 +225,60 @@ struct Tally {
 
 impl Tally {
     fn judge(&mut self, item: &ItemStruct, definitions: &[Definition], which: Which) {
-        let name = format!("{} ({which:?})", item.ident);
+        // Equations that follow from others are found where parameters tell what they are like.
+        match self.judge_as(item, definitions, which, false) {
+            Some(why) if why.contains("that the macro cannot see") => {
+                if let Some(why) = self.judge_as(item, definitions, which, true) {
+                    self.skipped
+                        .push(format!("{} ({which:?}, like): {why}", item.ident));
+                }
+            }
+            Some(why) => self
+                .skipped
+                .push(format!("{} ({which:?}): {why}", item.ident)),
+            None => {}
+        }
+    }
+
+    /// Compares a twin, or says why it cannot be compared.
+    fn judge_as(
+        &mut self,
+        item: &ItemStruct,
+        definitions: &[Definition],
+        which: Which,
+        is_told: bool,
+    ) -> Option<String> {
         let text = |item: String| Text {
             item,
             definitions: definitions.to_vec(),
         };
-        let (original, twin) = (
-            text(item.to_token_stream().to_string()),
-            text(twin(item, which)),
-        );
+        let original = text(item.to_token_stream().to_string());
+        let twin = text(twin(item, which, is_told));
         type Judged = Result<Result<Outcome, String>, String>;
         let run = catch_unwind(AssertUnwindSafe(|| -> Judged {
-            let original = original.rank()?;
-            let own = twin.rank()?;
-            if let (Rank::Decided { .. }, Rank::Decided { .. }) = (&original, &own)
-                && original != own
-            {
+            let (original, own) = (original.rank()?, twin.rank()?);
+            if (is_told || matches!(own, Rank::Decided { .. })) && original != own {
                 return Ok(Err(format!("{original:?}, of the twin {own:?}")));
             }
             Ok(twin.check(&twin, 7, Extent::Full))
         }));
         match run {
-            Ok(Ok(Ok(Outcome::Compared(_)))) => self.compared += 1,
-            Ok(Ok(Ok(Outcome::Refused(why) | Outcome::RefusedOtherwise(why)))) => {
-                self.skipped.push(format!("{name}: {why}"));
+            Ok(Ok(Ok(Outcome::Compared(_)))) => {
+                self.compared += 1;
+                None
             }
-            Ok(Ok(Err(why))) => self.wrong.push(format!("{name}: {why}\n{}", twin.item)),
-            // One of the two readers does not read it.
-            Ok(Err(why)) => self.skipped.push(format!("{name}: {why}")),
+            Ok(Ok(Ok(Outcome::Refused(why) | Outcome::RefusedOtherwise(why)))) | Ok(Err(why)) => {
+                Some(why)
+            }
+            Ok(Ok(Err(why))) => {
+                self.wrong
+                    .push(format!("{} ({which:?}): {why}\n{}", item.ident, twin.item));
+                None
+            }
+            // The second reader knows no loops over `k` and no constants.
             Err(panic) => {
                 let why = panic.downcast_ref::<String>().cloned().unwrap_or_default();
-                self.skipped.push(format!("{name}: not read: {why}"));
+                Some(format!("not read: {why}"))
             }
         }
     }
