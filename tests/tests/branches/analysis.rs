@@ -32,7 +32,7 @@ fn analysed<F: Formulation<f64>>(
 
 #[test]
 fn reports_of_a_crank_rocker_are_right_however_far_apart_they_are() {
-    for every_so in [0.5, 2.0, 5.0, 6.0, 6.28, 7.0, 12.0] {
+    for every_so in [0.5, 2.0, 5.0, 6.0, 6.3, 7.0, 12.0] {
         let (strides, wrong) = analysed(CRANK_ROCKER, StandardLagrange, every_so);
         assert_eq!(wrong, 0, "every {every_so} rad");
         // Strides of up to 0.2 rad, of the coupler or the rocker too.

@@ -129,9 +129,7 @@ fn upside_down<M: MechanismExt + Default>(
 
 #[test]
 fn a_start_upside_down_is_refused_by_name_or_doubted() {
-    let fault = upside_down(OwnAligned::HANDLES.body, false)
-        .err()
-        .expect("upside down");
+    let fault = upside_down(OwnAligned::HANDLES.body, false).expect_err("upside down");
     assert_eq!(fault, Fault::WrongSide { joint: "joint" });
     assert!(
         fault
