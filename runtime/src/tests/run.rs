@@ -161,7 +161,7 @@ fn the_observer_sees_every_time_and_may_stop() {
     assert!(report.stopped && (report.time - 0.5).abs() < 1e-15);
 
     let report = simulation.run(1.0..=1.0, every(0.1), proceed).unwrap();
-    assert_eq!((report.evaluations, report.time), (0, 1.0));
+    assert_eq!((report.evaluations, report.time), (1, 1.0));
 
     let mut steps = 0;
     let report = simulation
