@@ -53,7 +53,7 @@ pub trait MechanismExt: Mechanism {
     /// Corrects positions and velocities so that they satisfy the constraints at a time, on the branch of the described state.
     ///
     /// What stands otherwise against what carries it in the spanning tree ([`Report::carriers`](crate::Report::carriers)) than in the described state was set, and is moved there in strides of
-    /// at most 0.2 rad, or lengths of the mechanism; the other bodies follow the constraints. So what was set by [`MechanismExt::set_angle`] and its like is kept. A state that is off by a thousandth, or a guess of
+    /// at most 0.2 rad, or lengths of the mechanism; the other bodies follow the constraints. So what was set by [`MechanismExt::set_angle`] and its like is kept. A state that opens joints of the tree by less than a tenth of a radian, or a guess of
     /// all bodies up to half a radian, is corrected at once, see [`Projection`]. Joints come out on the side that is meant ([`Mechanism::joint_side`]). [`Correction::moved`] says how far
     /// the state was moved.
     ///

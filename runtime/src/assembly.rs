@@ -21,7 +21,7 @@ use crate::rotation::{check_state, with_unit_orientations};
 use crate::scalar::Real;
 use crate::watch::extent;
 
-/// A movement (rad, or lengths of the mechanism) that is round-off or a number of few digits: no branch is that near.
+/// A movement (rad, or lengths of the mechanism) that is round-off: no branch is that near.
 const NEAR: f64 = 1e-3;
 
 /// A movement that Newton's method may do at once, where what was set opens joints of the tree.
@@ -79,20 +79,16 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
             ..correction
         }
     };
-    if M::REPORT.equations == 0 || is_direct(NEAR) {
-        let correction = at_once?;
-        *state = direct;
-        return Ok(finish(direct, correction, 0, None));
-    }
     let set = Set::<S, M>::of(constants, time, &given, from, length);
-    let at_once_by = if !has_loops::<M>() {
-        f64::INFINITY
-    } else if set.is_all() {
-        GUESS
-    } else {
-        MODERATE
+    // Motions of joints that were set are kept, however small they are.
+    let at_once_by = match &at_once {
+        Ok(correction) if set.is_clean() && correction.iterations > 0 => 0.0,
+        _ if !has_loops::<M>() => f64::INFINITY,
+        _ if set.is_clean() => NEAR,
+        _ if set.is_all() => GUESS,
+        _ => MODERATE,
     };
-    if !set.is_clean() && is_direct(at_once_by) {
+    if is_direct(at_once_by) {
         let correction = at_once?;
         *state = direct;
         return Ok(finish(direct, correction, 0, None));

@@ -93,6 +93,12 @@ impl<S: Real, M: Mechanism> Set<S, M> {
         self.is_closed && self.is_part()
     }
 
+    /// Whether there are no more motions than a mechanism of independent equations leaves free: then they do not contradict each other.
+    pub(super) fn may_be_free(&self) -> bool {
+        let free = usize::try_from(M::REPORT.degrees_of_freedom);
+        free.is_ok_and(|free| self.changed <= free)
+    }
+
     /// The largest turn (rad), or slide in lengths of the mechanism.
     pub(super) fn size(&self, length: S) -> S {
         crate::apart::reach::<S, M>(&self.motion, length).size

@@ -139,8 +139,14 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             }
         }
         let missed = self.missed(&self.state, one);
-        if is_free == Some(true) && self.set.is_clean() && missed > S::constant(MISSED) {
-            return Err(self.ends(share));
+        let may_be_free = is_free == Some(true) || self.set.may_be_free();
+        if may_be_free && self.set.is_clean() && missed > S::constant(MISSED) {
+            let gone = if is_free == Some(true) {
+                share
+            } else {
+                S::zero()
+            };
+            return Err(self.ends(gone));
         }
         Ok(End {
             state: self.state,

@@ -1,6 +1,6 @@
 //! What is set by `set_angle` is kept by `assemble`, on the branch of the description.
 
-use holonom::joints::{Cylindrical, Revolute, Spherical};
+use holonom::joints::{Cylindrical, Distance, Revolute, Spherical};
 use holonom::{Correction, View};
 
 use holonom::prelude::*;
@@ -40,6 +40,49 @@ fn every_angle_of_a_crank_is_assembled_on_its_own_branch() {
         assert!(correction.violation_after < 1e-24);
         assert_eq!(moved.strides > 0, degrees > 0);
     }
+}
+
+#[test]
+fn a_small_turn_is_kept_as_well() {
+    for angle in [1e-6, 1e-4, 2e-3, -0.02] {
+        let (crank, rocker, _) = assembled(CRANK_ROCKER, angle);
+        assert!(crank < 1e-9 && rocker < 1e-9, "{angle}: {crank}, {rocker}");
+    }
+}
+
+/// A crank and a rocker about axes that cross in one point, where the rod between them has no hold on the rocker.
+#[derive(Mechanism)]
+struct Slack {
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.2, 0.0, 0.0])]
+    crank: Body,
+    #[body(mass = 1.0, inertia = [0.05, 0.05, 0.05], position = [0.0, 0.3, 0.0])]
+    rocker: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [ground, rocker], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    d: Revolute,
+    #[joint(between = [crank, rocker], head = [0.4, 0.0, 0.0], tail = [0.0, 0.6, 0.0])]
+    rod: Distance,
+}
+
+#[test]
+fn what_cannot_begin_to_move_is_refused_by_name() {
+    let mechanism = Slack::default();
+    let mut state = mechanism.described_state::<f64>().expect("literals");
+    mechanism
+        .set_angle(&mut state, Slack::HANDLES.a, 0.5)
+        .expect("it carries the crank");
+    let fault = mechanism.assemble(0.0, &mut state).expect_err("no way");
+    assert!(
+        matches!(
+            fault,
+            Fault::WayEnds {
+                joint: Some("a"),
+                ..
+            }
+        ),
+        "{fault}"
+    );
 }
 
 #[test]
