@@ -248,7 +248,7 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
         }
     }
     let word = input.parse::<Ident>()?.to_string();
-    if word == "motion" {
+    if word == "motion" || word == "require" {
         while !input.peek(Token![;]) {
             input.parse::<TokenTree>()?;
         }
@@ -262,11 +262,6 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
     let first: Expr = input.parse()?;
     Ok(match word.as_str() {
         "displacement" => Statement::Reading,
-        "require" => {
-            input.parse::<Token![>]>()?;
-            input.parse::<TokenTree>()?;
-            Statement::Reading
-        }
         "potential" => Statement::Potential(first),
         "drive" => {
             input.parse::<Ident>()?;
