@@ -121,6 +121,8 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
             Ok(correction)
         }
         (Err(fault), _) if set.is_clean() && set.is_part() => Err(fault),
+        // Of two that fail, the one that names a joint says more.
+        (Err(Fault::WayEnds { joint: None, .. }), Err(fault)) => Err(fault),
         (Err(fault), Err(_)) => Err(fault),
         (Err(_), Ok(correction)) => {
             check_sides::<S, M>(constants, &direct)?;

@@ -185,7 +185,7 @@ where
                         self.longest.max(stride) * S::constant(2.0).powf(-f64::from(HALVINGS));
                     let least = least.max(S::constant(16.0) * found.time.ulp());
                     if stride <= least || !retried(&fault) {
-                        return Err(fault);
+                        return Err(self.ended(&found, fault));
                     }
                     self.shortened += 1;
                     has_failed = true;
@@ -237,6 +237,25 @@ where
             }
         }
         Ok((found, turn))
+    }
+
+    /// Why the motion does not go on from a pose. Equations that determined it so far and leave a
+    /// motion free now depend on each other: a limit of the motion, which has a joint.
+    #[cold]
+    fn ended(&self, from: &Found<S, M>, fault: Fault) -> Fault {
+        let pivot = self
+            .pivot(from)
+            .filter(|_| matches!(fault, Fault::Undetermined { .. }));
+        let Some(pivot) = pivot else { return fault };
+        let joint = pivot.joint.to_f64() as usize;
+        let Some(info) = M::REPORT.joints.get(joint) else {
+            return fault;
+        };
+        Fault::Singular {
+            joint,
+            name: info.name,
+            relative_pivot: pivot.relative.to_f64(),
+        }
     }
 
     /// No pose was found that goes on with the motion.
