@@ -3,7 +3,7 @@
 use crate::array::{Array, StateParts};
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
-use crate::rotation::{from_rotation_vector, normalised, product, read, write};
+use crate::rotation::{from_rotation_vector, normalised, product, read, times, write};
 use crate::scalar::Real;
 
 /// The state moved by `factor d`: positions by addition, orientations by a rotation along body axes; angles that count turns
@@ -21,7 +21,7 @@ pub(crate) fn displaced<S: Real, M: Mechanism>(
     }
     let coordinates = moved.coordinates_mut().as_mut_slice();
     for body in M::REPORT.bodies {
-        let scaled = |place| read::<S, 3>(step.as_slice(), place).map(|d| factor * d);
+        let scaled = |place| times(&read::<S, 3>(step.as_slice(), place), factor);
         let [x, y, z] = read(coordinates, body.coordinate);
         let [dx, dy, dz] = scaled(body.velocity);
         write(coordinates, body.coordinate, [x + dx, y + dy, z + dz]);

@@ -40,6 +40,28 @@ pub(crate) fn minus<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     [a1 - b1, a2 - b2, a3 - b3]
 }
 
+/// `factor v`. A plain loop: `map` of an array is a page of code in a build that is not optimised.
+pub(crate) fn times<S: Scalar, const N: usize>(v: &[S; N], factor: S) -> [S; N] {
+    let mut result = *v;
+    let mut k = 0;
+    while k < N {
+        result[k] = v[k] * factor;
+        k += 1;
+    }
+    result
+}
+
+/// `v / divisor`.
+pub(crate) fn over<S: Real, const N: usize>(v: &[S; N], divisor: S) -> [S; N] {
+    let mut result = *v;
+    let mut k = 0;
+    while k < N {
+        result[k] = v[k].quotient(divisor);
+        k += 1;
+    }
+    result
+}
+
 /// `A(p) s = (e0^2 - e.e) s + 2 (e.s) e + 2 e0 e x s`.
 pub(crate) fn rotate<S: Scalar>(p: &[S; 4], s: &[S; 3]) -> [S; 3] {
     let [e0, e1, e2, e3] = *p;

@@ -7,7 +7,8 @@ use crate::mechanism::Mechanism;
 use crate::newton::Iterate;
 use crate::report::BodyKind;
 use crate::rotation::{
-    conjugate, from_rotation_vector, minus, normalised, product, read, rotate, rotate_back, write,
+    conjugate, from_rotation_vector, minus, normalised, over, product, read, rotate, rotate_back,
+    times, write,
 };
 use crate::scalar::{Real, Scalar};
 
@@ -137,14 +138,14 @@ impl<S: Real, M: Mechanism> Set<S, M> {
             let now = relative::<S, M>(constants, state, body);
             let motion = self.motion.as_slice();
             let slide = read::<S, 3>(motion, info.velocity);
-            let [x, y, z] = slide.map(|x| x * share);
+            let [x, y, z] = times(&slide, share);
             let [a, b, c] = before.point;
             let axes = carrier_axes::<S, M>(state, body);
             let slide = rotate(&axes, &minus(&[a + x, b + y, c + z], &now.point));
-            let slide = slide.map(|x| x.quotient(length));
+            let slide = over(&slide, length);
             write(left.as_mut_slice(), info.velocity, slide);
             if info.kind == BodyKind::Rigid {
-                let turn = read::<S, 3>(motion, info.velocity + 3).map(|x| x * share);
+                let turn = times(&read::<S, 3>(motion, info.velocity + 3), share);
                 let wanted = product(&from_rotation_vector(&turn), &before.orientation);
                 let turn = rotate(&axes, &rotation_vector(&now.orientation, &wanted));
                 write(left.as_mut_slice(), info.velocity + 3, turn);
@@ -298,7 +299,7 @@ fn counted<S: Real, M: Mechanism>(
     if angle <= S::zero() {
         return None;
     }
-    let axis = turn.map(|x| x.quotient(angle));
+    let axis = over(turn, angle);
     // What the counter gains as the body turns about the axis.
     let mut turning = *from;
     *turning.velocities_mut() = Array::zeros();
@@ -315,12 +316,9 @@ fn counted<S: Real, M: Mechanism>(
     if (rate.abs() - S::one()).abs() > S::constant(ALIKE) {
         return None;
     }
-    let [before, after] = [from, given].map(|state| {
-        let [counter] = read::<S, 1>(state.coordinates().as_slice(), place);
-        counter
-    });
-    let whole = (after - before) * rate;
+    let counter = |state: &M::State<S>| read::<S, 1>(state.coordinates().as_slice(), place)[0];
+    let whole = (counter(given) - counter(from)) * rate;
     let turns = ((whole - angle) * S::constant(TAU.recip())).round();
     let whole = turns.fused(S::constant(TAU), angle);
-    Some(axis.map(|x| x * whole))
+    Some(times(&axis, whole))
 }

@@ -7,7 +7,7 @@ use crate::extent::norm;
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
 use crate::rotation::{
-    conjugate, from_rotation_vector, minus, normalised, product, read, rotate, write,
+    conjugate, from_rotation_vector, minus, normalised, over, product, read, rotate, times, write,
 };
 use crate::scalar::Real;
 
@@ -75,11 +75,10 @@ fn moved_by<M: Mechanism>(joint: usize) -> Option<usize> {
 
 /// The rotation (global) that lets a body stand against what carries it as in another state.
 fn back<S: Real, M: Mechanism>(state: &M::State<S>, from: &M::State<S>, body: usize) -> [S; 4] {
-    let [base, base_before] =
-        [state, from].map(|state| axes_of::<S, M>(state, carrier_of::<M>(body)));
-    let [own, own_before] = [state, from].map(|state| axes_of::<S, M>(state, Some(body)));
-    let relative = product(&conjugate(&base_before), &own_before);
-    product(&product(&base, &relative), &conjugate(&own))
+    let base = |state| axes_of::<S, M>(state, carrier_of::<M>(body));
+    let own = |state| axes_of::<S, M>(state, Some(body));
+    let relative = product(&conjugate(&base(from)), &own(from));
+    product(&product(&base(state), &relative), &conjugate(&own(state)))
 }
 
 /// Turns what hangs on a joint up the gradient of its side.
@@ -104,12 +103,12 @@ fn turned_over<S: Real, M: Mechanism>(
     for _ in 0..TURNS {
         let now = side(&state);
         let along = |k: usize| {
-            let [up, down] = [trial, -trial].map(|size| {
+            let shifted = |size: S| {
                 let mut vector = [S::zero(); 3];
                 write(&mut vector, k, [size]);
                 side(&by(&state, &vector))
-            });
-            up - down
+            };
+            shifted(trial) - shifted(-trial)
         };
         let gradient = [along(0), along(1), along(2)];
         let size = norm(&gradient);
@@ -118,12 +117,12 @@ fn turned_over<S: Real, M: Mechanism>(
             break;
         }
         let direction = if is_steep {
-            gradient.map(|x| x.quotient(size))
+            over(&gradient, size)
         } else {
             // At its lowest a side has no gradient: any way may lead up.
             [0.6, -0.6, 0.5].map(S::constant)
         };
-        let next = by(&state, &direction.map(|x| x * turn));
+        let next = by(&state, &times(&direction, turn));
         if !is_steep || side(&next) > now {
             state = next;
         } else {

@@ -11,7 +11,7 @@ use crate::error::Fault;
 use crate::mechanism::{Compliant, Mechanism, Pivot, Plain, Stabilisation};
 use crate::newton::compliant;
 use crate::report::BodyKind;
-use crate::rotation::{cross, minus, read, rotate, rotate_back, write};
+use crate::rotation::{cross, minus, over, read, rotate, rotate_back, write};
 use crate::rows::Rows;
 use crate::scalar::Real;
 use crate::watch::Passage;
@@ -315,7 +315,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             let carrier = carrier_of::<M>(body);
             let own = velocity_at::<S, M>(state, step, Some(body), &point);
             let base = velocity_at::<S, M>(state, step, carrier, &point);
-            let slide = minus(&own.0, &base.0).map(|x| x.quotient(self.length));
+            let slide = over(&minus(&own.0, &base.0), self.length);
             write(relative.as_mut_slice(), info.velocity, slide);
             if info.kind == BodyKind::Rigid {
                 let turn = minus(&own.1, &base.1);
@@ -334,7 +334,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             }
             let point = hanging_point::<S, M>(self.constants, state, body);
             let force = read::<S, 3>(left.as_slice(), info.velocity);
-            let force = force.map(|x| x.quotient(self.length));
+            let force = over(&force, self.length);
             let moment = match info.kind {
                 BodyKind::Rigid => read::<S, 3>(left.as_slice(), info.velocity + 3),
                 BodyKind::Particle => [S::zero(); 3],

@@ -6,8 +6,10 @@ use crate::scalar::Scalar;
 #[inline(always)]
 pub(super) fn scaled<S: Scalar, const N: usize>(row: [f64; N], step: S) -> [S; N] {
     let mut weights = [step; N];
-    for (weight, factor) in weights.iter_mut().zip(row) {
-        *weight = S::constant(factor) * step;
+    let mut k = 0;
+    while k < N {
+        weights[k] = S::constant(row[k]) * step;
+        k += 1;
     }
     weights
 }

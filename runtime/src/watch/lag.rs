@@ -4,7 +4,7 @@ use super::pace::Pace;
 use crate::array::{Array, StateParts};
 use crate::mechanism::Mechanism;
 use crate::report::{BodyInfo, BodyKind};
-use crate::rotation::{conjugate, minus, product, read, write};
+use crate::rotation::{conjugate, minus, product, read, times, write};
 use crate::scalar::{Real, Scalar};
 use crate::view::square;
 
@@ -69,19 +69,20 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
             let part = S::one().quotient(pace.length_of(body));
             let translation = |from: &M::State<S>, to: &M::State<S>| {
-                let [from, to] = [from, to].map(|state| state.coordinates().as_slice());
-                let [from, to]: [[S; 3]; 2] = [from, to].map(|x| read(x, info.coordinate));
-                minus(&to, &from).map(|x| x * part)
+                let [from, to] = [from.coordinates().as_slice(), to.coordinates().as_slice()];
+                let [from, to]: [[S; 3]; 2] =
+                    [read(from, info.coordinate), read(to, info.coordinate)];
+                times(&minus(&to, &from), part)
             };
             let motion = Motion {
                 missed: translation(better, end),
                 way: translation(&first, end),
-                velocity: read(velocities, info.velocity).map(|v: S| v * part),
+                velocity: times(&read(velocities, info.velocity), part),
             };
             self.add(info.velocity, &motion);
             let off = |place, part: S| {
-                let [is, should]: [[S; 3]; 2] =
-                    [end, better].map(|state| read(state.velocities().as_slice(), place));
+                let is = read(velocities, place);
+                let should = read(better.velocities().as_slice(), place);
                 square(&minus(&is, &should)).sqrt() * part
             };
             most = larger(
@@ -189,8 +190,9 @@ struct Motion<S> {
 
 /// The rotation (rad, body axes) from one orientation to another that is near; a chord where it is not.
 fn rotation<S: Real, M: Mechanism>(place: usize, states: [&M::State<S>; 2]) -> [S; 3] {
-    let [p, q]: [[S; 4]; 2] = states.map(|x| read(x.coordinates().as_slice(), place + 3));
-    let [e0, e1, e2, e3] = product(&conjugate(&p), &q);
+    let orientation = |x: &M::State<S>| read::<S, 4>(x.coordinates().as_slice(), place + 3);
+    let [p, q] = states;
+    let [e0, e1, e2, e3] = product(&conjugate(&orientation(p)), &orientation(q));
     let two = S::constant(if e0 < S::zero() { -2.0 } else { 2.0 });
     [two * e1, two * e2, two * e3]
 }

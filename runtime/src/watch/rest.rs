@@ -7,7 +7,7 @@ use super::{Watch, exceeds};
 use crate::array::{Array, StateParts};
 use crate::mechanism::Mechanism;
 use crate::report::BodyKind;
-use crate::rotation::{minus, read, write};
+use crate::rotation::{minus, read};
 use crate::scalar::Real;
 use crate::start::farthest;
 use crate::view::square;
@@ -53,26 +53,19 @@ fn shaken<S: Real, M: Mechanism>(state: &M::State<S>, length: S) -> M::State<S> 
     let elements = shaken.coordinates_mut().as_mut_slice();
     for body in M::REPORT.bodies {
         let place = body.coordinate;
-        let position: [S; 3] = read(elements, place);
-        let mut k = place;
-        write(
-            elements,
-            place,
-            position.map(|x| {
-                k += 1;
-                change(k, x, length)
-            }),
-        );
-        if body.kind == BodyKind::Rigid {
-            let orientation: [S; 4] = read(elements, place + 3);
-            write(
-                elements,
-                place + 3,
-                orientation.map(|x| {
-                    k += 1;
-                    change(k, x, S::constant(0.5))
-                }),
-            );
+        let ends = match body.kind {
+            BodyKind::Rigid => place + 7,
+            BodyKind::Particle => place + 3,
+        };
+        for k in place..ends {
+            let size = if k < place + 3 {
+                length
+            } else {
+                S::constant(0.5)
+            };
+            if let Some(element) = elements.get_mut(k) {
+                *element = change(k + 1, *element, size);
+            }
         }
     }
     shaken
