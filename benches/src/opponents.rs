@@ -4,14 +4,14 @@
 //! of the Euler parameters included: that is what gives the published counts of evaluations.
 
 use holonom::{Fault, NotFinite, System};
+use holonom_assembler::bodies::Orientation;
+use holonom_assembler::formulation::{Evaluator, Formulation, SolveError};
+use holonom_assembler::scenes;
+use holonom_assembler::schur::SchurEvaluator;
+use holonom_assembler::smatrix;
 use holonom_study::chapter15::run::{Kind, Rival};
 use holonom_study::chapter15::{Method, Settings};
 use holonom_study::run::contestant;
-use holonom_tests::bodies::Orientation;
-use holonom_tests::formulation::{Evaluator, Formulation, SolveError};
-use holonom_tests::scenes;
-use holonom_tests::schur::SchurEvaluator;
-use holonom_tests::smatrix;
 
 /// `x = (r, p, v, w)` of one body: position (m, global), Euler parameters, velocity (m/s, global), angular velocity
 /// (rad/s, body axes).
@@ -247,9 +247,9 @@ fn fault(error: SolveError, iterations: usize) -> Fault {
 mod tests {
     use super::{START, Schur, State, StaticElimination, StaticSchur, Textbook};
     use holonom::System;
+    use holonom_assembler::formulation::Formulation;
     use holonom_study::chapter15::{Method, Settings};
     use holonom_study::run::integrate;
-    use holonom_tests::formulation::Formulation;
 
     /// A consistent state: the rod an angle below the horizontal, turning.
     fn state(angle: f64, rate: f64) -> State {

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use holonom::{JointCoordinates, Mechanism};
+use holonom_assembler::formulation::{Evaluator, Formulation};
 use holonom_benches::compare::{Entry, entries, measure};
 use holonom_models::{FourBar, RodPendulum};
 use holonom_study::compare::measure::Refused;
@@ -10,7 +11,6 @@ use holonom_study::compare::record::{Row, from_json, json};
 use holonom_study::compare::report::{self, Beside};
 use holonom_study::target::Target;
 use holonom_study::timing::Schedule;
-use holonom_tests::formulation::{Evaluator, Formulation};
 
 const QUICK: Schedule = Schedule {
     rounds: 2,

@@ -1,6 +1,7 @@
 //! Which mechanisms are compared.
 
 use holonom::{Fault, JointCoordinates};
+use holonom_assembler::assembler::Assembler;
 #[cfg(feature = "large")]
 use holonom_models::{
     Bricard, CartPole, DoubleFourBar, HeavyTop, Panda, QuintupleFourBar, SliderCrank,
@@ -8,7 +9,6 @@ use holonom_models::{
 };
 use holonom_models::{FourBar, RodPendulum};
 use holonom_study::compare::measure::Scene;
-use holonom_tests::assembler::Assembler;
 
 use super::assemblers as by_hand;
 #[cfg(feature = "large")]

@@ -1,10 +1,10 @@
 //! Those of the catalogue's models.
 
 use holonom::Mechanism;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::GROUND;
+use holonom_assembler::forces::Force;
 use holonom_models::{CartPole, HeavyTop, Panda, SliderCrank, SqueezingMechanism, Ur5};
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::GROUND;
-use holonom_tests::forces::Force;
 
 use super::{Join, X, Y, Z, add_bodies, in_a_row, join, scene};
 

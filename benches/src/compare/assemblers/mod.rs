@@ -11,16 +11,16 @@ mod catalogue;
 use std::hint::black_box;
 
 use holonom::{Array as _, Fault, Mechanism, MechanismExt as _, NotFinite, StateParts as _};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{Body, BodyId, GROUND};
+use holonom_assembler::formulation::{Evaluator, SolveError};
+use holonom_assembler::joints::Joint;
+use holonom_assembler::schur::SchurEvaluator;
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::{Method, Settings};
 use holonom_study::compare::measure::contestant;
 use holonom_study::compare::run::Opponent;
 use holonom_study::timing::Contestant;
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{Body, BodyId, GROUND};
-use holonom_tests::formulation::{Evaluator, SolveError};
-use holonom_tests::joints::Joint;
-use holonom_tests::schur::SchurEvaluator;
 
 #[cfg(feature = "large")]
 pub(super) use catalogue::{cart_pole, heavy_top, panda, slider_crank, squeezer, ur5};
