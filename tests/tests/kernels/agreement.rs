@@ -1,7 +1,7 @@
 //! The public kernels equal those of the assembler, on the constraints and off them.
 
 use holonom::{Array, Real};
-use holonom_tests::bodies::Kind;
+use holonom_assembler::bodies::Kind;
 use nalgebra::{DMatrix, Vector3};
 
 use crate::comparison::{DOUBLE, Worst, distance, tolerance};

@@ -1,7 +1,7 @@
 //! What two computations of one thing may differ by.
 
 use holonom::Real;
-pub(crate) use holonom_tests::accuracy::{Worst, distance};
+pub(crate) use holonom_assembler::accuracy::{Worst, distance};
 
 /// What kernels that compute one thing in two ways may differ by in double precision, relative to the norm of a block.
 pub(crate) const DOUBLE: f64 = 1e-12;

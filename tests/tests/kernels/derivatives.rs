@@ -2,9 +2,9 @@
 //! the assembler's `Phi` over dual numbers, and by finite differences.
 
 use holonom::{Array, Mechanism, Scalar, StateParts};
-use holonom_tests::bodies::Orientation;
-use holonom_tests::dual;
-use holonom_tests::states::{Spread, displace};
+use holonom_assembler::bodies::Orientation;
+use holonom_assembler::dual;
+use holonom_assembler::states::{Spread, displace};
 use nalgebra::{DMatrix, DVector};
 
 use crate::comparison::{DOUBLE, Worst, distance};

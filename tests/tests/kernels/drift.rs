@@ -1,9 +1,9 @@
 //! Euler parameters off the unit sphere, in both modes.
 
 use holonom::{Array, Compliant, Normalised, Plain, Raw, Stabilised, Terms};
-use holonom_tests::bodies::Orientation;
-use holonom_tests::saddle::Coefficients;
-use holonom_tests::states::Spread;
+use holonom_assembler::bodies::Orientation;
+use holonom_assembler::saddle::Coefficients;
+use holonom_assembler::states::Spread;
 
 use crate::comparison::{DOUBLE, SOLUTION, Worst, distance};
 use crate::scene::{Scene, constants, dense, off, state, values};

@@ -2,9 +2,9 @@
 
 use holonom::prelude::*;
 use holonom::{BodyKind, StateParts};
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies;
-use holonom_tests::states::{Spread, generator, random_state};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies;
+use holonom_assembler::states::{Spread, generator, random_state};
 use nalgebra::Vector3;
 
 use crate::comparison::{DOUBLE, distance};
@@ -66,7 +66,7 @@ fn free_bodies_obey_newton_and_euler() {
         let x = x.as_slice();
         let state = state::<f64, Thrown>(x);
         let reference = scene.forces(x).component_div(&scene.mass());
-        let terms = holonom_tests::saddle::Coefficients::default();
+        let terms = holonom_assembler::saddle::Coefficients::default();
         let (fused, rates) = evaluated::<f64, Thrown, holonom::Plain, Raw>(terms, x);
         assert!(distance(&fused, reference.as_slice(), 0.0) <= DOUBLE);
         assert!(distance(&rates, scene.coordinate_rates(x).as_slice(), 0.0) <= DOUBLE);

@@ -11,9 +11,9 @@ mod redundant;
 mod tensors;
 mod users_joints;
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::BodyId;
-use holonom_tests::joints::{Joint, normals};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::BodyId;
+use holonom_assembler::joints::{Joint, normals};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 pub(crate) use loops::FourBar;

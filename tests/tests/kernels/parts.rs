@@ -7,7 +7,7 @@ use holonom::{
     Array, BodyKind, Compliant, Mechanism, Normalised, Orientation, Plain, Raw, Stabilisation,
     Stabilised, StateParts, Terms,
 };
-use holonom_tests::accuracy::assert_close;
+use holonom_assembler::accuracy::assert_close;
 
 macro_rules! described {
     ($name:ident $coordinates:literal) => {

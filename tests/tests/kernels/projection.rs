@@ -2,10 +2,10 @@
 
 use holonom::prelude::*;
 use holonom::{Array, Correction, Fault};
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::Kind;
-use holonom_tests::jacobi::SingularValues;
-use holonom_tests::states::Spread;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::Kind;
+use holonom_assembler::jacobi::SingularValues;
+use holonom_assembler::states::Spread;
 use nalgebra::{DVector, Quaternion};
 
 use crate::comparison::Worst;

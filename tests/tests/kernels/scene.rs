@@ -1,9 +1,10 @@
 //! A mechanism beside its assembler, and states for both.
 
 use holonom::{Array, Mechanism, MechanismExt, Real, Scalar, StateParts};
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::Orientation;
-use holonom_tests::states::{Spread, generator, make_consistent, moved};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::Orientation;
+use holonom_assembler::states::{Spread, generator, make_consistent, moved};
+use holonom_tests::IS_EXHAUSTIVE;
 use nalgebra::{DMatrix, DVector};
 
 /// A mechanism that is also described for the run-time assembler.
@@ -79,11 +80,7 @@ pub(crate) fn dense<S: Real, M: Mechanism>(blocks: &[S]) -> DMatrix<f64> {
 }
 
 /// How many states of a kind are tried.
-pub(crate) const STATES: usize = if cfg!(feature = "exhaustive") {
-    1000
-} else {
-    100
-};
+pub(crate) const STATES: usize = if IS_EXHAUSTIVE { 300 } else { 30 };
 
 /// States on the constraints, in position and velocity: a walk that starts in the initial configuration and gets far
 /// from it without leaving its branch, each corrected by the assembler's own Newton method.

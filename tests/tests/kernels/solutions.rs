@@ -10,10 +10,10 @@ use holonom::{
     Array, AugmentedLagrangian, Compliant, Dynamics, Normalised, Orientation, Plain, Raw, Real,
     Stabilisation, Stabilised, StateParts, Terms,
 };
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies;
-use holonom_tests::jacobi::SingularValues;
-use holonom_tests::saddle::Coefficients;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies;
+use holonom_assembler::jacobi::SingularValues;
+use holonom_assembler::saddle::Coefficients;
 use nalgebra::{DMatrix, DVector};
 
 use crate::comparison::{SOLUTION, Worst, distance, tolerance};

@@ -116,7 +116,7 @@ fn motion<M: Mechanism + Default, F: Formulation<f64>>(method: F, x: &[f64]) -> 
 
 fn states() -> Vec<Vec<f64>> {
     use rand::RngExt;
-    let mut rng = holonom_tests::states::generator(21);
+    let mut rng = holonom_assembler::states::generator(21);
     let described = described::<Literal>();
     let disturbed = |_| {
         let noise = DVector::from_fn(described.len(), |_, _| rng.random_range(-0.1..=0.1));

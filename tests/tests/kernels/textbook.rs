@@ -2,8 +2,8 @@
 //! grows: how many is printed.
 
 use holonom::{Array, AugmentedLagrangian, Dynamics, Formulation, Penalty, StateParts};
-use holonom_tests::bodies::Orientation;
-use holonom_tests::formulation::{self, Evaluator};
+use holonom_assembler::bodies::Orientation;
+use holonom_assembler::formulation::{self, Evaluator};
 
 use crate::comparison::{Worst, distance};
 use crate::scene::{Scene, consistent, flat, state, values, violated};

@@ -2,12 +2,12 @@
 //! off them, for random placements of the bodies; and every joint has its number of equations.
 
 use holonom::Rank;
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::Orientation;
-use holonom_tests::dual;
-use holonom_tests::formulation::{Evaluator, Formulation};
-use holonom_tests::scalars::Scalar;
-use holonom_tests::states::generator;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::Orientation;
+use holonom_assembler::dual;
+use holonom_assembler::formulation::{Evaluator, Formulation};
+use holonom_assembler::scalars::Scalar;
+use holonom_assembler::states::generator;
 use nalgebra::{DVector, Vector3};
 
 use crate::comparison::{ROUND_OFF, Worst, distance};

@@ -1,7 +1,7 @@
 //! Numbers that scenes are made of.
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{Body, BodyId, GROUND};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{Body, BodyId, GROUND};
 use nalgebra::Vector3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

@@ -6,11 +6,11 @@ mod table;
 
 use core::ops::ControlFlow;
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{BodyId, GROUND};
-use holonom_tests::dual;
-use holonom_tests::joints::smooth_normals;
-use holonom_tests::states::{displace, generator};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{BodyId, GROUND};
+use holonom_assembler::dual;
+use holonom_assembler::joints::smooth_normals;
+use holonom_assembler::states::{displace, generator};
 
 use self::table::{Entry, entries};
 use crate::comparison::{ROUND_OFF, Worst, distance};

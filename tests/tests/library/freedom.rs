@@ -3,10 +3,10 @@
 
 use core::f64::consts::TAU;
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::BodyId;
-use holonom_tests::joints::normals;
-use holonom_tests::kinematics::Kinematics;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::BodyId;
+use holonom_assembler::joints::normals;
+use holonom_assembler::kinematics::Kinematics;
 use nalgebra::{DMatrix, Vector3, Vector6};
 
 type V = [f64; 3];

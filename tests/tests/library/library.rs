@@ -1,8 +1,8 @@
 //! The table of all joints: how each is described, assembled, and what it leaves free.
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::BodyId;
-use holonom_tests::joints::{Joint, smooth_normals};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::BodyId;
+use holonom_assembler::joints::{Joint, smooth_normals};
 use rand_chacha::ChaCha8Rng;
 
 use crate::data::{Data, LITERAL, Member};
@@ -74,11 +74,12 @@ macro_rules! entry {
         crate::library::Entry {
             name: stringify!($joint),
             equations: $equations,
-            placements: vec![
+            placements: Vec::from([
                 placement! { param [i j] [i, j] [I, J] $joint $attributes },
+                #[cfg(feature = "exhaustive")]
                 placement! { param [i] [i, ground] [I, Ground] $joint $attributes },
                 placement! { literal [j] [ground, j] [Ground, J] $joint $attributes },
-            ],
+            ]),
             assemble: |$s, $b, $d| {
                 let &[i, j] = $b else {
                     unreachable!("two bodies")
@@ -96,12 +97,14 @@ macro_rules! entry {
         crate::library::Entry {
             name: stringify!($joint),
             equations: $equations,
-            placements: vec![
+            placements: Vec::from([
                 placement! { param [i j k] [i, j, k] [I, J, K] $joint $attributes },
+                #[cfg(feature = "exhaustive")]
                 placement! { param [j k] [ground, j, k] [Ground, J, K] $joint $attributes },
+                #[cfg(feature = "exhaustive")]
                 placement! { param [i k] [i, ground, k] [I, Ground, K] $joint $attributes },
                 placement! { literal [i j] [i, j, ground] [I, J, Ground] $joint $attributes },
-            ],
+            ]),
             assemble: |$s, $b, $d| {
                 let &[i, j, k] = $b else {
                     unreachable!("three bodies")

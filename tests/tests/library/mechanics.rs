@@ -1,8 +1,8 @@
 //! Forces and momenta of bodies, as screws at the global origin.
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{BodyId, Kind};
-use holonom_tests::kinematics::Kinematics;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{BodyId, Kind};
+use holonom_assembler::kinematics::Kinematics;
 use nalgebra::{DMatrix, Vector3, Vector6};
 
 use crate::freedom::{Freedom, at_origin, complement};

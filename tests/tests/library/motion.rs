@@ -3,9 +3,9 @@
 
 use core::ops::ControlFlow;
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{BodyId, GROUND, Kind};
-use holonom_tests::states::{generator, make_consistent_at};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{BodyId, GROUND, Kind};
+use holonom_assembler::states::{generator, make_consistent_at};
 use nalgebra::Vector6;
 
 use crate::comparison::Worst;

@@ -1,7 +1,7 @@
 //! Random times and states that kernels are tried at.
 
-use holonom_tests::assembler::Assembler;
-use holonom_tests::states::{Spread, add_turns, generator, make_consistent_at, moved};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::states::{Spread, add_turns, generator, make_consistent_at, moved};
 use nalgebra::DVector;
 use rand::RngExt;
 

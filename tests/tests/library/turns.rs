@@ -6,7 +6,7 @@ use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::{Gear, Prismatic, RackAndPinion, Revolute, Screw};
 use holonom::prelude::*;
 use holonom::{Array, StateParts};
-use holonom_tests::accuracy::assert_close;
+use holonom_assembler::accuracy::assert_close;
 use nalgebra::Vector3;
 
 /// The rate of the shaft that is set going (rad/s): a hundred turns in ten seconds.

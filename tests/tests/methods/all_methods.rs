@@ -9,6 +9,7 @@ use holonom_models::{
     Bricard, CartPole, DrivenSliderCrank, FlyballGovernor, FourBar, HeavyTop, RodPendulum,
     SqueezingMechanism, Ur5, VariableLengthPendulum,
 };
+use holonom_tests::IS_EXHAUSTIVE;
 
 /// The state of the bodies at the end, by them and by their joints.
 fn ends<M: JointCoordinates + Default>(
@@ -100,7 +101,9 @@ fn open_chains_move_alike() {
 fn loops_move_alike() {
     with_room(|| {
         moves_alike::<FourBar>(0.5);
-        moves_alike::<DrivenSliderCrank>(0.5);
+        if IS_EXHAUSTIVE {
+            moves_alike::<DrivenSliderCrank>(0.5);
+        }
         moves_alike::<SqueezingMechanism>(0.01);
         moves_alike::<Bricard>(0.5);
     });

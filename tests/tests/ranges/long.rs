@@ -4,7 +4,7 @@ use holonom::prelude::*;
 use holonom::{Doubt, Integrator};
 use holonom_models::{RodPendulum, SimplePendulum};
 
-use crate::IS_EXHAUSTIVE;
+use holonom_tests::IS_EXHAUSTIVE;
 
 /// A body that nothing holds, at 20 rad/s about a principal axis.
 #[derive(Mechanism)]

@@ -6,6 +6,3 @@
 
 mod long;
 mod scales;
-
-/// Whether nothing is left out.
-const IS_EXHAUSTIVE: bool = cfg!(feature = "exhaustive");

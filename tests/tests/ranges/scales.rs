@@ -5,7 +5,7 @@ use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use nalgebra::Vector3;
 
-use crate::IS_EXHAUSTIVE;
+use holonom_tests::IS_EXHAUSTIVE;
 
 /// A rod on a hinge.
 #[derive(Mechanism)]

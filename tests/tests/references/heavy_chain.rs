@@ -2,6 +2,7 @@
 
 use holonom::prelude::*;
 use holonom_models::HeavyChain;
+use holonom_tests::IS_EXHAUSTIVE;
 use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy};
@@ -23,13 +24,17 @@ fn the_bob_swings_as_its_reference() {
     /// m.
     const ASKED: f64 = 1e-9;
     swings(StandardLagrange, ASKED);
-    swings(Baumgarte::default(), ASKED);
+    if IS_EXHAUSTIVE {
+        swings(Baumgarte::default(), ASKED);
+    }
 }
 
 #[test]
 fn the_bob_swings_with_coefficients_that_follow_from_its_mass() {
     let chain = HeavyChain::default();
-    swings(Baumgarte::of(&chain).expect("finite"), 1e-9);
+    if IS_EXHAUSTIVE {
+        swings(Baumgarte::of(&chain).expect("finite"), 1e-9);
+    }
     swings(AugmentedLagrangian::of(&chain).expect("finite"), 1e-9);
     // A millionth of the accelerations, for three radians.
     swings(Penalty::of(&chain).expect("finite"), 1e-5);

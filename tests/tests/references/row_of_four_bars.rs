@@ -5,6 +5,7 @@ use holonom::prelude::*;
 use holonom_models::QuintupleFourBar;
 use holonom_models::problems::QuintupleParallelogram;
 use holonom_study::trade::Problem;
+use holonom_tests::IS_EXHAUSTIVE;
 use nalgebra::Vector3;
 
 use super::{change_of_energy, tight};
@@ -59,6 +60,11 @@ fn error<F: Formulation<f64>, I: Integrator<f64> + Copy>(
     Ok(worst)
 }
 
+/// The first of these, or all.
+fn tried<T>(all: &[T]) -> &[T] {
+    &all[..if IS_EXHAUSTIVE { all.len() } else { 1 }]
+}
+
 /// By bodies and by joints.
 fn errors<F: Formulation<f64>>(method: F, step: f64) -> [f64; 2] {
     [false, true].map(|by_joints| {
@@ -69,11 +75,11 @@ fn errors<F: Formulation<f64>>(method: F, step: f64) -> [f64; 2] {
 /// Fixed steps of which no stage falls upon a line, where multipliers are not determined: step control from 1e-8 down comes as near as that, and is refused.
 #[test]
 fn standard_multipliers_pass() {
-    for step in [5.5e-3, 4e-3, 2e-3] {
+    for &step in tried(&[5.5e-3, 4e-3, 2e-3]) {
         let found = errors(StandardLagrange, step);
         assert!(found.iter().all(|&error| error <= ASKED), "{found:?}");
     }
-    for step in [1.1e-3, 7e-4, 3.3e-4] {
+    for &step in tried(&[1.1e-3, 7e-4, 3.3e-4]) {
         let found = errors(StandardLagrange, step);
         assert!(found.iter().all(|&error| error <= 1e-8), "{found:?}");
     }
@@ -82,7 +88,7 @@ fn standard_multipliers_pass() {
 /// A penalty has an error of its own on the lines, which falls with the step: 2.4e-4 of 2 ms by bodies are too much.
 #[test]
 fn penalties_pass_by_short_steps() {
-    for step in [1.1e-3, 7e-4] {
+    for &step in tried(&[1.1e-3, 7e-4]) {
         let found = errors(Penalty::default(), step);
         assert!(found.iter().all(|&error| error <= ASKED), "{found:?}");
     }
@@ -100,9 +106,11 @@ fn an_augmented_lagrangian_passes_with_a_larger_alpha() {
         max_iterations: 100,
         ..default
     };
-    for method in [larger, longer] {
-        let found = error(false, method, tight()).expect("converges");
-        assert!(found <= 1e-7, "{found:e}");
+    for &method in tried(&[larger, longer]) {
+        if IS_EXHAUSTIVE {
+            let found = error(false, method, tight()).expect("converges");
+            assert!(found <= 1e-7, "{found:e}");
+        }
         let found = error(false, method, Rk4::every(1.1e-3)).expect("converges");
         assert!(found <= ASKED, "{found:e}");
     }

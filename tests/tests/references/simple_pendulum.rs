@@ -2,6 +2,7 @@
 
 use holonom::prelude::*;
 use holonom_models::SimplePendulum;
+use holonom_tests::IS_EXHAUSTIVE;
 use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy, difference_after};
@@ -79,17 +80,18 @@ fn the_energy_stays() {
 }
 
 #[test]
-fn it_is_where_it_should_be_after_2000_seconds() {
+fn it_is_where_it_should_be_after_long_runs() {
     /// "High precision" of the sheet of 2005.
     const ASKED: f64 = 1e-3;
     let handles = SimplePendulum::HANDLES;
     let model = SimplePendulum::default();
     let times = LATER.map(|(time, _)| time);
+    let times = &times[..if IS_EXHAUSTIVE { times.len() } else { 1 }];
     at_times(
         &model,
         Baumgarte::default(),
         1000.0,
-        &times,
+        times,
         |place, sample| {
             let [x, y] = LATER[place].1;
             let error = sample.pose(handles.bob).position - Vector3::new(x, y, 0.0);

@@ -3,8 +3,8 @@
 use holonom::Loads;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
+use holonom_assembler::accuracy::assert_close;
 use holonom_models::RodPendulum;
-use holonom_tests::accuracy::assert_close;
 
 use crate::flat::flat;
 

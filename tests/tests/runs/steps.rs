@@ -2,8 +2,8 @@
 
 use holonom::prelude::*;
 use holonom::{DormandPrince5, Fault, FixedStep, Scheme};
+use holonom_assembler::accuracy::assert_close;
 use holonom_models::{DrivenSliderCrank, RodPendulum};
-use holonom_tests::accuracy::assert_close;
 
 use crate::flat::flat;
 

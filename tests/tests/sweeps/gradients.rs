@@ -4,7 +4,7 @@ use holonom::joints::{ConstantVelocity, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{Doubt, Heun, Integrator, JointCoordinates, Rk4, Sample};
 
-use crate::IS_EXHAUSTIVE;
+use holonom_tests::IS_EXHAUSTIVE;
 
 /// A shaft that falls over until it points against the other, and on.
 #[derive(Mechanism)]

@@ -6,6 +6,3 @@
 
 mod gradients;
 mod singular;
-
-/// Whether nothing is left out.
-const IS_EXHAUSTIVE: bool = cfg!(feature = "exhaustive");

@@ -10,7 +10,7 @@ use holonom::{
 use holonom_models::FourBar;
 use nalgebra::Vector3;
 
-use crate::IS_EXHAUSTIVE;
+use holonom_tests::IS_EXHAUSTIVE;
 
 macro_rules! equal_links {
     ($($(#[$attribute:meta])* $name:ident($pin:ident))*) => {$(

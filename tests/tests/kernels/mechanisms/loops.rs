@@ -2,8 +2,8 @@
 
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{self, GROUND};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{self, GROUND};
 
 use super::{add_revolute, turned};
 use crate::scene::Scene;

@@ -3,9 +3,9 @@
 use holonom::forces::SpringDamper;
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{self, GROUND};
-use holonom_tests::forces::Force;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{self, GROUND};
+use holonom_assembler::forces::Force;
 
 use super::{add_revolute, turned};
 use crate::scene::Scene;

@@ -1,8 +1,8 @@
 //! The models with published data.
 
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{Body, GROUND};
 use holonom_models::{HeavyTop, RodPendulum};
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{Body, GROUND};
 
 use super::add_revolute;
 use crate::scene::Scene;

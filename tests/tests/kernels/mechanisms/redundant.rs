@@ -2,8 +2,8 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{self, GROUND};
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{self, GROUND};
 
 use super::{add_revolute, turned};
 use crate::scene::Scene;
@@ -26,7 +26,7 @@ pub(crate) struct Door {
 
 impl Scene for Door {
     fn assembler() -> Assembler {
-        holonom_tests::scenes::door()
+        holonom_assembler::scenes::door()
     }
 }
 

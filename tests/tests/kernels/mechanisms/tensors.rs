@@ -2,9 +2,9 @@
 
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{self, GROUND, rotation};
-use holonom_tests::joints::Joint;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{self, GROUND, rotation};
+use holonom_assembler::joints::Joint;
 use nalgebra::{Matrix3, Vector3, Vector4};
 
 use super::{add_revolute_at, parameters, rotation_of, turned};

@@ -2,9 +2,9 @@
 
 use holonom::joints::Spherical;
 use holonom::prelude::*;
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::{self, GROUND};
-use holonom_tests::joints::Joint;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::{self, GROUND};
+use holonom_assembler::joints::Joint;
 use nalgebra::Vector3;
 
 use super::turned;

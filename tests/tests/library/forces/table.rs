@@ -4,10 +4,10 @@ use holonom::forces::{
     Actuator, ConstantMoment, FollowerForce, FollowerMoment, PointForce, SpringDamper,
     TorsionalActuator, TorsionalSpringDamper,
 };
-use holonom_tests::assembler::Assembler;
-use holonom_tests::bodies::BodyId;
-use holonom_tests::forces::Force;
-use holonom_tests::laws::ForceLaw;
+use holonom_assembler::assembler::Assembler;
+use holonom_assembler::bodies::BodyId;
+use holonom_assembler::forces::Force;
+use holonom_assembler::laws::ForceLaw;
 
 use crate::data::{Data, Member};
 use crate::library::Placement;

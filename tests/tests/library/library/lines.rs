@@ -1,7 +1,7 @@
 //! Joints along lines and planes.
 
 use holonom::joints::{Planar, PointOnLine, PointOnPlane, Prismatic};
-use holonom_tests::joints::Joint;
+use holonom_assembler::joints::Joint;
 
 use super::Entry;
 use crate::freedom;

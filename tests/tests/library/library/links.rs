@@ -1,7 +1,7 @@
 //! Massless links.
 
 use holonom::joints::{Distance, RevoluteRevolute, RevoluteSpherical};
-use holonom_tests::joints::Joint;
+use holonom_assembler::joints::Joint;
 
 use super::Entry;
 use crate::freedom;

@@ -1,8 +1,8 @@
 //! Drivers.
 
 use holonom::joints::{AngleDriver, DisplacementDriver, DistanceDriver, OrientationDriver};
-use holonom_tests::joints::Joint;
-use holonom_tests::laws::Motion;
+use holonom_assembler::joints::Joint;
+use holonom_assembler::laws::Motion;
 
 use super::Entry;
 use crate::data::Data;

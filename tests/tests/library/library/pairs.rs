@@ -1,7 +1,7 @@
 //! Joints about a point.
 
 use holonom::joints::{Fixed, Revolute, Spherical};
-use holonom_tests::joints::Joint;
+use holonom_assembler::joints::Joint;
 
 use super::Entry;
 use crate::freedom;

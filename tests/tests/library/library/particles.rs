@@ -1,7 +1,7 @@
 //! Point masses in joints.
 
 use holonom::joints::{Distance, PointOnLine, PointOnPlane, Spherical};
-use holonom_tests::joints::Joint;
+use holonom_assembler::joints::Joint;
 
 use super::Entry;
 use crate::freedom;

@@ -1,7 +1,7 @@
 //! Joints between shafts.
 
 use holonom::joints::{ConstantVelocity, Cylindrical, Screw, Universal};
-use holonom_tests::joints::Joint;
+use holonom_assembler::joints::Joint;
 
 use super::Entry;
 use crate::freedom;

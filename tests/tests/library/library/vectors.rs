@@ -1,7 +1,7 @@
 //! Constraints between two vectors.
 
 use holonom::joints::{Parallel1, Parallel2, Perpendicular1, Perpendicular2};
-use holonom_tests::joints::Joint;
+use holonom_assembler::joints::Joint;
 
 use super::Entry;
 use crate::freedom;

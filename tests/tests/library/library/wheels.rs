@@ -1,7 +1,7 @@
 //! Gears and racks, on a carrier.
 
 use holonom::joints::{Gear, RackAndPinion};
-use holonom_tests::joints::Joint;
+use holonom_assembler::joints::Joint;
 
 use super::Entry;
 
