@@ -35,61 +35,19 @@ compile_error!(
     "holonom needs elementary functions: turn on the feature `std` (the default), or `libm` where there is no standard library"
 );
 
-mod access;
-mod apart;
-mod array;
 mod assembly;
-mod blocks;
-mod clock;
-mod compliance;
-mod direct;
-mod displace;
+mod constraints;
 mod dynamics;
-mod each;
 mod error;
-mod extent;
 mod formulation;
 mod forward;
-mod handle;
 mod integrate;
-mod joint_coordinates;
-mod joint_dynamics;
-mod joint_report;
-mod joint_state;
-mod joint_stepper;
-mod kinematics;
-mod likes;
-mod load;
+mod math;
+mod measure;
 mod mechanism;
-mod message;
-mod moving;
-mod newton;
-mod origin;
-mod placing;
-mod project;
-mod reaction;
-mod readable;
-mod readout;
-#[cfg(feature = "recorder")]
-mod recorder;
-mod report;
-mod reporting;
-mod rotation;
-mod rows;
 mod run;
-mod run_report;
-mod sample;
-mod scalar;
-mod scales;
-mod self_stress;
-mod simulation;
-mod start;
-mod stepper;
-mod treatment;
-mod versine;
-mod view;
+mod state;
 mod watch;
-mod within;
 
 #[cfg(test)]
 mod tests;
@@ -97,13 +55,11 @@ mod tests;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
-mod bodies;
 pub mod forces;
 #[cfg(any(doc, doctest))]
 pub mod guide;
 pub mod joints;
 
-pub use bodies::{Body, Particle};
 /// Describes a mechanism: every field is a body, a joint, a force, a parameter or an input.
 ///
 /// ```
@@ -190,22 +146,19 @@ pub use bodies::{Body, Particle};
 /// `T::REPORT` holds sizes, names, the plan of the solution and the operations of every kernel, which the documentation of
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
+pub use mechanism::body::{Body, Particle};
 
-pub use access::{MechanismExt, Pose};
-pub use array::{Array, State, StateParts, Vector};
-pub use direct::DirectCorrection;
+pub use constraints::projection::{Correction, Moved, Projection};
+pub use constraints::scales::Scales;
+pub use dynamics::joint_dynamics::JointDynamics;
+pub use dynamics::moving::{Bodies, Description, Joints, Moving};
 pub use dynamics::{Dynamics, Iterations};
-pub use each::{EachOfJoints, EachOfState};
 pub use error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
 pub use formulation::{
     AugmentedLagrangian, Baumgarte, Formulation, JointSaddle, JointSolution, Penalty, Saddle,
     Solution, StandardLagrange,
 };
 pub use forward::Forward;
-pub use handle::{
-    BodyHandle, CountsTurns, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,
-    JointHandle,
-};
 pub use integrate::{
     Adams, AdamsBashforthMoulton4, AdamsCourse, AdamsFixedCourse, Adaptive, AdaptiveCourse,
     AlphaEnd, AlphaStep, AlphaWeights, Bdf, BdfCourse, BogackiShampine, BogackiShampine3,
@@ -215,38 +168,42 @@ pub use integrate::{
     Midpoint, NoStages, RadauCourse, RadauIIA, Rk4, Scheme, SemiImplicitEuler, Span, Start,
     StepLimits, Stride, System, Tolerance,
 };
-pub use joint_coordinates::{
+pub use math::scalar::{Real, Scalar};
+pub use measure::access::{MechanismExt, Pose};
+pub use measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+pub use measure::reaction::Wrench;
+pub use measure::view::View;
+pub use mechanism::handle::{
+    BodyHandle, CountsTurns, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,
+    JointHandle,
+};
+pub use mechanism::joint_kernels::{
     Freedom, JointCoordinates, JointCounter, JointEvaluation, JointMotion, JointParts, JointReport,
 };
-pub use joint_dynamics::JointDynamics;
-pub use joint_state::JointState;
-pub use joint_stepper::JointStepper;
-pub use kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
-pub use load::{AppliedForces, ForceLaw, Loads, NoForces};
-pub use mechanism::{
+pub use mechanism::kernels::{
     Chapter15, Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw,
     Stabilisation, Stabilised, Terms,
 };
-pub use moving::{Bodies, Description, Joints, Moving};
-pub use nalgebra;
-pub use project::{Correction, Moved, Projection};
-pub use reaction::Wrench;
-pub use readout::{AngleParts, DisplacementParts, ForceParts};
-#[cfg(feature = "recorder")]
-pub use recorder::{RecordError, Recorder};
-pub use report::{
+pub use mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
+pub use mechanism::report::{
     Block, BodyInfo, BodyKind, Carrier, ExplicitTime, ForceInfo, JointInfo, Kernel, Operations,
     Rank, RedundantRow, Report,
 };
-pub use reporting::{Reporting, every, every_step};
-pub use run_report::{RunReport, RunResult};
-pub use sample::Sample;
-pub use scalar::{Real, Scalar};
-pub use scales::Scales;
-pub use simulation::Simulation;
-pub use stepper::Stepper;
-pub use treatment::{Treatment, TreeRecovery, VelocityProjection};
-pub use view::View;
+pub use nalgebra;
+pub use run::direct::DirectCorrection;
+pub use run::joint_stepper::JointStepper;
+pub use run::kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
+pub use run::output::{Reporting, every, every_step};
+pub use run::post_step::{Treatment, TreeRecovery, VelocityProjection};
+#[cfg(feature = "recorder")]
+pub use run::recorder::{RecordError, Recorder};
+pub use run::report::{RunReport, RunResult};
+pub use run::sample::Sample;
+pub use run::simulation::Simulation;
+pub use run::stepper::Stepper;
+pub use state::each::{EachOfJoints, EachOfState};
+pub use state::joint_state::JointState;
+pub use state::vector::{Array, State, StateParts, Vector};
 pub use watch::{Doubt, Doubts, Excused, ShortestGradient, SmallestPivot, Violation, Watch};
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in `holonom::joints`, by name.

@@ -2,14 +2,14 @@
 
 pub use holonom_macros::{assemble, force_impl, joint_impl};
 
-pub use crate::likes::{Like, check_likes};
+pub use crate::dynamics::likes::{Like, check_likes};
 
-use crate::array::StateParts;
 use crate::dynamics::stabilised;
 use crate::error::{ParameterError, ParameterFault};
-use crate::mechanism::{Mechanism, Orientation, Pivot, Terms};
-use crate::rotation::{scale_euler_rates, with_unit_orientations};
-use crate::scalar::{Real, Scalar, elementary};
+use crate::math::scalar::{Real, Scalar, elementary};
+use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Terms};
+use crate::mechanism::orientations::{scale_euler_rates, with_unit_orientations};
+use crate::state::vector::StateParts;
 
 /// [`Mechanism::evaluate_into`] from the other kernels, with the gains of `Phi'` and of `Phi`.
 #[inline]

@@ -1,16 +1,15 @@
 //! What was set in a state: which bodies stand otherwise against what carries them than in another state.
 
-use crate::apart::angle_between;
-use crate::array::{Array, StateParts};
-use crate::extent::norm;
-use crate::mechanism::Mechanism;
-use crate::newton::Iterate;
-use crate::report::BodyKind;
-use crate::rotation::{
-    conjugate, from_rotation_vector, minus, normalised, over, product, read, rotate, rotate_back,
-    times, write,
-};
-use crate::scalar::{Real, Scalar};
+use crate::constraints::apart::angle_between;
+use crate::constraints::frames::{axes_of, carrier_axes, carrier_of, centre_of, hanging_point};
+use crate::constraints::newton::Iterate;
+use crate::math::quaternion::{conjugate, from_rotation_vector, product, rotate, rotate_back};
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::norm;
+use crate::math::vec3::{minus, over, read, times, write};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, StateParts};
 
 /// A violation, in sizes of its row, that opens a joint: setting an angle opens none of the tree.
 const OPENS: f64 = 1e-6;
@@ -102,7 +101,7 @@ impl<S: Real, M: Mechanism> Set<S, M> {
 
     /// The largest turn (rad), or slide in lengths of the mechanism.
     pub(super) fn size(&self, length: S) -> S {
-        crate::apart::reach::<S, M>(&self.motion, length).size
+        crate::constraints::apart::reach::<S, M>(&self.motion, length).size
     }
 
     /// Whether a body is to be moved against what carries it.
@@ -172,7 +171,7 @@ fn closes_tree<S: Real, M: Mechanism>(
     let at = Iterate::<S, M>::positions(constants, time, state);
     let mut violation = at.violation;
     for (place, joint) in M::REPORT.joints.iter().enumerate() {
-        let carries = |carrier: &crate::report::Carrier| carrier.joint == Some(place);
+        let carries = |carrier: &crate::mechanism::report::Carrier| carrier.joint == Some(place);
         if !M::REPORT.carriers.iter().any(carries) {
             let rows = violation.as_mut_slice().iter_mut();
             let own = rows.skip(joint.row).take(joint.rows);
@@ -180,71 +179,6 @@ fn closes_tree<S: Real, M: Mechanism>(
         }
     }
     at.sizes.within(&violation, S::constant(OPENS))
-}
-
-/// The body that carries another one; `None` for the ground.
-pub(super) fn carrier_of<M: Mechanism>(body: usize) -> Option<usize> {
-    M::REPORT
-        .carriers
-        .get(body)
-        .and_then(|carrier| carrier.body)
-}
-
-/// From the axes of what carries a body to global ones.
-fn carrier_axes<S: Real, M: Mechanism>(state: &M::State<S>, body: usize) -> [S; 4] {
-    axes_of::<S, M>(state, carrier_of::<M>(body))
-}
-
-/// From the axes of a body to global ones.
-pub(super) fn axes_of<S: Real, M: Mechanism>(state: &M::State<S>, body: Option<usize>) -> [S; 4] {
-    let body = body.and_then(|body| M::REPORT.bodies.get(body));
-    match body {
-        Some(body) if body.kind == BodyKind::Rigid => {
-            normalised(&read(state.coordinates().as_slice(), body.coordinate + 3))
-        }
-        _ => [S::one(), S::zero(), S::zero(), S::zero()],
-    }
-}
-
-/// The centre of mass (m, global); the origin of the ground.
-pub(super) fn centre_of<S: Real, M: Mechanism>(state: &M::State<S>, body: Option<usize>) -> [S; 3] {
-    let body = body.and_then(|body| M::REPORT.bodies.get(body));
-    body.map_or([S::zero(); 3], |body| {
-        read(state.coordinates().as_slice(), body.coordinate)
-    })
-}
-
-/// The point (m, global) of a joint on the body that it carries.
-pub(super) fn point_of<S: Real, M: Mechanism>(
-    constants: &M::Constants<S>,
-    state: &M::State<S>,
-    joint: usize,
-    body: usize,
-) -> [S; 3] {
-    let bodies = M::REPORT
-        .joints
-        .get(joint)
-        .map_or(&[][..], |info| info.bodies);
-    let place = bodies.iter().position(|&other| other == Some(body));
-    let arm = place.map_or([S::zero(); 3], |place| {
-        M::joint_point(constants, joint, place)
-    });
-    let [x, y, z] = centre_of::<S, M>(state, Some(body));
-    let [a, b, c] = rotate(&axes_of::<S, M>(state, Some(body)), &arm);
-    [x + a, y + b, z + c]
-}
-
-/// The point (m, global) by which a body hangs on what carries it; its centre of mass where no joint carries it.
-pub(super) fn hanging_point<S: Real, M: Mechanism>(
-    constants: &M::Constants<S>,
-    state: &M::State<S>,
-    body: usize,
-) -> [S; 3] {
-    let carrier = M::REPORT.carriers.get(body);
-    match carrier.and_then(|carrier| carrier.joint) {
-        Some(joint) => point_of::<S, M>(constants, state, joint, body),
-        None => centre_of::<S, M>(state, Some(body)),
-    }
 }
 
 fn relative<S: Real, M: Mechanism>(

@@ -3,17 +3,19 @@
 //! A homotopy: at a share `s` of the way, `Phi(q, t) = (1 - s) Phi(q0, t)`, and the bodies that were set are `s` of their motions away from where they were. At `s = 0`
 //! that is the start, whether it satisfies the constraints or not.
 
-use super::set::{Set, axes_of, carrier_of, centre_of, hanging_point};
-use crate::apart::reach;
-use crate::array::{Array, StateParts};
-use crate::displace::displaced;
+use super::set::Set;
+use crate::constraints::apart::reach;
+use crate::constraints::frames::{axes_of, carrier_of, centre_of, hanging_point};
+use crate::constraints::newton::compliant;
+use crate::constraints::retract::displaced;
+use crate::constraints::rows::Rows;
 use crate::error::Fault;
-use crate::mechanism::{Compliant, Mechanism, Pivot, Plain, Stabilisation};
-use crate::newton::compliant;
-use crate::report::BodyKind;
-use crate::rotation::{cross, minus, over, read, rotate, rotate_back, write};
-use crate::rows::Rows;
-use crate::scalar::Real;
+use crate::math::quaternion::{rotate, rotate_back};
+use crate::math::scalar::Real;
+use crate::math::vec3::{cross, minus, over, read, write};
+use crate::mechanism::kernels::{Compliant, Mechanism, Pivot, Plain, Stabilisation};
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, StateParts};
 use crate::watch::Passage;
 
 /// The largest turn (rad), or movement in lengths of the mechanism, of a stride.

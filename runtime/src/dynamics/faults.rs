@@ -1,15 +1,15 @@
 //! Why a mechanism has no rates: asked after a step was refused, apart from what a step takes.
 
 use super::{Dynamics, vanishes};
-use crate::array::{Array, StateParts};
+use crate::constraints::extent::farthest;
+use crate::dynamics::origin::{differing, origin};
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::load::AppliedForces;
-use crate::mechanism::{Evaluation, Mechanism, Orientation, Pivot, Terms};
-use crate::origin::{differing, origin};
-use crate::rotation::check_state;
-use crate::scalar::Real;
-use crate::start::farthest;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::kernels::{Evaluation, Mechanism, Orientation, Pivot, Terms};
+use crate::mechanism::orientations::check_state;
+use crate::state::vector::{Array, StateParts};
 
 impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
 where

@@ -1,12 +1,12 @@
 //! The Jacobian of the rates, by kernels over forward numbers.
 
 use super::{Dynamics, as_read, coordinate_rates, stabilised, straight};
-use crate::array::{Array, StateParts, Vector};
 use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, by_forward_numbers, lifted, with_differences};
-use crate::load::AppliedForces;
-use crate::mechanism::{Mechanism, Orientation, Stabilisation};
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::kernels::{Mechanism, Orientation, Stabilisation};
+use crate::state::vector::{Array, StateParts, Vector};
 
 impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
 where

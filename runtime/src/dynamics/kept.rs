@@ -3,12 +3,12 @@
 //! Their pivots vanish everywhere, so the rank is followed by the least eigenvalue beside zero of the rows' own matrix, `G = D M^-1 D^T`, in the scale of its diagonal.
 
 use super::Dynamics;
-use crate::array::Array;
+use crate::constraints::rows::Rows;
 use crate::formulation::Formulation;
-use crate::load::AppliedForces;
-use crate::mechanism::{Compliant, Mechanism, Orientation, Pivot};
-use crate::rows::Rows;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::kernels::{Compliant, Mechanism, Orientation, Pivot};
+use crate::state::vector::Array;
 
 /// Steps of the inverse iteration. Near a singular configuration one is enough; far from it any estimate is.
 const ITERATIONS: usize = 3;

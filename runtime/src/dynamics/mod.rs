@@ -1,9 +1,14 @@
 //! A mechanism as a system of differential equations.
 
+pub(crate) mod evaluate;
 mod faults;
 mod jacobian;
+pub(crate) mod joint_dynamics;
 mod kept;
+pub(crate) mod likes;
+pub(crate) mod moving;
 mod on_constraints;
+pub(crate) mod origin;
 mod secants;
 mod trial;
 mod watched;
@@ -13,18 +18,20 @@ use core::marker::PhantomData;
 pub(crate) use faults::singular;
 pub(crate) use watched::lesser;
 
-use crate::array::{Array, StateParts, Vector};
-use crate::compliance::compliances;
+use crate::constraints::compliance::compliances;
 use crate::error::{Fault, ParameterError};
 use crate::formulation::{Formulation, Saddle, inconsistency};
 use crate::integrate::{AlphaEnd, AlphaStep, System, by_differences};
-use crate::load::{AppliedForces, ForceLaw, Loads, NoForces};
-use crate::mechanism::{
+use crate::math::scalar::{Real, Scalar};
+use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::measure::view::View;
+use crate::mechanism::kernels::{
     Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
 };
-use crate::rotation::{bring_to_unit_length, scale_euler_rates, stretch, with_unit_orientations};
-use crate::scalar::{Real, Scalar};
-use crate::view::View;
+use crate::mechanism::orientations::{
+    bring_to_unit_length, scale_euler_rates, stretch, with_unit_orientations,
+};
+use crate::state::vector::{Array, StateParts, Vector};
 use crate::watch::Seen;
 
 /// A mechanism with a formulation, prepared: what an integrator moves.

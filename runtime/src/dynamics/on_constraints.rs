@@ -2,17 +2,17 @@
 
 use super::trial::Trial;
 use super::{Dynamics, singular, vanishes};
-use crate::array::{Array, StateParts, Vector};
-use crate::blocks::add_product;
+use crate::constraints::extent::extent;
+use crate::constraints::extent::farthest;
 use crate::error::Fault;
-use crate::extent::extent;
 use crate::formulation::{Formulation, add};
 use crate::integrate::{AlphaEnd, AlphaStep};
-use crate::load::AppliedForces;
-use crate::mechanism::{Mechanism, Orientation, Terms};
-use crate::rotation::{read, write};
-use crate::scalar::{Real, Scalar};
-use crate::start::farthest;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::{read, write};
+use crate::measure::load::AppliedForces;
+use crate::mechanism::blocks::add_product;
+use crate::mechanism::kernels::{Mechanism, Orientation, Terms};
+use crate::state::vector::{Array, StateParts, Vector};
 
 /// Iterations that a step may take.
 const ITERATIONS: usize = 100;

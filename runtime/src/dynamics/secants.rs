@@ -1,9 +1,9 @@
 //! Acceleration of an iteration by what its former changes tell.
 
-use crate::array::Array;
 use crate::formulation::add;
-use crate::mechanism::Mechanism;
-use crate::scalar::{Real, Scalar};
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::kernels::Mechanism;
+use crate::state::vector::Array;
 
 /// How many pairs are kept before they are begun anew: as many stiff springs and dampers may be followed at once.
 const PAIRS: usize = 5;

@@ -1,16 +1,16 @@
 //! What a step of the generalized-alpha method is solved for.
 
 use super::secants::{Change, Secants};
-use crate::array::{Array, StateParts};
-use crate::blocks::add_loads;
-use crate::displace::displaced;
+use crate::constraints::retract::displaced;
 use crate::formulation::add;
 use crate::integrate::{AlphaStep, AlphaWeights};
-use crate::mechanism::Mechanism;
-use crate::report::BodyKind;
-use crate::rotation::{cross, read, write};
-use crate::scalar::Real;
-use crate::view::square;
+use crate::math::scalar::Real;
+use crate::math::vec3::square;
+use crate::math::vec3::{cross, read, write};
+use crate::mechanism::blocks::add_loads;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, StateParts};
 
 /// What an iteration displaces bodies by, at most, in radians or sizes of the mechanism, and twice as much after every one that is held to it: stiff springs would throw bodies beyond where what is known of them holds.
 const FARTHEST: f64 = 0.02;

@@ -1,12 +1,12 @@
 //! What the watch wants to know of a mechanism under way.
 
+use super::evaluate::Evaluate;
 use super::{Dynamics, Parts};
-use crate::array::{Array, StateParts};
 use crate::formulation::Formulation;
-use crate::load::AppliedForces;
-use crate::mechanism::{Mechanism, Orientation, Pivot, Plain, Terms};
-use crate::sample::Evaluate;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
+use crate::state::vector::{Array, StateParts};
 use crate::watch::{Beginning, Step, Watch};
 
 /// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as the forces do.

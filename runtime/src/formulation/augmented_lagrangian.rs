@@ -3,13 +3,13 @@
 use super::{
     Formulation, JointSaddle, JointSolution, Saddle, Solution, difference, faster_decay, penalty,
 };
-use crate::array::Array;
+use crate::error::setting::positive;
 use crate::error::{Fault, NotFinite};
-use crate::integrate::positive;
-use crate::joint_coordinates::JointCoordinates;
-use crate::mechanism::{Compliant, Mechanism, Stabilisation};
-use crate::scalar::{Real, Scalar};
-use crate::view::square;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::square;
+use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::kernels::{Compliant, Mechanism, Stabilisation};
+use crate::state::vector::Array;
 
 /// The augmented Lagrangian formulation: the penalty with multipliers iterated until its bias is gone.
 ///

@@ -2,9 +2,9 @@
 
 use super::{Formulation, faster_decay};
 use crate::error::Fault;
-use crate::integrate::positive;
-use crate::mechanism::{Stabilisation, Stabilised};
-use crate::scalar::Real;
+use crate::error::setting::positive;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::{Stabilisation, Stabilised};
 
 /// Baumgarte's stabilisation: `Phi'' + 2 alpha Phi' + beta^2 Phi = 0`.
 ///

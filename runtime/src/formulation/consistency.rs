@@ -1,8 +1,8 @@
 //! How far accelerations are from what the constraints ask of them.
 
-use crate::array::Array;
-use crate::mechanism::Mechanism;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::state::vector::Array;
 
 /// The row whose accelerations are farthest from `D u' = gamma*`, and how far: relative to the sum of the sizes of its terms, `|D| |u'|`,
 /// `|D| M^-1 |g|` (what applied forces would do without constraints) and `|gamma*|`. Zero where all are met, about one where a constraint does

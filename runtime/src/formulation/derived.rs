@@ -1,11 +1,11 @@
 //! Coefficients that follow from the scales of a scene.
 
 use super::{AugmentedLagrangian, Baumgarte, Penalty};
-use crate::compliance::RESOLVED;
+use crate::constraints::compliance::RESOLVED;
+use crate::constraints::scales::Scales;
 use crate::error::Fault;
-use crate::mechanism::Mechanism;
-use crate::scalar::Real;
-use crate::scales::Scales;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
 
 /// The frequency of violations over the rate of the motion, `1 / time`, of a penalty: what a steady reaction leaves of violation goes with its square. Without such a bias, one.
 const FASTER: f64 = 2.0;

@@ -4,12 +4,12 @@ use core::marker::PhantomData;
 
 use super::AugmentedLagrangian;
 use super::augmented_lagrangian::{add, combine};
-use crate::array::Array;
 use crate::error::{Fault, NotFinite};
-use crate::joint_coordinates::JointCoordinates;
-use crate::mechanism::{Compliant, Terms};
-use crate::scalar::{Real, Scalar};
-use crate::view::square;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::square;
+use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::kernels::{Compliant, Terms};
+use crate::state::vector::Array;
 
 /// The saddle system in joint coordinates at one time and state: factorised, and solved once.
 pub struct JointSaddle<'a, S: Scalar, M: JointCoordinates, T: Terms> {

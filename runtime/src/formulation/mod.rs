@@ -42,12 +42,12 @@ pub use standard::StandardLagrange;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use crate::array::Array;
+use crate::constraints::self_stress::{passing, self_stressed};
 use crate::error::Fault;
-use crate::joint_coordinates::JointCoordinates;
-use crate::mechanism::{Mechanism, Stabilisation, Terms};
-use crate::scalar::{Real, Scalar};
-use crate::self_stress::{passing, self_stressed};
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::kernels::{Mechanism, Stabilisation, Terms};
+use crate::state::vector::Array;
 
 /// The faster rate of decay of `x'' + 2 a x' + b^2 x = 0`, or the size of both where it oscillates.
 fn faster_decay<S: Real>(a: S, b: S) -> S {

@@ -2,9 +2,9 @@
 
 use super::{Formulation, faster_decay};
 use crate::error::Fault;
-use crate::integrate::positive;
-use crate::mechanism::{Compliant, Stabilisation};
-use crate::scalar::Real;
+use crate::error::setting::positive;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::{Compliant, Stabilisation};
 
 /// The penalty formulation: `lambda = alpha (Phi'' + 2 mu omega Phi' + omega^2 Phi)`.
 ///

@@ -2,8 +2,8 @@
 
 use super::Formulation;
 use crate::error::Fault;
-use crate::mechanism::{Plain, Stabilisation};
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::{Plain, Stabilisation};
 
 /// Standard Lagrange multipliers: `D u' = gamma`, nothing else.
 ///

@@ -1,9 +1,9 @@
 //! Columns of a Jacobian by forward numbers.
 
 use super::Forward;
-use crate::array::{Array, Vector};
-use crate::integrate::increment;
-use crate::scalar::{Real, Scalar};
+use crate::math::scalar::increment;
+use crate::math::scalar::{Real, Scalar};
+use crate::state::vector::{Array, Vector};
 
 /// The columns that one evaluation takes.
 const LANES: usize = 4;

@@ -1,7 +1,7 @@
 use super::{Forward, Lifted, by_forward_numbers, with_differences};
-use crate::array::Vector;
-use crate::joint_state::JointState;
-use crate::scalar::{Real, Scalar};
+use crate::math::scalar::{Real, Scalar};
+use crate::state::joint_state::JointState;
+use crate::state::vector::Vector;
 
 type Two = Forward<f64, 2>;
 

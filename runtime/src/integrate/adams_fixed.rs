@@ -8,9 +8,9 @@ use super::{
     Counted, Counts, Course, Integrator, NoStages, Rk4, Scheme as _, Span, Start, Stride, System,
     dense, named,
 };
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// The method of Adams, Bashforth and Moulton of order 4 at a fixed step: predicted from the slopes at four times, corrected with that at the predicted state. Two
 /// evaluations a step, whatever the order; no estimate of the error.

@@ -6,9 +6,9 @@ use super::controller::{Controller, FIRST_SHARE};
 use super::{
     Adaptive, Counted, Counts, Course, EmbeddedPair, Ends, Span, Start, Stride, System, named,
 };
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// An integration with an [`Adaptive`] method under way.
 pub struct AdaptiveCourse<S: Real, X: Vector<S>, K: EmbeddedPair<S>> {

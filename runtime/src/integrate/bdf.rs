@@ -7,9 +7,9 @@ use super::controller::{Controller, FIRST_SHARE};
 use super::linear::Factors;
 use super::newton::{Age, Newton, Progress};
 use super::{Counted, Counts, Course, Span, System, named};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 controlled! {
     /// Gear's method: numerical differentiation formulas of order 1 to 5 with step control, for stiff systems that are smooth: one evaluation for each iteration of a step,

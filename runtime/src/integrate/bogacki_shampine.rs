@@ -1,10 +1,10 @@
 //! The method of Bogacki and Shampine.
 
 use super::{Adaptive, EmbeddedPair, Scheme, Start, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
 use crate::integrate::tableau::{bogacki_shampine as tableau, scaled};
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// Bogacki-Shampine 3(2) with the step control of MATLAB's `ode23`, see [`Adaptive`]: `3 k + 1` evaluations for `k` steps. For loose tolerances. Output within a step is by the cubic through
 /// states and slopes at both ends.

@@ -1,9 +1,9 @@
 //! Why a step is refused: its stages once more, with a look at the rates of each.
 
 use super::System;
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// A fault of a stage that says why; else that of the same once more, with a look at the rates of every stage.
 pub(super) fn named<S: Real, X: Vector<S>, T>(

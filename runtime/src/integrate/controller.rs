@@ -1,11 +1,12 @@
 //! The step control of MATLAB's `ode45` and `ode23`, as pure functions.
 
-use super::{Span, StepLimits, positive};
-use crate::array::Vector;
+use super::{Span, StepLimits};
+use crate::constraints::scales::Scales;
 use crate::error::Fault;
-use crate::mechanism::Mechanism;
-use crate::scalar::Real;
-use crate::scales::Scales;
+use crate::error::setting::positive;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::state::vector::Vector;
 
 /// The error to be allowed in a step: `relative * max(|y|, absolute / relative)` for every element of the state.
 ///

@@ -1,9 +1,9 @@
 //! What an integration costs.
 
 use super::{AlphaEnd, AlphaStep, System};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// What an integration has cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use super::Stride;
 use super::tableau::dormand_prince::INTERPOLANT;
-use crate::array::Vector;
-use crate::scalar::{Real, Scalar};
+use crate::math::scalar::{Real, Scalar};
+use crate::state::vector::Vector;
 
 /// The cubic through states and slopes at both ends, with an error of order `h^4`.
 ///

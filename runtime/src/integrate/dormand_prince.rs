@@ -2,9 +2,9 @@
 
 use super::tableau::{dormand_prince as tableau, scaled};
 use super::{Adaptive, EmbeddedPair, Scheme, Start, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// Dormand-Prince 5(4) with the step control of MATLAB's `ode45`, see [`Adaptive`]: `6 k + 1` evaluations for `k` steps. Output within a step is by the free interpolant of order 4.
 ///

@@ -3,9 +3,9 @@
 use super::tableau::scaled;
 use super::tableau_853 as tableau;
 use super::{Adaptive, EmbeddedPair, Ends, Scheme, Start, Stride, System};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::{Real, Scalar};
+use crate::math::scalar::{Real, Scalar};
+use crate::state::vector::Vector;
 
 /// Dormand-Prince 8(5,3) with the step control of [`Adaptive`]: `12 k + 1` evaluations for `k` steps, and three for every step that is looked into. For tight tolerances. Output within a step is by
 /// the interpolant of order 7.

@@ -5,9 +5,9 @@ use super::{
     AdaptiveCourse, BogackiShampine3, DormandPrince5, DormandPrince8, FixedStep, Integrator,
     Scheme, Span, StepLimits, Stride, System, Tolerance,
 };
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// A one-step method that estimates the error of its steps. Its last slope is that at the end of a step, and the first of the next one.
 pub trait EmbeddedPair<S: Real>: Scheme<S> + PartialEq {

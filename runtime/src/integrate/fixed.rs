@@ -2,12 +2,12 @@
 
 use super::lobatto::Taken;
 use super::{
-    Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named,
-    positive, refused,
+    Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named, refused,
 };
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::error::setting::positive;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// A [`Scheme`] at a fixed step: times `t0 + k h`, the last step shortened to the end of the interval.
 ///

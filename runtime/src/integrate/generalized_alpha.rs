@@ -5,9 +5,9 @@ use core::mem::replace;
 use super::fixed::{Grid, slope};
 use super::lobatto::Taken;
 use super::{Counted, Counts, Course, Integrator, NoStages, Span, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// The generalized-alpha method of order 2 for mechanisms with rigid constraints, fixed step: positions *and* velocities are on the constraints after every step, high frequencies are damped as much as wanted, and
 /// positions of bodies and orientations never leave their joints or length 1, so that no treatment is needed.

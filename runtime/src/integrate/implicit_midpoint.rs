@@ -3,9 +3,9 @@
 use core::mem::swap;
 
 use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// The implicit midpoint rule of order 2: `y1 = y0 + h k`, `k = f(t0 + h/2, y0 + h/2 k)`. No estimate of the error.
 ///

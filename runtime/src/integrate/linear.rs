@@ -1,7 +1,7 @@
 //! Systems of linear equations `(shift I - J) x = b` between slopes, for implicit methods.
 
-use crate::array::Vector;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// A complex number: real and imaginary part.
 pub(super) type Complex<S> = [S; 2];
@@ -237,8 +237,8 @@ mod tests {
     use core::array::from_fn;
 
     use super::{Complex, ComplexColumn, Factors};
-    use crate::array::{State, StateParts, Vector};
-    use crate::each::EachOfState;
+    use crate::state::each::EachOfState;
+    use crate::state::vector::{State, StateParts, Vector};
 
     /// Numbers without a pattern.
     fn scattered(seed: u64) -> impl FnMut() -> f64 {

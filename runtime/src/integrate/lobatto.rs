@@ -1,9 +1,9 @@
 //! What a step of a method of low order misses.
 
 use super::{NoStages, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// A step that was taken.
 #[derive(Clone, Copy)]

@@ -72,14 +72,14 @@ pub use semi_implicit::SemiImplicitEuler;
 
 use core::fmt::Debug;
 
-pub(crate) use self::newton::{by_differences, increment};
+pub(crate) use self::newton::by_differences;
 
 use self::checked::named;
 use self::counted::Counted;
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::reporting::interval;
-use crate::scalar::Real;
+use crate::error::setting::interval;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// A system of ordinary differential equations of first order: `y' = f(t, y)`.
 ///
@@ -481,16 +481,4 @@ fn refused<S: Real, K: Scheme<S>, X: Vector<S>>(
         scheme.stride(system, start, step, &mut scheme.stages(slope))
     })
     .unwrap_or(Fault::StateNotFinite)
-}
-
-/// Refuses a setting that is not finite and positive.
-pub(crate) fn positive<S: Real>(name: &'static str, value: S) -> Result<S, Fault> {
-    if value.is_finite() && value > S::zero() {
-        Ok(value)
-    } else {
-        Err(Fault::Setting {
-            name,
-            value: value.to_f64(),
-        })
-    }
 }

@@ -1,8 +1,9 @@
 //! What implicit methods have in common: a simplified Newton iteration, and the Jacobian of the rates.
 
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::math::scalar::increment;
+use crate::state::vector::Vector;
 
 /// A simplified Newton iteration under way, by the sizes of its changes (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8).
 #[derive(Clone, Copy, Debug)]
@@ -107,9 +108,4 @@ pub(crate) fn by_differences<S: Real, X: Vector<S>>(
         evaluations += 1;
     }
     Ok(evaluations)
-}
-
-/// The increment of an element for a difference.
-pub(crate) fn increment<S: Real>(element: S) -> S {
-    (S::EPSILON * element.abs().max(S::constant(1e-5))).sqrt()
 }

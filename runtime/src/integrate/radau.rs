@@ -7,10 +7,11 @@ use super::controller::{Controller, FIRST_SHARE};
 use super::linear::{ComplexColumn, Factors};
 use super::newton::{Age, Newton, Progress};
 use super::tableau_radau as tableau;
-use super::{Counted, Counts, Course, Span, System, Tolerance, named, positive};
-use crate::array::Vector;
+use super::{Counted, Counts, Course, Span, System, Tolerance, named};
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::error::setting::positive;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 controlled! {
     /// Radau IIA of order 5 with step control: for stiff systems, whose fast motions have died out and still keep an explicit method at short steps.

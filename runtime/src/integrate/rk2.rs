@@ -1,9 +1,9 @@
 //! Runge-Kutta methods of order 2.
 
 use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// The explicit midpoint method of order 2, of Runge: two evaluations a step, no estimate of the error.
 ///

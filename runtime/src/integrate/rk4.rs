@@ -1,9 +1,9 @@
 //! The classical Runge-Kutta method.
 
 use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// The classical Runge-Kutta method of order 4: four evaluations a step, no estimate of the error.
 ///

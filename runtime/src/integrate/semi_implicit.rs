@@ -1,9 +1,9 @@
 //! The semi-implicit Euler method.
 
 use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
-use crate::array::Vector;
 use crate::error::Fault;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// The semi-implicit (symplectic) Euler method of order 1: velocities by the accelerations at the start of the step, then coordinates by the velocities at its end. One
 /// evaluation a step, no estimate of the error.

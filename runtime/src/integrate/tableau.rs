@@ -1,6 +1,6 @@
 //! Coefficients of the Runge-Kutta methods.
 
-use crate::scalar::Scalar;
+use crate::math::scalar::Scalar;
 
 /// A row of a tableau times the step.
 #[inline(always)]

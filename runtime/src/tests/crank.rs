@@ -196,7 +196,7 @@ impl Mechanism for Crank {
         rates: &mut State<S, 8, 6>,
         multipliers: &mut [S; 6],
     ) -> Pivot<S> {
-        let unit = crate::rotation::with_unit_orientations::<S, Self>(state);
+        let unit = crate::mechanism::orientations::with_unit_orientations::<S, Self>(state);
         let read = if P::NORMALISED { &unit } else { state };
         let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
         let mut lower = Self::gamma(c, time, read);

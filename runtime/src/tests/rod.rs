@@ -6,7 +6,9 @@
 use core::array::from_fn;
 
 use super::dense;
-use crate::rotation::{cross, rotate, rotate_back};
+use crate::math::quaternion::{self, rotate, rotate_back};
+use crate::math::vec3::cross;
+use crate::mechanism::orientations;
 use crate::*;
 
 /// The rod; its mass is a parameter.
@@ -225,7 +227,7 @@ impl Mechanism for Rod {
     fn coordinate_rates<S: Scalar>(_: &[S; 6], state: &State<S, 7, 6>) -> [S; 7] {
         let (_, p, [x, y, z], [w1, w2, w3]) = split(state);
         let half = S::constant(0.5);
-        let rates = rotation::product(&p, &[S::zero(), half * w1, half * w2, half * w3]);
+        let rates = quaternion::product(&p, &[S::zero(), half * w1, half * w2, half * w3]);
         [x, y, z, rates[0], rates[1], rates[2], rates[3]]
     }
 
@@ -237,7 +239,7 @@ impl Mechanism for Rod {
         rates: &mut State<S, 7, 6>,
         multipliers: &mut [S; 5],
     ) -> Pivot<S> {
-        let unit = rotation::with_unit_orientations::<S, Self>(state);
+        let unit = orientations::with_unit_orientations::<S, Self>(state);
         let read = if P::NORMALISED { &unit } else { state };
         let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
         let mut lower = Self::gamma(c, time, read);

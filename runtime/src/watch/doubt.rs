@@ -4,7 +4,7 @@ use core::array::IntoIter;
 use core::fmt;
 use core::iter::Flatten;
 
-use crate::readable::Measured;
+use crate::error::readable::Measured;
 
 /// A reason not to trust the result of a run as it is. `Display` says it in a sentence, with what to do.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The balance of energy of a run.
 
 use super::limits::DIGITS;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// Change of energy against the work that was put in.
 #[derive(Clone, Copy, Debug)]

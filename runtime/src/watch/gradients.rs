@@ -1,12 +1,12 @@
 //! How long the gradients of the equations were over a run.
 
 use super::singular::Approach;
-use crate::array::Array;
-use crate::mechanism::Mechanism;
-use crate::report::Block;
-use crate::rotation::{read, write};
-use crate::scalar::{Real, Scalar};
-use crate::view::square;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::square;
+use crate::math::vec3::{read, write};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::Block;
+use crate::state::vector::Array;
 
 /// Squares of the lengths of the rows of `D`: of what acts on translations (m), and of what acts on rotations (rad).
 ///

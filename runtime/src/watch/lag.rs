@@ -1,12 +1,13 @@
 //! By how much coordinates lag behind, with a method of low order whose energy does not tell.
 
 use super::pace::Pace;
-use crate::array::{Array, StateParts};
-use crate::mechanism::Mechanism;
-use crate::report::{BodyInfo, BodyKind};
-use crate::rotation::{conjugate, minus, product, read, times, write};
-use crate::scalar::{Real, Scalar};
-use crate::view::square;
+use crate::math::quaternion::{conjugate, product};
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::square;
+use crate::math::vec3::{minus, read, times, write};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::{BodyInfo, BodyKind};
+use crate::state::vector::{Array, StateParts};
 
 /// Of how many steps one is judged.
 const EVERY: usize = 4;

@@ -12,16 +12,15 @@ mod limits;
 mod pace;
 mod passage;
 mod rest;
-mod rows;
 mod seen;
 mod singular;
 mod verdict;
 mod within;
 
+use crate::constraints::row_units::{Meanings, characteristic_length};
 pub use doubt::{Doubt, Doubts};
 pub(crate) use passage::Passage;
 pub(crate) use rest::Beginning;
-pub(crate) use rows::{Meanings, extent};
 pub(crate) use seen::Seen;
 pub(crate) use within::Nearness;
 
@@ -31,16 +30,16 @@ use self::lag::Lag;
 use self::pace::Pace;
 use self::rest::Rest;
 use self::singular::Approach;
-use crate::array::{Array, StateParts};
-use crate::assembly::wrong;
-use crate::handle::JointHandle;
+use crate::constraints::extent::resolution;
+use crate::constraints::side::wrong;
 use crate::integrate::Integrator;
-use crate::mechanism::Mechanism;
-use crate::report::{BodyKind, JointInfo};
-use crate::rotation::read;
-use crate::scalar::{Real, Scalar};
-use crate::start::resolution;
-use crate::view::square;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::read;
+use crate::math::vec3::square;
+use crate::mechanism::handle::JointHandle;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::{BodyKind, JointInfo};
+use crate::state::vector::{Array, StateParts};
 
 /// What the watch over a run saw: violations by joint, pivots, energy.
 pub struct Watch<S: Scalar, M: Mechanism> {
@@ -228,7 +227,7 @@ pub(crate) fn fastest<S: Real, M: Mechanism>(
     let (speed, spin) = speeds::<S, M>(state);
     // Lengths of the description: bodies may be anywhere by now.
     let described = M::initial_state(constants);
-    spin.max(speed.quotient(extent::<S, M>(constants, &described)))
+    spin.max(speed.quotient(characteristic_length::<S, M>(constants, &described)))
 }
 
 /// Whether a value is above a bound; NaN is above every bound.
@@ -255,7 +254,7 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
 impl<S: Real, M: Mechanism> Watch<S, M> {
     pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
         let kinetic = M::kinetic_energy(constants, state);
-        let length = extent::<S, M>(constants, state);
+        let length = characteristic_length::<S, M>(constants, state);
         Self {
             rows: Meanings::at(constants, time, state),
             pace: Pace::at(constants, (time, state), length),

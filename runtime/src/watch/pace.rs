@@ -1,12 +1,12 @@
 //! How fast a mechanism moves, in radians.
 
-use crate::array::{Array, StateParts};
-use crate::mechanism::Mechanism;
-use crate::report::BodyKind;
-use crate::rotation::{read, write};
-use crate::rows::Rows;
-use crate::scalar::{Real, Scalar};
-use crate::view::square;
+use crate::constraints::rows::Rows;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::square;
+use crate::math::vec3::{read, write};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, StateParts};
 
 /// The lengths (m) by which bodies move in a radian.
 pub(super) struct Pace<S: Scalar, M: Mechanism> {

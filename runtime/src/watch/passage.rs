@@ -5,8 +5,8 @@ use super::gradients::Gradients;
 use super::limits;
 use super::singular::Approach;
 use super::verdict::above;
-use crate::mechanism::{Mechanism, Pivot};
-use crate::scalar::{Real, Scalar};
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::kernels::{Mechanism, Pivot};
 
 /// Pivots and gradients along a way of short strides.
 pub(crate) struct Passage<S: Scalar, M: Mechanism> {

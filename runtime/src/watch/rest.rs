@@ -4,13 +4,13 @@
 
 use super::limits;
 use super::{Watch, exceeds};
-use crate::array::{Array, StateParts};
-use crate::mechanism::Mechanism;
-use crate::report::BodyKind;
-use crate::rotation::{minus, read};
-use crate::scalar::Real;
-use crate::start::farthest;
-use crate::view::square;
+use crate::constraints::extent::farthest;
+use crate::math::scalar::Real;
+use crate::math::vec3::square;
+use crate::math::vec3::{minus, read};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, StateParts};
 
 /// What is known of rest at a time.
 #[derive(Clone, Copy, Debug)]

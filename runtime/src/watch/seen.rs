@@ -1,8 +1,8 @@
 //! What evaluations leave behind on the way of an integration.
 
-use crate::array::Array;
-use crate::mechanism::Mechanism;
-use crate::scalar::{Real, Scalar};
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::kernels::Mechanism;
+use crate::state::vector::Array;
 
 /// Kept by [`Dynamics`](crate::Dynamics) at every evaluation, for the watch to read at the end of a step.
 pub struct Seen<S: Scalar, M: Mechanism> {

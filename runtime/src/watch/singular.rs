@@ -1,6 +1,6 @@
 //! How near a run came to a singular configuration.
 
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// A relative pivot and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]

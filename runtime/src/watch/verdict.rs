@@ -3,9 +3,9 @@
 use super::doubt::{Doubt, Doubts};
 use super::limits;
 use super::{Violation, Watch, Worst, exceeds};
-use crate::mechanism::Mechanism;
-use crate::report::JointInfo;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::JointInfo;
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
     /// What is to be doubted.

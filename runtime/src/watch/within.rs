@@ -2,8 +2,8 @@
 
 use super::verdict::above;
 use super::{Watch, limits};
-use crate::mechanism::Mechanism;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
 
 /// How near a state is to a singular configuration.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! The choice of step and order, from estimates of errors.
 
 use super::coefficients::HIGHEST;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// The coefficients of the errors at orders 1 to 13, of Moulton's formulas: Shampine and Gordon, subroutine STEP, to the digits given there.
 const ERRORS: [f64; 13] = [

@@ -3,7 +3,7 @@
 
 use core::ops::{Index, IndexMut};
 
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// The highest order of a predictor.
 pub(super) const HIGHEST: usize = 12;

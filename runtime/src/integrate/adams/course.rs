@@ -5,11 +5,11 @@ use core::mem::replace;
 use super::Adams;
 use super::choice::{Errors, chosen, coefficient};
 use super::coefficients::{Coefficients, HIGHEST, Row};
-use crate::array::Vector;
 use crate::error::Fault;
 use crate::integrate::controller::Controller;
 use crate::integrate::{Counted, Counts, Course, Span, System, named};
-use crate::scalar::Real;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
 
 /// What the first step takes of the change that the tolerance allows, and the power of the step that the error at order 1 goes with.
 const FIRST_SHARE: f64 = 0.25;

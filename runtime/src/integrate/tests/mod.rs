@@ -9,7 +9,7 @@ mod pairs;
 mod stiff;
 
 use super::*;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// An equation from a closure.
 struct Equation<G>(G);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::JointState;
-use crate::array::{State, StateParts};
+use crate::state::vector::{State, StateParts};
 
 pub(super) type Turned<S, const N: usize> = JointState<S, N, 0, N>;
 pub(super) type Plain<S, const N: usize> = State<S, N, N>;

@@ -5,10 +5,10 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{curve, curved, distance, equation, span};
-use crate::array::Vector;
 use crate::error::Fault;
 use crate::integrate::{Bdf, Counts, Course as _, Integrator, RadauIIA, System, Tolerance};
-use crate::joint_state::JointState;
+use crate::state::joint_state::JointState;
+use crate::state::vector::Vector;
 
 fn tolerance(relative: f64) -> Tolerance<f64> {
     Tolerance {

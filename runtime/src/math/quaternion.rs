@@ -1,0 +1,140 @@
+//! Euler parameters and vectors as plain arrays.
+//!
+//! Euler parameters are `(e0, e1, e2, e3)`, scalar first; `A(p)` takes components along body axes to components along global
+//! axes. Nikravesh, *Computer-Aided Analysis of Mechanical Systems* (1988), chapter 6.
+
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::cross;
+
+/// `A(p) s = (e0^2 - e.e) s + 2 (e.s) e + 2 e0 e x s`.
+pub(crate) fn rotate<S: Scalar>(p: &[S; 4], s: &[S; 3]) -> [S; 3] {
+    let [e0, e1, e2, e3] = *p;
+    let [s1, s2, s3] = *s;
+    let along = e1 * s1 + e2 * s2 + e3 * s3;
+    let direct = e0 * e0 - (e1 * e1 + e2 * e2 + e3 * e3);
+    let [c1, c2, c3] = cross(&[e1, e2, e3], s);
+    let component = |s: S, e: S, c: S| {
+        let half = along * e + e0 * c;
+        direct.fused(s, half + half)
+    };
+    [
+        component(s1, e1, c1),
+        component(s2, e2, c2),
+        component(s3, e3, c3),
+    ]
+}
+
+/// `A(p)^T s`.
+pub(crate) fn rotate_back<S: Scalar>(p: &[S; 4], s: &[S; 3]) -> [S; 3] {
+    rotate(&conjugate(p), s)
+}
+
+/// The opposite rotation, `(e0, -e1, -e2, -e3)`.
+pub(crate) fn conjugate<S: Scalar>(p: &[S; 4]) -> [S; 4] {
+    let [e0, e1, e2, e3] = *p;
+    [e0, -e1, -e2, -e3]
+}
+
+/// The product `p q` with `A(p q) = A(p) A(q)`.
+pub(crate) fn product<S: Scalar>(p: &[S; 4], q: &[S; 4]) -> [S; 4] {
+    let [a0, a1, a2, a3] = *p;
+    let [b0, b1, b2, b3] = *q;
+    [
+        a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3,
+        a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2,
+        a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1,
+        a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0,
+    ]
+}
+
+/// Euler parameters of a rotation, given row by row: from the largest of the four (Shepperd 1978, J. Guidance and Control 1), of length 1.
+pub(crate) fn from_matrix<S: Real>(rows: &[[S; 3]; 3]) -> [S; 4] {
+    let [[a11, a12, a13], [a21, a22, a23], [a31, a32, a33]] = *rows;
+    let one = S::one();
+    // Four times the squares.
+    let squares = [
+        one + a11 + a22 + a33,
+        one + a11 - a22 - a33,
+        one - a11 + a22 - a33,
+        one - a11 - a22 + a33,
+    ];
+    let [e0, e1, e2, e3] = squares;
+    let p = if e0 >= e1 && e0 >= e2 && e0 >= e3 {
+        [e0, a32 - a23, a13 - a31, a21 - a12]
+    } else if e1 >= e2 && e1 >= e3 {
+        [a32 - a23, e1, a21 + a12, a13 + a31]
+    } else if e2 >= e3 {
+        [a13 - a31, a21 + a12, e2, a32 + a23]
+    } else {
+        [a21 - a12, a13 + a31, a32 + a23, e3]
+    };
+    normalised(&p)
+}
+
+/// `p / |p|`.
+pub(crate) fn normalised<S: Scalar>(p: &[S; 4]) -> [S; 4] {
+    let [e0, e1, e2, e3] = *p;
+    let scale = (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3).sqrt().reciprocal();
+    [e0 * scale, e1 * scale, e2 * scale, e3 * scale]
+}
+
+/// `p / |p|`, and `p` as it is where its length is zero, which [`check_state`] refuses.
+pub(crate) fn normalised_or_zero<S: Scalar>(p: &[S; 4]) -> [S; 4] {
+    let [e0, e1, e2, e3] = *p;
+    let square = e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3;
+    let scale = S::zero().select(square, square.sqrt().reciprocal(), S::one());
+    [e0 * scale, e1 * scale, e2 * scale, e3 * scale]
+}
+
+/// The Euler parameters of a rotation vector (rad): a turn about its direction by its length.
+pub(crate) fn from_rotation_vector<S: Real>(vector: &[S; 3]) -> [S; 4] {
+    let [x, y, z] = *vector;
+    let angle = (x * x + y * y + z * z).sqrt();
+    let half = S::constant(0.5) * angle;
+    let (sine, cosine) = (half.sin(), half.cos());
+    let factor = if angle > S::zero() {
+        sine.quotient(angle)
+    } else {
+        S::constant(0.5)
+    };
+    [cosine, x * factor, y * factor, z * factor]
+}
+
+/// `| |p| - 1 |` and the factor `1 / |p|`; none where there is no such number: those stay what they are, for whoever uses them to refuse.
+#[inline(always)]
+pub(crate) fn to_unit_length<S: Real>(p: &[S; 4]) -> (S, Option<S>) {
+    let excess = norm(p) - S::one();
+    // `1 / sqrt(1 + x)` by its series: after a step of any accuracy there is no need of a root.
+    if excess.abs() < S::constant(1e-5) {
+        let (half, three_eighths) = (S::constant(-0.5), S::constant(0.375));
+        let factor = excess.fused(three_eighths, half).fused(excess, S::one());
+        return (half.abs() * excess.abs(), Some(factor));
+    }
+    let length = length(p);
+    let is_some = length.is_finite() && length > S::zero();
+    (
+        (length - S::one()).abs(),
+        is_some.then(|| length.reciprocal()),
+    )
+}
+
+/// `p.p`, summed as generated kernels do, so that the compiler sees the same sum.
+#[inline(always)]
+fn norm<S: Scalar>(p: &[S; 4]) -> S {
+    let [e0, e1, e2, e3] = p.map(|e| e * e);
+    (e0 + e1) + (e2 + e3)
+}
+
+/// `|p|`.
+#[inline(always)]
+pub(crate) fn length<S: Scalar>(p: &[S; 4]) -> S {
+    norm(p).sqrt()
+}
+
+/// Multiplies the four Euler parameters at a place.
+#[inline(always)]
+pub(crate) fn scale<S: Scalar>(coordinates: &mut [S], place: usize, factor: S) {
+    for e in coordinates.iter_mut().skip(place).take(4) {
+        *e = *e * factor;
+    }
+}

@@ -1,0 +1,6 @@
+//! What is read from a state, and what acts on it, by handle.
+
+pub(crate) mod access;
+pub(crate) mod load;
+pub(crate) mod reaction;
+pub(crate) mod view;

@@ -1,0 +1,310 @@
+//! A state at a time, to be read.
+
+use crate::math::vec3::square;
+use nalgebra::Vector3;
+
+use crate::error::Fault;
+use crate::math::scalar::Scalar;
+use crate::measure::access::{MechanismExt, Pose};
+use crate::measure::reaction::{Wrench, wrench};
+use crate::mechanism::handle::{
+    BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle,
+};
+use crate::mechanism::kernels::{Mechanism, Orientation};
+use crate::mechanism::orientations::with_unit_orientations;
+use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
+use crate::state::vector::Array;
+
+/// A state at a time, with everything that can be read from it by handle.
+pub struct View<'a, S: Scalar, M: Mechanism> {
+    constants: &'a M::Constants<S>,
+    time: S,
+    state: &'a M::State<S>,
+    normalised: bool,
+}
+
+impl<S: Scalar, M: Mechanism> Clone for View<'_, S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for View<'_, S, M> {}
+
+impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
+    /// A view of a state; for the kernels it is read with Euler parameters of length 1.
+    ///
+    /// Constants and state do not tell the mechanism: two may have the same sizes. A handle does; where none is used, write
+    /// `View::<_, Swing>::new(..)`.
+    #[must_use]
+    pub fn new(constants: &'a M::Constants<S>, time: S, state: &'a M::State<S>) -> Self {
+        Self {
+            constants,
+            time,
+            state,
+            normalised: true,
+        }
+    }
+
+    pub(crate) fn reading<P: Orientation>(self) -> Self {
+        Self {
+            normalised: P::NORMALISED,
+            ..self
+        }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn time(&self) -> S {
+        self.time
+    }
+
+    /// The state.
+    #[must_use]
+    pub fn state(&self) -> &'a M::State<S> {
+        self.state
+    }
+
+    /// Position (m, global) of the centre of mass, and orientation from the user's body axes to the global axes.
+    #[must_use]
+    pub fn pose(&self, body: BodyHandle<M>) -> Pose<S> {
+        M::pose(self.state, body)
+    }
+
+    /// The velocity of the centre of mass (m/s, global).
+    #[must_use]
+    pub fn velocity(&self, body: BodyHandle<M>) -> Vector3<S> {
+        M::velocity(self.state, body)
+    }
+
+    /// The angular velocity (rad/s) along the user's body axes.
+    #[must_use]
+    pub fn angular_velocity(&self, body: BodyHandle<M>) -> Vector3<S> {
+        M::angular_velocity(self.state, body)
+    }
+
+    /// The angular velocity (rad/s) along the global axes.
+    #[must_use]
+    pub fn angular_velocity_global(&self, body: BodyHandle<M>) -> Vector3<S> {
+        M::angular_velocity_global(self.state, body)
+    }
+
+    /// A point of a body (m, global), given from the centre of mass along the user's body axes (m).
+    #[must_use]
+    pub fn point(&self, body: BodyHandle<M>, point: Vector3<S>) -> Vector3<S> {
+        M::point(self.state, body, point)
+    }
+
+    /// The velocity of a point of a body (m/s, global), given as in [`View::point`].
+    #[must_use]
+    pub fn point_velocity(&self, body: BodyHandle<M>, point: Vector3<S>) -> Vector3<S> {
+        M::point_velocity(self.state, body, point)
+    }
+
+    /// The angle of a joint (rad), zero in the configuration that the attributes describe, positive as the second body
+    /// turns about the joint's axis against the first: from `-pi` to `pi`, or without bounds where the joint's definition counts turns.
+    #[must_use]
+    pub fn angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
+        self.angle_parts(joint.index()).angle()
+    }
+
+    /// The rate of the angle of a joint (rad/s), with the sign of [`View::angle`].
+    #[must_use]
+    pub fn angle_rate<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
+        self.angle_parts(joint.index()).rate
+    }
+
+    /// The displacement of a joint (m), with the zero and the sign of its definition.
+    #[must_use]
+    pub fn displacement<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
+        self.displacement_parts(joint.index()).value
+    }
+
+    /// The rate of the displacement of a joint (m/s), with the sign of [`View::displacement`].
+    #[must_use]
+    pub fn displacement_rate<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
+        self.displacement_parts(joint.index()).rate
+    }
+
+    /// The effort of a driver: the generalised force with which it acts on the quantity that it drives, from the
+    /// multipliers at this state; N for a length, N m for an angle. A positive effort pushes the quantity upwards, so that effort times rate is
+    /// the power that the driver puts in.
+    ///
+    /// # Errors
+    /// [`Fault::NoEffort`] where the driver's equation was left out as redundant: other joints carry what it would.
+    pub fn driving_effort<J: Driven>(
+        &self,
+        multipliers: &M::Multipliers<S>,
+        joint: JointHandle<M, J>,
+    ) -> Result<S, Fault> {
+        let row = joint.row(J::ROW);
+        let multiplier = row.and_then(|row| multipliers.as_slice().get(row));
+        multiplier
+            .map(|&multiplier| -multiplier)
+            .ok_or(Fault::NoEffort {
+                joint: joint.name(),
+            })
+    }
+
+    /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the joint's point on
+    /// that body, from the multipliers at this state.
+    ///
+    /// # Errors
+    /// [`Fault::NotBetween`] for a body that is not of the joint.
+    pub fn reaction<J>(
+        &self,
+        multipliers: &M::Multipliers<S>,
+        joint: JointHandle<M, J>,
+        body: BodyHandle<M>,
+    ) -> Result<Wrench<S>, Fault> {
+        let bodies = joint.info().map_or(&[][..], |info| info.bodies);
+        let place = place_of(bodies, joint.name(), body)?;
+        self.reaction_on_place(multipliers, joint, place)
+    }
+
+    /// The same by the place of the body in `between`: 0 is the first, which may be the ground.
+    ///
+    /// # Errors
+    /// [`Fault::NoSuchPlace`] for a place that `between` does not have.
+    pub fn reaction_on_place<J>(
+        &self,
+        multipliers: &M::Multipliers<S>,
+        joint: JointHandle<M, J>,
+        place: usize,
+    ) -> Result<Wrench<S>, Fault> {
+        let state = self.state_of_kernels();
+        let (constants, time, index) = (self.constants, self.time, joint.index());
+        wrench::<S, M>(constants, time, &state, multipliers, index, place).ok_or_else(|| {
+            Fault::NoSuchPlace {
+                joint: joint.name(),
+                place,
+                places: joint.info().map_or(0, |info| info.bodies.len()),
+            }
+        })
+    }
+
+    /// Kinetic energy (J).
+    #[must_use]
+    pub fn kinetic_energy(&self) -> S {
+        M::kinetic_energy(self.constants, self.state)
+    }
+
+    /// Potential energy (J), see [`Mechanism::potential_energy`].
+    #[must_use]
+    pub fn potential_energy(&self) -> S {
+        M::potential_energy(self.constants, self.time, self.state)
+    }
+
+    /// The power (W) of the forces of the language that have no potential, see [`Mechanism::power`]: what changes the energy of a
+    /// mechanism without drivers and without a force closure.
+    #[must_use]
+    pub fn power(&self) -> S {
+        M::power(self.constants, self.time, self.state)
+    }
+
+    /// Potential energy (J) and power (W) of one force.
+    #[must_use]
+    pub fn force_parts<F>(&self, force: ForceHandle<M, F>) -> ForceParts<S> {
+        M::force_parts(self.constants, self.time, self.state, force.index())
+    }
+
+    /// What a force exerts on one of its bodies: force and moment (N, N m, global) about the body's centre of mass.
+    ///
+    /// # Errors
+    /// [`Fault::NotBetween`] for a body that is not in the force's `between`.
+    pub fn load<F>(
+        &self,
+        force: ForceHandle<M, F>,
+        body: BodyHandle<M>,
+    ) -> Result<Wrench<S>, Fault> {
+        let bodies = force.info().map_or(&[][..], |info| info.bodies);
+        let place = place_of(bodies, force.name(), body)?;
+        let [fx, fy, fz, mx, my, mz] =
+            M::force_load(self.constants, self.time, self.state, force.index(), place);
+        let state = self.state_of_kernels();
+        let moment = crate::measure::reaction::in_global_axes::<S, M>(&state, body, [mx, my, mz]);
+        Ok(Wrench {
+            force: Vector3::new(fx, fy, fz),
+            moment: Vector3::from(moment),
+            point: self.pose(body).position,
+            is_unique: true,
+        })
+    }
+
+    /// Kinetic and potential energy together (J).
+    #[must_use]
+    pub fn energy(&self) -> S {
+        self.kinetic_energy() + self.potential_energy()
+    }
+
+    /// `Phi`, one element per equation, with the Euler parameters as they are stored.
+    #[must_use]
+    pub fn constraints(&self) -> M::Multipliers<S> {
+        M::constraints(self.constants, self.time, self.state)
+    }
+
+    /// The violation of the constraints: `Phi^T Phi`.
+    #[must_use]
+    pub fn violation(&self) -> S {
+        square(self.constraints().as_slice())
+    }
+
+    /// The violation of the constraints by the velocities: `Phi'^T Phi'`.
+    #[must_use]
+    pub fn velocity_violation(&self) -> S {
+        square(M::constraint_rates(self.constants, self.time, self.state).as_slice())
+    }
+
+    /// The violation of the constraints by accelerations: the square of `D u' - gamma`.
+    #[must_use]
+    pub fn acceleration_violation(&self, accelerations: &M::Velocities<S>) -> S {
+        let state = self.state_of_kernels();
+        let jacobian = M::jacobian(self.constants, self.time, &state);
+        let mut rest = M::gamma(self.constants, self.time, &state);
+        for block in M::REPORT.blocks {
+            let values = jacobian.as_slice().get(block.offset..).unwrap_or(&[]);
+            let rows = rest
+                .as_mut_slice()
+                .iter_mut()
+                .skip(block.row)
+                .take(block.rows);
+            for (rest, row) in rows.zip(values.chunks(block.columns.max(1))) {
+                let columns = accelerations.as_slice().iter().skip(block.column);
+                for (&value, &acceleration) in row.iter().zip(columns) {
+                    *rest = *rest - value * acceleration;
+                }
+            }
+        }
+        square(rest.as_slice())
+    }
+
+    pub(crate) fn angle_parts(&self, joint: usize) -> AngleParts<S> {
+        M::joint_angle(self.constants, self.state, joint)
+    }
+
+    pub(crate) fn displacement_parts(&self, joint: usize) -> DisplacementParts<S> {
+        M::joint_displacement(self.constants, self.time, self.state, joint)
+    }
+
+    /// The state as the kernels of the saddle system read it.
+    fn state_of_kernels(&self) -> M::State<S> {
+        if self.normalised {
+            with_unit_orientations::<S, M>(self.state)
+        } else {
+            *self.state
+        }
+    }
+}
+
+/// The place of a body among those of a joint or force.
+fn place_of<M: Mechanism>(
+    bodies: &[Option<usize>],
+    element: &'static str,
+    body: BodyHandle<M>,
+) -> Result<usize, Fault> {
+    let place = bodies.iter().position(|&b| b == Some(body.index()));
+    place.ok_or_else(|| Fault::NotBetween {
+        element,
+        body: body.name(),
+    })
+}

@@ -1,0 +1,265 @@
+//! Typed names of bodies and joints.
+
+use core::fmt;
+use core::marker::PhantomData;
+use core::ops::Range;
+
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::{BodyInfo, BodyKind, ForceInfo, JointInfo, RedundantRow};
+
+/// A joint as a type: its equations and the bodies that it connects.
+///
+/// `joint!` implements it; a field of this type in a mechanism stands for one such joint.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a joint",
+    label = "not defined with `joint!`",
+    note = "a joint is defined with `holonom::joint!`; ready-made ones are in `holonom::joints`"
+)]
+pub trait Joint {
+    /// The name of the joint's type.
+    const NAME: &'static str;
+    /// The number of constraint equations.
+    const EQUATIONS: usize;
+    /// The number of bodies that it connects, the ground among them.
+    const BODIES: usize;
+    /// A number made of the definition, so that two versions of it cannot be mixed.
+    const FINGERPRINT: u64;
+}
+
+/// A force as a type.
+///
+/// `force!` implements it; a field of this type in a mechanism stands for one such force.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a force",
+    label = "not defined with `force!`",
+    note = "a force is defined with `holonom::force!`; ready-made ones are in `holonom::forces`"
+)]
+pub trait Force {
+    /// The name of the force's type.
+    const NAME: &'static str;
+    /// The number of bodies that it speaks of, the ground among them.
+    const BODIES: usize;
+    /// A number made of the definition, so that two versions of it cannot be mixed.
+    const FINGERPRINT: u64;
+}
+
+/// A joint whose definition has an angle.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no angle",
+    label = "the definition of this joint names no angle",
+    note = "an angle can be read from joints with one rotation, such as `Revolute`"
+)]
+pub trait HasAngle: Joint {}
+
+/// A joint whose definition has a displacement.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no displacement",
+    label = "the definition of this joint names no displacement",
+    note = "a displacement can be read from joints with a translation, such as a prismatic or a cylindrical joint"
+)]
+pub trait HasDisplacement: Joint {}
+
+/// A joint whose definition drives a quantity: one of its rows is `quantity - law(time)`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` drives nothing",
+    label = "the definition of this joint has no driver",
+    note = "a driving effort can be read from joints that prescribe a motion, such as a driver of an angle"
+)]
+pub trait Driven: Joint {
+    /// The place of the driver's equation among those of the joint's definition.
+    const ROW: usize;
+}
+
+/// A body of the mechanism `M`.
+pub struct BodyHandle<M> {
+    index: usize,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+impl<M> BodyHandle<M> {
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        Self {
+            index,
+            mechanism: PhantomData,
+        }
+    }
+
+    /// The place in [`Report::bodies`](crate::Report::bodies).
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index
+    }
+}
+
+impl<M: Mechanism> BodyHandle<M> {
+    /// The name of the field.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.info().map_or("", |info| info.name)
+    }
+
+    /// Kind and places of the body.
+    pub(crate) fn info(self) -> Option<&'static BodyInfo> {
+        M::REPORT.bodies.get(self.index)
+    }
+
+    /// Kind and places of the body, and the place of its Euler parameters; nothing for a particle.
+    pub(crate) fn orientation(self) -> Option<(&'static BodyInfo, usize)> {
+        let info = self.info()?;
+        (info.kind == BodyKind::Rigid).then_some((info, info.coordinate + 3))
+    }
+}
+
+/// A joint of the mechanism `M`, of the type `J`.
+pub struct JointHandle<M, J> {
+    index: usize,
+    types: PhantomData<fn() -> (M, J)>,
+}
+
+impl<M, J> JointHandle<M, J> {
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        Self {
+            index,
+            types: PhantomData,
+        }
+    }
+
+    /// The place in [`Report::joints`](crate::Report::joints).
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index
+    }
+}
+
+impl<M: Mechanism, J> JointHandle<M, J> {
+    /// The name of the field.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.info().map_or("", |info| info.name)
+    }
+
+    /// The row of an equation of the joint's definition; `None` if it was left out.
+    pub(crate) fn row(self, equation: usize) -> Option<usize> {
+        let of_joint = |row: &&RedundantRow| row.dropped && row.joint == self.index;
+        let dropped = || M::REPORT.redundant.iter().filter(of_joint);
+        if dropped().any(|row| row.row == equation) {
+            return None;
+        }
+        let before = dropped().filter(|row| row.row < equation).count();
+        self.info().map(|info| info.row + equation - before)
+    }
+
+    /// Rows and bodies of the joint.
+    pub(crate) fn info(self) -> Option<&'static JointInfo> {
+        M::REPORT.joints.get(self.index)
+    }
+}
+
+/// A force of the mechanism `M`, of the type `F`.
+pub struct ForceHandle<M, F> {
+    index: usize,
+    types: PhantomData<fn() -> (M, F)>,
+}
+
+impl<M, F> ForceHandle<M, F> {
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        Self {
+            index,
+            types: PhantomData,
+        }
+    }
+
+    /// The place in [`Report::forces`](crate::Report::forces).
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index
+    }
+}
+
+impl<M: Mechanism, F> ForceHandle<M, F> {
+    /// The name of the field.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.info().map_or("", |info| info.name)
+    }
+
+    /// Kind and bodies of the force.
+    pub(crate) fn info(self) -> Option<&'static ForceInfo> {
+        M::REPORT.forces.get(self.index)
+    }
+}
+
+/// The handle of a joint or a force, which may count turns of angles.
+pub trait CountsTurns<M>: Copy + sealed::Sealed {
+    /// The name of the field.
+    fn element(self) -> &'static str;
+    /// The places of its angles among the coordinates of a state.
+    fn counters(self) -> Range<usize>;
+}
+
+mod sealed {
+    /// Implemented by the handles of this crate.
+    pub trait Sealed {}
+}
+
+impl<M, J> sealed::Sealed for JointHandle<M, J> {}
+
+impl<M, F> sealed::Sealed for ForceHandle<M, F> {}
+
+impl<M: Mechanism, J> CountsTurns<M> for JointHandle<M, J> {
+    fn element(self) -> &'static str {
+        self.name()
+    }
+
+    fn counters(self) -> Range<usize> {
+        let places = |info: &JointInfo| info.auxiliary..info.auxiliary + info.auxiliaries;
+        self.info().map_or(0..0, places)
+    }
+}
+
+impl<M: Mechanism, F> CountsTurns<M> for ForceHandle<M, F> {
+    fn element(self) -> &'static str {
+        self.name()
+    }
+
+    fn counters(self) -> Range<usize> {
+        let places = |info: &ForceInfo| info.auxiliary..info.auxiliary + info.auxiliaries;
+        self.info().map_or(0..0, places)
+    }
+}
+
+macro_rules! handle {
+    ($name:ident<$($parameter:ident),*>) => {
+        impl<$($parameter),*> Clone for $name<$($parameter),*> {
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+
+        impl<$($parameter),*> Copy for $name<$($parameter),*> {}
+
+        impl<$($parameter),*> PartialEq for $name<$($parameter),*> {
+            fn eq(&self, other: &Self) -> bool {
+                self.index == other.index
+            }
+        }
+
+        impl<$($parameter),*> Eq for $name<$($parameter),*> {}
+
+        impl<$($parameter),*> fmt::Debug for $name<$($parameter),*> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.debug_tuple(stringify!($name)).field(&self.index).finish()
+            }
+        }
+    };
+}
+
+handle!(BodyHandle<M>);
+handle!(JointHandle<M, J>);
+handle!(ForceHandle<M, F>);

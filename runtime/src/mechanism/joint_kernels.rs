@@ -1,0 +1,277 @@
+//! Mechanisms that are described by their joints as well as by their bodies.
+
+use core::fmt::Debug;
+
+use crate::math::scalar::Scalar;
+use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
+use crate::mechanism::report::Kernel;
+use crate::state::joint_state::JointState;
+use crate::state::vector::{Array, Vector};
+
+/// A mechanism with `#[mechanism(coordinates = "joints")]` or `"both"`: besides the kernels of [`Mechanism`] it has those of its equations of motion in joint
+/// coordinates.
+///
+/// Bodies of a spanning tree move by what their joints leave free; only joints that close loops, and those that do not say how they move, keep equations and
+/// multipliers:
+///
+/// ```text
+/// [ M(q)  D^T ] [ u'     ]   [ forces along the velocities, less what the motion takes ]
+/// [ D     -E  ] [ lambda ] = [ gamma*                                                  ]
+/// ```
+///
+/// The four formulations mean what they mean for bodies, for the equations that remain.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not described by joint coordinates",
+    label = "no joint coordinates here",
+    note = "write `#[mechanism(coordinates = \"joints\")]` above the struct"
+)]
+pub trait JointCoordinates: Mechanism {
+    /// The state: a pair of cosine and sine for every turn, displacements, Euler parameters and auxiliary variables, and the velocities.
+    type JointState<S: Scalar>: JointParts<S>;
+    /// One number per equation that remains.
+    type ClosingMultipliers<S: Scalar>: Array<S>;
+    /// What depends on parameters alone.
+    type JointConstants<S: Scalar>: Array<S>;
+    /// What depends on constants and on the coefficients of the formulation.
+    type JointCoefficients<S: Scalar>: Array<S>;
+    /// Body by body position and velocity (global), and of a rigid one the rotation matrix from principal to global axes, row by row, and the angular
+    /// velocity in principal axes; behind them the auxiliary variables.
+    type BodyMotions<S: Scalar>: Array<S>;
+
+    /// What [`JointCoordinates::solve_joints`] takes from a state.
+    type JointFactors<S: Scalar>: Copy + Debug;
+    /// One number per velocity.
+    type JointVelocities<S: Scalar>: Array<S>;
+
+    /// What the coordinates are, and what an evaluation costs.
+    const JOINT_REPORT: JointReport;
+
+    /// Computes once what depends on parameters only.
+    fn prepare_joints<S: Scalar>(parameters: &Self::Parameters<S>) -> Self::JointConstants<S>;
+
+    /// Computes again what depends on inputs, and leaves what does not.
+    fn take_joint_inputs<S: Scalar>(
+        parameters: &Self::Parameters<S>,
+        constants: &mut Self::JointConstants<S>,
+    );
+
+    /// Computes once what depends on the coefficients of a formulation, with a compliance for each equation that remains.
+    fn joint_coefficients<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        stabilisation: &Stabilisation<S>,
+        compliances: &Self::ClosingMultipliers<S>,
+    ) -> Self::JointCoefficients<S>;
+
+    /// The whole right-hand side in one straight line: the slope of the state, and the multipliers of the equations that remain. Writes every element of
+    /// both; returns the smallest relative pivot.
+    fn evaluate_joints_into<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        time: S,
+        state: &Self::JointState<S>,
+        rates: &mut Self::JointState<S>,
+        multipliers: &mut Self::ClosingMultipliers<S>,
+    ) -> Pivot<S>;
+
+    /// The slope of the state alone, with the same pivot: what only the multipliers need is not computed.
+    #[inline(always)]
+    fn joint_rates_into<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        time: S,
+        state: &Self::JointState<S>,
+        rates: &mut Self::JointState<S>,
+    ) -> Pivot<S> {
+        let multipliers = &mut Array::zeros();
+        Self::evaluate_joints_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
+    }
+
+    /// Factorises the matrix of the equations of motion; with compliance where `T::COMPLIANT`. Its pivots are those of the evaluation of the same `T`.
+    fn factor_joints<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        time: S,
+        state: &Self::JointState<S>,
+    ) -> Self::JointFactors<S>;
+
+    /// Solves the equations of motion for forces and moments on the bodies alone (N, global, at the centre of mass; N m, principal body axes; as
+    /// [`Mechanism::forces`]), with factors of the same `T`:
+    ///
+    /// ```text
+    /// [ M(q)  D^T ] [ u'     ]   [ upper, along the velocities ]
+    /// [ D     -E  ] [ lambda ] = [ lower                       ]
+    /// ```
+    ///
+    /// To be added to what an evaluation gives: the equations are linear in their right-hand sides.
+    fn solve_joints<S: Scalar, T: Terms>(
+        constants: &Self::JointConstants<S>,
+        coefficients: &Self::JointCoefficients<S>,
+        factors: &Self::JointFactors<S>,
+        upper: &Self::Velocities<S>,
+        lower: &Self::ClosingMultipliers<S>,
+    ) -> (Self::JointVelocities<S>, Self::ClosingMultipliers<S>);
+
+    /// The rates of the coordinates at the velocities of a state; those of the velocities are zero.
+    fn joint_coordinate_rates<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        time: S,
+        state: &Self::JointState<S>,
+    ) -> Self::JointState<S>;
+
+    /// How the bodies stand and move.
+    fn body_motions<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        state: &Self::JointState<S>,
+    ) -> Self::BodyMotions<S>;
+
+    /// The joint coordinates of bodies that stand and move as the joints of the tree let them; of others, those of the nearest such motion.
+    fn joint_state<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        state: &Self::State<S>,
+    ) -> Self::JointState<S>;
+}
+
+/// The slope of a state, and the multipliers of the equations that remain.
+pub struct JointEvaluation<S: Scalar, M: JointCoordinates> {
+    /// Rates of the angles, of the further coordinates and of the velocities.
+    pub rates: M::JointState<S>,
+    /// `lambda`, one per equation that remains.
+    pub multipliers: M::ClosingMultipliers<S>,
+}
+
+impl<S: Scalar, M: JointCoordinates> JointEvaluation<S, M> {
+    /// A place for results, see [`JointDynamics::evaluate_into`](crate::JointDynamics::evaluate_into).
+    #[inline(always)]
+    #[must_use]
+    pub fn zeros() -> Self {
+        Self {
+            rates: M::JointState::zeros(),
+            multipliers: Array::zeros(),
+        }
+    }
+}
+
+/// Access to the parts of a [`JointState`], for code that is generic over the mechanism.
+pub trait JointParts<S: Scalar>: Vector<S> + Copy + Debug + PartialEq {
+    /// Nothing turned, nothing moved; of a slope, nothing that moves.
+    fn zeros() -> Self;
+
+    /// Cosine and sine of every turn; of a slope, the rate of the angle first.
+    fn pairs_slice(&self) -> &[[S; 2]];
+
+    /// The further coordinates.
+    fn rest_slice(&self) -> &[S];
+
+    /// The further coordinates, to be written.
+    fn rest_slice_mut(&mut self) -> &mut [S];
+
+    /// The velocities; of a slope, their rates.
+    fn rates_slice(&self) -> &[S];
+
+    /// The velocities, to be written.
+    fn rates_slice_mut(&mut self) -> &mut [S];
+}
+
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> JointParts<S>
+    for JointState<S, TURNS, REST, RATES>
+{
+    #[inline(always)]
+    fn zeros() -> Self {
+        Self::from_parts(
+            [[S::zero(); 2]; TURNS],
+            [S::zero(); REST],
+            [S::zero(); RATES],
+        )
+    }
+
+    #[inline(always)]
+    fn pairs_slice(&self) -> &[[S; 2]] {
+        self.pairs()
+    }
+
+    #[inline(always)]
+    fn rest_slice(&self) -> &[S] {
+        self.rest()
+    }
+
+    #[inline(always)]
+    fn rest_slice_mut(&mut self) -> &mut [S] {
+        self.rest_mut()
+    }
+
+    #[inline(always)]
+    fn rates_slice(&self) -> &[S] {
+        self.rates()
+    }
+
+    #[inline(always)]
+    fn rates_slice_mut(&mut self) -> &mut [S] {
+        self.rates_mut()
+    }
+}
+
+/// What the coordinates of a mechanism's joints are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointReport {
+    /// The motions in the order of the velocities; a ball has three of these.
+    pub motions: &'static [JointMotion],
+    /// The joint of each equation that remains.
+    pub closing: &'static [&'static str],
+    /// The row of `Phi` that each of them is; `None` where the equations of the bodies leave it out.
+    pub rows: &'static [Option<usize>],
+    /// What the evaluations cost, and `rates ..` without the multipliers, which is what a step takes; one alone where no equation remains.
+    pub kernels: &'static [Kernel],
+    /// The places of Euler parameters among the further coordinates.
+    pub euler_parameters: &'static [usize],
+    /// What the auxiliary variables count, one after the other.
+    pub counters: &'static [JointCounter],
+    /// How many of the further coordinates are auxiliary variables; they are the last.
+    pub auxiliaries: usize,
+    /// Whether some of these count angles that are no sums of the turns of joints, so that they are put right after every step.
+    pub recounts: bool,
+    /// Whether every equation determines a velocity: then pivots go with the distance from where one vanishes, and not with its square.
+    pub determines: bool,
+}
+
+/// One motion of a joint that carries a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointMotion {
+    /// The joint; empty for a body that no joint carries, which moves freely.
+    pub joint: &'static str,
+    /// The body that it carries.
+    pub body: &'static str,
+    /// What it is.
+    pub freedom: Freedom,
+    /// The place of its first coordinate: of a turn among [`pairs`](JointState::pairs), of others among [`rest`](JointState::rest).
+    pub coordinate: usize,
+    /// The place of its first velocity among [`rates`](JointState::rates).
+    pub velocity: usize,
+    /// The motion whose angle and rate are to be taken off, because both are measured against what carries a run of parallel axes: those of this motion are sums along the run.
+    pub against: Option<usize>,
+    /// The angle (rad) in the reference configuration, where that of the joint is zero. Zero of a slide and of a ball.
+    pub zero: f64,
+}
+
+/// An auxiliary variable of a state: an angle that counts turns (rad).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointCounter {
+    /// The field of the joint or force that counts it.
+    pub element: &'static str,
+    /// Its place among [`rest`](JointState::rest).
+    pub coordinate: usize,
+}
+
+/// What a motion is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may be measured against what carries the run
+    /// ([`JointMotion::against`]); and the angle need not be zero in the reference configuration ([`JointMotion::zero`]).
+    Turn {
+        /// Whether it counts against the joint's own angle.
+        is_reversed: bool,
+    },
+    /// A displacement (m) and its rate (m/s).
+    Slide,
+    /// Euler parameters from principal to global axes, and an angular velocity (rad/s) in principal axes.
+    Ball,
+}

@@ -1,0 +1,165 @@
+//! What the elements of a joint state are, for readers: in words, and as coordinates and rates of the joints.
+
+use core::fmt;
+
+use crate::error::readable::Given;
+use crate::math::scalar::Real;
+use crate::mechanism::joint_kernels::{Freedom, JointMotion, JointParts, JointReport};
+
+impl JointMotion {
+    /// The unit of its coordinate; of its velocity, the same a second. Euler parameters of a ball have none, its velocity is in rad/s.
+    #[must_use]
+    pub const fn unit(&self) -> &'static str {
+        match self.freedom {
+            Freedom::Turn { .. } => "rad",
+            Freedom::Slide => "m",
+            Freedom::Ball => "1",
+        }
+    }
+
+    /// Whether its angle counts against that of the joint.
+    #[must_use]
+    pub const fn is_reversed(&self) -> bool {
+        matches!(self.freedom, Freedom::Turn { is_reversed: true })
+    }
+
+    fn signed<S: Real>(&self, value: S) -> S {
+        if self.is_reversed() { -value } else { value }
+    }
+}
+
+impl JointReport {
+    /// The coordinate of the joint itself: an angle (rad, from `-pi` to `pi`, zero in the reference configuration), or a displacement (m) since then. `None` for a ball, and where there is no such
+    /// motion.
+    ///
+    /// ```text
+    /// angle of the joint = +-((angle - zero) - (angle - zero of the motion that it is against)),  minus where it is reversed
+    /// ```
+    #[must_use]
+    pub fn coordinate<S: Real, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
+        let motion = self.motions.get(motion)?;
+        match motion.freedom {
+            Freedom::Slide => state.rest_slice().get(motion.coordinate).copied(),
+            Freedom::Ball => None,
+            Freedom::Turn { .. } => {
+                let [mut c, mut s] = since_reference(motion, state)?;
+                if let Some(against) = motion.against {
+                    let [a, b] = since_reference(self.motions.get(against)?, state)?;
+                    (c, s) = (c * a + s * b, s * a - c * b);
+                }
+                Some(motion.signed(s.atan2(c)))
+            }
+        }
+    }
+
+    /// The rate of the joint itself (rad/s, m/s). `None` as of [`JointReport::coordinate`]. It is linear in the rates of a state, so that it reads accelerations of a slope as well.
+    #[must_use]
+    pub fn rate<S: Real, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
+        let motion = self.motions.get(motion)?;
+        if motion.freedom == Freedom::Ball {
+            return None;
+        }
+        let of = |motion: &JointMotion| state.rates_slice().get(motion.velocity).copied();
+        let own = of(motion)?;
+        let rate = match motion.against {
+            Some(against) => own - of(self.motions.get(against)?)?,
+            None => own,
+        };
+        Some(motion.signed(rate))
+    }
+
+    /// The motions of a joint, by their places among [`JointReport::motions`].
+    pub fn motions_of<'a>(&'a self, joint: &'a str) -> impl Iterator<Item = usize> + 'a {
+        let motions = self.motions.iter().enumerate();
+        motions.filter_map(move |(place, motion)| (motion.joint == joint).then_some(place))
+    }
+
+    fn name(&self, motion: usize) -> &'static str {
+        self.motions.get(motion).map_or("", |motion| motion.joint)
+    }
+}
+
+/// Cosine and sine of an angle since the reference configuration.
+fn since_reference<S: Real, X: JointParts<S>>(motion: &JointMotion, state: &X) -> Option<[S; 2]> {
+    let [c, s] = *state.pairs_slice().get(motion.coordinate)?;
+    let zero = S::constant(motion.zero);
+    let (a, b) = (zero.cos(), zero.sin());
+    Some([c * a + s * b, s * a - c * b])
+}
+
+/// A line for every element of a state.
+impl fmt::Display for JointReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for motion in self.motions {
+            let JointMotion {
+                joint,
+                body,
+                coordinate,
+                velocity,
+                ..
+            } = *motion;
+            let of = Of(joint, body);
+            match motion.freedom {
+                Freedom::Turn { is_reversed } => {
+                    writeln!(
+                        f,
+                        "pairs()[{coordinate}]: cosine and sine of the angle {of} (rad)"
+                    )?;
+                    write!(f, "rates()[{velocity}]: its rate (rad/s)")?;
+                    if let Some(against) = motion.against {
+                        let name = self.name(against);
+                        write!(f, "; both with those of `{name}`, of which they are a sum")?;
+                    }
+                    if is_reversed {
+                        f.write_str("; both count the other way round")?;
+                    }
+                    if motion.zero != 0.0 {
+                        let zero = Given(motion.zero);
+                        write!(
+                            f,
+                            "; the angle is {zero} rad in the reference configuration"
+                        )?;
+                    }
+                    writeln!(f)?;
+                }
+                Freedom::Slide => {
+                    writeln!(f, "rest()[{coordinate}]: the displacement {of} (m)")?;
+                    writeln!(f, "rates()[{velocity}]: its rate (m/s)")?;
+                }
+                Freedom::Ball => {
+                    let [last, end] = [coordinate + 3, velocity + 2];
+                    writeln!(
+                        f,
+                        "rest()[{coordinate}..={last}]: Euler parameters of `{body}`, {of}, from principal to global axes"
+                    )?;
+                    writeln!(
+                        f,
+                        "rates()[{velocity}..={end}]: its angular velocity (rad/s, principal axes)"
+                    )?;
+                }
+            }
+        }
+        for counter in self.counters {
+            let (element, coordinate) = (counter.element, counter.coordinate);
+            writeln!(
+                f,
+                "rest()[{coordinate}]: an auxiliary variable, the angle that `{element}` counts turns of (rad)"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Of a joint, or of a body that none carries.
+struct Of(&'static str, &'static str);
+
+impl fmt::Display for Of {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(joint, body) = self;
+        if joint.is_empty() {
+            write!(f, "of `{body}`, which moves freely")
+        } else {
+            write!(f, "of `{joint}`")
+        }
+    }
+}

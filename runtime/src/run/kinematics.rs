@@ -1,0 +1,220 @@
+//! The motion of a mechanism whose drivers leave it no freedom: positions, velocities, accelerations, and what it takes.
+
+mod motion;
+
+use core::ops::{ControlFlow, RangeInclusive};
+
+use self::motion::Motion;
+use crate::constraints::projection::Projection;
+use crate::dynamics::Dynamics;
+use crate::error::{Fault, SimulationError};
+use crate::formulation::Formulation;
+use crate::math::scalar::Real;
+use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::check_state;
+use crate::run::output::{Reporting, Schedule, check_interval};
+use crate::run::sample::Sample;
+use crate::state::vector::{Array, StateParts};
+use crate::watch::Doubts;
+
+/// Kinematics and inverse dynamics of a mechanism that is driven fully: as many independent equations as velocities.
+///
+/// At every reporting time (Nikravesh 1988, chapter 3; Flores 2015, chapter 7):
+///
+/// 1. positions from `Phi(q, t) = 0` by Newton's method, from the pose before moved by its velocities and accelerations;
+/// 2. velocities from `Phi' = D u + Phi_t = 0`;
+/// 3. accelerations and multipliers by one evaluation of the equations of motion: [`Sample::accelerations`],
+///    [`Sample::reaction`], [`Sample::driving_effort`] show what the prescribed motion takes.
+///
+/// Nothing is integrated, so no error accumulates.
+///
+/// **The analysis keeps its branch**, however far apart the reporting times are. Between them it goes by strides, in each of which a body
+/// turns by 0.2 rad at most, or moves by as much of the mechanism's size. A stride is shortened where the pose that is found is far from the one
+/// that positions, velocities and accelerations predict, or where its velocities are. The relative pivots are followed along the way:
+/// a singular configuration, at which another branch begins, is among [`KinematicReport::doubts`], with its joint.
+///
+/// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the equations are independent; where
+/// some are redundant, [`Penalty`](crate::Penalty) or [`AugmentedLagrangian`](crate::AugmentedLagrangian), with accelerations that are exact up to
+/// the compliance and forces that are shared among redundant equations.
+pub struct KinematicAnalysis<'a, S: Real, M: Mechanism, F, A = NoForces> {
+    mechanism: &'a M,
+    formulation: F,
+    forces: A,
+    initial: Option<M::State<S>>,
+    projection: Projection<S>,
+}
+
+/// What a kinematic analysis came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct KinematicReport<S, X> {
+    /// Poses that were reported: at the start, at the reporting times and at the end.
+    pub poses: usize,
+    /// Strides between poses, reported or not.
+    pub strides: usize,
+    /// How often a stride was tried that turned out too long.
+    pub shortened: usize,
+    /// Steps of Newton's method for all of them.
+    pub iterations: usize,
+    /// The largest `Phi^T Phi` at a reporting time.
+    pub worst_violation: S,
+    /// The time (s) of the last state: the end, or the reporting time at which the observer stopped the analysis.
+    pub time: S,
+    /// The last state.
+    pub state: X,
+    /// Whether the observer stopped the analysis.
+    pub stopped: bool,
+    doubts: Doubts,
+}
+
+impl<S, X> KinematicReport<S, X> {
+    /// What is to be doubted; empty where the motion was followed without a choice. A branch point ([`Doubt::BranchPoint`](crate::Doubt::BranchPoint))
+    /// is found by pivots: not where equations are kept that depend on others.
+    #[must_use]
+    pub fn doubts(&self) -> Doubts {
+        self.doubts
+    }
+}
+
+/// The report of a kinematic analysis, or why it could not go on.
+pub type KinematicResult<S, M> = Result<
+    KinematicReport<S, <M as Mechanism>::State<S>>,
+    SimulationError<<M as Mechanism>::State<S>>,
+>;
+
+impl<'a, S: Real, M: Mechanism, F: Formulation<S>> KinematicAnalysis<'a, S, M, F> {
+    /// An analysis from the pose that the attributes describe, without further forces.
+    #[must_use]
+    pub fn new(mechanism: &'a M, formulation: F) -> Self {
+        Self {
+            mechanism,
+            formulation,
+            forces: NoForces,
+            initial: None,
+            projection: Projection::default(),
+        }
+    }
+}
+
+impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M, F, A> {
+    /// Looks for the first pose near this state, instead of the described one.
+    #[must_use]
+    pub fn initial_state(mut self, state: M::State<S>) -> Self {
+        self.initial = Some(state);
+        self
+    }
+
+    /// Tolerance and iterations of Newton's method.
+    #[must_use]
+    pub fn projection(mut self, projection: Projection<S>) -> Self {
+        self.projection = projection;
+        self
+    }
+
+    /// Applies forces as a function of time and state, `|time, state, loads| loads.force(body, ...)`. The motion does not
+    /// depend on them, reactions and driving efforts do.
+    #[must_use]
+    pub fn forces<G>(self, law: G) -> KinematicAnalysis<'a, S, M, F, ForceLaw<G>>
+    where
+        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+    {
+        KinematicAnalysis {
+            mechanism: self.mechanism,
+            formulation: self.formulation,
+            forces: ForceLaw(law),
+            initial: self.initial,
+            projection: self.projection,
+        }
+    }
+}
+
+impl<S, M, F, A> KinematicAnalysis<'_, S, M, F, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at the reporting times and at
+    /// the end; `ControlFlow::Break(())` stops it, so an observer that never does so ends with `ControlFlow::Continue(())`.
+    /// [`every_step`](crate::every_step) reports at start and end.
+    ///
+    /// # Errors
+    /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a mechanism with fewer equations than
+    /// velocities, [`Fault::Undetermined`] where they leave a motion free all the same, [`Fault::NotConverged`] where no pose is found, and what
+    /// an evaluation or a run may refuse. The state is of zeros where a parameter was refused and no initial state had been
+    /// given.
+    pub fn run<O>(
+        &self,
+        interval: RangeInclusive<S>,
+        reporting: Reporting<S>,
+        mut observe: O,
+    ) -> KinematicResult<S, M>
+    where
+        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+    {
+        let (start, end) = interval.into_inner();
+        let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
+        let mut last_good = (start, self.initial.unwrap_or_else(zeros));
+        self.attempt(start, end, reporting, &mut observe, &mut last_good)
+            .map_err(|fault| {
+                let (time, state) = last_good;
+                SimulationError {
+                    time: time.to_f64(),
+                    fault,
+                    state,
+                }
+            })
+    }
+
+    fn attempt(
+        &self,
+        start: S,
+        end: S,
+        reporting: Reporting<S>,
+        observe: &mut impl FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<KinematicReport<S, M::State<S>>, Fault> {
+        let dynamics = Dynamics::new(self.mechanism, self.formulation)?
+            .exchange::<crate::Normalised, &A>(|_| &self.forces);
+        let state = self
+            .initial
+            .unwrap_or_else(|| M::initial_state(dynamics.constants()));
+        last_good.1 = state;
+        check_interval(start, end)?;
+        let mut schedule = Schedule::new(start, end, reporting)?;
+        check_state::<S, M>(&state)?;
+        let degrees_of_freedom = M::REPORT.degrees_of_freedom;
+        if degrees_of_freedom > 0 {
+            return Err(Fault::NotDriven { degrees_of_freedom });
+        }
+        let mut motion = Motion::new(dynamics, self.projection, start, &state);
+        let mut found = motion.begin(start, state)?;
+        let mut worst_violation = S::zero();
+        let mut poses = 1;
+        loop {
+            *last_good = (found.time, found.state);
+            let view = motion.dynamics.view(found.time, &found.state);
+            worst_violation = worst_violation.max(view.violation());
+            let sample = Sample::evaluated(view, &motion.dynamics, found.evaluation);
+            let stopped = observe(&sample).is_break();
+            if stopped || found.time >= end {
+                return Ok(KinematicReport {
+                    poses,
+                    strides: motion.strides,
+                    shortened: motion.shortened,
+                    iterations: motion.iterations,
+                    worst_violation,
+                    time: found.time,
+                    state: found.state,
+                    stopped,
+                    doubts: motion.passage.doubts(),
+                });
+            }
+            let time = schedule.following().unwrap_or(end);
+            found = motion.follow(found, time, last_good)?;
+            poses += 1;
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! A driven motion that is followed in strides.
+
+use crate::assembly::assembled;
+use crate::constraints::apart::{apart, counted_apart, reach};
+use crate::constraints::newton::{FREE, free_share};
+use crate::constraints::projection::Projection;
+use crate::constraints::retract::advanced;
+use crate::constraints::row_units::characteristic_length;
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::kernels::{Evaluation, Mechanism, Normalised, Pivot, Terms};
+use crate::state::vector::{Array, StateParts};
+use crate::watch::Passage;
+
+/// The largest turn (rad), or movement in lengths of the mechanism, of a stride: velocities and accelerations predict one to about a thousandth.
+const TURN: f64 = 0.2;
+
+/// The same near a singular configuration, where branches are near to each other: a stride is half as long as the way there, but no shorter than this.
+const TURN_NEAR_SINGULAR: f64 = 0.02;
+
+/// How far the pose of a stride may be from the prediction: a part of its turn, and what a motion that begins from rest may do (rad).
+const OFF: [f64; 2] = [0.1, 0.01];
+
+/// The same of its velocities, over the time of the stride.
+const OFF_BY_VELOCITY: [f64; 2] = [0.25, 0.02];
+
+/// How often strides are halved below the longest: a pose that is not found from there is beyond a limit of the motion.
+const HALVINGS: i32 = 30;
+
+/// A rest of the way of up to this many strides is gone in one, so that round-off leaves no sliver of it; halfway between one and two.
+const LAST_STRIDE: f64 = 1.5;
+
+/// A pose that was found, with velocities, accelerations and multipliers.
+pub(super) struct Found<S: Real, M: Mechanism> {
+    pub(super) time: S,
+    pub(super) state: M::State<S>,
+    pub(super) evaluation: Evaluation<S, M>,
+}
+
+impl<S: Real, M: Mechanism> Clone for Found<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Real, M: Mechanism> Copy for Found<S, M> {}
+
+/// The motion under way.
+pub(super) struct Motion<S: Real, M: Mechanism, F: Formulation<S>, A> {
+    pub(super) dynamics: Dynamics<S, M, F, Normalised, A>,
+    projection: Projection<S>,
+    pub(super) strides: usize,
+    pub(super) shortened: usize,
+    pub(super) iterations: usize,
+    pub(super) passage: Passage<S, M>,
+    /// The length of the mechanism (m).
+    length: S,
+    /// How long a stride may be (s) as far as those before tell, and the longest so far.
+    stride: Option<S>,
+    longest: S,
+}
+
+impl<S, M, F, A> Motion<S, M, F, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+{
+    pub(super) fn new(
+        dynamics: Dynamics<S, M, F, Normalised, A>,
+        projection: Projection<S>,
+        start: S,
+        state: &M::State<S>,
+    ) -> Self {
+        let length = characteristic_length::<S, M>(dynamics.constants(), state);
+        Self {
+            dynamics,
+            projection,
+            strides: 0,
+            shortened: 0,
+            iterations: 0,
+            passage: Passage::from(start),
+            length,
+            stride: None,
+            longest: S::zero(),
+        }
+    }
+
+    /// The first pose, near a state.
+    pub(super) fn begin(&mut self, time: S, near: M::State<S>) -> Result<Found<S, M>, Fault> {
+        let mut state = near;
+        let constants = self.dynamics.constants();
+        let from = M::initial_state(constants);
+        let correction = assembled::<S, M>(&self.projection, constants, time, &mut state, &from)?;
+        self.iterations += correction.iterations;
+        let found = self.find(time, state)?;
+        self.take(&found, S::zero());
+        Ok(found)
+    }
+
+    /// The pose at a time near a state, and all that follows from it.
+    fn find(&mut self, time: S, near: M::State<S>) -> Result<Found<S, M>, Fault> {
+        let constants = self.dynamics.constants();
+        let mut state = near;
+        let correction = self.projection.correct::<M>(constants, time, &mut state)?;
+        let share = free_share::<S, M>(constants, time, &state);
+        let determined = share < S::constant(FREE);
+        if !determined {
+            let share = share.to_f64();
+            return Err(Fault::Undetermined { share });
+        }
+        let (evaluation, _) = self.dynamics.evaluate(time, &state)?;
+        self.iterations += correction.iterations;
+        Ok(Found {
+            time,
+            state,
+            evaluation,
+        })
+    }
+
+    /// Counts a pose after so much motion (rad).
+    fn take(&mut self, found: &Found<S, M>, motion: S) {
+        let at = (found.time, &found.state);
+        let pivot = self.pivot(found);
+        self.passage
+            .step(self.dynamics.constants(), at, pivot, motion);
+    }
+
+    /// The smallest pivot without a compliance; `None` where equations are kept that depend on others.
+    fn pivot(&self, found: &Found<S, M>) -> Option<Pivot<S>> {
+        if M::REPORT.equations == 0 || M::REPORT.keeps_redundant() {
+            None
+        } else if F::Terms::COMPLIANT {
+            Some(self.dynamics.rigid_pivot(found.time, &found.state))
+        } else {
+            Some(found.evaluation.pivot)
+        }
+    }
+
+    /// The pose at a later time. Strides follow the motion: by how far it leads, and by how well it is predicted.
+    pub(super) fn follow(
+        &mut self,
+        from: Found<S, M>,
+        to: S,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<Found<S, M>, Fault> {
+        let mut found = from;
+        let mut has_failed = false;
+        loop {
+            let rest = to - found.time;
+            let bound = self.bound(&found);
+            let mut stride = rest.min(bound);
+            if let Some(last) = self.stride {
+                stride = stride.min(last);
+            }
+            let time = if rest <= stride * S::constant(LAST_STRIDE) {
+                to
+            } else {
+                found.time + stride
+            };
+            let stride = time - found.time;
+            match self.stride(&found, time) {
+                Ok((next, motion)) => {
+                    self.take(&next, motion);
+                    self.strides += 1;
+                    self.longest = self.longest.max(stride);
+                    // Where a stride was too long, the next ones are no longer than this one.
+                    if has_failed {
+                        self.stride = Some(stride);
+                    } else {
+                        self.stride = self.stride.map(|last| last.max(stride) * S::constant(2.0));
+                    }
+                    has_failed = false;
+                    if time >= to {
+                        return Ok(next);
+                    }
+                    found = next;
+                    *last_good = (found.time, found.state);
+                }
+                Err(fault) => {
+                    let least =
+                        self.longest.max(stride) * S::constant(2.0).powf(-f64::from(HALVINGS));
+                    let least = least.max(S::constant(16.0) * found.time.ulp());
+                    if stride <= least || !retried(&fault) {
+                        return Err(self.ended(&found, fault));
+                    }
+                    self.shortened += 1;
+                    has_failed = true;
+                    self.stride = Some(stride * S::constant(0.5));
+                }
+            }
+        }
+    }
+
+    /// How long a stride may be (s) for its turn, by velocities and accelerations.
+    fn bound(&self, from: &Found<S, M>) -> S {
+        let speed = reach::<S, M>(from.state.velocities(), self.length).size;
+        let accelerations = from.evaluation.rates.velocities();
+        let acceleration = reach::<S, M>(accelerations, self.length).size;
+        let near = S::constant(0.5) * self.passage.distance();
+        let turn = near
+            .min(S::constant(TURN))
+            .max(S::constant(TURN_NEAR_SINGULAR));
+        // speed t + acceleration t^2 / 2 = turn.
+        let root = (speed * speed + S::constant(2.0) * acceleration * turn).sqrt();
+        let bound = (S::constant(2.0) * turn).quotient(speed + root);
+        if bound.is_finite() {
+            bound
+        } else {
+            S::constant(f64::INFINITY)
+        }
+    }
+
+    /// The pose after a stride, and how far (rad) it led.
+    fn stride(&mut self, from: &Found<S, M>, time: S) -> Result<(Found<S, M>, S), Fault> {
+        let accelerations = from.evaluation.rates.velocities();
+        let constants = self.dynamics.constants();
+        let step = time - from.time;
+        let near = advanced::<S, M>(constants, &from.state, accelerations, step);
+        let found = self.find(time, near)?;
+        let turn = apart::<S, M>(&from.state, &found.state, self.length).size;
+        let mut off = apart::<S, M>(&near, &found.state, self.length);
+        off.size = off.size.max(counted_apart::<S, M>(&near, &found.state));
+        let mut change = *found.state.velocities();
+        let places = change.as_mut_slice().iter_mut();
+        for (change, &predicted) in places.zip(near.velocities().as_slice()) {
+            *change = (*change - predicted) * step;
+        }
+        let change = reach::<S, M>(&change, self.length);
+        for (off, [part, least]) in [(off, OFF), (change, OFF_BY_VELOCITY)] {
+            let within = off.size <= turn * S::constant(part) + S::constant(least);
+            if !within {
+                return Err(self.jump(from, off.size, off.body));
+            }
+        }
+        Ok((found, turn))
+    }
+
+    /// Why the motion does not go on from a pose. Equations that determined it so far and leave a
+    /// motion free now depend on each other: a limit of the motion, which has a joint.
+    #[cold]
+    fn ended(&self, from: &Found<S, M>, fault: Fault) -> Fault {
+        let pivot = self
+            .pivot(from)
+            .filter(|_| matches!(fault, Fault::Undetermined { .. }));
+        let Some(pivot) = pivot else { return fault };
+        let joint = pivot.joint.to_f64() as usize;
+        let Some(info) = M::REPORT.joints.get(joint) else {
+            return fault;
+        };
+        Fault::Singular {
+            joint,
+            name: info.name,
+            relative_pivot: pivot.relative.to_f64(),
+        }
+    }
+
+    /// No pose was found that goes on with the motion.
+    #[cold]
+    fn jump(&self, from: &Found<S, M>, size: S, body: usize) -> Fault {
+        /// A pivot that has lost this part of its largest size.
+        const NEARLY_VANISHED: f64 = 1e-4;
+        let distance = self.passage.distance();
+        let pivot = self.pivot(from);
+        let is_singular = distance * distance < S::constant(NEARLY_VANISHED);
+        let joint = pivot.filter(|_| is_singular);
+        let joint = joint.and_then(|pivot| M::REPORT.joints.get(pivot.joint.to_f64() as usize));
+        Fault::Jump {
+            body: M::REPORT.bodies.get(body).map_or("", |info| info.name),
+            size: size.to_f64(),
+            joint: joint.map(|info| info.name),
+        }
+    }
+}
+
+/// Whether a shorter stride may help.
+fn retried(fault: &Fault) -> bool {
+    matches!(
+        fault,
+        Fault::NotConverged { .. }
+            | Fault::StateNotFinite
+            | Fault::Jump { .. }
+            | Fault::Undetermined { .. }
+            | Fault::Singular { .. }
+    )
+}

@@ -1,0 +1,345 @@
+//! Samples of a run as lines of a CSV file.
+
+use core::any::TypeId;
+use core::fmt;
+use std::format;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::Path;
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+use crate::error::Fault;
+use crate::math::scalar::Real;
+use crate::mechanism::handle::{BodyHandle, JointHandle};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::{BodyKind, JointInfo};
+use crate::run::sample::Sample;
+
+/// Writes samples as comma-separated values, for any mechanism: one line a sample, under one line of names with units.
+///
+/// | columns | meaning |
+/// |---|---|
+/// | `time [s]` | the time |
+/// | `rod.position.x [m]`, y, z | centre of mass of the body `rod`, global |
+/// | `rod.orientation.e0`, e1, e2, e3 | Euler parameters, scalar first, of the rotation from the user's body axes to the global axes; not for a particle |
+/// | `rod.velocity.x [m/s]`, y, z | velocity of the centre of mass, global |
+/// | `rod.angular_velocity.x [rad/s]`, y, z | along the user's body axes; not for a particle |
+/// | `pivot.angle [rad]`, `pivot.angle_rate [rad/s]` | of a joint with an angle, see [`View::angle`](crate::View::angle) |
+/// | `slide.displacement [m]`, `slide.displacement_rate [m/s]` | of a joint with a displacement |
+/// | `kinetic_energy [J]`, `potential_energy [J]` | of the mechanism |
+/// | `violation` | `Phi^T Phi`, in the mixed units of the equations |
+/// | `pivot.force.x [N]`, y, z, `pivot.moment.x [N m]`, y, z | with [`Recorder::with_reactions`]: what the joint exerts on the last body of its `between`, global, reduced to the joint's point on it; `gears.wheel.force.x [N]` for each body where a joint has more than two |
+///
+/// A line goes to the writer in one piece and is flushed: an interruption loses the line that it meets and no other. Numbers
+/// are written with the fewest digits that read back to the same `f64`.
+///
+/// ```
+/// use holonom::joints::Revolute;
+/// use holonom::prelude::*;
+/// use holonom::{RecordError, Recorder};
+///
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81])]
+/// struct Pendulum {
+///     #[body(mass = 1.0, inertia = [0.1, 0.01, 0.1], position = [0.0, 0.5, 0.0])]
+///     rod: Body,
+///     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     pivot: Revolute,
+/// }
+///
+/// let mut recorder = Recorder::new(Vec::new()).with_reactions();
+/// let mut outcome = Ok(());
+/// Simulation::new(&Pendulum::default(), StandardLagrange, Rk4::every(0.01))
+///     .run(0.0..=1.0, every(0.1), |sample| {
+///         outcome = recorder.record(sample);
+///         if outcome.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+///     })
+///     .expect("a pendulum can be solved");
+/// outcome?;
+/// let text = String::from_utf8(recorder.into_inner()).expect("text");
+/// assert!(text.starts_with("time [s],rod.position.x [m],"));
+/// assert_eq!(text.lines().count(), 1 + 11);
+/// # Ok::<(), RecordError>(())
+/// ```
+#[derive(Debug)]
+pub struct Recorder<W> {
+    writer: W,
+    reactions: bool,
+    /// The mechanism of the first sample.
+    mechanism: Option<TypeId>,
+    /// Whether a line was not written to its end.
+    torn: bool,
+}
+
+/// Why a sample was not recorded.
+///
+/// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
+#[non_exhaustive]
+pub enum RecordError {
+    /// The file could not be created or written. Nothing can be recorded after it, so that the last line may be torn and no other.
+    Io(io::Error),
+    /// An earlier line was not written to its end.
+    Torn,
+    /// The evaluation for the reactions failed; nothing was written.
+    Evaluation(Fault),
+    /// A value is NaN or infinite; nothing was written.
+    NotFinite {
+        /// The name of its column.
+        column: String,
+    },
+    /// The sample is of another mechanism than the samples before; nothing was written.
+    OtherMechanism,
+}
+
+impl fmt::Display for RecordError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(error) => write!(f, "the record could not be written: {error}"),
+            Self::Torn => write!(
+                f,
+                "an earlier line of the record was not written to its end"
+            ),
+            Self::Evaluation(fault) => write!(f, "no reactions to record: {fault}"),
+            Self::NotFinite { column } => write!(f, "`{column}` is not finite"),
+            Self::OtherMechanism => {
+                write!(f, "the samples of one record must be of one mechanism")
+            }
+        }
+    }
+}
+
+impl fmt::Debug for RecordError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl core::error::Error for RecordError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Io(error) => Some(error),
+            Self::Evaluation(fault) => Some(fault),
+            Self::Torn | Self::NotFinite { .. } | Self::OtherMechanism => None,
+        }
+    }
+}
+
+impl From<io::Error> for RecordError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl From<Fault> for RecordError {
+    fn from(fault: Fault) -> Self {
+        Self::Evaluation(fault)
+    }
+}
+
+impl Recorder<File> {
+    /// A recorder that writes to a file; an existing one is replaced.
+    ///
+    /// # Errors
+    /// [`RecordError::Io`] where the file cannot be created.
+    pub fn create(path: impl AsRef<Path>) -> Result<Self, RecordError> {
+        Ok(Self::new(File::create(path)?))
+    }
+}
+
+impl<W: Write> Recorder<W> {
+    /// A recorder that writes to any writer, without reactions. It needs no buffer of its own: a line is one call.
+    #[must_use]
+    pub fn new(writer: W) -> Self {
+        Self {
+            writer,
+            reactions: false,
+            mechanism: None,
+            torn: false,
+        }
+    }
+
+    /// Records the reactions of all joints as well, at one evaluation a sample.
+    #[must_use]
+    pub fn with_reactions(mut self) -> Self {
+        self.reactions = true;
+        self
+    }
+
+    /// Writes a sample as one line, the first one under the names of the columns.
+    ///
+    /// # Errors
+    /// See [`RecordError`].
+    pub fn record<S: Real, M: Mechanism>(
+        &mut self,
+        sample: &Sample<'_, S, M>,
+    ) -> Result<(), RecordError> {
+        if self.torn {
+            return Err(RecordError::Torn);
+        }
+        let mechanism = TypeId::of::<M>();
+        let first = self.mechanism.is_none();
+        if self.mechanism.is_some_and(|known| known != mechanism) {
+            return Err(RecordError::OtherMechanism);
+        }
+        let row = Row::of(sample, self.reactions)?;
+        if let Some(place) = row.values.iter().position(|value| !value.is_finite()) {
+            let column = columns::<M>(self.reactions).swap_remove(place);
+            return Err(RecordError::NotFinite { column });
+        }
+        if first {
+            self.line(&columns::<M>(self.reactions))?;
+            self.mechanism = Some(mechanism);
+        }
+        let digits: Vec<String> = row.values.iter().map(|x| format!("{x:?}")).collect();
+        self.line(&digits)
+    }
+
+    /// The writer.
+    #[must_use]
+    pub fn writer(&self) -> &W {
+        &self.writer
+    }
+
+    /// The writer, with all that was recorded.
+    #[must_use]
+    pub fn into_inner(self) -> W {
+        self.writer
+    }
+
+    /// Writes a line in one piece.
+    fn line(&mut self, fields: &[String]) -> Result<(), RecordError> {
+        let mut text = Vec::new();
+        {
+            let mut csv = csv::Writer::from_writer(&mut text);
+            csv.write_record(fields).map_err(io::Error::from)?;
+            csv.flush()?;
+        }
+        self.torn = true;
+        self.writer.write_all(&text)?;
+        self.writer.flush()?;
+        self.torn = false;
+        Ok(())
+    }
+}
+
+/// The values of a sample, in the order of the columns.
+struct Row {
+    values: Vec<f64>,
+}
+
+impl Row {
+    fn of<S: Real, M: Mechanism>(
+        sample: &Sample<'_, S, M>,
+        reactions: bool,
+    ) -> Result<Self, RecordError> {
+        let mut row = Self { values: Vec::new() };
+        row.push(&[sample.time()]);
+        for (place, body) in M::REPORT.bodies.iter().enumerate() {
+            let handle = BodyHandle::<M>::new(place);
+            let pose = sample.pose(handle);
+            row.push(pose.position.as_slice());
+            if body.kind == BodyKind::Rigid {
+                let [x, y, z, w] = pose.orientation.coords.into();
+                row.push(&[w, x, y, z]);
+            }
+            row.push(sample.velocity(handle).as_slice());
+            if body.kind == BodyKind::Rigid {
+                row.push(sample.angular_velocity(handle).as_slice());
+            }
+        }
+        for (place, joint) in M::REPORT.joints.iter().enumerate() {
+            if joint.has_angle {
+                let parts = sample.angle_parts(place);
+                row.push(&[parts.angle(), parts.rate]);
+            }
+            if joint.has_displacement {
+                let parts = sample.displacement_parts(place);
+                row.push(&[parts.value, parts.rate]);
+            }
+        }
+        row.push(&[
+            sample.kinetic_energy(),
+            sample.potential_energy(),
+            sample.violation(),
+        ]);
+        if reactions {
+            for (place, joint) in M::REPORT.joints.iter().enumerate() {
+                let handle = JointHandle::<M, ()>::new(place);
+                for body in loaded(joint) {
+                    let wrench = sample.reaction_on_place(handle, body)?;
+                    row.push(wrench.force.as_slice());
+                    row.push(wrench.moment.as_slice());
+                }
+            }
+        }
+        Ok(row)
+    }
+
+    fn push<S: Real>(&mut self, values: &[S]) {
+        self.values
+            .extend(values.iter().map(|value| value.to_f64()));
+    }
+}
+
+/// The places in `between` of the bodies whose reactions are recorded.
+fn loaded(joint: &JointInfo) -> core::ops::Range<usize> {
+    let bodies = joint.bodies.len();
+    if bodies > 2 {
+        0..bodies
+    } else {
+        bodies.saturating_sub(1)..bodies
+    }
+}
+
+/// The names of the columns.
+fn columns<M: Mechanism>(reactions: bool) -> Vec<String> {
+    let mut names = std::vec!["time [s]".to_string()];
+    for body in M::REPORT.bodies {
+        let rigid = body.kind == BodyKind::Rigid;
+        vector3(&mut names, body.name, "position", "m");
+        if rigid {
+            names.extend((0..4).map(|k| format!("{}.orientation.e{k}", body.name)));
+        }
+        vector3(&mut names, body.name, "velocity", "m/s");
+        if rigid {
+            vector3(&mut names, body.name, "angular_velocity", "rad/s");
+        }
+    }
+    for joint in M::REPORT.joints {
+        let name = joint.name;
+        if joint.has_angle {
+            names.push(format!("{name}.angle [rad]"));
+            names.push(format!("{name}.angle_rate [rad/s]"));
+        }
+        if joint.has_displacement {
+            names.push(format!("{name}.displacement [m]"));
+            names.push(format!("{name}.displacement_rate [m/s]"));
+        }
+    }
+    names.extend(["kinetic_energy [J]", "potential_energy [J]", "violation"].map(String::from));
+    if reactions {
+        for joint in M::REPORT.joints {
+            for place in loaded(joint) {
+                let name = reaction_name::<M>(joint, place);
+                vector3(&mut names, &name, "force", "N");
+                vector3(&mut names, &name, "moment", "N m");
+            }
+        }
+    }
+    names
+}
+
+fn vector3(names: &mut Vec<String>, name: &str, quantity: &str, unit: &str) {
+    names.extend(["x", "y", "z"].map(|axis| format!("{name}.{quantity}.{axis} [{unit}]")));
+}
+
+/// The name of the joint; with the body where more than one is recorded.
+fn reaction_name<M: Mechanism>(joint: &JointInfo, place: usize) -> String {
+    if joint.bodies.len() <= 2 {
+        return joint.name.to_string();
+    }
+    let body = joint.bodies.get(place).copied().flatten();
+    let body = body.and_then(|body| M::REPORT.bodies.get(body));
+    format!("{}.{}", joint.name, body.map_or("ground", |body| body.name))
+}

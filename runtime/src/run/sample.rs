@@ -1,0 +1,127 @@
+//! What an observer of a run sees.
+
+use core::cell::OnceCell;
+use core::ops::Deref;
+
+use crate::dynamics::evaluate::Evaluate;
+use crate::error::Fault;
+use crate::math::scalar::Real;
+use crate::measure::reaction::Wrench;
+use crate::measure::view::View;
+use crate::mechanism::handle::{BodyHandle, Driven, JointHandle};
+use crate::mechanism::kernels::{Evaluation, Mechanism};
+use crate::state::vector::StateParts;
+
+/// A state at a reporting time: a [`View`], and what takes an evaluation.
+///
+/// Accelerations, multipliers and reactions are computed when they are first asked for, by one evaluation that the
+/// run does not count.
+pub struct Sample<'a, S: Real, M: Mechanism> {
+    view: View<'a, S, M>,
+    dynamics: &'a dyn Evaluate<S, M>,
+    evaluation: OnceCell<Result<Evaluation<S, M>, Fault>>,
+}
+
+impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
+    pub(crate) fn new(view: View<'a, S, M>, dynamics: &'a dyn Evaluate<S, M>) -> Self {
+        Self {
+            view,
+            dynamics,
+            evaluation: OnceCell::new(),
+        }
+    }
+
+    /// A sample whose evaluation has been done.
+    pub(crate) fn evaluated(
+        view: View<'a, S, M>,
+        dynamics: &'a dyn Evaluate<S, M>,
+        evaluation: Evaluation<S, M>,
+    ) -> Self {
+        Self {
+            view,
+            dynamics,
+            evaluation: OnceCell::from(Ok(evaluation)),
+        }
+    }
+
+    /// Rates of the state, and multipliers.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn evaluation(&self) -> Result<&Evaluation<S, M>, Fault> {
+        let evaluate = || self.dynamics.evaluation(self.time(), self.state());
+        self.evaluation
+            .get_or_init(evaluate)
+            .as_ref()
+            .map_err(|fault| *fault)
+    }
+
+    /// The multipliers, one per equation.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn multipliers(&self) -> Result<M::Multipliers<S>, Fault> {
+        Ok(self.evaluation()?.multipliers)
+    }
+
+    /// What a joint exerts on one of its bodies, see [`View::reaction`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation; [`Fault::NotBetween`] for a body that is not of the joint.
+    pub fn reaction<J>(
+        &self,
+        joint: JointHandle<M, J>,
+        body: BodyHandle<M>,
+    ) -> Result<Wrench<S>, Fault> {
+        let multipliers = &self.evaluation()?.multipliers;
+        self.view.reaction(multipliers, joint, body)
+    }
+
+    /// What a joint exerts on the body at a place of its `between`, see [`View::reaction_on_place`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation; [`Fault::NoSuchPlace`] for a place that `between` does not have.
+    pub fn reaction_on_place<J>(
+        &self,
+        joint: JointHandle<M, J>,
+        place: usize,
+    ) -> Result<Wrench<S>, Fault> {
+        let multipliers = &self.evaluation()?.multipliers;
+        self.view.reaction_on_place(multipliers, joint, place)
+    }
+
+    /// The effort of a driver (N for a length, N m for an angle), see [`View::driving_effort`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation; [`Fault::NoEffort`] where the driver's equation was left out as redundant.
+    pub fn driving_effort<J: Driven>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
+        let multipliers = &self.evaluation()?.multipliers;
+        self.view.driving_effort(multipliers, joint)
+    }
+
+    /// Accelerations `u'` (m/s^2 global; rad/s^2 principal body axes), one per velocity.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn accelerations(&self) -> Result<M::Velocities<S>, Fault> {
+        Ok(*self.evaluation()?.rates.velocities())
+    }
+
+    /// The violation of the constraints by the accelerations: the square of `D u' - gamma`.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn acceleration_violation(&self) -> Result<S, Fault> {
+        Ok(self
+            .view
+            .acceleration_violation(self.evaluation()?.rates.velocities()))
+    }
+}
+
+impl<'a, S: Real, M: Mechanism> Deref for Sample<'a, S, M> {
+    type Target = View<'a, S, M>;
+
+    fn deref(&self) -> &View<'a, S, M> {
+        &self.view
+    }
+}

@@ -1,0 +1,303 @@
+//! A run under way: segments of integration between breaks, corrections, reports, and the watch over them.
+
+use core::ops::ControlFlow;
+
+use crate::dynamics::moving::Moving;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{Counts, Course, Integrator, Span};
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::run::output::Schedule;
+use crate::run::post_step::Treatment;
+use crate::run::report::RunReport;
+use crate::run::sample::Sample;
+use crate::run::within::{better_end, look_within};
+use crate::watch::{Watch, fastest};
+
+/// A run under way.
+pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
+    /// What the integrator moves.
+    pub(crate) moving: D,
+    /// What is done to states after steps and before reports.
+    pub(crate) treatment: Option<&'r dyn Treatment<S, M>>,
+    pub(crate) schedule: Schedule<S>,
+    /// Instants (s) at which the integration begins anew, in any order, besides those of the description.
+    pub(crate) breaks: &'r [S],
+    pub(crate) watch: Option<Watch<S, M>>,
+    pub(crate) log: Log<'r, S, M>,
+    /// Steps so far.
+    pub(crate) steps: usize,
+    pub(crate) counts: Counts,
+}
+
+/// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at the cost of three calls.
+const ASKED_TWICE: usize = 1024;
+
+/// Whom states are shown to. Behind a pointer, so that a run is compiled once for all observers.
+pub(crate) type Observer<'o, S, M> = dyn FnMut(&Sample<'_, S, M>) -> ControlFlow<()> + 'o;
+
+/// Shows states to the observer.
+pub(crate) struct Log<'r, S: Real, M: Mechanism> {
+    observe: &'r mut Observer<'r, S, M>,
+    worst_violation: S,
+    flow: ControlFlow<()>,
+    /// Steps since a state was shown.
+    unseen: usize,
+}
+
+impl<'r, S: Real, M: Mechanism> Log<'r, S, M> {
+    pub(crate) fn new(observe: &'r mut Observer<'r, S, M>) -> Self {
+        Self {
+            observe,
+            worst_violation: S::zero(),
+            flow: ControlFlow::Continue(()),
+            unseen: 0,
+        }
+    }
+}
+
+impl<S, M, D> Run<'_, S, M, D>
+where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+{
+    /// Goes from a state to the end; keeps the last good state.
+    pub(crate) fn go<I: Integrator<S>>(
+        mut self,
+        integrator: &I,
+        (start, end): (S, S),
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<RunReport<S, M>, Fault> {
+        let mut from = start;
+        if start == end {
+            self.evaluate(start, &last_good.1)
+                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+        }
+        self.show(start, &last_good.1);
+        if let Some(watch) = self.watch.as_mut().filter(|_| from < end) {
+            let dynamics = self.moving.dynamics();
+            dynamics.begin(watch, start, &last_good.1);
+        }
+        if from < end {
+            let start = (start, &last_good.1);
+            self.moving.dynamics().ask_twice(start, (end, start.1))?;
+        }
+        while from < end && self.log.flow.is_continue() {
+            let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
+            let span = Span {
+                start: from,
+                end: until,
+                first_output: self.schedule.first(from).min(until - from),
+            };
+            self.segment(integrator, span, last_good)
+                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+            from = until;
+        }
+        Ok(self.report(*last_good))
+    }
+
+    /// Evaluates the rates once: a run of no length is refused where any other would be.
+    fn evaluate(&mut self, time: S, state: &M::State<S>) -> Result<(), Fault> {
+        let state = self.moving.of(state);
+        self.moving.rates(time, &state)?;
+        self.counts.evaluations += 1;
+        Ok(())
+    }
+
+    /// Integrates over an interval without breaks.
+    fn segment<I: Integrator<S>>(
+        &mut self,
+        integrator: &I,
+        span: Span<S>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
+        let start = self.moving.of(&last_good.1);
+        let mut course = integrator.start(&mut self.moving, span, start)?;
+        if let Some(watch) = &mut self.watch {
+            watch.restart();
+            self.moving.watch(watch, span.start, &last_good.1);
+        }
+        let budget = integrator.budget().unwrap_or(usize::MAX);
+        let budget = budget.saturating_sub(self.counts.evaluations);
+        // What interpolants evaluate for the watch is no part of the run.
+        let mut of_watch = 0_usize;
+        while course.time() < span.end {
+            course.advance(&mut self.moving)?;
+            let before = course.counts().evaluations;
+            let mut better = None;
+            if let Some(watch) = &mut self.watch {
+                better = better_end(watch, &mut self.moving, &course, &last_good.1);
+                look_within(watch, &mut self.moving, &mut course, &last_good.1);
+            }
+            let after = course.counts().evaluations;
+            let looks = after.saturating_sub(before);
+            // What output within the step evaluates is not what the watch is shown, which is its end.
+            let mut seen = None;
+            while let Some(time) = self.schedule.within(course.time()) {
+                seen.get_or_insert_with(|| self.moving.seen());
+                let state = course.at(&mut self.moving, time)?;
+                let mut state = self.moving.bodies(&state, &last_good.1);
+                if let Some(treatment) = self.treatment {
+                    state = self.treated(treatment, time, state)?;
+                }
+                *last_good = (time, state);
+                self.show(time, &last_good.1);
+                if self.log.flow.is_break() {
+                    self.counts = self.counts.plus(course.counts().without(of_watch));
+                    return Ok(());
+                }
+            }
+            let is_shared = match seen {
+                // With reports, which find what interpolation needs where a look has evaluated it, or evaluate for each time anew.
+                Some(seen) => {
+                    self.moving.recall(seen);
+                    course.counts().evaluations == after
+                }
+                // Or as the slope at the start of the next step.
+                None => looks <= 1 && self.treatment.is_none(),
+            };
+            if !is_shared {
+                of_watch = of_watch.saturating_add(looks);
+            }
+            let time = course.time();
+            let mut state = self.moving.bodies(course.state(), &last_good.1);
+            if let Some(treatment) = self.treatment {
+                state = self.treated(treatment, time, state)?;
+                let state = self.moving.of_near(&state, course.state());
+                course.replace(state);
+            }
+            if let Some(watch) = &mut self.watch {
+                if let Some(better) = better {
+                    watch.judge([&state, &better]);
+                }
+                self.moving.watch(watch, time, &state);
+                let excused = self.moving.iterations().excused;
+                watch.excuse_evaluations(excused, time);
+            }
+            self.steps = self.steps.saturating_add(1);
+            if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
+                let dynamics = self.moving.dynamics();
+                dynamics.ask_twice((time, &state), (last_good.0, &last_good.1))?;
+            }
+            *last_good = (time, state);
+            self.log.unseen += 1;
+            if self.schedule.at(time, self.log.unseen) {
+                self.show(time, &state);
+                if self.log.flow.is_break() {
+                    break;
+                }
+            }
+            let evaluations = course.counts().without(of_watch).evaluations;
+            if evaluations >= budget && time < span.end {
+                let evaluations = self.counts.evaluations.saturating_add(evaluations);
+                return Err(Fault::Budget {
+                    evaluations,
+                    joint: None,
+                });
+            }
+        }
+        self.counts = self.counts.plus(course.counts().without(of_watch));
+        Ok(())
+    }
+
+    /// A state after its treatment.
+    #[inline(never)]
+    fn treated(
+        &mut self,
+        treatment: &dyn Treatment<S, M>,
+        time: S,
+        mut state: M::State<S>,
+    ) -> Result<M::State<S>, Fault> {
+        let constants = self.moving.dynamics().constants();
+        let excused = treatment.treat(constants, time, &mut state)?;
+        if let Some(watch) = &mut self.watch
+            && excused > S::zero()
+        {
+            watch.excuse_correction(time);
+        }
+        Ok(state)
+    }
+
+    fn show(&mut self, time: S, state: &M::State<S>) {
+        let dynamics = self.moving.dynamics();
+        let view = dynamics.view(time, state);
+        let log = &mut self.log;
+        log.worst_violation = log.worst_violation.max(view.violation());
+        log.flow = (log.observe)(&Sample::new(view, dynamics));
+        log.unseen = 0;
+    }
+
+    /// The last state is one that was shown.
+    fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
+        if let Some(watch) = &mut self.watch {
+            self.moving.name_smallest_pivot(watch);
+            watch.end(self.moving.dynamics().constants(), time, &state);
+        }
+        RunReport {
+            evaluations: self.counts.evaluations,
+            accepted: self.counts.accepted,
+            rejected: self.counts.rejected,
+            worst_violation: self.log.worst_violation,
+            iterations: self.moving.iterations(),
+            time,
+            state,
+            stopped: self.log.flow.is_break(),
+            watch: self.watch,
+        }
+    }
+
+    /// A fault with what the run knows of its cause.
+    #[cold]
+    fn explained<I: Integrator<S>>(
+        &self,
+        integrator: &I,
+        fault: Fault,
+        last_good: (S, M::State<S>),
+    ) -> Fault {
+        /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5 up to about this over `a`, and grows for some time
+        /// from somewhat less on.
+        const STABLE: f64 = 2.0;
+        /// Radians in a step that no motion has.
+        const BEYOND: f64 = 1e6;
+        let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
+        if not_finite
+            && let (Some(step), Some(rate)) = (
+                integrator.fixed_step(),
+                self.moving.dynamics().formulation().decay_rate(),
+            )
+            && step * rate > S::constant(STABLE)
+        {
+            return Fault::StepTooLong {
+                step: step.to_f64(),
+                rate: rate.to_f64(),
+            };
+        }
+        // A step in which something turns by radians, or moves by lengths of the mechanism, is too long whatever came of it: pivots of such numbers may vanish, too.
+        let turned = match fault {
+            Fault::Singular { .. } => Some(BEYOND),
+            _ => not_finite.then_some(1.0),
+        };
+        let (constants, state) = (self.moving.dynamics().constants(), &last_good.1);
+        if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())
+            && step * fastest::<S, M>(constants, state) > S::constant(turned)
+        {
+            return Fault::Unstable {
+                step: step.to_f64(),
+            };
+        }
+        let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
+        self.moving.dynamics().explained(fault, absolute, last_good)
+    }
+}
+
+/// The first break after a time, of those of the description and those of a run, or the end.
+fn next_break<S: Real>(described: &[f64], breaks: &[S], from: S, end: S) -> S {
+    let described = described.iter().map(|&time| S::constant(time));
+    let beyond = |time: S, bound: S| time - bound > S::constant(16.0) * bound.max(time).ulp();
+    described
+        .chain(breaks.iter().copied())
+        .filter(|&time| beyond(time, from) && beyond(end, time))
+        .fold(end, S::min)
+}

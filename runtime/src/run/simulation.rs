@@ -1,0 +1,297 @@
+//! A run of a mechanism over an interval of time.
+
+use core::marker::PhantomData;
+use core::ops::{ControlFlow, RangeInclusive};
+
+use crate::assembly::assembled;
+use crate::assembly::consistent_start::check_start;
+use crate::constraints::projection::Projection;
+use crate::dynamics::Dynamics;
+use crate::dynamics::moving::{Bodies, Description, Joints};
+use crate::error::{Fault, SimulationError};
+use crate::formulation::Formulation;
+use crate::integrate::{Counts, Integrator};
+use crate::math::scalar::Real;
+use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::kernels::{Mechanism, Normalised, Orientation};
+use crate::mechanism::orientations::check_state;
+use crate::run::output::{Reporting, Schedule, check_interval};
+use crate::run::post_step::Treatment;
+use crate::run::report::{RunReport, RunResult};
+use crate::run::sample::Sample;
+use crate::run::segments::{Log, Observer, Run};
+use crate::state::vector::{Array, StateParts};
+use crate::watch::Watch;
+
+/// A mechanism, a formulation and an integrator, ready to run.
+///
+/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::Raw)), `A` which forces come on top of those of
+/// the description.
+pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoForces, C = Bodies> {
+    mechanism: &'a M,
+    formulation: F,
+    integrator: I,
+    forces: A,
+    initial: Option<M::State<S>>,
+    assemble: Option<Projection<S>>,
+    projection: Option<Projection<S>>,
+    treatment: Option<&'a dyn Treatment<S, M>>,
+    breaks: &'a [S],
+    accepts_any_start: bool,
+    is_watched: bool,
+    /// How Euler parameters are read, and by what the mechanism is described.
+    kind: PhantomData<(P, C)>,
+}
+
+impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<'a, S, M, F, I> {
+    /// A simulation from the state that the attributes describe, with Euler parameters normalised inside the
+    /// evaluation, without further forces and without corrections.
+    #[must_use]
+    pub fn new(mechanism: &'a M, formulation: F, integrator: I) -> Self {
+        Self {
+            mechanism,
+            formulation,
+            integrator,
+            forces: NoForces,
+            initial: None,
+            assemble: None,
+            projection: None,
+            treatment: None,
+            breaks: &[],
+            accepts_any_start: false,
+            is_watched: true,
+            kind: PhantomData,
+        }
+    }
+}
+
+impl<'a, S, M, F, I, P, A, C> Simulation<'a, S, M, F, I, P, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Integrator<S>,
+    P: Orientation,
+{
+    /// Starts from this state.
+    #[must_use]
+    pub fn initial_state(mut self, state: M::State<S>) -> Self {
+        self.initial = Some(state);
+        self
+    }
+
+    /// Corrects the initial state onto the constraints, see [`Projection`].
+    #[must_use]
+    pub fn assembled(mut self) -> Self {
+        self.assemble = Some(Projection::default());
+        self
+    }
+
+    /// Corrects the state onto the constraints after every step, and every state that is reported.
+    #[must_use]
+    pub fn projection(mut self, projection: Projection<S>) -> Self {
+        self.projection = Some(projection);
+        self.treatment = None;
+        self
+    }
+
+    /// Treats the state after every step, and every state that is reported, in another way than by a [`Simulation::projection`], see [`Treatment`].
+    #[must_use]
+    pub fn treatment(mut self, treatment: &'a dyn Treatment<S, M>) -> Self {
+        self.treatment = Some(treatment);
+        self.projection = None;
+        self
+    }
+
+    /// Accepts a start that violates the constraints by more than four digits, in positions or velocities, which is refused with
+    /// [`Fault::InconsistentStart`] otherwise.
+    #[must_use]
+    pub fn inconsistent_start(mut self) -> Self {
+        self.accepts_any_start = true;
+        self
+    }
+
+    /// Begins the integration anew at these instants (s), in any order: where a law or a closure jumps or has a short pulse, which a step would pass over
+    /// otherwise. Those of a `smooth_step` of the time with literal numbers are known without ([`ExplicitTime::breaks`](crate::ExplicitTime::breaks)).
+    #[must_use]
+    pub fn breaks(mut self, instants: &'a [S]) -> Self {
+        self.breaks = instants;
+        self
+    }
+
+    /// Runs without the watch that [`RunReport::doubts`] speaks of. By bodies that saves some percent;
+    /// by joints, where the watch evaluates the equations of the bodies besides, half of the time and more.
+    #[must_use]
+    pub fn unwatched(mut self) -> Self {
+        self.is_watched = false;
+        self
+    }
+
+    fn exchange<P2, A2, C2>(
+        self,
+        forces: impl FnOnce(A) -> A2,
+    ) -> Simulation<'a, S, M, F, I, P2, A2, C2> {
+        Simulation {
+            mechanism: self.mechanism,
+            formulation: self.formulation,
+            integrator: self.integrator,
+            forces: forces(self.forces),
+            initial: self.initial,
+            assemble: self.assemble,
+            projection: self.projection,
+            treatment: self.treatment,
+            breaks: self.breaks,
+            accepts_any_start: self.accepts_any_start,
+            is_watched: self.is_watched,
+            kind: PhantomData,
+        }
+    }
+}
+
+impl<'a, S, M, F, I, P, A> Simulation<'a, S, M, F, I, P, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Integrator<S>,
+    P: Orientation,
+{
+    /// Reads Euler parameters in another way: `.orientation::<Raw>()`.
+    #[must_use]
+    pub fn orientation<P2: Orientation>(self) -> Simulation<'a, S, M, F, I, P2, A> {
+        self.exchange(|forces| forces)
+    }
+}
+
+impl<'a, S, M, F, I, P, A, C> Simulation<'a, S, M, F, I, P, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Integrator<S>,
+    P: Orientation,
+{
+    /// Applies forces as a function of time and state, `|time, state, loads| loads.force(body, ...)`.
+    ///
+    /// It is called at trial states, for times that go back and forth, and may remember nothing: what gives two answers for one time and state ends a run with
+    /// [`Fault::TwoAnswers`]. A controller with memory belongs between runs of a period, see [`guide::forces`](mod@crate::guide::forces).
+    ///
+    /// The evaluation is then done in its parts instead of fused, at a higher cost.
+    #[must_use]
+    pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, P, ForceLaw<G>, C>
+    where
+        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+    {
+        self.exchange(|_| ForceLaw(law))
+    }
+}
+
+impl<'a, S, M, F, I, A> Simulation<'a, S, M, F, I, Normalised, A>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Integrator<S>,
+{
+    /// Moves joint coordinates, see [`JointCoordinates`]: bodies stand as the joints of a spanning tree let them at every step, to round-off, and an evaluation
+    /// costs what the mechanism's freedom asks for.
+    ///
+    /// A start that opens a joint is refused, whatever [`Simulation::inconsistent_start`] says: those of the tree cannot open.
+    ///
+    /// States go in and come out as those of the bodies; reports, reactions, projection (of the joints that close loops) and watch are the same. The watch
+    /// evaluates the equations of the bodies once a step, which takes more time than the step itself: see [`Simulation::unwatched`].
+    #[must_use]
+    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, A, Joints>
+    where
+        M: JointCoordinates,
+    {
+        self.exchange(|forces| forces)
+    }
+}
+
+impl<S, M, F, I, P, A, C> Simulation<'_, S, M, F, I, P, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Integrator<S>,
+    P: Orientation,
+    A: AppliedForces<S, M>,
+    C: for<'f> Description<S, M, F, P, &'f A>,
+{
+    /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the reporting times and at the
+    /// end; `ControlFlow::Break(())` stops the run, so an observer that never does so ends with `ControlFlow::Continue(())`.
+    ///
+    /// An interval of length zero reports once and evaluates nothing.
+    ///
+    /// # Errors
+    /// Time, cause and last good state where the run cannot go on: a parameter, a coefficient or a setting that is not
+    /// acceptable, a singular configuration, no convergence, a step too small, numbers out of range. The state is of zeros where a
+    /// parameter was refused and no initial state had been given.
+    pub fn run<O>(
+        &self,
+        interval: RangeInclusive<S>,
+        reporting: Reporting<S>,
+        mut observe: O,
+    ) -> RunResult<S, M>
+    where
+        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+    {
+        let (start, end) = interval.into_inner();
+        let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
+        let mut last_good = (start, self.initial.unwrap_or_else(zeros));
+        self.attempt((start, end), reporting, &mut observe, &mut last_good)
+            .map_err(|fault| {
+                let (time, state) = last_good;
+                SimulationError {
+                    time: time.to_f64(),
+                    fault,
+                    state,
+                }
+            })
+    }
+
+    fn attempt(
+        &self,
+        (start, end): (S, S),
+        reporting: Reporting<S>,
+        observe: &mut Observer<'_, S, M>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<RunReport<S, M>, Fault> {
+        let dynamics =
+            Dynamics::new(self.mechanism, self.formulation)?.exchange::<P, &A>(|_| &self.forces);
+        let constants = *dynamics.constants();
+        let mut state = self.initial.unwrap_or_else(|| M::initial_state(&constants));
+        last_good.1 = state;
+        check_interval(start, end)?;
+        let schedule = Schedule::new(start, end, reporting)?;
+        check_state::<S, M>(&state)?;
+        M::recount(&constants, &mut state);
+        if let Some(projection) = self.assemble {
+            let from = M::initial_state(&constants);
+            assembled::<S, M>(&projection, &constants, start, &mut state, &from)?;
+        }
+        last_good.1 = state;
+        if !self.accepts_any_start || C::HAS_EXACT_JOINTS {
+            let interval = (start, end - start);
+            check_start::<S, M>(&constants, interval, &state, C::HAS_EXACT_JOINTS)?;
+        }
+        let watch = self
+            .is_watched
+            .then(|| Watch::new(&constants, start, &state).over(&self.integrator));
+        let projection = self.projection.as_ref();
+        let projection = projection.map(|projection| projection as &dyn Treatment<S, M>);
+        let run = Run {
+            moving: C::moving(dynamics)?,
+            treatment: self.treatment.or(projection),
+            schedule,
+            breaks: self.breaks,
+            watch,
+            log: Log::new(observe),
+            steps: 0,
+            counts: Counts::default(),
+        };
+        run.go(&self.integrator, (start, end), last_good)
+    }
+}

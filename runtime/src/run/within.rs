@@ -1,0 +1,168 @@
+//! What the ends of a step do not tell: singular configurations between them, and what a method of low order misses.
+
+use crate::dynamics::moving::Moving;
+use crate::error::Fault;
+use crate::integrate::Course;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::with_unit_orientations;
+use crate::watch::{Nearness, Watch};
+
+/// How often a step is divided at the most.
+const FINEST: usize = 8;
+
+/// How often a step is divided before the course of its pivots may say that nothing was passed.
+const COARSEST: usize = 2;
+
+/// The part of an interval at which it is divided: not its middle, for a motion may repeat itself in half a step.
+const DIVISION: f64 = 0.44;
+
+/// Where a rule of higher order would have led in the last step of a course, of some steps of a method that is judged. The bodies stood near by a moment ago.
+#[inline]
+pub(crate) fn better_end<S, M, D, C>(
+    watch: &Watch<S, M>,
+    moving: &mut D,
+    course: &C,
+    near: &M::State<S>,
+) -> Option<M::State<S>>
+where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+    C: Course<S, D::State>,
+{
+    if !watch.judges() {
+        return None;
+    }
+    let (seen, iterations) = (moving.seen(), moving.iterations());
+    // Where there is a fault the run will find it.
+    let better = course.better_end(moving).ok().flatten();
+    moving.recall(seen);
+    moving.recount(iterations);
+    better.map(|state| moving.bodies(&state, near))
+}
+
+/// Looks into the last step of a course, before its end is corrected or shown to the watch: as far as pivots at the ends of its parts do not tell that the mechanism kept away from where one
+/// vanishes. The bodies stood near by a moment ago.
+///
+/// By joints a step may be a fifth of a turn.
+pub(crate) fn look_within<S, M, D, C>(
+    watch: &mut Watch<S, M>,
+    moving: &mut D,
+    course: &mut C,
+    near: &M::State<S>,
+) where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+    C: Course<S, D::State>,
+{
+    let (start, end) = (watch.time(), course.time());
+    if !watch.may_have_passed(end - start) {
+        return;
+    }
+    let last = moving.bodies(course.state(), near);
+    let rate = watch.faster(&last);
+    let first = watch.last_nearness();
+    let last = nearness(watch, moving, end, &last);
+    if !watch.may_pass(rate * (end - start), [first, last]) {
+        return;
+    }
+    let seen = moving.seen();
+    let mut step = Within {
+        watch,
+        moving,
+        course,
+        near,
+        rate,
+    };
+    let is_known = step.between((start, first), (end, last), 0);
+    if is_known {
+        watch.is_known_for(rate * (end - start));
+    }
+    moving.recall(seen);
+}
+
+fn nearness<S, M, D>(
+    watch: &mut Watch<S, M>,
+    moving: &D,
+    time: S,
+    bodies: &M::State<S>,
+) -> Nearness<S>
+where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+{
+    let pivot = moving.pivot_within(time, bodies);
+    watch.nearness(moving.dynamics().constants(), (time, bodies), pivot)
+}
+
+/// A step that is looked into.
+struct Within<'w, S: Real, M: Mechanism, D, C> {
+    watch: &'w mut Watch<S, M>,
+    moving: &'w mut D,
+    course: &'w mut C,
+    near: &'w M::State<S>,
+    /// The largest rate of motion (rad/s) at its ends.
+    rate: S,
+}
+
+impl<S, M, D, C> Within<'_, S, M, D, C>
+where
+    S: Real,
+    M: Mechanism,
+    D: Moving<S, M>,
+    C: Course<S, D::State>,
+{
+    fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
+        let state = self.course.at(self.moving, time)?;
+        // An interpolant between two orientations passes within the sphere of Euler parameters.
+        let bodies = self.moving.bodies(&state, self.near);
+        Ok(with_unit_orientations::<S, M>(&bodies))
+    }
+
+    /// How near the mechanism was at a time; `None` where there is no telling.
+    #[inline(never)]
+    fn nearness(&mut self, time: S) -> Option<Nearness<S>> {
+        match self.bodies(time) {
+            Ok(state) => Some(nearness(self.watch, self.moving, time, &state)),
+            Err(Fault::Singular { .. }) => Some(Nearness::singular()),
+            Err(_) => None,
+        }
+    }
+
+    // States stay out of the frames of the recursion, and of those that were least there are few.
+    #[inline(never)]
+    fn look(&mut self, time: S, nearness: Nearness<S>) {
+        if self.watch.look(time, nearness)
+            && let Ok(state) = self.bodies(time)
+        {
+            self.watch.keep(time, &state);
+        }
+    }
+
+    /// Looks at what lies between two times, in order; whether nothing can have been passed unseen.
+    fn between(&mut self, from: (S, Nearness<S>), to: (S, Nearness<S>), depth: usize) -> bool {
+        let motion = self.rate * (to.0 - from.0);
+        if !self.watch.may_pass(motion, [from.1, to.1]) {
+            return true;
+        }
+        if depth == FINEST {
+            return false;
+        }
+        let time = from.0 + S::constant(DIVISION) * (to.0 - from.0);
+        let Some(nearness) = self.nearness(time) else {
+            return false;
+        };
+        if depth >= COARSEST && Nearness::keep_away([from.1, nearness, to.1]) {
+            self.look(time, nearness);
+            return true;
+        }
+        let middle = (time, nearness);
+        let before = self.between(from, middle, depth + 1);
+        self.look(time, nearness);
+        let after = self.between(middle, to, depth + 1);
+        before && after
+    }
+}

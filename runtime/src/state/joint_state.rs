@@ -1,0 +1,438 @@
+//! The state of a mechanism in joint coordinates, whose angles are pairs on a circle.
+
+use crate::math::scalar::{Real, Scalar};
+use crate::math::versine;
+use crate::state::each::EachOfJoints;
+use crate::state::vector::{
+    Vector, greater, greatest, plus, relative_norm, zero_if_finite, zero_if_finite_after,
+};
+
+/// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every turning joint, further coordinates, rates.
+///
+/// A kernel reads cosines and sines as they are and calls no function. Pairs have length 1; `rest` (displacements, say) and `rates`, of which
+/// there may be as many as the system needs, are plain numbers. The same type holds the slope of a state: there a pair is `[rate of the angle
+/// (rad/s), 0]`, and the second element has no part in anything.
+///
+/// # How an integrator moves it
+///
+/// - [`Vector::plus`] *turns* a pair by the sum of its increments: what a method does with the angle it does with the pair, up to round-off, at
+///   the stages too, because turns about one axis commute. Pairs whose elements are integrated as numbers lose an order of magnitude in
+///   accuracy. The sine and cosine of an increment are exact to round-off for every size; below 0.9 rad a turn calls no function in `f64` and
+///   `f32` ([`Scalar::sines_and_versines`]). Every turn takes back what round-off did to the length before: it does not drift. A pair that was
+///   given with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is no angle.
+/// - [`Vector::plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its end, turns a few pairs on from ones that are known by what the slopes
+///   differ by, where that is 0.0125 rad at most: a short series, so that the next evaluation waits less. [`Vector::plus_once_and_twice`], which leads to the first stage, does so
+///   with a pair that stands alone. The sums are the same, up to round-off; of an error of the length the latter leaves half a square of the angle times as much beside the above.
+/// - [`Vector::relative_norm`] measures the increment of an angle in radians, against `max(1, floor)`. Angles on a circle have no size, so a relative
+///   tolerance is one in radians, and an absolute one counts if it is greater.
+/// - [`Vector::towards`] goes along the circle, by the turn nearest to the given way.
+/// - [`Vector::zip`] and [`Vector::for_each`] see plain numbers: both elements of every pair, `rest`, `rates`.
+///
+/// ```
+/// use holonom::{Fault, JointState, Rk4, Scheme, System};
+///
+/// /// A pendulum of 1 m: angle from the vertical, `angle'' = -9.81 sin(angle)`.
+/// struct Pendulum;
+///
+/// impl System<f64> for Pendulum {
+///     type State = JointState<f64, 1, 0, 1>;
+///     fn rates(&mut self, _time: f64, state: &Self::State) -> Result<Self::State, Fault> {
+///         let ([[_, sine]], [rate]) = (*state.pairs(), *state.rates());
+///         Ok(JointState::from_parts([[rate, 0.0]], [], [-9.81 * sine]))
+///     }
+/// }
+///
+/// let start = 1.0_f64;
+/// let mut state = JointState::from_parts([[start.cos(), start.sin()]], [], [0.0]);
+/// for step in 0..1000 {
+///     Rk4.step(&mut Pendulum, 0.01 * f64::from(step), &mut state, 0.01)?;
+/// }
+/// let ([[cosine, _]], [rate]) = (*state.pairs(), *state.rates());
+/// assert!((0.5 * rate * rate - 9.81 * (cosine - start.cos())).abs() < 1e-6);
+/// # Ok::<(), Fault>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointState<S, const TURNS: usize, const REST: usize, const RATES: usize> {
+    pairs: [[S; 2]; TURNS],
+    rest: [S; REST],
+    rates: [S; RATES],
+}
+
+impl<S, const TURNS: usize, const REST: usize, const RATES: usize>
+    JointState<S, TURNS, REST, RATES>
+{
+    /// A state of its parts. Pairs are taken as they are: their length should be 1.
+    #[inline(always)]
+    #[must_use]
+    pub const fn from_parts(pairs: [[S; 2]; TURNS], rest: [S; REST], rates: [S; RATES]) -> Self {
+        Self { pairs, rest, rates }
+    }
+
+    /// Cosine and sine of the angle of every turning joint; of a slope, the rate of the angle (rad/s) and zero.
+    #[inline(always)]
+    #[must_use]
+    pub const fn pairs(&self) -> &[[S; 2]; TURNS] {
+        &self.pairs
+    }
+
+    /// The pairs, to be written.
+    #[inline(always)]
+    #[must_use]
+    pub const fn pairs_mut(&mut self) -> &mut [[S; 2]; TURNS] {
+        &mut self.pairs
+    }
+
+    /// The coordinates that are no angles on a circle.
+    #[inline(always)]
+    #[must_use]
+    pub const fn rest(&self) -> &[S; REST] {
+        &self.rest
+    }
+
+    /// These coordinates, to be written.
+    #[inline(always)]
+    #[must_use]
+    pub const fn rest_mut(&mut self) -> &mut [S; REST] {
+        &mut self.rest
+    }
+
+    /// The rates; of a slope, the rates of these.
+    #[inline(always)]
+    #[must_use]
+    pub const fn rates(&self) -> &[S; RATES] {
+        &self.rates
+    }
+
+    /// The rates, to be written.
+    #[inline(always)]
+    #[must_use]
+    pub const fn rates_mut(&mut self) -> &mut [S; RATES] {
+        &mut self.rates
+    }
+}
+
+/// The increments of the angles (rad): the sums of factor times slope.
+#[inline(always)]
+fn increments<S: Scalar, const T: usize, const Q: usize, const U: usize, const K: usize>(
+    terms: &[(S, &JointState<S, T, Q, U>); K],
+) -> [S; T] {
+    // Adding to -0 changes no number, and so costs nothing.
+    more_increments([-S::zero(); T], terms)
+}
+
+#[inline(always)]
+fn more_increments<S: Scalar, const T: usize, const Q: usize, const U: usize, const K: usize>(
+    mut sums: [S; T],
+    terms: &[(S, &JointState<S, T, Q, U>); K],
+) -> [S; T] {
+    for (factor, slope) in terms {
+        let mut k = 0;
+        while k < T {
+            sums[k] = slope.pairs[k][0].fused(*factor, sums[k]);
+            k += 1;
+        }
+    }
+    sums
+}
+
+/// Pairs, turned by angles (rad).
+///
+/// With the versine `v` and the sine `s` of an angle, a pair `p` and its normal `n` go to `p + (s n - v p)`, which is rounded once where the increment is small.
+/// They are stretched by `1 + e` on the way, `e = (1 - p.p) / 2`, which takes the length to 1 and is known long before the angle is. `e p` alone would do for small
+/// angles; at half a turn it would do the opposite.
+#[inline(always)]
+fn turned<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], angles: &[S; T]) -> [[S; 2]; T] {
+    turned_by(pairs, &S::sines_and_versines(angles))
+}
+
+/// A pair that is near, turned on by its angle if that is little, or else the one where all began by the whole angle: the same for a pair, whatever stands beside it.
+#[cold]
+#[inline(never)]
+fn turned_beside<S: Scalar>((near, angle): ([S; 2], S), (from, whole): ([S; 2], S)) -> [S; 2] {
+    if S::are_within(&[angle], LITTLE) {
+        return turned_a_little(near, angle);
+    }
+    let [pair] = turned(&[from], &[whole]);
+    pair
+}
+
+/// Angles (rad) for which six powers leave 9.5e-18 of a turn, and three leave 1.0e-9.
+const LITTLE: f64 = 0.0125;
+
+/// A pair of length 1, turned by an angle of at most [`LITTLE`].
+#[inline(always)]
+fn turned_a_little<S: Scalar>(pair: [S; 2], angle: S) -> [S; 2] {
+    let [[c, s], [way_c, way_s]] = [pair, way(pair, angle)];
+    [angle.fused(way_c, c), angle.fused(way_s, s)]
+}
+
+/// Where a pair goes in a turn by an angle of at most [`LITTLE`], over that angle.
+///
+/// `n - a p / 2 - a^2 n / 6 + a^3 p / 24 + a^4 n / 120 - a^5 p / 720` of a pair `p` and its normal `n`: the factors are known before the angle is, and powers do not wait for each other.
+#[inline(always)]
+fn way<S: Scalar>([c, s]: [S; 2], angle: S) -> [S; 2] {
+    let square = angle * angle;
+    let element = |p: S, n: S| {
+        let term = |even: f64, odd: f64| angle.fused(p * S::constant(even), n * S::constant(odd));
+        let one = angle.fused(p * S::constant(-0.5), n);
+        let three = if S::SEVEN_DIGITS {
+            n * S::constant(-1.0 / 6.0)
+        } else {
+            let five = term(-1.0 / 720.0, 1.0 / 120.0);
+            square.fused(five, term(1.0 / 24.0, -1.0 / 6.0))
+        };
+        square.fused(three, one)
+    };
+    [element(c, -s), element(s, c)]
+}
+
+/// What takes the length of a pair to 1.
+#[inline(always)]
+fn stretch<S: Scalar>([c, s]: [S; 2]) -> [S; 2] {
+    let stretch = S::constant(-0.5) * c.fused(c, s.fused(s, -S::one()));
+    [stretch * c, stretch * s]
+}
+
+/// Pairs, turned by angles of these sines and versines.
+#[inline(always)]
+fn turned_by<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], turns: &[[S; 2]; T]) -> [[S; 2]; T] {
+    let turn = |pairs: &mut [[S; 2]], turns: &[[S; 2]]| {
+        for (pair, &[sine, versine]) in pairs.iter_mut().zip(turns) {
+            let [[c, s], [more_c, more_s]] = [*pair, stretch(*pair)];
+            let (full_c, full_s) = (c + more_c, s + more_s);
+            *pair = [
+                c + versine.fused(-full_c, sine.fused(-full_s, more_c)),
+                s + versine.fused(-full_s, sine.fused(full_c, more_s)),
+            ];
+        }
+    };
+    let mut result = *pairs;
+    let (first, last) = result.split_at_mut(versine::cut(T));
+    let (by, last_by) = turns.split_at(versine::cut(T));
+    turn(first, by);
+    turn(last, last_by);
+    result
+}
+
+/// Pairs, turned by angles and by twice these angles.
+#[inline(always)]
+fn turned_once_and_twice<S: Scalar, const T: usize>(
+    pairs: &[[S; 2]; T],
+    angles: &[S; T],
+) -> [[[S; 2]; T]; 2] {
+    let (mut once, mut twice) = (*pairs, *pairs);
+    // Of a pair that stands alone the next evaluation does nothing but wait. What is missing of its length is not turned with it: that would be known later.
+    if T == 1 && S::are_within(angles, LITTLE) {
+        for ((once, twice), &angle) in once.iter_mut().zip(&mut twice).zip(angles) {
+            let pair = *once;
+            let [[way_c, way_s], [more_c, more_s]] = [way(pair, angle), stretch(pair)];
+            let [c, s] = pair;
+            *once = [
+                c + angle.fused(way_c, more_c),
+                s + angle.fused(way_s, more_s),
+            ];
+            [*twice] = turned_by(&[pair], &[versine::doubled(versine::of_little(angle))]);
+        }
+        return [once, twice];
+    }
+    let mut turns = S::sines_and_versines(angles);
+    once = turned_by(pairs, &turns);
+    // A loop, because `map` is called where much is compiled together.
+    for turn in &mut turns {
+        *turn = versine::doubled(*turn);
+    }
+    twice = turned_by(pairs, &turns);
+    [once, twice]
+}
+
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize>
+    JointState<S, TURNS, REST, RATES>
+{
+    /// The sum, of which the pairs are known.
+    #[inline(always)]
+    fn plus_with<const K: usize>(&self, pairs: [[S; 2]; TURNS], terms: [(S, &Self); K]) -> Self {
+        Self {
+            pairs,
+            rest: plus(&self.rest, &terms, |x| &x.rest),
+            rates: plus(&self.rates, &terms, |x| &x.rates),
+        }
+    }
+}
+
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vector<S>
+    for JointState<S, TURNS, REST, RATES>
+{
+    const PLUS_IS_COSTLY: bool = TURNS > 0;
+
+    type Each<T: Clone> = EachOfJoints<T, TURNS, REST, RATES>;
+
+    fn each<T: Clone>(&self, value: T) -> EachOfJoints<T, TURNS, REST, RATES> {
+        EachOfJoints::new(value)
+    }
+
+    fn length(&self) -> usize {
+        2 * TURNS + REST + RATES
+    }
+
+    fn coordinate_count(&self) -> usize {
+        2 * TURNS + REST
+    }
+
+    #[inline(always)]
+    fn element(&self, index: usize) -> S {
+        if index < 2 * TURNS {
+            self.pairs[index / 2][index % 2]
+        } else if index < 2 * TURNS + REST {
+            self.rest.element(index - 2 * TURNS)
+        } else {
+            self.rates.element(index - 2 * TURNS - REST)
+        }
+    }
+
+    #[inline(always)]
+    fn set_element(&mut self, index: usize, value: S) {
+        if index < 2 * TURNS {
+            self.pairs[index / 2][index % 2] = value;
+        } else if index < 2 * TURNS + REST {
+            self.rest.set_element(index - 2 * TURNS, value);
+        } else {
+            self.rates.set_element(index - 2 * TURNS - REST, value);
+        }
+    }
+
+    #[inline(always)]
+    fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {
+        let mut pairs = self.pairs;
+        for (pair, other) in pairs.iter_mut().zip(&other.pairs) {
+            *pair = Vector::zip(pair, other, &mut f);
+        }
+        Self {
+            pairs,
+            rest: Vector::zip(&self.rest, &other.rest, &mut f),
+            rates: Vector::zip(&self.rates, &other.rates, &mut f),
+        }
+    }
+
+    #[inline(always)]
+    fn for_each(&self, mut f: impl FnMut(S)) {
+        for pair in &self.pairs {
+            Vector::for_each(pair, &mut f);
+        }
+        Vector::for_each(&self.rest, &mut f);
+        Vector::for_each(&self.rates, &mut f);
+    }
+
+    /// The second element of a pair has none.
+    fn has_part(&self, index: usize) -> bool {
+        index >= 2 * TURNS || index.is_multiple_of(2)
+    }
+
+    #[inline(always)]
+    fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
+        self.plus_with(turned(&self.pairs, &increments(&terms)), terms)
+    }
+
+    #[inline(always)]
+    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
+        let angles = increments(&[(factor, direction)]);
+        let [once, twice] = turned_once_and_twice(&self.pairs, &angles);
+        [
+            self.plus_with(once, [(factor, direction)]),
+            self.plus_with(twice, [(factor + factor, direction)]),
+        ]
+    }
+
+    /// Pairs go on from those that are known by little angles: that is less to compute, and what waits for the last slope is short.
+    #[inline(always)]
+    fn plus_beside<const K: usize>(
+        &self,
+        near: &Self,
+        along: (S, &Self),
+        terms: [(S, &Self); K],
+    ) -> Self {
+        // Of many the operations count: the turns of a stage do not wait for each other. Measured, see ARCHITECTURE.
+        let few = if S::SEVEN_DIGITS { 12 } else { 5 };
+        if TURNS > few {
+            return self.plus(terms);
+        }
+        let (factor, slope) = along;
+        let angles = more_increments(increments(&[(-factor, slope)]), &terms);
+        let mut pairs = near.pairs;
+        if S::are_within(&angles, LITTLE) {
+            for (pair, &angle) in pairs.iter_mut().zip(&angles) {
+                *pair = turned_a_little(*pair, angle);
+            }
+        } else {
+            let whole = increments(&terms);
+            let (from, angles) = (self.pairs.iter().zip(&whole), &angles);
+            for ((pair, (&from, &whole)), &angle) in pairs.iter_mut().zip(from).zip(angles) {
+                *pair = turned_beside((*pair, angle), (from, whole));
+            }
+        }
+        self.plus_with(pairs, terms)
+    }
+
+    #[inline(always)]
+    fn towards<const W: usize, const K: usize>(
+        &self,
+        to: &Self,
+        weight: S,
+        way: [(S, &Self); W],
+        terms: [(S, &Self); K],
+    ) -> Self {
+        let mut angles = increments(&terms);
+        let way = increments(&way);
+        let there = turned(&self.pairs, &way);
+        for (((angle, way), [c, s]), [to_c, to_s]) in
+            angles.iter_mut().zip(way).zip(there).zip(to.pairs)
+        {
+            let missing = c.fused(to_s, -(s * to_c));
+            let turn = way + missing.atan2(c.fused(to_c, s * to_s));
+            *angle = turn.fused(weight, *angle);
+        }
+        let rest = terms.map(|(factor, x)| (factor, &x.rest));
+        let rates = terms.map(|(factor, x)| (factor, &x.rates));
+        Self {
+            pairs: turned(&self.pairs, &angles),
+            rest: self.rest.towards(&to.rest, weight, [], rest),
+            rates: self.rates.towards(&to.rates, weight, [], rates),
+        }
+    }
+
+    #[inline(always)]
+    fn relative_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
+    where
+        S: Real,
+    {
+        let scale = greater(S::one(), floor);
+        let mut angles = increments(&terms);
+        for angle in &mut angles {
+            *angle = angle.abs().quotient(scale);
+        }
+        let rest = [&self.rest, &other.rest];
+        let rates = [&self.rates, &other.rates];
+        greatest(&angles)
+            .max(relative_norm(rest, floor, &terms, |x: &Self| &x.rest))
+            .max(relative_norm(rates, floor, &terms, |x: &Self| &x.rates))
+    }
+
+    #[inline(always)]
+    fn is_finite(&self) -> bool
+    where
+        S: Real,
+    {
+        // Of few elements one sum is the least to do, and a kernel of few operations feels it; of more, they would wait for each other.
+        let few = 2 * TURNS + REST + RATES <= 6;
+        let pairs = self.pairs.as_flattened();
+        let zero = if few {
+            let pairs = zero_if_finite_after(-S::zero(), pairs);
+            zero_if_finite_after(zero_if_finite_after(pairs, &self.rest), &self.rates)
+        } else {
+            zero_if_finite(pairs) + zero_if_finite(&self.rest) + zero_if_finite(&self.rates)
+        };
+        zero == S::zero()
+    }
+}
+
+#[cfg(test)]
+mod tests;
