@@ -1,4 +1,5 @@
-//! What one evaluation of the pendulum of chapter 15 costs: generated kernels, static matrices, run-time assembler.
+//! What one evaluation of the pendulum of chapter 15 costs: generated kernels, static matrices,
+//! run-time assembler.
 //!
 //! - `throughput`: evaluations that do not depend on each other, over many states;
 //! - `dependent`: every evaluation needs the result of the one before, as in an integrator;
@@ -95,7 +96,8 @@ fn dependent(criterion: &mut Criterion) {
                 bencher.iter(|| {
                     let mut state = black_box(start);
                     for _ in 0..STATES {
-                        // A step far below round-off: the next evaluation waits for this one, the state stays.
+                        // A step far below round-off: the next evaluation waits for this one, the
+                        // state stays.
                         if let Ok(rates) = system.rates(0.0, &state) {
                             state = state.plus([(1e-30, &rates)]);
                         }

@@ -1,4 +1,5 @@
-//! What an evaluation, and a step of Runge-Kutta, cost beside the kernel that they run, over states that do not depend on each other.
+//! What an evaluation, and a step of Runge-Kutta, cost beside the kernel that they run, over states
+//! that do not depend on each other.
 //!
 //! - `kernel`: [`Mechanism::evaluate_into`] alone;
 //! - `rates`: [`System::rates`], which refuses what is not finite;
@@ -21,7 +22,8 @@ const STATES: usize = 64;
 /// The step (s) between them.
 const STEP: f64 = 1e-3;
 
-/// Eight rods on hinges whose axes are at right angles in turn, along +y at the start, gravity along -z.
+/// Eight rods on hinges whose axes are at right angles in turn, along +y at the start, gravity
+/// along -z.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
 struct HingeChain {

@@ -1,11 +1,16 @@
-//! What a step by joints takes that its kernels do not: steps of [`Rk4`] one after the other, standard multipliers, each in the time of one of its four evaluations.
+//! What a step by joints takes that its kernels do not: steps of [`Rk4`] one after the other,
+//! standard multipliers, each in the time of one of its four evaluations.
 //!
-//! - `kernel`: [`JointCoordinates::joint_rates_into`], at states that wait for the rates before (by an increment of nothing);
-//! - `two powers`: steps whose pairs are turned by a series of two powers of the angle: wrong by a sixth of its cube;
-//! - `six powers`: by six, which are exact up to 0.0125 rad. No longer angle is provided for, lengths drift, nothing is looked at, as with two: a step that is right does more;
+//! - `kernel`: [`JointCoordinates::joint_rates_into`], at states that wait for the rates before (by
+//!   an increment of nothing);
+//! - `two powers`: steps whose pairs are turned by a series of two powers of the angle: wrong by a
+//!   sixth of its cube;
+//! - `six powers`: by six, which are exact up to 0.0125 rad. No longer angle is provided for,
+//!   lengths drift, nothing is looked at, as with two: a step that is right does more;
 //! - `step`: [`JointStepper::step`].
 //!
-//! Behind them, `sum of pairs`: [`Vector::plus`] of so many pairs and rates, which LLVM compiles well for some numbers and not for others (`versine::cut`).
+//! Behind them, `sum of pairs`: [`Vector::plus`] of so many pairs and rates, which LLVM compiles
+//! well for some numbers and not for others (`versine::cut`).
 //!
 //! The steps are so small that the state stays where it is.
 

@@ -1,4 +1,5 @@
-//! What the benches and the program `study` share: the opponents of the generated kernels, and the terminal.
+//! What the benches and the program `study` share: the opponents of the generated kernels, and the
+//! terminal.
 
 #![forbid(unsafe_code)]
 

@@ -28,7 +28,8 @@ pub struct Measures {
     name: &'static str,
     /// The feature that has it.
     feature: &'static str,
-    /// What the build took (s of processor time) where only chapter 15 was built, with few mechanisms and with many; where it was measured.
+    /// What the build took (s of processor time) where only chapter 15 was built, with few
+    /// mechanisms and with many; where it was measured.
     seconds: [Option<u64>; 2],
 }
 
@@ -86,7 +87,8 @@ impl Measures {
         })
     }
 
-    /// Where the program is, once it is there. It lies beside this one, built with the same profile and the same flags.
+    /// Where the program is, once it is there. It lies beside this one, built with the same profile
+    /// and the same flags.
     fn build(&self, extent: Extent) -> Result<PathBuf, Box<dyn Error>> {
         let this = std::env::current_exe()?;
         let folder = this.parent().ok_or("this program lies in no folder")?;
@@ -187,7 +189,8 @@ impl Measures {
     }
 }
 
-/// How many mechanisms are asked for, here or by the features that this was built with; and the arguments that are the study's own.
+/// How many mechanisms are asked for, here or by the features that this was built with; and the
+/// arguments that are the study's own.
 fn extent(all: &[OsString]) -> (Extent, impl Iterator<Item = &OsString>) {
     let has = |flag: &str| all.iter().any(|argument| argument == flag);
     let extent = if cfg!(feature = "huge") || has("--huge") {

@@ -1,7 +1,8 @@
 //! The run-time assembler and the static matrices as systems that our integrators move.
 //!
-//! All of them see a state whose Euler parameters were scaled to length 1 before anything is computed from it, the rates
-//! of the Euler parameters included: that is what gives the published counts of evaluations.
+//! All of them see a state whose Euler parameters were scaled to length 1 before anything is
+//! computed from it, the rates of the Euler parameters included: that is what gives the published
+//! counts of evaluations.
 
 use holonom::{Fault, NotFinite, System};
 use holonom_assembler::bodies::Orientation;
@@ -13,8 +14,8 @@ use holonom_study::chapter15::run::{Kind, Rival};
 use holonom_study::chapter15::{Method, Settings};
 use holonom_study::run::contestant;
 
-/// `x = (r, p, v, w)` of one body: position (m, global), Euler parameters, velocity (m/s, global), angular velocity
-/// (rad/s, body axes).
+/// `x = (r, p, v, w)` of one body: position (m, global), Euler parameters, velocity (m/s, global),
+/// angular velocity (rad/s, body axes).
 pub type State = [f64; 13];
 
 /// The start of chapter 15: at rest, the rod along +y.
@@ -27,8 +28,8 @@ pub const START: State = {
 
 /// The change of the accelerations at which the textbook form of the augmented Lagrangian stops.
 ///
-/// The criterion of our own form, 1e-10, is beyond it: at `alpha = 1e7` the round-off of `M + alpha D^T D` keeps the
-/// accelerations from coming to rest below about 1e-9.
+/// The criterion of our own form, 1e-10, is beyond it: at `alpha = 1e7` the round-off of
+/// `M + alpha D^T D` keeps the accelerations from coming to rest below about 1e-9.
 const TEXTBOOK_TOLERANCE: f64 = 1e-8;
 
 /// The state with Euler parameters of length 1.

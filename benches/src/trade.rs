@@ -14,7 +14,8 @@ use holonom_study::trade::{Both, Subject};
 use crate::opponents::START;
 use crate::yardstick::Written;
 
-/// All of them, two without the feature `large`: every one is compiled for two descriptions, four formulations and two number types.
+/// All of them, two without the feature `large`: every one is compiled for two descriptions, four
+/// formulations and two number types.
 #[must_use]
 pub fn problems() -> Vec<Box<dyn Subject>> {
     vec![

@@ -1,16 +1,20 @@
-//! The yardstick of all times: the rod pendulum of chapter 15, written by hand as a careful person would.
+//! The yardstick of all times: the rod pendulum of chapter 15, written by hand as a careful person
+//! would.
 //!
-//! Positions and Euler parameters of length 1, point rows along global axes, angular velocities along the rod's own axes. The masses are eliminated first, which
-//! leaves `(D M^-1 D^T) lambda = D M^-1 g - gamma`, five by five, solved by `L D L^T` without a loop; then `u' = M^-1 (g - D^T lambda)`. What is zero or known is
-//! left out, common factors are taken out, products are added by [`Scalar::fused`], as generated code does it. Nothing beyond that: no row is turned to
-//! where it would be simpler, `A^T A = I` is not used.
+//! Positions and Euler parameters of length 1, point rows along global axes, angular velocities
+//! along the rod's own axes. The masses are eliminated first, which leaves
+//! `(D M^-1 D^T) lambda = D M^-1 g - gamma`, five by five, solved by `L D L^T` without a loop; then
+//! `u' = M^-1 (g - D^T lambda)`. What is zero or known is left out, common factors are taken out,
+//! products are added by [`Scalar::fused`], as generated code does it. Nothing beyond that: no row
+//! is turned to where it would be simpler, `A^T A = I` is not used.
 
 use std::hint::black_box;
 
 use holonom::{Fault, NotFinite, Real, Scalar, System, Vector as _};
 use holonom_study::compare::measure::Subject;
 
-/// `x = (r, p, v, w)` of the rod: position (m, global), Euler parameters, velocity (m/s, global), angular velocity (rad/s, body axes).
+/// `x = (r, p, v, w)` of the rod: position (m, global), Euler parameters, velocity (m/s, global),
+/// angular velocity (rad/s, body axes).
 pub type State<S> = [S; 13];
 
 /// Mass (kg).
@@ -24,7 +28,8 @@ const ARM: f64 = 0.5;
 /// Gravity along -z (m/s^2).
 const GRAVITY: f64 = 9.81;
 
-/// The slope of a state and the multipliers of the hinge: three for its point along global axes, two for its axis.
+/// The slope of a state and the multipliers of the hinge: three for its point along global axes,
+/// two for its axis.
 #[inline(always)]
 #[must_use]
 pub fn evaluate<S: Scalar>(state: &State<S>) -> (State<S>, [S; 5]) {
@@ -44,7 +49,8 @@ pub fn evaluate<S: Scalar>(state: &State<S>) -> (State<S>, [S; 5]) {
     let (a13, a31) = (d13 + d02, d13 - d02);
     let (a23, a32) = (d23 - d01, d23 + d01);
 
-    // The first columns of `D M^-1 D^T`: the rows of the hinge's point are (1, -h a3, 0, h a1) in (v, w), those of its axis (0, 0, -a_3, a_2).
+    // The first columns of `D M^-1 D^T`: the rows of the hinge's point are (1, -h a3, 0, h a1) in
+    // (v, w), those of its axis (0, 0, -a_3, a_2).
     let arm = constant(ARM * ARM / ACROSS);
     let inverse_mass = constant(1.0 / MASS);
     let (k11, k21, k31) = (arm * a11, arm * a21, arm * a31);

@@ -1,4 +1,5 @@
-//! What `study recommend` recommends meets the error from starts that it was not tried with: `cargo test --release -p holonom-benches --features large --test recommend`.
+//! What `study recommend` recommends meets the error from starts that it was not tried with:
+//! `cargo test --release -p holonom-benches --features large --test recommend`.
 
 #![cfg(feature = "large")]
 

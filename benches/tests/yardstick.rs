@@ -56,7 +56,8 @@ fn it_computes_what_the_generated_pendulum_does() {
             evaluation.rates.velocities().as_slice(),
         ]
         .concat();
-        // Round-off in moments about the rod is divided by an inertia 556 times smaller than the other.
+        // Round-off in moments about the rod is divided by an inertia 556 times smaller than the
+        // other.
         let scale = 556.0 * generated.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
         for (place, (a, b)) in rates.iter().zip(&generated).enumerate() {
             assert!(

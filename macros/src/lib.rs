@@ -1,9 +1,11 @@
-//! The procedural macros of `holonom`: a shim over `holonom-engine`. Depend on `holonom`, which hands them on.
+//! The procedural macros of `holonom`: a shim over `holonom-engine`. Depend on `holonom`, which
+//! hands them on.
 #![forbid(unsafe_code)]
 
 use proc_macro::TokenStream;
 
-/// Generates the kernels of the mechanism that the struct describes. See the documentation of `holonom`.
+/// Generates the kernels of the mechanism that the struct describes. See the documentation of
+/// `holonom`.
 #[proc_macro_derive(Mechanism, attributes(mechanism, body, joint, force, param, input))]
 pub fn derive_mechanism(input: TokenStream) -> TokenStream {
     holonom_engine::derive(input.into()).into()

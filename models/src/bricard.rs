@@ -3,7 +3,8 @@
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 
-/// Five rods and the ground in a ring of six hinges: it moves, although the count of its equations says that it cannot.
+/// Five rods and the ground in a ring of six hinges: it moves, although the count of its equations
+/// says that it cannot.
 ///
 /// ```text
 ///         P1 ------- P2        y        hinge    axis
@@ -14,15 +15,17 @@ use holonom::prelude::*;
 ///      P5 ------- P4                    from P6 to P1: the ground; g = 9.81 m/s^2 along -y
 /// ```
 ///
-/// Problem A04 of the library of the IFToMM Technical Committee for Multibody Dynamics: rods of 1 m, 1 kg, of the
-/// section 0.1 m x 0.1 m, the centre of mass in the middle, `(0.1^2 + 0.1^2) / 12` kg m^2 about their axes and `(1 +
-/// 0.1^2) / 12` kg m^2 across. The hinges are at `P1 = (0, 0, 0)`, `P2 = (1, 0, 0)`, `P3 = (1, -1, 0)`, `P4 = (1, -1,
-/// 1)`, `P5 = (0, -1, 1)`, `P6 = (0, 0, 1)` m; at rest at the start, 10 s. The library compares the path of `P3`.
+/// Problem A04 of the library of the IFToMM Technical Committee for Multibody Dynamics: rods of 1
+/// m, 1 kg, of the section 0.1 m x 0.1 m, the centre of mass in the middle, `(0.1^2 + 0.1^2) / 12`
+/// kg m^2 about their axes and `(1 + 0.1^2) / 12` kg m^2 across. The hinges are at
+/// `P1 = (0, 0, 0)`, `P2 = (1, 0, 0)`, `P3 = (1, -1, 0)`, `P4 = (1, -1, 1)`, `P5 = (0, -1, 1)`,
+/// `P6 = (0, 0, 1)` m; at rest at the start, 10 s. The library compares the path of `P3`.
 ///
 /// 30 equations on 30 velocities; one follows from the others in every position, and is dropped.
 ///
-/// Good for: equations that depend on each other while no two of them are alike; a motion through space with one angle,
-/// `cos(A) + cos(B) + cos(A) cos(B) = 0`, `A` that of the hinges 1, 3 and 5 and `B` that of the others.
+/// Good for: equations that depend on each other while no two of them are alike; a motion through
+/// space with one angle, `cos(A) + cos(B) + cos(A) cos(B) = 0`, `A` that of the hinges 1, 3 and 5
+/// and `B` that of the others.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
 pub struct Bricard {

@@ -4,7 +4,8 @@ use holonom::forces::PointForce;
 use holonom::joints::{Prismatic, Revolute};
 use holonom::prelude::*;
 
-/// A pole that stands on a cart, which a force pushes; at rest, 0.1 rad from upright at the start, gravity along -y.
+/// A pole that stands on a cart, which a force pushes; at rest, 0.1 rad from upright at the start,
+/// gravity along -y.
 ///
 /// ```text
 ///     y        / pole, angle from upright towards x
@@ -14,10 +15,12 @@ use holonom::prelude::*;
 ///     o----------------- x
 /// ```
 ///
-/// Cart 1 kg, pole 0.1 kg and 1 m long, no friction: Barto, Sutton and Anderson, *Neuronlike adaptive elements that can solve difficult learning control
-/// problems*, IEEE Transactions on Systems, Man, and Cybernetics 13 (1983). Moments of inertia that do not act are ours.
+/// Cart 1 kg, pole 0.1 kg and 1 m long, no friction: Barto, Sutton and Anderson, *Neuronlike
+/// adaptive elements that can solve difficult learning control problems*, IEEE Transactions on
+/// Systems, Man, and Cybernetics 13 (1983). Moments of inertia that do not act are ours.
 ///
-/// Good for: control; the equations of motion in closed form (Florian, *Correct equations for the dynamics of the cart-pole system*, 2007).
+/// Good for: control; the equations of motion in closed form (Florian, *Correct equations for the
+/// dynamics of the cart-pole system*, 2007).
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
 pub struct CartPole {

@@ -3,8 +3,8 @@
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 
-/// A door on two hinges whose common axis leans 10 degrees from the vertical, released 90 degrees from where it would
-/// come to rest.
+/// A door on two hinges whose common axis leans 10 degrees from the vertical, released 90 degrees
+/// from where it would come to rest.
 ///
 /// ```text
 ///     z
@@ -15,15 +15,16 @@ use holonom::prelude::*;
 ///     +------ x                   g = 9.81 m/s^2 along -z
 /// ```
 ///
-/// Own data: a box of 0.8 m (width, y) x 2 m (height, z) x 0.04 m (x) and 20 kg, hinged on one edge at the heights 0.25
-/// m and 1.75 m; the edge starts in the origin and leans towards +x; gravity 9.81 m/s^2 along -z.
+/// Own data: a box of 0.8 m (width, y) x 2 m (height, z) x 0.04 m (x) and 20 kg, hinged on one edge
+/// at the heights 0.25 m and 1.75 m; the edge starts in the origin and leans towards +x; gravity
+/// 9.81 m/s^2 along -z.
 ///
-/// Two hinges say everything twice: 10 equations, of which 5 are dropped, so that one of the hinges carries all of the
-/// reaction. Which one carries how much, rigid bodies cannot tell.
+/// Two hinges say everything twice: 10 equations, of which 5 are dropped, so that one of the hinges
+/// carries all of the reaction. Which one carries how much, rigid bodies cannot tell.
 ///
-/// Good for: redundant equations in the smallest form. A physical pendulum, `I phi'' = -m g sin(10 deg) d sin(phi)`
-/// with `I = 4.269333` kg m^2, `d = 0.4` m. The angle of either hinge is zero at the start: `angle = phi - pi/2`, `phi`
-/// from the position at rest.
+/// Good for: redundant equations in the smallest form. A physical pendulum,
+/// `I phi'' = -m g sin(10 deg) d sin(phi)` with `I = 4.269333` kg m^2, `d = 0.4` m. The angle of
+/// either hinge is zero at the start: `angle = phi - pi/2`, `phi` from the position at rest.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop", coordinates = "both")]
 pub struct Door {

@@ -4,33 +4,35 @@ use holonom::forces::SpringDamper;
 use holonom::joints::{Prismatic, Revolute};
 use holonom::prelude::*;
 
-/// Two balls on rods turn about a vertical shaft at one turn a second and lift a slider through stiff spring-dampers.
+/// Two balls on rods turn about a vertical shaft at one turn a second and lift a slider through
+/// stiff spring-dampers.
 ///
 /// ```text
 ///           z
 ///     hinge | hinge        the view along y: the arms sink from the hinges by alpha = 30 degrees,
-///       o---+---o          from the middle of each a spring-damper leads to the slider on the shaft
+///       o---+---o          a spring-damper from the middle of each to the slider on the shaft
 ///     /     |     \
 ///   /  ....[ ]....  \      everything turns about z
 ///  O        |        O     g = 9.81 m/s^2 along -z
 ///           +-- x
 /// ```
 ///
-/// Problem A05 of the library of the IFToMM Technical Committee for Multibody Dynamics, 10 s,
-/// all parts of 3000 kg/m^3: the shaft 1 m x 0.01 m x 0.01 m (0.3 kg) on the z axis; the slider a cube of 0.1 m (3 kg)
-/// at the height of 0.5 m; the rods 1 m x 0.01 m x 0.01 m (0.3 kg) on hinges at (0.05, 0, 1) and (-0.05, 0, 1) m, 30
-/// degrees below the horizontal, with a point mass of 5 kg at their ends; spring-dampers of 8e5 N/m, 4e4 N s/m and 0.5
-/// m between (0.05, 0, 0.5), (-0.05, 0, 0.5) m on the slider and the middles of the rods. Everything turns about z at 2
-/// pi rad/s.
+/// Problem A05 of the library of the IFToMM Technical Committee for Multibody Dynamics, 10 s, all
+/// parts of 3000 kg/m^3: the shaft 1 m x 0.01 m x 0.01 m (0.3 kg) on the z axis; the slider a cube
+/// of 0.1 m (3 kg) at the height of 0.5 m; the rods 1 m x 0.01 m x 0.01 m (0.3 kg) on hinges at
+/// (0.05, 0, 1) and (-0.05, 0, 1) m, 30 degrees below the horizontal, with a point mass of 5 kg at
+/// their ends; spring-dampers of 8e5 N/m, 4e4 N s/m and 0.5 m between (0.05, 0, 0.5), (-0.05, 0,
+/// 0.5) m on the slider and the middles of the rods. Everything turns about z at 2 pi rad/s.
 ///
-/// Rod and ball are one body here, `arm`: 5.3 kg, the centre of mass `(0.15 + 5) / 5.3` m from the hinge, x along the
-/// rod, moments of inertia after Steiner.
+/// Rod and ball are one body here, `arm`: 5.3 kg, the centre of mass `(0.15 + 5) / 5.3` m from the
+/// hinge, x along the rod, moments of inertia after Steiner.
 ///
-/// Good for: stiffness. The fastest motion about the start decays with 8117 1/s (steps of classical Runge-Kutta must be
-/// below 3.4e-4 s), the slowest oscillates with 7.3 rad/s.
+/// Good for: stiffness. The fastest motion about the start decays with 8117 1/s (steps of classical
+/// Runge-Kutta must be below 3.4e-4 s), the slowest oscillates with 7.3 rad/s.
 ///
-/// The angles of the arms' hinges are zero at the start and grow as the arms sink: `alpha = pi/6 + angle` below the
-/// horizontal. The displacement of `guide` is the height of the slider less 0.5 m.
+/// The angles of the arms' hinges are zero at the start and grow as the arms sink:
+/// `alpha = pi/6 + angle` below the horizontal. The displacement of `guide` is the height of the
+/// slider less 0.5 m.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct FlyballGovernor {
@@ -95,6 +97,7 @@ pub struct FlyballGovernor {
 }
 
 impl FlyballGovernor {
-    /// The middle of the rod of an arm, where its spring is fixed, in the arm's axes from its centre of mass (m).
+    /// The middle of the rod of an arm, where its spring is fixed, in the arm's axes from its
+    /// centre of mass (m).
     pub const MIDDLE: [f64; 3] = [0.5 - 5.15 / 5.3, 0.0, 0.0];
 }

@@ -7,10 +7,11 @@ use crate::FourBar;
 
 /// Two parallelograms in a row with one upright link in common, as [`FourBar`] otherwise: N = 2.
 ///
-/// Problem A02 of the IFToMM library as it stands there ("double four-bar"), 10 s. 35 equations, of which 6 are
-/// dropped; the links lie on one line for the first time after 0.71436 s.
+/// Problem A02 of the IFToMM library as it stands there ("double four-bar"), 10 s. 35 equations, of
+/// which 6 are dropped; the links lie on one line for the first time after 0.71436 s.
 ///
-/// Good for: what the [`FourBar`] is good for, with three ways to go on in the singular configurations.
+/// Good for: what the [`FourBar`] is good for, with three ways to go on in the singular
+/// configurations.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
 pub struct DoubleFourBar {
@@ -69,16 +70,19 @@ pub struct DoubleFourBar {
 }
 
 impl DoubleFourBar {
-    /// The upper end of an upright link in its axes, from its centre of mass (m). The sheets compare that of `left`.
+    /// The upper end of an upright link in its axes, from its centre of mass (m). The sheets
+    /// compare that of `left`.
     pub const TOP: [f64; 3] = FourBar::TOP;
 }
 
 /// Five parallelograms in a row, as [`FourBar`] otherwise: N = 5.
 ///
-/// 80 equations, of which 15 are dropped; the links lie on one line for the first time after 0.71869 s.
+/// 80 equations, of which 15 are dropped; the links lie on one line for the first time after
+/// 0.71869 s.
 ///
-/// Good for: what the [`FourBar`] is good for, with six ways to go on in the singular configurations; and as an example of
-/// arrays of bodies and joints: rod `k` stands on the ground at `x = k`, top `k` joins it to the next.
+/// Good for: what the [`FourBar`] is good for, with six ways to go on in the singular
+/// configurations; and as an example of arrays of bodies and joints: rod `k` stands on the ground
+/// at `x = k`, top `k` joins it to the next.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
 pub struct QuintupleFourBar {
@@ -106,6 +110,7 @@ pub struct QuintupleFourBar {
 }
 
 impl QuintupleFourBar {
-    /// The upper end of an upright link in its axes, from its centre of mass (m). The sheets compare that of the first.
+    /// The upper end of an upright link in its axes, from its centre of mass (m). The sheets
+    /// compare that of the first.
     pub const TOP: [f64; 3] = FourBar::TOP;
 }

@@ -3,8 +3,8 @@
 use holonom::joints::{Distance, PointOnPlane};
 use holonom::prelude::*;
 
-/// Three point masses of 1 g and a bob of 1000 kg on four massless links of 0.25 m, straight, at rest, 60 degrees from
-/// the vertical, gravity along -y, in the xy plane.
+/// Three point masses of 1 g and a bob of 1000 kg on four massless links of 0.25 m, straight, at
+/// rest, 60 degrees from the vertical, gravity along -y, in the xy plane.
 ///
 /// ```text
 ///     y
@@ -18,9 +18,9 @@ use holonom::prelude::*;
 ///
 /// Own data.
 ///
-/// Good for: what a ratio of masses of 1e6 does to the digits of a solution. The bob swings with 3 rad/s, the small
-/// masses sing with 1e4 rad/s (explicit steps must stay below 2e-4 s), and the penalty must be large against tensions
-/// of 1e4 N.
+/// Good for: what a ratio of masses of 1e6 does to the digits of a solution. The bob swings with 3
+/// rad/s, the small masses sing with 1e4 rad/s (explicit steps must stay below 2e-4 s), and the
+/// penalty must be large against tensions of 1e4 N.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
 pub struct HeavyChain {

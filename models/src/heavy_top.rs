@@ -3,22 +3,25 @@
 use holonom::joints::Spherical;
 use holonom::prelude::*;
 
-/// A fast top on a ball joint at the origin, its axis in the horizontal at the start, gravity along -z.
+/// A fast top on a ball joint at the origin, its axis in the horizontal at the start, gravity along
+/// -z.
 ///
 /// ```text
 ///        z
 ///        |
-///        o--------(top)  y     the tip in the origin, the axis of the top along y; x towards the reader
+///        o--------(top)  y     tip in the origin, axis along y; x towards the reader
 ///        |  g = 9.81 m/s^2
 ///        v
 /// ```
 ///
-/// Brüls, Cardona and Arnold, *Lie group generalized-alpha time integration of constrained flexible multibody systems*,
-/// Mechanism and Machine Theory 48 (2012): `m = 15` kg, `J = (0.234375, 0.46875, 0.234375)` kg m^2 about the centre of
-/// mass, which is 1 m from the fixed point; the top spins at 150 rad/s about its axis, which starts at -4.61538 rad/s about z.
+/// Brüls, Cardona and Arnold, *Lie group generalized-alpha time integration of constrained flexible
+/// multibody systems*, Mechanism and Machine Theory 48 (2012): `m = 15` kg,
+/// `J = (0.234375, 0.46875, 0.234375)` kg m^2 about the centre of mass, which is 1 m from the fixed
+/// point; the top spins at 150 rad/s about its axis, which starts at -4.61538 rad/s about z.
 ///
-/// Good for: large rotations and Euler parameters, 24 turns a second; the order of convergence of an integrator. The energy,
-/// 5435.696790865547 J, the angular momentum about z, -70.3124296875 kg m^2/s, and the spin of 150 rad/s about the axis stay.
+/// Good for: large rotations and Euler parameters, 24 turns a second; the order of convergence of
+/// an integrator. The energy, 5435.696790865547 J, the angular momentum about z, -70.3124296875 kg
+/// m^2/s, and the spin of 150 rad/s about the axis stay.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct HeavyTop {

@@ -17,11 +17,13 @@
 //! | [`Ur5`], [`Panda`] | arms of six and seven hinges | robots, forward dynamics against Pinocchio | `example-robot-data` |
 //! | [`HeavyChain`] | 1000 kg on a chain of grams | a ratio of masses of 1e6 | own data |
 //!
-//! IFToMM: the library of benchmark problems of its Technical Committee for Multibody Dynamics. Models that move in a
-//! plane are made of spatial bodies and joints. With the feature `problems`, `problems` has their motions with known answers. What follows from the initial configuration (a distance of points, an
-//! axis on a body) is not written twice.
+//! IFToMM: the library of benchmark problems of its Technical Committee for Multibody Dynamics.
+//! Models that move in a plane are made of spatial bodies and joints. With the feature `problems`,
+//! `problems` has their motions with known answers. What follows from the initial configuration (a
+//! distance of points, an axis on a body) is not written twice.
 //!
-//! Every model but [`RodPendulum`] has a feature of its name, such as `slider-crank`: with default features off, only what is asked for is compiled. `catalogue`, the default, is all of them.
+//! Every model but [`RodPendulum`] has a feature of its name, such as `slider-crank`: with default
+//! features off, only what is asked for is compiled. `catalogue`, the default, is all of them.
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -4,13 +4,16 @@ use holonom::forces::TorsionalActuator;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 
-/// Franka Emika's Panda with motors on its axes, fingers locked, upright at the start, at rest, gravity along -z.
+/// Franka Emika's Panda with motors on its axes, fingers locked, upright at the start, at rest,
+/// gravity along -z.
 ///
-/// Masses, inertias about the centres of mass and axes: `panda_description`, as in `example-robot-data`, given here along global axes with all angles zero. The
-/// joints turn about z, y, z, -y, z, -y and -z. All tensors of inertia are full.
+/// Masses, inertias about the centres of mass and axes: `panda_description`, as in
+/// `example-robot-data`, given here along global axes with all angles zero. The joints turn about
+/// z, y, z, -y, z, -y and -z. All tensors of inertia are full.
 ///
-/// Good for: a robot of seven hinges in a row, one more than the hand has freedoms; forward dynamics against
-/// [Pinocchio](https://github.com/stack-of-tasks/pinocchio), which the tests hold to 1e-12.
+/// Good for: a robot of seven hinges in a row, one more than the hand has freedoms; forward
+/// dynamics against [Pinocchio](https://github.com/stack-of-tasks/pinocchio), which the tests hold
+/// to 1e-12.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct Panda {

@@ -3,8 +3,8 @@
 use holonom::joints::{Distance, PointOnPlane};
 use holonom::prelude::*;
 
-/// A point mass of 1 kg on a massless link of 1 m, released from the horizontal at -x, gravity along -y, moving in the
-/// xy plane.
+/// A point mass of 1 kg on a massless link of 1 m, released from the horizontal at -x, gravity
+/// along -y, moving in the xy plane.
 ///
 /// ```text
 ///     y
@@ -14,11 +14,12 @@ use holonom::prelude::*;
 ///     v
 /// ```
 ///
-/// Problem A01 of the library of the IFToMM Technical Committee for Multibody Dynamics, 10 s long there; the sheet of
-/// 2005 (Universidade da Coruña) starts at +x and runs for 2000 s.
+/// Problem A01 of the library of the IFToMM Technical Committee for Multibody Dynamics, 10 s long
+/// there; the sheet of 2005 (Universidade da Coruña) starts at +x and runs for 2000 s.
 ///
-/// Good for: long runs against a closed form, `sin(phi/2) = sin(phi0/2) cd(w0 t)` of modulus `sin(phi0/2)` with `w0 =
-/// sqrt(9.81)` 1/s and `phi` from the downward vertical; the smallest mechanism with a constraint that is not linear.
+/// Good for: long runs against a closed form, `sin(phi/2) = sin(phi0/2) cd(w0 t)` of modulus
+/// `sin(phi0/2)` with `w0 = sqrt(9.81)` 1/s and `phi` from the downward vertical; the smallest
+/// mechanism with a constraint that is not linear.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
 pub struct SimplePendulum {

@@ -14,14 +14,15 @@ use holonom::prelude::*;
 ///     v
 /// ```
 ///
-/// Flores, Leine and Glocker, *Modeling and analysis of planar rigid multibody systems with translational clearance
-/// joints based on the non-smooth dynamics approach*, Multibody System Dynamics 23 (2010), with joints without
-/// clearance: crank 0.153 m, 0.038 kg, 7.4e-5 kg m^2; rod 0.306 m, 0.038 kg, 5.9e-4 kg m^2; slider 0.076 kg, 2.7e-6 kg
-/// m^2, its centre of mass on its pin; centres of mass of crank and rod in the middle; `g = 9.81` m/s^2. The crank
-/// starts at 150 rad/s, the rod at -75 rad/s. Moments of inertia about other axes than z do not act: they are ours.
+/// Flores, Leine and Glocker, *Modeling and analysis of planar rigid multibody systems with
+/// translational clearance joints based on the non-smooth dynamics approach*, Multibody System
+/// Dynamics 23 (2010), with joints without clearance: crank 0.153 m, 0.038 kg, 7.4e-5 kg m^2; rod
+/// 0.306 m, 0.038 kg, 5.9e-4 kg m^2; slider 0.076 kg, 2.7e-6 kg m^2, its centre of mass on its pin;
+/// centres of mass of crank and rod in the middle; `g = 9.81` m/s^2. The crank starts at 150 rad/s,
+/// the rod at -75 rad/s. Moments of inertia about other axes than z do not act: they are ours.
 ///
-/// The loop is closed by the two equations in its plane alone (the slider's pin is a [`PointOnLine`]): all 17 equations
-/// are independent, and the reactions are unique.
+/// The loop is closed by the two equations in its plane alone (the slider's pin is a
+/// [`PointOnLine`]): all 17 equations are independent, and the reactions are unique.
 ///
 /// Good for: a loop at high speed; conservation of energy (7.49554875 J from the crank's axis).
 #[derive(Clone, Copy, Debug, Mechanism)]
@@ -57,12 +58,12 @@ pub struct SliderCrank {
 
 /// The [`SliderCrank`] with a motor on its crank, whose angle is `150 t + 0.2 (1 - cos(75 t))` rad.
 ///
-/// Geometry and masses: Flores, Leine and Glocker 2010, see there; the motion is ours: it starts as the free mechanism
-/// does, and its speed varies by 10 % of the mean.
+/// Geometry and masses: Flores, Leine and Glocker 2010, see there; the motion is ours: it starts as
+/// the free mechanism does, and its speed varies by 10 % of the mean.
 ///
-/// Good for: inverse dynamics, as nothing is left free. The moment of the motor has a closed form, `I(theta) theta'' +
-/// I'(theta) theta'^2 / 2 + V'(theta)`, with `I` the inertia of everything reduced to the crank and `V` the potential
-/// energy.
+/// Good for: inverse dynamics, as nothing is left free. The moment of the motor has a closed form,
+/// `I(theta) theta'' + I'(theta) theta'^2 / 2 + V'(theta)`, with `I` the inertia of everything
+/// reduced to the crank and `V` the potential energy.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
 pub struct DrivenSliderCrank {

@@ -5,8 +5,8 @@ use holonom::forces::{ConstantMoment, SpringDamper};
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
 
-/// Seven bodies in a plane, three loops: a motor of 0.033 N m turns a crank of 7 mm against a stiff spring, for 0.03 s
-/// or 0.05 s.
+/// Seven bodies in a plane, three loops: a motor of 0.033 N m turns a crank of 7 mm against a stiff
+/// spring, for 0.03 s or 0.05 s.
 ///
 /// ```text
 ///                                        C      y
@@ -21,10 +21,10 @@ use holonom::prelude::*;
 ///     `-- H'         rockers A-G and A-H, links G-E and H-E; O, A, B, C are fixed on the ground
 /// ```
 ///
-/// Problem A03 of the library of the IFToMM Technical Committee for Multibody Dynamics and `andrews` of the Test Set
-/// for IVP Solvers (Mazzia and Magherini, release 2.4); Schiehlen, *Multibody Systems Handbook* (1990). No gravity. The
-/// centres of mass and the hinges are those of the start of the Test Set, computed from its angles and lengths to 17
-/// digits:
+/// Problem A03 of the library of the IFToMM Technical Committee for Multibody Dynamics and
+/// `andrews` of the Test Set for IVP Solvers (Mazzia and Magherini, release 2.4); Schiehlen,
+/// *Multibody Systems Handbook* (1990). No gravity. The centres of mass and the hinges are those of
+/// the start of the Test Set, computed from its angles and lengths to 17 digits:
 ///
 /// | body here | number | its points | mass (kg) | about z (kg m^2) |
 /// |---|---|---|---|---|
@@ -36,13 +36,14 @@ use holonom::prelude::*;
 /// | `lower_link` | 6 | E, H | 0.00706 | 5.667e-7 |
 /// | `lower_rocker` | 7 | A, H | 0.05498 | 1.912e-5 |
 ///
-/// On the ground, in m: O = (0, 0), A = (-0.06934, -0.00227), B = (-0.03635, 0.03273), C = (0.014, 0.072). Spring between C and D: 4530
-/// N/m, 0.07785 m. (Copies with `+0.03635` and with 0.02372 kg for body 3 circulate: misprints.) Moments of inertia about other axes than z do not act:
-/// they are ours.
+/// On the ground, in m: O = (0, 0), A = (-0.06934, -0.00227), B = (-0.03635, 0.03273), C = (0.014,
+/// 0.072). Spring between C and D: 4530 N/m, 0.07785 m. (Copies with `+0.03635` and with 0.02372 kg
+/// for body 3 circulate: misprints.) Moments of inertia about other axes than z do not act: they
+/// are ours.
 ///
-/// Seven hinges make a tree, and the three loops are closed in E by the two equations in their plane alone
-/// ([`PointOnLine`]): all 41 equations are independent. The angles of the hinges are the coordinates of the Test Set,
-/// less their values at the start (rad):
+/// Seven hinges make a tree, and the three loops are closed in E by the two equations in their
+/// plane alone ([`PointOnLine`]): all 41 equations are independent. The angles of the hinges are
+/// the coordinates of the Test Set, less their values at the start (rad):
 ///
 /// | hinge | coordinate | at the start |
 /// |---|---|---|
@@ -54,8 +55,8 @@ use holonom::prelude::*;
 /// | `h` | Omega | -0.222668390165886 |
 /// | `a_lower` | epsilon | 1.23054744454982 |
 ///
-/// Good for: small times, small masses, a crank that turns many times while the rest swings; accuracy against a
-/// published state.
+/// Good for: small times, small masses, a crank that turns many times while the rest swings;
+/// accuracy against a published state.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(coordinates = "both")]
 pub struct SqueezingMechanism {
@@ -158,7 +159,8 @@ pub struct SqueezingMechanism {
 }
 
 impl SqueezingMechanism {
-    /// The coordinates of the Test Set at the start, in its order beta, Theta, gamma, phi, delta, Omega, epsilon (rad).
+    /// The coordinates of the Test Set at the start, in its order beta, Theta, gamma, phi, delta,
+    /// Omega, epsilon (rad).
     pub const START: [f64; 7] = [
         -0.061_713_890_014_276_45,
         0.0,
@@ -169,7 +171,8 @@ impl SqueezingMechanism {
         1.230_547_444_549_821_3,
     ];
 
-    /// The coordinates of the Test Set, in the order of [`Self::START`], without whole turns (rad), and their rates (rad/s).
+    /// The coordinates of the Test Set, in the order of [`Self::START`], without whole turns (rad),
+    /// and their rates (rad/s).
     #[must_use]
     pub fn coordinates(view: &View<'_, f64, Self>) -> [[f64; 7]; 2] {
         let h = Self::HANDLES;

@@ -4,7 +4,8 @@ use holonom::forces::TorsionalActuator;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 
-/// Universal Robots' UR5 with motors on its axes, stretched out along x at the start, at rest, gravity along -z.
+/// Universal Robots' UR5 with motors on its axes, stretched out along x at the start, at rest,
+/// gravity along -z.
 ///
 /// ```text
 ///     z
@@ -15,11 +16,13 @@ use holonom::prelude::*;
 ///     ground                                          x
 /// ```
 ///
-/// Masses, inertias about the centres of mass and axes: `ur_description` (`ur5`), as in `example-robot-data`, given here along global axes with all angles
-/// zero. `pan`, `lift`, `elbow`, `wrist_1`, `wrist_2`, `wrist_3` turn about z, y, y, y, -z and y; what the numbers have left of the last digits of a URDF file is
-/// kept.
+/// Masses, inertias about the centres of mass and axes: `ur_description` (`ur5`), as in
+/// `example-robot-data`, given here along global axes with all angles zero. `pan`, `lift`, `elbow`,
+/// `wrist_1`, `wrist_2`, `wrist_3` turn about z, y, y, y, -z and y; what the numbers have left of
+/// the last digits of a URDF file is kept.
 ///
-/// Good for: a robot of six hinges in a row; forward dynamics against [Pinocchio](https://github.com/stack-of-tasks/pinocchio), which the tests hold to 1e-12.
+/// Good for: a robot of six hinges in a row; forward dynamics against
+/// [Pinocchio](https://github.com/stack-of-tasks/pinocchio), which the tests hold to 1e-12.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct Ur5 {

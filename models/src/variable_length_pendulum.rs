@@ -4,8 +4,8 @@ use holonom::forces::{SpringDamper, TorsionalSpringDamper};
 use holonom::joints::{Prismatic, Revolute};
 use holonom::prelude::*;
 
-/// An arm on a hinge with a torsional spring, and a slider along it on a spring and a damper, released 60 degrees from
-/// the vertical.
+/// An arm on a hinge with a torsional spring, and a slider along it on a spring and a damper,
+/// released 60 degrees from the vertical.
 ///
 /// ```text
 ///     y
@@ -17,19 +17,21 @@ use holonom::prelude::*;
 ///     g = 9.81 m/s^2
 /// ```
 ///
-/// Nikravesh, *Planar Multibody Dynamics*, examples 13.6 and 13.7. The arm: 2 kg, 0.04 kg m^2 about z, its centre of
-/// mass 0.5 m from the pin; the slider: 1 kg, 0.1 kg m^2, at 0.8 m at the start. The torsional spring: 6 N m/rad,
-/// relaxed in the vertical; the spring from the pin to the slider's centre: 20 N/m, 0.7 m, with a damper of 5 N s/m.
-/// The body axes y point from the centres of mass to the pin. Moments of inertia about x
-/// and y do not act in the plane: they are ours.
+/// Nikravesh, *Planar Multibody Dynamics*, examples 13.6 and 13.7. The arm: 2 kg, 0.04 kg m^2 about
+/// z, its centre of mass 0.5 m from the pin; the slider: 1 kg, 0.1 kg m^2, at 0.8 m at the start.
+/// The torsional spring: 6 N m/rad, relaxed in the vertical; the spring from the pin to the
+/// slider's centre: 20 N/m, 0.7 m, with a damper of 5 N s/m. The body axes y point from the centres
+/// of mass to the pin. Moments of inertia about x and y do not act in the plane: they are ours.
 ///
-/// The book starts from positions of four digits, (0.4330, -0.2500) and (0.6928, -0.4000), a violation of 1e-5, to show
-/// what a formulation does with it; here the start is exact. The book's parameters: Baumgarte `alpha = beta = 5` 1/s,
-/// penalty with a mass of 1000 kg, damping ratio 1 and 20 pi rad/s.
+/// The book starts from positions of four digits, (0.4330, -0.2500) and (0.6928, -0.4000), a
+/// violation of 1e-5, to show what a formulation does with it; here the start is exact. The book's
+/// parameters: Baumgarte `alpha = beta = 5` 1/s, penalty with a mass of 1000 kg, damping ratio 1
+/// and 20 pi rad/s.
 ///
 /// Good for: comparing formulations where springs and dampers act and energy is lost.
 ///
-/// The angle of `pin` is zero at the start: `angle = phi - pi/3` with `phi` from the downward vertical.
+/// The angle of `pin` is zero at the start: `angle = phi - pi/3` with `phi` from the downward
+/// vertical.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
 pub struct VariableLengthPendulum {

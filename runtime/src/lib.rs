@@ -1,8 +1,10 @@
-//! Equations of motion of rigid multibody systems, generated at compile time from an annotated struct.
+//! Equations of motion of rigid multibody systems, generated at compile time from an annotated
+//! struct.
 //!
-//! A mechanism is a struct with `#[derive(Mechanism)]`: bodies, joints, forces, parameters and inputs are its fields. The derive
-//! writes the kernels of its equations of motion as straight-line code; this crate holds what runs them. **Begin with the
-//! [`guide`]**; the whole language is on one page of it, [`guide::reference`](mod@guide::reference).
+//! A mechanism is a struct with `#[derive(Mechanism)]`: bodies, joints, forces, parameters and
+//! inputs are its fields. The derive writes the kernels of its equations of motion as straight-line
+//! code; this crate holds what runs them. **Begin with the [`guide`]**; the whole language is on
+//! one page of it, [`guide::reference`](mod@guide::reference).
 //!
 //! | what | where |
 //! |---|---|
@@ -21,8 +23,8 @@
 //! | states of an integrator's [`System`] | arrays, [`State`], [`JointState`] |
 //! | numbers, and numbers that carry derivatives along | [`Scalar`], [`Real`], [`Forward`] |
 //!
-//! Units are SI, angles are in radians. The crate needs no heap and no standard library: with default features off, turn on
-//! `libm`.
+//! Units are SI, angles are in radians. The crate needs no heap and no standard library: with
+//! default features off, turn on `libm`.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -95,7 +97,8 @@ pub mod joints;
 ///     .projection(Projection::default())
 ///     .run(0.0..=1.0, every(0.1), |sample| {
 ///         let on_bob = sample.reaction(handles.ball, handles.bob).expect("no singular position");
-///         println!("{:.3} s: hinge {:.3} rad, ball {:.3} N", sample.time(), sample.angle(handles.hinge), on_bob.force.norm());
+///         let (time, angle) = (sample.time(), sample.angle(handles.hinge));
+///         println!("{time:.3} s: hinge {angle:.3} rad, ball {:.3} N", on_bob.force.norm());
 ///         ControlFlow::Continue(())
 ///     })?;
 /// assert!(report.worst_violation < 1e-24);
@@ -105,45 +108,57 @@ pub mod joints;
 ///
 /// # Attributes
 ///
-/// Units, defaults and what may stand where are in [`guide::reference`](mod@crate::guide::reference).
+/// Units, defaults and what may stand where are in
+/// [`guide::reference`](mod@crate::guide::reference).
 ///
-/// `#[mechanism(gravity = [x, y, z])]` on the struct: the acceleration of free fall (m/s^2, global); none if left out.
-/// `redundant = "drop"` or `"keep"` beside it says what is to be done with equations that follow from others (a door on two
-/// hinges), which are refused otherwise: see [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the
-/// motion is the same, reactions are those of the joints without these equations. Keep them, and
-/// only formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
-/// `coordinates = "joints"` adds the equations of motion in joint coordinates, [`JointCoordinates`], and has those of the bodies only to be read; `"both"` has both
-/// as one kernel each, see [`guide::coordinates`].
-/// `recursion_limit = 256` repeats what stands at the top of the crate, `#![recursion_limit = "256"]`: more than a hundred kinds of
-/// bodies, joints and forces in one mechanism need both.
+/// `#[mechanism(gravity = [x, y, z])]` on the struct: the acceleration of free fall (m/s^2,
+/// global); none if left out. `redundant = "drop"` or `"keep"` beside it says what is to be done
+/// with equations that follow from others (a door on two hinges), which are refused otherwise: see
+/// [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the motion is
+/// the same, reactions are those of the joints without these equations. Keep them, and only
+/// formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
+/// `coordinates = "joints"` adds the equations of motion in joint coordinates,
+/// [`JointCoordinates`], and has those of the bodies only to be read; `"both"` has both as one
+/// kernel each, see [`guide::coordinates`]. `recursion_limit = 256` repeats what stands at the top
+/// of the crate, `#![recursion_limit = "256"]`: more than a hundred kinds of bodies, joints and
+/// forces in one mechanism need both.
 ///
 /// `#[body(..)]` on a field of type [`Body`] or [`Particle`]: see there.
 ///
-/// `#[joint(between = [i, j], ..)]` on a field whose type is a joint: `between` names its bodies in the order of the joint's
-/// definition, fields of the struct or `ground`; the other keys are the parameters of the joint, see [`joints`] and [`joint!`]. Points and
-/// axes are given once, **in global axes at the reference configuration**, and the macro makes the copies that are fixed on the bodies;
-/// so the reference configuration satisfies the joint. Or one for each body in its own axes, points from its centre of mass:
-/// `point = local([..], [..])` (the ground's axes are the global ones); the joint may then be violated at the start,
-/// which [`MechanismExt::assemble`] mends. `cut` keeps it equations in joint coordinates, see [`guide::coordinates`].
+/// `#[joint(between = [i, j], ..)]` on a field whose type is a joint: `between` names its bodies in
+/// the order of the joint's definition, fields of the struct or `ground`; the other keys are the
+/// parameters of the joint, see [`joints`] and [`joint!`]. Points and axes are given once, **in
+/// global axes at the reference configuration**, and the macro makes the copies that are fixed on
+/// the bodies; so the reference configuration satisfies the joint. Or one for each body in its own
+/// axes, points from its centre of mass: `point = local([..], [..])` (the ground's axes are the
+/// global ones); the joint may then be violated at the start, which [`MechanismExt::assemble`]
+/// mends. `cut` keeps it equations in joint coordinates, see [`guide::coordinates`].
 ///
-/// `#[force(between = [i, j], ..)]` on a field whose type is a force, likewise, see [`forces`] and [`force!`].
+/// `#[force(between = [i, j], ..)]` on a field whose type is a force, likewise, see [`forces`] and
+/// [`force!`].
 ///
-/// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a number may, by the name of the field.
-/// `#[input]`: one that may change at every step, in forces and gravity only.
+/// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a
+/// number may, by the name of the field. `#[input]`: one that may change at every step, in forces
+/// and gravity only.
 ///
-/// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of the element, and `links[k - 1]` names an element of another array, see
+/// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of
+/// the element, and `links[k - 1]` names an element of another array, see
 /// [`guide::mechanism`](mod@crate::guide::mechanism#many-bodies-arrays).
 ///
 /// # Numbers
 ///
-/// Literals, `+ - * /`, `sqrt(..)`, `sin(..)`, `cos(..)`, `tan(..)`, `exp(..)`, `deg(..)` (degrees to radians), `PI`, `TAU`, paths of
-/// constants of type `f64`, entries of constants that are arrays of it, parameters and inputs. The macro evaluates what it can see; a path is a value that it cannot see: it is checked
-/// by the compiler or in [`Mechanism::parameters`](trait@Mechanism), and does not fold. Laws are expressions of `time`, too.
+/// Literals, `+ - * /`, `sqrt(..)`, `sin(..)`, `cos(..)`, `tan(..)`, `exp(..)`, `deg(..)` (degrees
+/// to radians), `PI`, `TAU`, paths of constants of type `f64`, entries of constants that are arrays
+/// of it, parameters and inputs. The macro evaluates what it can see; a path is a value that it
+/// cannot see: it is checked by the compiler or in [`Mechanism::parameters`](trait@Mechanism), and
+/// does not fold. Laws are expressions of `time`, too.
 ///
 /// # What is generated
 ///
-/// An implementation of [`trait@Mechanism`], and `Default`, or, where there are parameters, `T::new(..)`, which checks them. `T::HANDLES` is a struct with a handle for every field, under the field's name, or with an array of them where the field is one;
-/// `T::REPORT` holds sizes, names, the plan of the solution and the operations of every kernel, which the documentation of
+/// An implementation of [`trait@Mechanism`], and `Default`, or, where there are parameters,
+/// `T::new(..)`, which checks them. `T::HANDLES` is a struct with a handle for every field, under
+/// the field's name, or with an array of them where the field is one; `T::REPORT` holds sizes,
+/// names, the plan of the solution and the operations of every kernel, which the documentation of
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
 pub use mechanism::body::{Body, Particle};
@@ -206,7 +221,8 @@ pub use state::joint_state::JointState;
 pub use state::vector::{Array, State, StateParts, Vector};
 pub use watch::{Doubt, Doubts, Excused, ShortestGradient, SmallestPivot, Violation, Watch};
 
-/// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in `holonom::joints`, by name.
+/// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in
+/// `holonom::joints`, by name.
 pub mod prelude {
     pub use core::ops::ControlFlow;
 

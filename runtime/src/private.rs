@@ -104,7 +104,8 @@ pub fn deg(x: f64) -> f64 {
     x.to_radians()
 }
 
-/// Whether principal moments of inertia are those of no body: one is larger than the others together.
+/// Whether principal moments of inertia are those of no body: one is larger than the others
+/// together.
 #[must_use]
 pub fn is_no_inertia(a: f64, b: f64, c: f64) -> bool {
     let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
@@ -117,7 +118,8 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
     components.iter().all(|component| *component == 0.0)
 }
 
-/// Defines a joint: a constraint between bodies, symbolically, so that mechanisms in any crate can use it.
+/// Defines a joint: a constraint between bodies, symbolically, so that mechanisms in any crate can
+/// use it.
 ///
 /// ```
 /// holonom::joint! {
@@ -128,9 +130,10 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// }
 /// ```
 ///
-/// In the parentheses stand the names of the bodies, then the parameters with their kinds; a mechanism gives the
-/// parameters as attributes of the same names. In the braces stand expressions that are zero, each with a `;`: a scalar
-/// gives one equation, a vector three, two vectors or two scalars (see `normals`) twice as many.
+/// In the parentheses stand the names of the bodies, then the parameters with their kinds; a
+/// mechanism gives the parameters as attributes of the same names. In the braces stand expressions
+/// that are zero, each with a `;`: a scalar gives one equation, a vector three, two vectors or two
+/// scalars (see `normals`) twice as many.
 ///
 /// | kind | what a mechanism gives | in the definition |
 /// |---|---|---|
@@ -149,10 +152,13 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// | | `angle(i, j, axis)`: the angle (rad) of `j` against `i` about an `Axis`, right-handed, zero in the reference configuration. Turns are counted, by an auxiliary variable of the state |
 /// | | `initial(x)`: the scalar `x` as it is in the reference configuration |
 ///
-/// Statements beside equations: `let name = expression;`, `drive x to y;`, the equation `x - y` of a driver, with `y` a function of time, whose effort can be
-/// read ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and `displacement x;`, which can be read
-/// ([`View::angle`](crate::View::angle), [`View::displacement`](crate::View::displacement)), and `motion ..;`, which says how the second of two
-/// bodies moves against the first: motions separated by commas, each carried by those before it, or `none`.
+/// Statements beside equations: `let name = expression;`, `drive x to y;`, the equation `x - y` of
+/// a driver, with `y` a function of time, whose effort can be read
+/// ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and
+/// `displacement x;`, which can be read ([`View::angle`](crate::View::angle),
+/// [`View::displacement`](crate::View::displacement)), and `motion ..;`, which says how the second
+/// of two bodies moves against the first: motions separated by commas, each carried by those before
+/// it, or `none`.
 ///
 /// | motion | |
 /// |---|---|
@@ -160,12 +166,13 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// | `slide axis` | a translation along `axis` |
 /// | `ball at point` | every rotation about `point`: three motions |
 ///
-/// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a `Point`, as they are in the reference configuration. Motions that
-/// are not those that the equations leave are refused, where that can be told without a mechanism. A joint connects one or more
-/// bodies; the `ground` of a mechanism may be any of them.
+/// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a
+/// `Point`, as they are in the reference configuration. Motions that are not those that the
+/// equations leave are refused, where that can be told without a mechanism. A joint connects one or
+/// more bodies; the `ground` of a mechanism may be any of them.
 ///
-/// The joint's reaction is `-D^T lambda`, whatever the units of its equations are. What a good equation looks like, and a joint in use:
-/// [`guide::joint`](crate::guide::joint).
+/// The joint's reaction is `-D^T lambda`, whatever the units of its equations are. What a good
+/// equation looks like, and a joint in use: [`guide::joint`](crate::guide::joint).
 #[macro_export]
 macro_rules! joint {
     ($($definition:tt)*) => {
@@ -186,7 +193,9 @@ macro_rules! joint {
 /// }
 /// ```
 ///
-/// Signature and expressions are those of [`joint!`](crate::joint!), examples in [`guide::forces`](crate::guide::forces); `rate(x)` is the time derivative of a scalar. Statements:
+/// Signature and expressions are those of [`joint!`](crate::joint!), examples in
+/// [`guide::forces`](crate::guide::forces); `rate(x)` is the time derivative of a scalar.
+/// Statements:
 ///
 /// | statement | what acts |
 /// |---|---|
@@ -225,7 +234,8 @@ impl<E: Element> Part for E {}
 /// Asks whether a type is a body, a joint or a force.
 pub const fn part<T: Part>() {}
 
-/// In a stub, the type of a field that is described as a joint and is none: it may be used like any joint.
+/// In a stub, the type of a field that is described as a joint and is none: it may be used like any
+/// joint.
 #[derive(Clone, Copy, Debug)]
 pub struct AnyJoint;
 
@@ -244,7 +254,8 @@ impl crate::Driven for AnyJoint {
     const ROW: usize = 0;
 }
 
-/// The stub of a mechanism whose description has faults: it keeps further errors away and is never run.
+/// The stub of a mechanism whose description has faults: it keeps further errors away and is never
+/// run.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __stub_mechanism {

@@ -2,7 +2,8 @@
 
 #![forbid(unsafe_code)]
 
-/// Whether nothing is left out of sweeps and long runs (feature `exhaustive`), or some of each is tried.
+/// Whether nothing is left out of sweeps and long runs (feature `exhaustive`), or some of each is
+/// tried.
 pub const IS_EXHAUSTIVE: bool = cfg!(feature = "exhaustive");
 
 /// The examples of the README are compiled.

@@ -1,4 +1,5 @@
-//! What the firmware computes, computed here: the references that it is compared with on a controller (`tests/firmware/run`).
+//! What the firmware computes, computed here: the references that it is compared with on a
+//! controller (`tests/firmware/run`).
 
 #[allow(unreachable_pub, reason = "the firmware is a crate of its own")]
 #[path = "../firmware/src/reference.rs"]
@@ -62,7 +63,8 @@ fn single_precision() {
     below(off::<f32, Ur5ByJoints<_>>(UR5_BY_JOINTS), 1e-3);
 }
 
-/// The page of the guide shows the files of `tests/firmware/balancer`, which `tests/firmware/run` builds and runs.
+/// The page of the guide shows the files of `tests/firmware/balancer`, which `tests/firmware/run`
+/// builds and runs.
 #[test]
 fn the_guide_shows_what_runs() {
     let here = env!("CARGO_MANIFEST_DIR");

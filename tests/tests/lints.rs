@@ -1,4 +1,5 @@
-//! A crate that refuses warnings stays clean with the derive and `joint!`: this file is such a crate.
+//! A crate that refuses warnings stays clean with the derive and `joint!`: this file is such a
+//! crate.
 //!
 //! The lints of clippy count when clippy runs.
 #![deny(

@@ -1,4 +1,5 @@
-//! The integrators against those of a crate that somebody else keeps, `differential-equations`: on the pendulum of chapter 15 as one equation of second order.
+//! The integrators against those of a crate that somebody else keeps, `differential-equations`: on
+//! the pendulum of chapter 15 as one equation of second order.
 
 #![forbid(unsafe_code)]
 
@@ -56,7 +57,8 @@ fn ours<I: Integrator<f64>>(method: I) -> Point {
     (course.counts().evaluations as f64, error.abs())
 }
 
-/// By how much more evaluations ours take than theirs at equal errors, on average over the errors that both reach: their points between ours, on logarithmic scales.
+/// By how much more evaluations ours take than theirs at equal errors, on average over the errors
+/// that both reach: their points between ours, on logarithmic scales.
 fn ratio(ours: &[Point], theirs: &[Point]) -> f64 {
     let mut logarithms = Vec::new();
     for &(evaluations, error) in theirs {
@@ -173,7 +175,8 @@ impl ODE<f64, [f64; 3]> for Reacting {
     }
 }
 
-/// Both at tolerances from a thousandth down; a Jacobian counts as the evaluations that its differences take.
+/// Both at tolerances from a thousandth down; a Jacobian counts as the evaluations that its
+/// differences take.
 macro_rules! compared_where_stiff {
     ($method:ident, $theirs:expr, $digits:expr) => {{
         let (mut own, mut others) = (Vec::new(), Vec::new());

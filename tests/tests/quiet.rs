@@ -1,4 +1,5 @@
-//! What stands still: nothing is to be doubted of it, and every method converges. Relative measures have a floor by round-off of what they are made of.
+//! What stands still: nothing is to be doubted of it, and every method converges. Relative measures
+//! have a floor by round-off of what they are made of.
 
 use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Prismatic, Revolute};
@@ -126,7 +127,8 @@ fn nor_in_single_precision() {
     stands_still::<f32, _>(&OnSpring::default(), 1e-4);
 }
 
-/// A motion that is small is judged all the same: a swing of 20 micrometres, with steps of a third of a radian.
+/// A motion that is small is judged all the same: a swing of 20 micrometres, with steps of a third
+/// of a radian.
 #[test]
 fn what_hardly_moves_is_doubted() {
     let hanging = Hanging::default();

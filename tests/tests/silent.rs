@@ -1,4 +1,5 @@
-//! What a user would not see: springs that pass their anchor, steps that are too long, closures with a memory, what the elements of a joint state are.
+//! What a user would not see: springs that pass their anchor, steps that are too long, closures
+//! with a memory, what the elements of a joint state are.
 
 #[path = "silent/closures.rs"]
 mod closures;

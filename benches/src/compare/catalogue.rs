@@ -83,8 +83,8 @@ fn windows<M: JointCoordinates + Default>(n: usize) -> Entry {
     Entry::of::<M>("four-bar", n, Some(by_hand::windows::<M>))
 }
 
-/// All of them in the order of the page, two without the feature `large`: every one is compiled for two descriptions, four formulations and two number types.
-/// The longest are there with `huge`.
+/// All of them in the order of the page, two without the feature `large`: every one is compiled for
+/// two descriptions, four formulations and two number types. The longest are there with `huge`.
 #[must_use]
 pub fn entries() -> Vec<Entry> {
     [

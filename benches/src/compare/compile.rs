@@ -80,7 +80,8 @@ pub const BUILDS: usize = {
     builds
 };
 
-/// Writes the crates into a directory and builds each alone, its dependencies being there already, in a debug and in a release build.
+/// Writes the crates into a directory and builds each alone, its dependencies being there already,
+/// in a debug and in a release build.
 ///
 /// `done` is called with the builds that are measured.
 ///
@@ -151,7 +152,8 @@ fn cargo(folder: &Path, arguments: &[&str]) -> Result<(), StudyError> {
     }
 }
 
-/// The time (s) that processors spent for all processes that this one has waited for, and for those that they have; where the system tells.
+/// The time (s) that processors spent for all processes that this one has waited for, and for those
+/// that they have; where the system tells.
 fn processor_seconds() -> Option<f64> {
     /// Of a second; the same on all processors that Linux runs on.
     const TICKS: f64 = 100.0;
@@ -224,7 +226,8 @@ struct Scene {{
     )
 }
 
-/// Upright rods of 1 m and 1 kg on the ground, each joined to the next by one of the same kind at the top.
+/// Upright rods of 1 m and 1 kg on the ground, each joined to the next by one of the same kind at
+/// the top.
 fn four_bars(windows: usize, coordinates: &str) -> String {
     let rods = windows + 1;
     let body = "mass = 1.0, inertia = [1.0 / 12.0, 1.0 / 12.0, 1.0 / 12.0]";

@@ -21,7 +21,8 @@ use crate::yardstick::{self, Written};
 
 /// Times the given scenes beside the yardstick; what was measured, and what was refused.
 ///
-/// `prepared` is called with the number of every scene that is ready, `round` with every round that is done.
+/// `prepared` is called with the number of every scene that is ready, `round` with every round that
+/// is done.
 ///
 /// # Errors
 /// [`StudyError`] where a mechanism cannot be evaluated at all, or a time is not finite.

@@ -4,7 +4,8 @@ use holonom::joints::Revolute;
 use holonom::joints::Spherical;
 use holonom::prelude::*;
 
-/// Rods of 1 m and 1 kg one behind the other along +y, at rest, gravity along -z, with one joint in front of each.
+/// Rods of 1 m and 1 kg one behind the other along +y, at rest, gravity along -z, with one joint in
+/// front of each.
 macro_rules! chain {
     ($(#[$attribute:meta])* $name:ident: [$joint:ident; $links:tt] $($keys:tt)*) => {
         $(#[$attribute])*
@@ -19,8 +20,9 @@ macro_rules! chain {
     };
 }
 
-/// Four-bar windows side by side: upright rods of 1 m and 1 kg on the ground, each joined to the next by one of the same kind at the top, moving at 1 m/s along +x,
-/// gravity along -y. Problem A02 of the IFToMM library, as [`holonom_models::QuintupleFourBar`].
+/// Four-bar windows side by side: upright rods of 1 m and 1 kg on the ground, each joined to the
+/// next by one of the same kind at the top, moving at 1 m/s along +x, gravity along -y. Problem A02
+/// of the IFToMM library, as [`holonom_models::QuintupleFourBar`].
 macro_rules! windows {
     ($(#[$attribute:meta])* $name:ident: [$rods:tt] [$windows:tt]) => {
         $(#[$attribute])*

@@ -16,7 +16,8 @@ use holonom_study::trade::{
 use case::{Case, ClosedForm};
 use rod::Rod;
 
-/// The step of Runge-Kutta for a motion, where the axis is not the step: a two-hundredth of its period.
+/// The step of Runge-Kutta for a motion, where the axis is not the step: a two-hundredth of its
+/// period.
 const STEPS: f64 = 200.0;
 /// The tolerance of Dormand-Prince, where the axis is not the tolerance: the default.
 const TOLERANCE: f64 = 1e-6;
@@ -154,7 +155,8 @@ impl Map {
     }
 }
 
-/// Every way with these integrators. Where no coefficients follow from a mechanism, they are those of the book, with which it is refused as well.
+/// Every way with these integrators. Where no coefficients follow from a mechanism, they are those
+/// of the book, with which it is refused as well.
 fn settings(
     subject: &dyn Subject,
     ways: &[Way],
@@ -234,7 +236,8 @@ fn swing(length: f64, mass: f64, place: f64, periods: f64) -> (Case<Rod>, Motion
     (case, motion)
 }
 
-/// All cells of the map, with their axes; without the feature `large` those of a rod and of a four-bar.
+/// All cells of the map, with their axes; without the feature `large` those of a rod and of a
+/// four-bar.
 #[must_use]
 pub fn map(coefficients: Coefficients) -> (Vec<Axis>, Vec<Cell>) {
     let mut map = Map {

@@ -11,7 +11,8 @@ use super::case::{ClosedForm, hanging};
 
 pub(super) const GRAVITY: f64 = 9.81;
 
-/// A slender rod on a hinge at one end, at rest along +y, gravity along -z; the hinge about x stands `place` (m) from the origin along all axes.
+/// A slender rod on a hinge at one end, at rest along +y, gravity along -z; the hinge about x
+/// stands `place` (m) from the origin along all axes.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct Rod {

@@ -1,7 +1,10 @@
-//! What accuracy costs for a mechanism of one's own: `cargo run --release -p holonom-study --example own_mechanism`.
+//! What accuracy costs for a mechanism of one's own:
+//! `cargo run --release -p holonom-study --example own_mechanism`.
 //!
-//! An arm of two links falls for a second. Nothing is known of its motion: the study integrates it twice with tight tolerances, by means that differ, and
-//! says by how much these differ. Then it runs a grid of settings, writes rows and a page, and names the cheapest setting for an error of a millionth.
+//! An arm of two links falls for a second. Nothing is known of its motion: the study integrates it
+//! twice with tight tolerances, by means that differ, and says by how much these differ. Then it
+//! runs a grid of settings, writes rows and a page, and names the cheapest setting for an error of
+//! a millionth.
 
 use std::error::Error;
 use std::path::Path;

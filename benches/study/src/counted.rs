@@ -1,4 +1,5 @@
-//! A number that counts the operations done with it, and knows the longest chain of them behind itself.
+//! A number that counts the operations done with it, and knows the longest chain of them behind
+//! itself.
 
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -14,12 +15,15 @@ thread_local! {
 /// What a call of a function counts as.
 const FUNCTION: fn(&mut Operations) -> &mut usize = |count| &mut count.functions;
 
-/// A value, and the number of operations on the longest way to it within the computation that made it.
+/// A value, and the number of operations on the longest way to it within the computation that made
+/// it.
 ///
-/// Counts are those of [`Operations`]: a fused multiply-add is two, signs, comparisons and rounding to an integer are free. The operations are not inlined: a
-/// kernel of thousands of them would take minutes to compile.
+/// Counts are those of [`Operations`]: a fused multiply-add is two, signs, comparisons and rounding
+/// to an integer are free. The operations are not inlined: a kernel of thousands of them would take
+/// minutes to compile.
 ///
-/// Two words, which travel in registers: a kernel of thousands of larger ones would keep all of them in memory, and take minutes to compile again.
+/// Two words, which travel in registers: a kernel of thousands of larger ones would keep all of
+/// them in memory, and take minutes to compile again.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted {
     value: f64,
@@ -29,7 +33,8 @@ pub struct Counted {
 /// How far depths reach in a place; the number of the computation stands above.
 const DEPTHS: u32 = 32;
 
-/// The operations of a computation, and what came of it. `depth` is that of the deepest number among those it made; what was made before has depth zero.
+/// The operations of a computation, and what came of it. `depth` is that of the deepest number
+/// among those it made; what was made before has depth zero.
 pub fn counted<T>(computation: impl FnOnce() -> T) -> (Operations, T) {
     OPERATIONS.set(Operations::NONE);
     COMPUTATION.set(COMPUTATION.get() + 1);

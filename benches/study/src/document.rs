@@ -1,4 +1,5 @@
-//! The results of a study as a document, before anybody decides how it looks: the page and the terminal show the same.
+//! The results of a study as a document, before anybody decides how it looks: the page and the
+//! terminal show the same.
 
 use crate::chart::Chart;
 

@@ -1,7 +1,7 @@
 //! Jacobi's elliptic functions by the arithmetic-geometric mean.
 //!
-//! Source: Abramowitz and Stegun, *Handbook of Mathematical Functions* (1964), sections 16.4 and 17.6 (descending Landen
-//! transformation). Every stage doubles the number of correct digits.
+//! Source: Abramowitz and Stegun, *Handbook of Mathematical Functions* (1964), sections 16.4 and
+//! 17.6 (descending Landen transformation). Every stage doubles the number of correct digits.
 
 /// The most stages of the arithmetic-geometric mean; `f64` needs fewer for every parameter below 1.
 const STAGES: usize = 12;
@@ -17,10 +17,11 @@ pub struct Jacobi {
     pub dn: f64,
 }
 
-/// `sn`, `cn` and `dn` of the argument `u` for the parameter `m = k^2` in `0 <= m < 1`; NaN for any other `m`.
+/// `sn`, `cn` and `dn` of the argument `u` for the parameter `m = k^2` in `0 <= m < 1`; NaN for any
+/// other `m`.
 ///
-/// The absolute error grows with the argument as `|u|` times the machine epsilon, because the argument itself is known
-/// no better.
+/// The absolute error grows with the argument as `|u|` times the machine epsilon, because the
+/// argument itself is known no better.
 #[must_use]
 pub fn jacobi(u: f64, m: f64) -> Jacobi {
     let Some(mean) = Mean::of(m) else {
@@ -44,8 +45,8 @@ pub fn jacobi(u: f64, m: f64) -> Jacobi {
     }
 }
 
-/// The complete elliptic integral of the first kind, `K(m)` for `0 <= m < 1`: a quarter of the period of `sn`. NaN for
-/// any other `m`.
+/// The complete elliptic integral of the first kind, `K(m)` for `0 <= m < 1`: a quarter of the
+/// period of `sn`. NaN for any other `m`.
 #[must_use]
 pub fn quarter_period(m: f64) -> f64 {
     Mean::of(m).map_or(f64::NAN, |mean| {
@@ -92,7 +93,8 @@ mod tests {
 
     #[test]
     fn the_tables_of_abramowitz_and_stegun_come_out() {
-        // Table 17.1: K(1/2) and K(0.81); example 1 of section 16: sn, cn, dn at u = 0.20, m = 0.81.
+        // Table 17.1: K(1/2) and K(0.81); example 1 of section 16: sn, cn, dn at u = 0.20, m =
+        // 0.81.
         assert!((quarter_period(0.5) - 1.854_074_677_301_371_9).abs() < 1e-15);
         assert!((quarter_period(0.81) - 2.280_549_138_422_77).abs() < 1e-14);
         let value = jacobi(0.20, 0.81);

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::StudyError;
 
-/// Writes a file in one go: into a temporary neighbour first, then renamed over `path`. A reader sees the old contents
-/// or the new, never a part. Missing directories are made.
+/// Writes a file in one go: into a temporary neighbour first, then renamed over `path`. A reader
+/// sees the old contents or the new, never a part. Missing directories are made.
 ///
 /// # Errors
 /// [`StudyError::Write`] with the path at fault; the temporary file is gone then.

@@ -1,6 +1,7 @@
 //! Numbers as a reader of tables and pictures wants them.
 
-/// `1.50·10⁻⁶` with the given digits after the point; `0` for zero, `not finite` for NaN and infinities.
+/// `1.50·10⁻⁶` with the given digits after the point; `0` for zero, `not finite` for NaN and
+/// infinities.
 #[must_use]
 pub fn scientific(value: f64, digits: usize) -> String {
     if !value.is_finite() {
@@ -17,7 +18,8 @@ pub fn scientific(value: f64, digits: usize) -> String {
     }
 }
 
-/// `value` with the given digits after the point and a true minus sign; `not finite` for NaN and infinities.
+/// `value` with the given digits after the point and a true minus sign; `not finite` for NaN and
+/// infinities.
 #[must_use]
 pub fn fixed(value: f64, digits: usize) -> String {
     if value.is_finite() {

@@ -1,4 +1,5 @@
-//! Measures what a formulation and an integrator cost and what they buy, for any mechanism of [`holonom`].
+//! Measures what a formulation and an integrator cost and what they buy, for any mechanism of
+//! [`holonom`].
 //!
 //! | what | where |
 //! |---|---|

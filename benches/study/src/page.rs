@@ -1,4 +1,5 @@
-//! A document as a page of HTML that needs nothing but a browser: no network, no scripts, light and dark.
+//! A document as a page of HTML that needs nothing but a browser: no network, no scripts, light and
+//! dark.
 
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -50,10 +51,12 @@ pub fn html_page(document: &Document) -> Result<String, StudyError> {
     ))
 }
 
-/// Writes `index.html` and one SVG file per figure into a directory; the paths of what was written, the page first.
+/// Writes `index.html` and one SVG file per figure into a directory; the paths of what was written,
+/// the page first.
 ///
 /// # Errors
-/// [`StudyError::Picture`] where a figure has nothing to draw, [`StudyError::Write`] where a file cannot be written.
+/// [`StudyError::Picture`] where a figure has nothing to draw, [`StudyError::Write`] where a file
+/// cannot be written.
 pub fn write_page(document: &Document, directory: &Path) -> Result<Vec<PathBuf>, StudyError> {
     let index = directory.join("index.html");
     write_atomically(&index, html_page(document)?.as_bytes())?;

@@ -4,7 +4,8 @@ use crate::elliptic::{jacobi, quarter_period};
 
 /// A rigid body on a hinge, released at rest: `I phi'' = -m g d sin(phi)`.
 ///
-/// The angle `phi` (rad) is counted from the downward vertical about the hinge axis; the body starts at `amplitude`.
+/// The angle `phi` (rad) is counted from the downward vertical about the hinge axis; the body
+/// starts at `amplitude`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidPendulum {
     /// Mass (kg).
@@ -35,7 +36,8 @@ pub struct Swing {
 }
 
 impl RigidPendulum {
-    /// The rod of chapter 15 of Flores (2015), released at rest from the horizontal: 1 m long, hinged at one end.
+    /// The rod of chapter 15 of Flores (2015), released at rest from the horizontal: 1 m long,
+    /// hinged at one end.
     pub const CHAPTER_15: Self = Self {
         mass: 7.02,
         inertia: 0.585_526_5 + 7.02 * 0.5 * 0.5,
@@ -58,8 +60,9 @@ impl RigidPendulum {
 
     /// Motion and reaction at a time (s).
     ///
-    /// `sin(phi / 2) = k cd(w t | k^2)` with `k = sin(amplitude / 2)` and `w` the [frequency](Self::frequency); from it
-    /// `phi' = -2 w k k' sn / dn` with `k'^2 = 1 - k^2`, because `cos(phi / 2) = k' / dn`.
+    /// `sin(phi / 2) = k cd(w t | k^2)` with `k = sin(amplitude / 2)` and `w` the
+    /// [frequency](Self::frequency); from it `phi' = -2 w k k' sn / dn` with `k'^2 = 1 - k^2`,
+    /// because `cos(phi / 2) = k' / dn`.
     #[must_use]
     pub fn at(&self, time: f64) -> Swing {
         let (modulus, complement) = (0.5 * self.amplitude).sin_cos();
@@ -79,11 +82,12 @@ impl RigidPendulum {
     }
 }
 
-/// The angle `phi` from the downward vertical (rad) at a joint angle `theta` (rad) that is zero where the pendulum was
-/// released, `amplitude` from the vertical.
+/// The angle `phi` from the downward vertical (rad) at a joint angle `theta` (rad) that is zero
+/// where the pendulum was released, `amplitude` from the vertical.
 ///
-/// For the rod of chapter 15 the joint angle turns about global x and is zero with the rod along +y, gravity along -z:
-/// a positive turn lifts the rod, `theta = -pi/2` points it down, and `phi = theta + pi/2`.
+/// For the rod of chapter 15 the joint angle turns about global x and is zero with the rod along
+/// +y, gravity along -z: a positive turn lifts the rod, `theta = -pi/2` points it down, and
+/// `phi = theta + pi/2`.
 #[must_use]
 pub fn from_vertical(theta: f64, amplitude: f64) -> f64 {
     wrapped(theta + amplitude)
@@ -101,10 +105,11 @@ pub fn wrapped(angle: f64) -> f64 {
     }
 }
 
-/// Radial and transverse part (N) of a force of the hinge on a pendulum that swings about global x with gravity along
-/// -z, as [`Swing`] defines them.
+/// Radial and transverse part (N) of a force of the hinge on a pendulum that swings about global x
+/// with gravity along -z, as [`Swing`] defines them.
 ///
-/// The rod points along `(0, sin phi, -cos phi)`, growing `phi` moves it along `(0, cos phi, sin phi)`.
+/// The rod points along `(0, sin phi, -cos phi)`, growing `phi` moves it along
+/// `(0, cos phi, sin phi)`.
 #[must_use]
 pub fn polar_parts(force: [f64; 3], angle: f64) -> (f64, f64) {
     let (sine, cosine) = angle.sin_cos();
@@ -218,7 +223,8 @@ mod tests {
         assert_eq!(polar_parts([0.0, 0.0, 70.0], 0.0), (70.0, 0.0));
         let (radial, transverse) = polar_parts([0.0, 0.0, 70.0], FRAC_PI_2);
         assert!(radial.abs() < 1e-14 && (transverse - 70.0).abs() < 1e-14);
-        // The signs of the closed form, from Newton's law at the start: m (g - d w^2) upwards on a horizontal rod.
+        // The signs of the closed form, from Newton's law at the start: m (g - d w^2) upwards on a
+        // horizontal rod.
         let start = RigidPendulum::CHAPTER_15.at(0.0);
         let upward = 7.02 * (9.81 - 0.5 * RigidPendulum::CHAPTER_15.frequency().powi(2));
         let (radial, transverse) = polar_parts([0.0, 0.0, upward], start.angle);

@@ -26,8 +26,8 @@ pub struct Recording<T> {
     pub reports: Vec<T>,
 }
 
-/// Runs a mechanism over `span` and reads what `read` wants at its start, at every multiple of `span.first_output` after it,
-/// and at its end. `P` says how Euler parameters are read.
+/// Runs a mechanism over `span` and reads what `read` wants at its start, at every multiple of
+/// `span.first_output` after it, and at its end. `P` says how Euler parameters are read.
 ///
 /// # Errors
 /// [`StudyError::Run`] under `name` where the run or a reading stops.
@@ -77,7 +77,8 @@ where
     }
 }
 
-/// A bare run over `span`, with dense output at the reporting times, as a contestant of a [race](crate::timing::race).
+/// A bare run over `span`, with dense output at the reporting times, as a contestant of a
+/// [race](crate::timing::race).
 pub fn contestant<'a, S, Y, I>(
     name: impl Into<String>,
     mut system: Y,
@@ -110,8 +111,8 @@ where
     })
 }
 
-/// Integrates over `span` and reports the state at its start, at every multiple of `span.first_output` after it, and at
-/// its end. Returns what the integration has cost.
+/// Integrates over `span` and reports the state at its start, at every multiple of
+/// `span.first_output` after it, and at its end. Returns what the integration has cost.
 ///
 /// # Errors
 /// A fault of the system or of the integrator.

@@ -7,7 +7,8 @@ pub struct Target {
     pub architecture: &'static str,
     /// The operating system, such as `linux`.
     pub operating_system: &'static str,
-    /// The instruction set extensions that the compiler was allowed to use. What the processor has besides stays unused.
+    /// The instruction set extensions that the compiler was allowed to use. What the processor has
+    /// besides stays unused.
     pub features: &'static [&'static str],
     /// Whether debug assertions are on: times are of no use then.
     pub debug: bool,

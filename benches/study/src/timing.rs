@@ -1,7 +1,8 @@
 //! Wall-clock time per evaluation, of several contestants in turn.
 //!
-//! Contestants are interleaved: every round gives each of them a turn, and the order rotates from round to round. A
-//! machine that slows down for a while slows all of them, so that ratios hold where absolute times do not.
+//! Contestants are interleaved: every round gives each of them a turn, and the order rotates from
+//! round to round. A machine that slows down for a while slows all of them, so that ratios hold
+//! where absolute times do not.
 
 use std::time::{Duration, Instant};
 
@@ -40,7 +41,8 @@ impl<'a> Contestant<'a> {
         &self.name
     }
 
-    /// Runs until `least` is over, at least once; nanoseconds per evaluation, and the evaluations of one run.
+    /// Runs until `least` is over, at least once; nanoseconds per evaluation, and the evaluations
+    /// of one run.
     fn turn(&mut self, least: Duration) -> Result<(f64, u64), StudyError> {
         let start = Instant::now();
         let (mut runs, mut evaluations) = (0, 0);
@@ -70,7 +72,8 @@ pub struct Timing {
 /// How often and how long to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Schedule {
-    /// Rounds; each gives one measurement per contestant. One more round warms up and is not counted.
+    /// Rounds; each gives one measurement per contestant. One more round warms up and is not
+    /// counted.
     pub rounds: usize,
     /// A turn repeats its run until this time is over.
     pub turn: Duration,
@@ -90,8 +93,8 @@ impl Default for Schedule {
 /// `progress` is called after every round with the rounds done.
 ///
 /// # Errors
-/// The first error of a contestant; [`StudyError::NotFinite`] where a contestant counts no evaluations or there are no
-/// rounds.
+/// The first error of a contestant; [`StudyError::NotFinite`] where a contestant counts no
+/// evaluations or there are no rounds.
 pub fn race(
     contestants: &mut [Contestant<'_>],
     schedule: Schedule,

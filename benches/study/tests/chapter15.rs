@@ -1,4 +1,5 @@
-//! Chapter 15 with the generated pendulum: the counts, the violations and the errors that the study has to show.
+//! Chapter 15 with the generated pendulum: the counts, the violations and the errors that the study
+//! has to show.
 
 use std::time::Duration;
 

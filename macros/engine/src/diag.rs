@@ -26,7 +26,8 @@ struct Fault {
 }
 
 impl Fault {
-    /// Whether two faults, of two elements of an array, say the same at the same place, but for numbers and advice.
+    /// Whether two faults, of two elements of an array, say the same at the same place, but for
+    /// numbers and advice.
     fn is_repeated_by(&self, other: &Self) -> bool {
         let place = |fault: &Self| {
             let span = fault.error.span();
@@ -92,7 +93,8 @@ impl Faults {
         }
     }
 
-    /// Collects the faults of a field, or of an element of one: what several elements have in common is reported once.
+    /// Collects the faults of a field, or of an element of one: what several elements have in
+    /// common is reported once.
     pub fn within<T>(&mut self, name: &Name, read: impl FnOnce(&mut Self) -> T) -> T {
         let outer = std::mem::replace(&mut self.element, name.index());
         let result = read(self);
@@ -117,7 +119,8 @@ impl Faults {
         self.faults.append(&mut other.faults);
     }
 
-    /// The faults as items that the compiler reports, in the order of the source; nothing without faults.
+    /// The faults as items that the compiler reports, in the order of the source; nothing without
+    /// faults.
     pub fn into_tokens(mut self) -> TokenStream {
         self.read = true;
         self.faults.sort_by_key(|fault| {

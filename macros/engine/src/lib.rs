@@ -1,14 +1,14 @@
 //! The code generator of `holonom`: from a described mechanism to straight-line Rust.
 //!
-//! An ordinary library over tokens, so that every pass can be tested, counted and fuzzed without a compiler session; the
-//! crate of the procedural macros is a shim. The passes:
+//! An ordinary library over tokens, so that every pass can be tested, counted and fuzzed without a
+//! compiler session; the crate of the procedural macros is a shim. The passes:
 //!
 //! ```text
 //! syntax       tokens            -> what was written, with spans; every fault collected
 //! check        what was written  -> the model, or refusals, each a sentence at the user's token
-//! symbolic     the model         -> vectors that know their frame, then a hash-consed arena of scalars
+//! symbolic     the model         -> vectors that know their frame, an arena of scalars
 //! rank         the equations     -> by numbers, which of them follow from others
-//! plan         symbols           -> axes of the unknowns, order of elimination, kernels as outputs over arenas
+//! plan         symbols           -> axes, order of elimination, kernels as outputs over arenas
 //! coordinates  symbols           -> the same by joint coordinates
 //! emit         kernels           -> Rust; cannot fail
 //! ```

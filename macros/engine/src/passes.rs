@@ -1,4 +1,5 @@
-//! From what was written to the model: what can be read is checked first, then what only numbers can tell.
+//! From what was written to the model: what can be read is checked first, then what only numbers
+//! can tell.
 
 use proc_macro2::TokenStream;
 
@@ -9,7 +10,8 @@ use crate::syntax::joint::JointSyntax;
 use crate::syntax::mechanism::MechanismSyntax;
 use crate::{check, rank};
 
-/// A definition where it stands, and what it says of motions against its equations. `None` if anything is wrong; the faults say what.
+/// A definition where it stands, and what it says of motions against its equations. `None` if
+/// anything is wrong; the faults say what.
 pub fn definition(syntax: &JointSyntax, faults: &mut Faults) -> Option<ElementDef> {
     let defined = check::joint::define(syntax, faults)?;
     let found = rank::specimen::compare(&defined.joint);

@@ -1,12 +1,14 @@
 //! How a definition travels from the crate that defines a joint to the crate that uses it.
 //!
-//! Every joint is a type and a macro of one name. The macro, the carrier, takes a queue of further carriers, the
-//! definitions gathered so far and the annotated struct; it appends its own definition and calls the next carrier, after
-//! asking by a trait whether the next is a body or a joint at all, and the
-//! last one calls `assemble!` through its own `$crate`. Bodies carry in the same way. So nobody guesses the name of a
-//! crate, renames and re-exports work, and no state lives between invocations.
+//! Every joint is a type and a macro of one name. The macro, the carrier, takes a queue of further
+//! carriers, the definitions gathered so far and the annotated struct; it appends its own
+//! definition and calls the next carrier, after asking by a trait whether the next is a body or a
+//! joint at all, and the last one calls `assemble!` through its own `$crate`. Bodies carry in the
+//! same way. So nobody guesses the name of a crate, renames and re-exports work, and no state lives
+//! between invocations.
 //!
-//! The word behind `@` names the version of this protocol; it changes with every incompatible change.
+//! The word behind `@` names the version of this protocol; it changes with every incompatible
+//! change.
 
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote, quote_spanned};
@@ -87,8 +89,8 @@ pub fn carrier(
     }
 }
 
-/// Tells places in the source apart: exported macros live at the root of their crate, where the carriers of equal joints
-/// in two modules must not meet.
+/// Tells places in the source apart: exported macros live at the root of their crate, where the
+/// carriers of equal joints in two modules must not meet.
 fn place(span: Span) -> u64 {
     let start = span.start();
     hash(format!("{}:{}:{}", span.file(), start.line, start.column).bytes())

@@ -1,4 +1,5 @@
-//! Arrays of bodies, joints, forces and values: what they stand for, written out, gives the same kernels.
+//! Arrays of bodies, joints, forces and values: what they stand for, written out, gives the same
+//! kernels.
 
 mod common;
 
@@ -124,7 +125,8 @@ fn elements_are_what_single_fields_are() {
     }
 }
 
-/// All generated functions but those that take the values of parameters and inputs over from a struct.
+/// All generated functions but those that take the values of parameters and inputs over from a
+/// struct.
 fn functions(file: File) -> Vec<(String, String)> {
     let mut functions = Vec::new();
     let mut blocks: Vec<Block> = Vec::new();
@@ -193,7 +195,8 @@ fn chain(links: usize) -> String {
     )
 }
 
-/// `links[10]` comes behind `links[9]`: where names decide, a chain is eliminated from its end to the ground, whatever its length.
+/// `links[10]` comes behind `links[9]`: where names decide, a chain is eliminated from its end to
+/// the ground, whatever its length.
 #[test]
 fn long_chains_are_in_order() {
     let text = chain(12).replace("if k == 0 { ground } else { links[k - 1] }", "ground");

@@ -21,7 +21,8 @@ const ORDER: [&str; 12] = [
     "emit",
     "lib",
 ];
-/// Pairs that the order allows and that have nothing to do with each other: what is refused knows no algebra, and algebra no text.
+/// Pairs that the order allows and that have nothing to do with each other: what is refused knows
+/// no algebra, and algebra no text.
 const APART: [(&str, &str); 9] = [
     ("symbolic", "diag"),
     ("symbolic", "syntax"),

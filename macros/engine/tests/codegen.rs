@@ -1,4 +1,5 @@
-//! Generated code, plans and counts, as they are; a change of these files is a change to be looked at.
+//! Generated code, plans and counts, as they are; a change of these files is a change to be looked
+//! at.
 
 mod common;
 

@@ -80,8 +80,9 @@ fn between_free_bodies(joint: &ElementDef) -> Model {
     model.unwrap_or_else(|| panic!("{kind}: {errors}"))
 }
 
-/// What a derivation by hand on vectors costs after hash-consing, which is less than SymPy, SymForce, CasADi and wrenfold make of the
-/// same functions: axis along x, points on x, constants folded, `A w` given.
+/// What a derivation by hand on vectors costs after hash-consing, which is less than SymPy,
+/// SymForce, CasADi and wrenfold make of the same functions: axis along x, points on x, constants
+/// folded, `A w` given.
 const KNOWN: [(&str, usize); 7] = [
     ("Spherical", 96),
     ("Revolute", 160),
@@ -126,7 +127,8 @@ fn turned(p: &[f64], w: &[f64]) -> [f64; 3] {
     [0, 1, 2].map(|k| w[k] + 2.0 * (p[0] * first[k] + second[k]))
 }
 
-/// Positions, Euler parameters of length 1 and two auxiliary variables; velocities, and the same with `w` in global axes.
+/// Positions, Euler parameters of length 1 and two auxiliary variables; velocities, and the same
+/// with `w` in global axes.
 struct State {
     coordinates: Vec<f64>,
     velocities: Vec<f64>,

@@ -1,5 +1,5 @@
-//! Chains whose hinges and slides are driven, in joint coordinates: what the kernels record of their
-//! pivots must not depend on which numbers the macro can see.
+//! Chains whose hinges and slides are driven, in joint coordinates: what the kernels record of
+//! their pivots must not depend on which numbers the macro can see.
 
 mod common;
 #[allow(dead_code, reason = "other tests need all of it")]

@@ -175,7 +175,8 @@ fn motions_that_the_equations_leave_are_accepted() {
 /// Such joints hold with points and axes of a special kind only, or with several.
 #[test]
 fn points_axes_and_numbers_are_found_that_equations_hold_for() {
-    // A link with a hinge and a ball; with a length, the points are that far apart, beside the axis.
+    // A link with a hinge and a ball; with a length, the points are that far apart, beside the
+    // axis.
     let link = "dot(i.axis, j.ball - i.hinge) - initial(dot(i.axis, j.ball - i.hinge));";
     let motion = "motion turn axis at hinge, ball at ball;";
     let points = "hinge: Point, axis: Axis, ball: Point";
@@ -288,7 +289,8 @@ fn compared(joint: &str, attribute: &str) -> Comparison {
     compare(&mechanism(joint, attribute), 0)
 }
 
-/// What a mechanism leaves out, because it follows from its other joints, is of the joint all the same.
+/// What a mechanism leaves out, because it follows from its other joints, is of the joint all the
+/// same.
 #[test]
 fn equations_that_are_left_out_count() {
     let hinge = format!("{REVOLUTE} motion turn axis at point; }}");

@@ -29,7 +29,8 @@ fn functions(stream: TokenStream, defined: &mut HashSet<String>, mentioned: &mut
     }
 }
 
-/// Of a chain of four parallel hinges one normalisation has some operations more, and the other some less, than what is divided.
+/// Of a chain of four parallel hinges one normalisation has some operations more, and the other
+/// some less, than what is divided.
 #[test]
 fn what_is_called_is_written() {
     let mut shared = 0;

@@ -1,5 +1,5 @@
-//! Input that nobody writes by hand: too deep, too long, too large. It is refused in a sentence, or handled in reasonable time; it
-//! never ends the compiler by an overflowing stack.
+//! Input that nobody writes by hand: too deep, too long, too large. It is refused in a sentence, or
+//! handled in reasonable time; it never ends the compiler by an overflowing stack.
 
 mod common;
 

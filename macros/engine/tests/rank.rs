@@ -48,7 +48,8 @@ fn door(attribute: &str) -> Model {
     )
 }
 
-/// The N-four-bar of the IFToMM library with spatial hinges: links of 1 m, at an angle from upright.
+/// The N-four-bar of the IFToMM library with spatial hinges: links of 1 m, at an angle from
+/// upright.
 fn four_bars(count: usize, angle: f64, attribute: &str) -> Model {
     let names: Vec<(String, String)> = (0..=count)
         .map(|i| (format!("link{i}"), format!("bar{i}")))

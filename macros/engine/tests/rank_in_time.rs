@@ -1,4 +1,5 @@
-//! Equations that follow from others in position, velocity and time, and such as contradict each other.
+//! Equations that follow from others in position, velocity and time, and such as contradict each
+//! other.
 
 mod common;
 
@@ -6,8 +7,9 @@ use common::{delivered, delivery_of, tokens};
 use holonom_engine::model::{ElementKind, Model, Rank};
 use proc_macro2::TokenStream;
 
-/// As in the library, but for `Turning`, a plane that turns away from the first, and `Alined`, which asks both normals of an axis to have one
-/// direction as soon as the time begins, and `Far`, which nothing satisfies from then on.
+/// As in the library, but for `Turning`, a plane that turns away from the first, and `Alined`,
+/// which asks both normals of an axis to have one direction as soon as the time begins, and `Far`,
+/// which nothing satisfies from then on.
 const JOINTS: [(&str, &str); 11] = [
     (
         "Revolute",
@@ -102,7 +104,8 @@ fn wheel(wish: &str, laws: &[&str]) -> String {
 
 const WISHES: [&str; 3] = ["", "redundant = \"drop\"", "redundant = \"keep\""];
 
-/// Refused as a contradiction of the last motor with the first, whatever is wished, and for nothing else.
+/// Refused as a contradiction of the last motor with the first, whatever is wished, and for nothing
+/// else.
 fn contradicts(laws: &[&str], what: &str) {
     for wish in WISHES {
         let text = refusal(&wheel(wish, laws));
@@ -166,7 +169,8 @@ fn motors_of_two_speeds_contradict() {
 #[test]
 fn motors_that_start_apart_contradict() {
     contradicts(&["time", "time + 0.1"], "time = 0 s");
-    // Without the time in it a start that cannot be assembled shows by itself: what cannot be left out is told.
+    // Without the time in it a start that cannot be assembled shows by itself: what cannot be left
+    // out is told.
     let text = refusal(&wheel("redundant = \"drop\"", &["0.5", "0.0"]));
     assert!(
         text.contains("`motor1[0]` contradicts equations of `motor0`")
@@ -262,7 +266,8 @@ fn rows_that_begin_where_nothing_satisfies_them_are_not_left_out() {
     );
 }
 
-/// A crank of 1 and a rod of 2 (or less) in the plane z = 0 from the origin along x, and a slider; `more` joints.
+/// A crank of 1 and a rod of 2 (or less) in the plane z = 0 from the origin along x, and a slider;
+/// `more` joints.
 fn slider_crank(wish: &str, angle: f64, rod: f64, more: &str) -> String {
     let (sine, cosine) = angle.sin_cos();
     let reach = cosine + (rod * rod - sine * sine).sqrt();
@@ -382,7 +387,8 @@ fn parallelogram(wish: &str, cranks: usize) -> String {
 
 #[test]
 fn a_parallelogram_is_driven_over_its_flat_position() {
-    // The third crank's equations follow from the others', and the drive leads through both dead points.
+    // The third crank's equations follow from the others', and the drive leads through both dead
+    // points.
     let model = model(&parallelogram("redundant = \"drop\"", 3));
     let rank = Rank::Decided {
         rank: 24,
@@ -428,7 +434,8 @@ fn turns_are_counted_along_the_way() {
 
 #[test]
 fn a_nut_goes_on_over_many_turns() {
-    // Two nuts of one plate and one screw each: the tour leads over turns, and the angles are counted on.
+    // Two nuts of one plate and one screw each: the tour leads over turns, and the angles are
+    // counted on.
     let model = model(
         "#[mechanism(redundant = \"drop\")] struct Nuts {
             #[body(mass = 1.0, inertia = [0.1, 0.2, 0.15], position = [0.0, 0.0, 0.0])] nut: Body,
@@ -439,7 +446,8 @@ fn a_nut_goes_on_over_many_turns() {
     assert_eq!(dropped(&model), [("second".into(), vec![0, 1, 2, 3, 4])]);
 }
 
-/// A four-bar of spatial hinges in the plane z = 0 with links of given lengths, its crank at an angle, and a motor of it.
+/// A four-bar of spatial hinges in the plane z = 0 with links of given lengths, its crank at an
+/// angle, and a motor of it.
 fn four_bar([ground, crank, coupler, rocker]: [f64; 4], angle: f64, law: &str) -> Option<String> {
     let near = [crank * angle.cos(), crank * angle.sin()];
     let across = [ground - near[0], -near[1]];
@@ -499,7 +507,8 @@ fn driven_loops_contradict_nothing() {
     let mut seen = 0;
     while seen < 30 {
         let law = LAWS[seen % LAWS.len()];
-        // Some cranks turn all the way round, some are drawn beyond their reach, some loops fold flat.
+        // Some cranks turn all the way round, some are drawn beyond their reach, some loops fold
+        // flat.
         let lengths = match seen % 5 {
             0 => [1.0, 1.0, 1.0, 1.0],
             1 => [1.0, 0.5, 1.0, 0.5],

@@ -1,5 +1,6 @@
-//! Operations of the accelerations in joint coordinates, by the way that takes the fewest. The slope of a pair is the rate of its angle and costs nothing; those of Euler
-//! parameters are not among them.
+//! Operations of the accelerations in joint coordinates, by the way that takes the fewest. The
+//! slope of a pair is the rate of its angle and costs nothing; those of Euler parameters are not
+//! among them.
 
 mod common;
 #[allow(dead_code, reason = "other tests need all of it")]
@@ -39,7 +40,8 @@ fn windows(count: usize) -> String {
     text + "}"
 }
 
-/// A cart of 1 kg and a point mass of 1 kg at 1 m, and nothing that pushes: what the model of the catalogue is without its numbers and its motor.
+/// A cart of 1 kg and a point mass of 1 kg at 1 m, and nothing that pushes: what the model of the
+/// catalogue is without its numbers and its motor.
 const UNIT_CART_POLE: &str = "#[mechanism(gravity = [0.0, -9.81, 0.0])] struct UnitCartPole {
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])] cart: Body,
     #[body(mass = 1.0, inertia = [1e-20, 1e-20, 1e-20], position = [0.0, 1.0, 0.0])] pole: Body,

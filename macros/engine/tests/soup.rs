@@ -1,4 +1,5 @@
-//! Broken input never breaks the generator: whatever comes in, tokens come out, and none of them reports a panic.
+//! Broken input never breaks the generator: whatever comes in, tokens come out, and none of them
+//! reports a panic.
 
 mod common;
 

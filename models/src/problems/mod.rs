@@ -1,4 +1,5 @@
-//! Motions of these mechanisms with known answers, for the studies of `holonom-study`: what is moved, for how long, what is read, and what that should be.
+//! Motions of these mechanisms with known answers, for the studies of `holonom-study`: what is
+//! moved, for how long, what is read, and what that should be.
 //!
 //! | problem | motion | what is compared | reference |
 //! |---|---|---|---|
@@ -14,7 +15,8 @@
 //! | [`Chain`] | E02, a ratio of masses of 1e6, 1 s | place of the bob (m) at the end | tensions and angles |
 //! | [`Leaf`] | E04, a door on two hinges, 10 s | angle (rad), every 0.1 s | closed form |
 //!
-//! The integrated references agree with each other to 1e-11 or better. Those of the pendulum and of the parallelograms are there with their models, all others with the whole `catalogue`.
+//! The integrated references agree with each other to 1e-11 or better. Those of the pendulum and of
+//! the parallelograms are there with their models, all others with the whole `catalogue`.
 
 #[cfg(feature = "catalogue")]
 mod loops;

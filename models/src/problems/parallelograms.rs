@@ -11,8 +11,10 @@ use crate::{DoubleFourBar, QuintupleFourBar};
 
 /// The top left pin of a row of `n` windows: place (m) and velocity (m/s) at a time.
 ///
-/// All loops stay parallelograms: `J theta'' = P g sin(theta)` from 0 at 1 rad/s, clockwise from the vertical, with `J = (n + 1) / 3 + n` and `P = (n + 1) / 2 + n`.
-/// Turned by half, this is a pendulum that goes round: `phi / 2 = am(w t / 2 | m)` from its lowest point with the rate `w`, `w^2 = 1 + 4 P g / J`, `m = (w^2 - 1) / w^2`.
+/// All loops stay parallelograms: `J theta'' = P g sin(theta)` from 0 at 1 rad/s, clockwise from
+/// the vertical, with `J = (n + 1) / 3 + n` and `P = (n + 1) / 2 + n`. Turned by half, this is a
+/// pendulum that goes round: `phi / 2 = am(w t / 2 | m)` from its lowest point with the rate `w`,
+/// `w^2 = 1 + 4 P g / J`, `m = (w^2 - 1) / w^2`.
 fn pin(n: f64, time: f64) -> [f64; 4] {
     let lift = 4.0 * ((n + 1.0) / 2.0 + n) * 9.81 / ((n + 1.0) / 3.0 + n);
     let fastest = (1.0 + lift).sqrt();

@@ -9,12 +9,12 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::Block;
 use crate::state::vector::{Array, StateParts};
 
-/// A violation at the start that counts as an inexact number of a description, over the length of the mechanism, over a radian, and over the velocities of
-/// the mechanism: four digits.
+/// A violation at the start that counts as an inexact number of a description, over the length of
+/// the mechanism, over a radian, and over the velocities of the mechanism: four digits.
 const INEXACT: f64 = 1e-4;
 
-/// Refuses a start at which a joint is open, or its bodies move against it so fast that it would open over the run; `is_final` says that no run could
-/// accept it.
+/// Refuses a start at which a joint is open, or its bodies move against it so fast that it would
+/// open over the run; `is_final` says that no run could accept it.
 pub(crate) fn check_start<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     (time, duration): (S, S),

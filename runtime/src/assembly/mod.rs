@@ -1,7 +1,8 @@
 //! Assembly: a state that satisfies the constraints, on the branch that is meant.
 //!
-//! A correction by Newton's method goes to some solution near by. Where what was set is far from the solution, that may be one of another branch. So the way there is
-//! followed in short strides, from the reference configuration, in which the branch is known, to what was set.
+//! A correction by Newton's method goes to some solution near by. Where what was set is far from
+//! the solution, that may be one of another branch. So the way there is followed in short strides,
+//! from the reference configuration, in which the branch is known, to what was set.
 
 pub(crate) mod consistent_start;
 mod set;
@@ -41,7 +42,8 @@ fn has_loops<M: Mechanism>() -> bool {
     with_equations.any(|(joint, _)| !carries(joint))
 }
 
-/// Puts a state on the constraints. The branch is that of a state to start from, which need not satisfy them.
+/// Puts a state on the constraints. The branch is that of a state to start from, which need not
+/// satisfy them.
 pub(crate) fn assembled<S: Real, M: Mechanism>(
     projection: &Projection<S>,
     constants: &M::Constants<S>,
@@ -93,7 +95,8 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
         *state = direct;
         return Ok(finish(direct, correction, 0, None));
     }
-    // What was not set goes along from where the branch is known; where all was set, or nothing, the state itself is the guess.
+    // What was not set goes along from where the branch is known; where all was set, or nothing,
+    // the state itself is the guess.
     let start = if set.is_part() { from } else { &given };
     let mut start = with_unit_orientations::<S, M>(start);
     M::recount(constants, &mut start);

@@ -1,4 +1,5 @@
-//! What was set in a state: which bodies stand otherwise against what carries them than in another state.
+//! What was set in a state: which bodies stand otherwise against what carries them than in another
+//! state.
 
 use crate::constraints::apart::angle_between;
 use crate::constraints::frames::{axes_of, carrier_axes, carrier_of, centre_of, hanging_point};
@@ -16,7 +17,8 @@ const OPENS: f64 = 1e-6;
 
 /// The motions of bodies against what carries them in the spanning tree, from one state to another.
 pub(super) struct Set<S: Scalar, M: Mechanism> {
-    /// Of each body in the places of its velocities: how the point of its joint moves (m) and how it turns (rad), in the axes of what carries it. Zeros where it was not set.
+    /// Of each body in the places of its velocities: how the point of its joint moves (m) and how
+    /// it turns (rad), in the axes of what carries it. Zeros where it was not set.
     motion: M::Velocities<S>,
     /// How bodies stand before.
     from: M::State<S>,
@@ -93,7 +95,8 @@ impl<S: Real, M: Mechanism> Set<S, M> {
         self.is_closed && self.is_part()
     }
 
-    /// Whether there are no more motions than a mechanism of independent equations leaves free: then they do not contradict each other.
+    /// Whether there are no more motions than a mechanism of independent equations leaves free:
+    /// then they do not contradict each other.
     pub(super) fn may_be_free(&self) -> bool {
         let free = usize::try_from(M::REPORT.degrees_of_freedom);
         free.is_ok_and(|free| self.changed <= free)
@@ -119,8 +122,9 @@ impl<S: Real, M: Mechanism> Set<S, M> {
         rotation > S::zero() || norm(&[a, b, c]) > S::zero()
     }
 
-    /// What is left of the motions up to a share of the way, in a state: slides of the joints' points over the length, and turns, both along global axes, in the places of
-    /// the velocities of the bodies.
+    /// What is left of the motions up to a share of the way, in a state: slides of the joints'
+    /// points over the length, and turns, both along global axes, in the places of the velocities
+    /// of the bodies.
     pub(super) fn left(
         &self,
         constants: &M::Constants<S>,
@@ -195,7 +199,8 @@ fn relative<S: Real, M: Mechanism>(
     }
 }
 
-/// The rotation vector (rad, up to half a turn) from one orientation to another, along the axes that both refer to.
+/// The rotation vector (rad, up to half a turn) from one orientation to another, along the axes
+/// that both refer to.
 fn rotation_vector<S: Real>(from: &[S; 4], to: &[S; 4]) -> [S; 3] {
     let [e0, e1, e2, e3] = product(to, &conjugate(from));
     let sine = norm(&[e1, e2, e3]);

@@ -1,7 +1,8 @@
 //! Angles and displacements of joints, to be set in a state of the bodies.
 //!
-//! What hangs on a joint in the spanning tree moves with it as one body, and so do its velocities, as seen from what carries it. Axis, direction and point are
-//! read from the joint itself: its readings are linear in the velocities, and its rows tell whether it leaves the motion free.
+//! What hangs on a joint in the spanning tree moves with it as one body, and so do its velocities,
+//! as seen from what carries it. Axis, direction and point are read from the joint itself: its
+//! readings are linear in the velocities, and its rows tell whether it leaves the motion free.
 
 use core::f64::consts::TAU;
 
@@ -18,10 +19,12 @@ use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::report::{Block, BodyKind, Carrier, JointInfo};
 use crate::state::vector::{Array, StateParts, Vector};
 
-/// A row may change by so much of what its terms would make of it, if a motion is one that the joint leaves free.
+/// A row may change by so much of what its terms would make of it, if a motion is one that the
+/// joint leaves free.
 const FREE: f64 = 1e-3;
 
-/// The velocities of what hangs on a joint, which moves as one body against what carries it: global axes.
+/// The velocities of what hangs on a joint, which moves as one body against what carries it: global
+/// axes.
 #[derive(Clone, Copy)]
 struct Twist<S> {
     /// Angular velocity.
@@ -135,8 +138,8 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         self.finite()
     }
 
-    /// Turns the second body against the first, so that it is turned by these Euler parameters from how it stands in the reference configuration; global axes
-    /// there.
+    /// Turns the second body against the first, so that it is turned by these Euler parameters from
+    /// how it stands in the reference configuration; global axes there.
     pub(crate) fn set_orientation(mut self, orientation: &[S; 4]) -> Result<M::State<S>, Fault> {
         let [first, second] = *self.info.bodies else {
             return Err(self.holds());
@@ -268,7 +271,8 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         }
     }
 
-    /// The point of the joint about which it leaves turns free: that on the carried body or, where the body slides on it, that on the other one.
+    /// The point of the joint about which it leaves turns free: that on the carried body or, where
+    /// the body slides on it, that on the other one.
     fn centre(&self, turns: &[[S; 3]]) -> Result<[S; 3], Fault> {
         let places = self.info.bodies.iter().enumerate();
         let own = |body: &Option<usize>| *body == Some(self.body);
@@ -328,7 +332,8 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         })
     }
 
-    /// What arms lose by round-off, generously: a row may take a motion that far from the joint for one that it forbids.
+    /// What arms lose by round-off, generously: a row may take a motion that far from the joint for
+    /// one that it forbids.
     fn round_off_of_arms(&self) -> S {
         let places = 0..self.info.bodies.len();
         let points = places.map(|place| M::joint_point(self.constants, self.joint, place));
@@ -338,7 +343,8 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         S::EPSILON.sqrt() * extent
     }
 
-    /// The angle with the turns that an element between the same bodies counts, from the angle without; `None` where none does.
+    /// The angle with the turns that an element between the same bodies counts, from the angle
+    /// without; `None` where none does.
     fn turns(&self, axis: &Twist<S>) -> Option<impl Fn(S) -> S + use<S, M>> {
         let joints = M::REPORT.joints.iter();
         let joints = joints.map(|info| (info.bodies, info.auxiliary, info.auxiliaries));
@@ -407,7 +413,8 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         self.state = state;
     }
 
-    /// Moves what hangs on the joint by a multiple of a motion, and the angles that count turns along.
+    /// Moves what hangs on the joint by a multiple of a motion, and the angles that count turns
+    /// along.
     fn displace(&mut self, twist: &Twist<S>, factor: S) {
         let Twist { turn, point, slide } = twist.scaled(factor);
         let rotation = from_rotation_vector(&turn);
@@ -475,7 +482,8 @@ fn closes<M: Mechanism>(joint: usize) -> Fault {
     }
 }
 
-/// Euler parameters from principal axes to global ones; of the ground and of a particle those of the global axes.
+/// Euler parameters from principal axes to global ones; of the ground and of a particle those of
+/// the global axes.
 fn orientation_of<S: Real, M: Mechanism>(state: &M::State<S>, body: Option<usize>) -> [S; 4] {
     let body = body.and_then(|body| M::REPORT.bodies.get(body));
     match body {

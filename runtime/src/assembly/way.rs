@@ -1,7 +1,9 @@
-//! The way from a state to one that satisfies the constraints and has what was set: followed in short strides.
+//! The way from a state to one that satisfies the constraints and has what was set: followed in
+//! short strides.
 //!
-//! A homotopy: at a share `s` of the way, `Phi(q, t) = (1 - s) Phi(q0, t)`, and the bodies that were set are `s` of their motions away from where they were. At `s = 0`
-//! that is the start, whether it satisfies the constraints or not.
+//! A homotopy: at a share `s` of the way, `Phi(q, t) = (1 - s) Phi(q0, t)`, and the bodies that
+//! were set are `s` of their motions away from where they were. At `s = 0` that is the start,
+//! whether it satisfies the constraints or not.
 
 use super::set::Set;
 use crate::constraints::apart::reach;
@@ -24,7 +26,8 @@ const TURN: f64 = 0.2;
 /// What the corrections of a stride may be of it, and besides: its way is curved by no more.
 const CURVED: [f64; 2] = [0.25, 0.005];
 
-/// A correction that is less ends a stride: the next one goes on from there, and the end is corrected to round-off.
+/// A correction that is less ends a stride: the next one goes on from there, and the end is
+/// corrected to round-off.
 const SMALL: f64 = 1e-5;
 
 /// Corrections of a stride.
@@ -36,7 +39,8 @@ const HALVINGS: i32 = 24;
 /// Strides of a way: some hundred turns.
 const STRIDES: usize = 5000;
 
-/// What a motion that joints forbid keeps of a load's work on the free bodies, by the compliances: the limit between forbidden and free.
+/// What a motion that joints forbid keeps of a load's work on the free bodies, by the compliances:
+/// the limit between forbidden and free.
 const FORBIDDEN: f64 = 1e-6;
 
 /// Motions that are set together and can be told apart.
@@ -107,7 +111,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         let state = self.state;
         self.pass(share, &state, S::zero());
         let mut strides = 0;
-        // Whether the constraints let what was set move at all: else it contradicts them, or itself, and the way ends where both are met best.
+        // Whether the constraints let what was set move at all: else it contradicts them, or
+        // itself, and the way ends where both are met best.
         let mut is_free = None;
         while share < one {
             let to = if one - share <= stride * S::constant(1.5) {
@@ -213,7 +218,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         }
     }
 
-    /// The state at a later share of the way, and how far it led; `None` where the stride is too long.
+    /// The state at a later share of the way, and how far it led; `None` where the stride is too
+    /// long.
     fn stride(&mut self, to: S) -> Option<(M::State<S>, S)> {
         let mut state = self.state;
         let turn = S::constant(TURN);
@@ -249,7 +255,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         None
     }
 
-    /// The step of Newton's method to a share of the way: what the constraints ask, by the least movement, and on top of it what was set, as far as they let it.
+    /// The step of Newton's method to a share of the way: what the constraints ask, by the least
+    /// movement, and on top of it what was set, as far as they let it.
     fn step(&self, state: &M::State<S>, share: S) -> M::Velocities<S> {
         let constants = self.constants;
         let rows = Rows::<S, M>::at(constants, self.time, state);
@@ -270,7 +277,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         let free = |load: &M::Velocities<S>| {
             M::solve::<S, Compliant>(constants, &coefficients, &factors, load, &level).0
         };
-        // Conjugate gradients for the least squares of what is left, over what the constraints leave free.
+        // Conjugate gradients for the least squares of what is left, over what the constraints
+        // leave free.
         let mass = M::mass(constants);
         let mut left = self.set.left(constants, state, share, self.length);
         add(&mut left, &self.relative(state, &step), -S::one());

@@ -6,14 +6,16 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::{Mechanism, Stabilisation, Terms};
 use crate::state::vector::Array;
 
-/// A compliance below so many `EPSILON` of what a row yields to a unit load is lost in the round-off of it: of rows that depend on others nothing else
-/// is left.
+/// A compliance below so many `EPSILON` of what a row yields to a unit load is lost in the
+/// round-off of it: of rows that depend on others nothing else is left.
 pub(crate) const RESOLVED: f64 = 64.0;
 
-/// The compliance of every row: that of the formulation, in the unit of the row at the reference configuration, with `radian` metres for a radian.
+/// The compliance of every row: that of the formulation, in the unit of the row at the reference
+/// configuration, with `radian` metres for a radian.
 ///
 /// # Errors
-/// [`Fault::PenaltyFactor`] where equations are kept that depend on others and the compliance is lost in round-off.
+/// [`Fault::PenaltyFactor`] where equations are kept that depend on others and the compliance is
+/// lost in round-off.
 pub(crate) fn compliances<S: Real, M: Mechanism, T: Terms>(
     constants: &M::Constants<S>,
     stabilisation: &Stabilisation<S>,

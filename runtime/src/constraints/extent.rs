@@ -7,7 +7,8 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyInfo;
 use crate::state::vector::{Array, StateParts};
 
-/// The largest distance of a centre of mass, or of a joint's point on the ground, from the first centre of mass.
+/// The largest distance of a centre of mass, or of a joint's point on the ground, from the first
+/// centre of mass.
 pub(crate) fn extent<S: Real, M: Mechanism>(constants: &M::Constants<S>, state: &M::State<S>) -> S {
     let first = centre::<S, M>(state, 0);
     let mut extent = S::zero();

@@ -59,7 +59,8 @@ pub(crate) fn point_of<S: Real, M: Mechanism>(
     [x + a, y + b, z + c]
 }
 
-/// The point (m, global) by which a body hangs on what carries it; its centre of mass where no joint carries it.
+/// The point (m, global) by which a body hangs on what carries it; its centre of mass where no
+/// joint carries it.
 pub(crate) fn hanging_point<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     state: &M::State<S>,

@@ -6,28 +6,34 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::{Compliant, Mechanism, Stabilisation};
 use crate::state::vector::{Array, StateParts};
 
-/// How often a step is halved: the square of a step this much shorter is below the digits of single precision.
+/// How often a step is halved: the square of a step this much shorter is below the digits of single
+/// precision.
 const HALVINGS: usize = 12;
 
-/// A violation that is not lessened to this part of what it was is no longer being corrected, but at its round-off or at a limit.
+/// A violation that is not lessened to this part of what it was is no longer being corrected, but
+/// at its round-off or at a limit.
 const HELPS: f64 = 0.9;
 
-/// What compliances are lessened by where those of the violation hold nearly dependent rows back from any correction.
+/// What compliances are lessened by where those of the violation hold nearly dependent rows back
+/// from any correction.
 const RELAXED: f64 = 1e-2;
 
-/// What keeps a motion free: a row of the stiffness `s`, relative to its own, leaves `(e / (s + e))^8` of an energy after four
-/// projections with the relative compliance `e`. This is what `s = 5 e` leaves, where a row has all but vanished; a motion that no row
-/// forbids keeps its share of the trial motion, about one over the number of velocities.
+/// What keeps a motion free: a row of the stiffness `s`, relative to its own, leaves
+/// `(e / (s + e))^8` of an energy after four projections with the relative compliance `e`. This is
+/// what `s = 5 e` leaves, where a row has all but vanished; a motion that no row forbids keeps its
+/// share of the trial motion, about one over the number of velocities.
 pub(crate) const FREE: f64 = 1e-6;
 
 /// How far dependence among the rows is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Depth {
-    /// Compliances of `sqrt(EPSILON)`: rows that depend on each other to the fourth root of it are left as they are.
+    /// Compliances of `sqrt(EPSILON)`: rows that depend on each other to the fourth root of it are
+    /// left as they are.
     Independent,
     /// Compliances that vanish with the violation.
     Dependent,
-    /// And that are lessened further where they hold back any correction: for rows that stay nearly dependent wherever it leads.
+    /// And that are lessened further where they hold back any correction: for rows that stay nearly
+    /// dependent wherever it leads.
     Persistent,
 }
 
@@ -78,8 +84,8 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         }
     }
 
-    /// The positions after Newton's method. Rows and sizes are those of the state that is reached: far from it, joints have other
-    /// lengths.
+    /// The positions after Newton's method. Rows and sizes are those of the state that is reached:
+    /// far from it, joints have other lengths.
     pub(crate) fn positions_corrected(
         mut self,
         constants: &M::Constants<S>,
@@ -120,7 +126,8 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         self
     }
 
-    /// The velocities after Newton's method, which corrects them in one step but for compliances and round-off.
+    /// The velocities after Newton's method, which corrects them in one step but for compliances
+    /// and round-off.
     pub(crate) fn velocities_corrected(
         mut self,
         constants: &M::Constants<S>,
@@ -165,7 +172,8 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         }
     }
 
-    /// The velocities changed by a step. Sizes are by the speeds that are reached: those before may have been zero, or anything.
+    /// The velocities changed by a step. Sizes are by the speeds that are reached: those before may
+    /// have been zero, or anything.
     pub(crate) fn accelerated(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
         let mut state = self.state;
         let velocities = state.velocities_mut().as_mut_slice();
@@ -186,7 +194,8 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         self.lessened(&next.sizes, &next.violation, S::constant(HELPS))
     }
 
-    /// The `d` of least `d^T M d` with `D d = -violation`, with compliances that are a part of what each row yields by itself.
+    /// The `d` of least `d^T M d` with `D d = -violation`, with compliances that are a part of what
+    /// each row yields by itself.
     fn correction(&self, constants: &M::Constants<S>, part: S) -> M::Velocities<S> {
         let (coefficients, factors) = compliant::<S, M>(constants, &self.rows, &self.state, part);
         let mut lower = self.violation;
@@ -197,7 +206,8 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         M::solve::<S, Compliant>(constants, &coefficients, &factors, &upper, &lower).0
     }
 
-    /// The state moved by a step, or by the first of its halves that lessens the violation, and `Phi` there.
+    /// The state moved by a step, or by the first of its halves that lessens the violation, and
+    /// `Phi` there.
     fn descend(
         &self,
         constants: &M::Constants<S>,
@@ -232,9 +242,9 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
     }
 }
 
-/// How much of a trial motion the constraints leave free: the share of its energy that stays when it is projected onto the
-/// motions with `D u = 0`. Zero where the constraints determine the velocities, about one over the number of velocities for
-/// one degree of freedom.
+/// How much of a trial motion the constraints leave free: the share of its energy that stays when
+/// it is projected onto the motions with `D u = 0`. Zero where the constraints determine the
+/// velocities, about one over the number of velocities for one degree of freedom.
 pub(crate) fn free_share<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,
@@ -253,7 +263,8 @@ pub(crate) fn free_share<S: Real, M: Mechanism>(
         *u = fraction::<S>(place).quotient(mass.sqrt());
     }
     let before = energy(&motion);
-    // A projection with a compliance leaves e / (s + e) of a motion of stiffness s: four of them tell a stiff row from none.
+    // A projection with a compliance leaves e / (s + e) of a motion of stiffness s: four of them
+    // tell a stiff row from none.
     for _ in 0..4 {
         let places = motion.as_mut_slice().iter_mut().zip(mass.as_slice());
         places.for_each(|(u, &mass)| *u = *u * mass);
@@ -267,13 +278,15 @@ pub(crate) fn free_share<S: Real, M: Mechanism>(
     }
 }
 
-/// The part of what each row yields by itself that its compliance is, for a violation of some norm in sizes of its rows.
+/// The part of what each row yields by itself that its compliance is, for a violation of some norm
+/// in sizes of its rows.
 ///
-/// It is that of the violation, so that nearly dependent rows are held back from long
-/// movements while it is large, and no longer when it is small (Levenberg and Marquardt's method, which converges quadratically
-/// at a singular configuration too: Yamashita and Fukushima, *On the rate of convergence of the Levenberg-Marquardt method*, Computing
-/// Suppl. 15 (2001), 239-249); less by a factor `damping` where that does not help. At most `sqrt(EPSILON)`, to correct what is independent in few
-/// iterations.
+/// It is that of the violation, so that nearly dependent rows are held back from long movements
+/// while it is large, and no longer when it is small (Levenberg and Marquardt's method, which
+/// converges quadratically at a singular configuration too: Yamashita and Fukushima, *On the rate
+/// of convergence of the Levenberg-Marquardt method*, Computing Suppl. 15 (2001), 239-249); less by
+/// a factor `damping` where that does not help. At most `sqrt(EPSILON)`, to correct what is
+/// independent in few iterations.
 pub(crate) fn part<S: Real>(rest: S, depth: Depth, damping: S) -> S {
     let most = S::EPSILON.sqrt();
     match depth {
@@ -287,7 +300,8 @@ fn least<S: Real>() -> S {
     S::constant(64.0) * S::EPSILON
 }
 
-/// The saddle system with compliances that are a part of what each row yields by itself, factorised.
+/// The saddle system with compliances that are a part of what each row yields by itself,
+/// factorised.
 pub(crate) fn compliant<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     rows: &Rows<S, M>,

@@ -12,34 +12,41 @@ use crate::state::vector::Array;
 
 /// The correction of a state onto the constraints, by the least movement in the metric of the mass.
 ///
-/// Positions by Newton's method: the displacement `d` (m, and rad along body axes) of least `d^T M d` with `D d = -Phi` comes from
-/// the saddle system of the dynamics,
+/// Positions by Newton's method: the displacement `d` (m, and rad along body axes) of least
+/// `d^T M d` with `D d = -Phi` comes from the saddle system of the dynamics,
 ///
 /// ```text
 /// [ M   D^T ] [ d      ]   [  0   ]
 /// [ D   -E  ] [ lambda ] = [ -Phi ]
 /// ```
 ///
-/// then `r + d` and a finite rotation of `p`, which keeps length 1; angles that count turns follow; a step that does not lessen `Phi` is halved. Velocities by the
-/// same system with `-Phi'`. The compliances `E` are a part of the diagonal of `D M^-1 D^T`, row by row: the part is that of the
-/// violation in sizes of its row, at most `sqrt(EPSILON)` and at least `64 EPSILON`. They keep the system solvable where equations are redundant or the configuration is
-/// singular, and do not limit the accuracy, because the corrections are repeated as long as they help.
+/// then `r + d` and a finite rotation of `p`, which keeps length 1; angles that count turns follow;
+/// a step that does not lessen `Phi` is halved. Velocities by the same system with `-Phi'`. The
+/// compliances `E` are a part of the diagonal of `D M^-1 D^T`, row by row: the part is that of the
+/// violation in sizes of its row, at most `sqrt(EPSILON)` and at least `64 EPSILON`. They keep the
+/// system solvable where equations are redundant or the configuration is singular, and do not limit
+/// the accuracy, because the corrections are repeated as long as they help.
 ///
-/// **The size of a row** is what its violation is compared with: its joint's own length, the longest arm from a centre of mass to the
-/// joint's point (the distance of the points of a [`Distance`](crate::joints::Distance); the extent of the mechanism where all arms vanish), in
-/// the units of the row, and one radian for a row of directions. So a violation counts the same for a mechanism of any size, at any place and in any
-/// units. Far from the origin, or after many turns, the terms of a row resolve less than that: there a row counts as corrected where its
+/// **The size of a row** is what its violation is compared with: its joint's own length, the
+/// longest arm from a centre of mass to the joint's point (the distance of the points of a
+/// [`Distance`](crate::joints::Distance); the extent of the mechanism where all arms vanish), in
+/// the units of the row, and one radian for a row of directions. So a violation counts the same for
+/// a mechanism of any size, at any place and in any units. Far from the origin, or after many
+/// turns, the terms of a row resolve less than that: there a row counts as corrected where its
 /// terms resolve nothing more, if they resolve two digits at least.
 ///
-/// **Near singular configurations** equations are nearly dependent, and along the multipliers whose loads `D^T lambda` cancel, a
-/// state of self-stress, a violation can be lessened by long movements only, or not at all. A run on its way through may keep such
-/// a violation, up to `sqrt(tolerance)` in place of `tolerance`, where its loads cancel to a hundredth on every body; a
-/// few steps later the equations are independent again and it is corrected. [`Correction::excused`] tells. [`Projection::correct`] and everything that
-/// looks for a configuration (`assemble`, [`KinematicAnalysis`](crate::KinematicAnalysis)) keep none.
+/// **Near singular configurations** equations are nearly dependent, and along the multipliers whose
+/// loads `D^T lambda` cancel, a state of self-stress, a violation can be lessened by long movements
+/// only, or not at all. A run on its way through may keep such a violation, up to `sqrt(tolerance)`
+/// in place of `tolerance`, where its loads cancel to a hundredth on every body; a few steps later
+/// the equations are independent again and it is corrected. [`Correction::excused`] tells.
+/// [`Projection::correct`] and everything that looks for a configuration (`assemble`,
+/// [`KinematicAnalysis`](crate::KinematicAnalysis)) keep none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection<S> {
-    /// The largest `|Phi|` and `|Phi'|` that count as corrected, in sizes of their rows; of a row of `Phi'` this is what the velocities of one of its
-    /// bodies add to it. The iteration goes on below it as long as it helps.
+    /// The largest `|Phi|` and `|Phi'|` that count as corrected, in sizes of their rows; of a row
+    /// of `Phi'` this is what the velocities of one of its bodies add to it. The iteration goes on
+    /// below it as long as it helps.
     pub tolerance: S,
     /// How many steps of Newton's method may be done.
     pub max_iterations: usize,
@@ -69,40 +76,49 @@ pub struct Correction<S> {
     pub velocity_violation_before: S,
     /// `Phi'^T Phi'` after.
     pub velocity_violation_after: S,
-    /// The largest `|Phi|` or `|Phi'|` beyond the tolerance that was kept as nearly a state of self-stress, in sizes of its row; zero where
-    /// all is within. A run may keep some, [`Projection::correct`] keeps none. Of a [`DirectCorrection`](crate::DirectCorrection) also what its one application left.
+    /// The largest `|Phi|` or `|Phi'|` beyond the tolerance that was kept as nearly a state of
+    /// self-stress, in sizes of its row; zero where all is within. A run may keep some,
+    /// [`Projection::correct`] keeps none. Of a [`DirectCorrection`](crate::DirectCorrection) also
+    /// what its one application left.
     pub excused: S,
     /// How far an assembly moved; `None` of a correction of another kind.
     pub moved: Option<Moved<S>>,
 }
 
-/// How far an assembly moved a state, see [`MechanismExt::assemble`](crate::MechanismExt::assemble): the body that stands furthest, in radians or lengths of the mechanism, from where it
-/// stood in the state that was given.
+/// How far an assembly moved a state, see
+/// [`MechanismExt::assemble`](crate::MechanismExt::assemble): the body that stands furthest, in
+/// radians or lengths of the mechanism, from where it stood in the state that was given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moved<S> {
     /// The body's field.
     pub body: &'static str,
-    /// The field of the joint that carries it in the spanning tree, else of the first joint that speaks of it; `None` where none does.
+    /// The field of the joint that carries it in the spanning tree, else of the first joint that
+    /// speaks of it; `None` where none does.
     pub joint: Option<&'static str>,
     /// Its rotation (rad).
     pub angle: S,
     /// The movement of its centre of mass (m).
     pub length: S,
-    /// The strides by which a branch was followed; zero where the state was near enough to be corrected at once.
+    /// The strides by which a branch was followed; zero where the state was near enough to be
+    /// corrected at once.
     pub strides: usize,
-    /// The joint of a singular configuration that was passed on the way, or nearly: another branch begins there.
+    /// The joint of a singular configuration that was passed on the way, or nearly: another branch
+    /// begins there.
     pub passed: Option<&'static str>,
 }
 
-/// The largest violation that a state on its way may keep, in sizes of its row, however coarse the tolerance is.
+/// The largest violation that a state on its way may keep, in sizes of its row, however coarse the
+/// tolerance is.
 pub(crate) const EXCUSED: f64 = 1e-2;
 
 impl<S: Real> Projection<S> {
     /// Corrects positions, then velocities; Euler parameters come out at length 1.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] with the `|Phi|` or `|Phi'|` left that is largest in sizes of its row and its joint, [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], or [`Fault::Setting`] for a
-    /// tolerance that is not finite and positive; the state is then as before.
+    /// [`Fault::NotConverged`] with the `|Phi|` or `|Phi'|` left that is largest in sizes of its
+    /// row and its joint, [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], or
+    /// [`Fault::Setting`] for a tolerance that is not finite and positive; the state is then as
+    /// before.
     pub fn correct<M: Mechanism>(
         &self,
         constants: &M::Constants<S>,
@@ -112,7 +128,8 @@ impl<S: Real> Projection<S> {
         self.correct_by::<M>(Measure::Whole, constants, time, state)
     }
 
-    /// [`Projection::correct`] for a state on its way, which may keep a violation that is nearly a state of self-stress. Not part of a step: its stack would be that of every step.
+    /// [`Projection::correct`] for a state on its way, which may keep a violation that is nearly a
+    /// state of self-stress. Not part of a step: its stack would be that of every step.
     #[inline(never)]
     pub(crate) fn correct_in_motion<M: Mechanism>(
         &self,
@@ -200,8 +217,8 @@ impl<S: Real> Projection<S> {
         if excusable && passing::<S, M>(constants, time, state, &multipliers) {
             return excused(last);
         }
-        // Rows that stay nearly dependent may take long movements; on the way through a singular configuration these were none that
-        // correct anything.
+        // Rows that stay nearly dependent may take long movements; on the way through a singular
+        // configuration these were none that correct anything.
         let far = iterate(last, Depth::Persistent);
         if within(&far) {
             Ok((far, S::zero()))
@@ -224,7 +241,8 @@ impl<S: Real> Projection<S> {
     }
 }
 
-/// Corrects positions, then velocities, by functions that return what they left as well; the state is as before where one fails.
+/// Corrects positions, then velocities, by functions that return what they left as well; the state
+/// is as before where one fails.
 pub(crate) fn in_turn<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,

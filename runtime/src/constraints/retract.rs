@@ -7,8 +7,8 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
-/// The state moved by `factor d`: positions by addition, orientations by a rotation along body axes; angles that count turns
-/// follow.
+/// The state moved by `factor d`: positions by addition, orientations by a rotation along body
+/// axes; angles that count turns follow.
 pub(crate) fn displaced<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     state: &M::State<S>,
@@ -36,8 +36,8 @@ pub(crate) fn displaced<S: Real, M: Mechanism>(
     moved
 }
 
-/// Moves the auxiliary variables by `factor` times their rates in another state: without it, a turn by more than half a revolution
-/// would be counted as one the other way.
+/// Moves the auxiliary variables by `factor` times their rates in another state: without it, a turn
+/// by more than half a revolution would be counted as one the other way.
 fn advance_auxiliaries<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     along: &M::State<S>,

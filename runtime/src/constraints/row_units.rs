@@ -49,8 +49,8 @@ impl<S: Real, M: Mechanism> Meanings<S, M> {
     }
 }
 
-/// The length of a mechanism (m): how far its centres of mass and the points of its joints reach, or its largest radius of gyration; 1 where there is
-/// neither.
+/// The length of a mechanism (m): how far its centres of mass and the points of its joints reach,
+/// or its largest radius of gyration; 1 where there is neither.
 pub(crate) fn characteristic_length<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     state: &M::State<S>,

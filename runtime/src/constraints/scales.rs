@@ -13,12 +13,16 @@ use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
-/// What a scene is measured by: its mass, its length and its time, as its bodies stand and move and are pulled at one instant.
+/// What a scene is measured by: its mass, its length and its time, as its bodies stand and move and
+/// are pulled at one instant.
 ///
-/// Coefficients of formulations and absolute tolerances have units, and no number of them suits a watch and a crane. [`Baumgarte::of`](crate::Baumgarte::of),
-/// [`Penalty::of`](crate::Penalty::of), [`AugmentedLagrangian::of`](crate::AugmentedLagrangian::of) and [`Tolerance::of`](crate::Tolerance::of) make them of
-/// these; a mechanism with all masses, lengths and times in other proportions gets coefficients in these proportions. Any of the fields may be set where more is known of a
-/// motion than its start tells, and given to `with_scales` of the four.
+/// Coefficients of formulations and absolute tolerances have units, and no number of them suits a
+/// watch and a crane. [`Baumgarte::of`](crate::Baumgarte::of), [`Penalty::of`](crate::Penalty::of),
+/// [`AugmentedLagrangian::of`](crate::AugmentedLagrangian::of) and
+/// [`Tolerance::of`](crate::Tolerance::of) make them of these; a mechanism with all masses, lengths
+/// and times in other proportions gets coefficients in these proportions. Any of the fields may be
+/// set where more is known of a motion than its start tells, and given to `with_scales` of the
+/// four.
 ///
 /// ```
 /// use holonom::joints::Revolute;
@@ -41,21 +45,29 @@ use crate::state::vector::{Array, StateParts};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales<S> {
-    /// The mass (kg) that the constraints may have to carry: of all bodies that a joint is about, or of all where there are no joints.
+    /// The mass (kg) that the constraints may have to carry: of all bodies that a joint is about,
+    /// or of all where there are no joints.
     pub mass: S,
-    /// The least mass (kg) that a constraint feels, `1 / (D M^-1 D^T)_ii` with the row in metres, and over the square of [`Scales::length`] for one in radians. `mass` over it is the ratio of masses; equal to `mass` without constraints.
+    /// The least mass (kg) that a constraint feels, `1 / (D M^-1 D^T)_ii` with the row in metres,
+    /// and over the square of [`Scales::length`] for one in radians. `mass` over it is the ratio of
+    /// masses; equal to `mass` without constraints.
     pub lightest: S,
-    /// The length (m): the largest distance of a centre of mass, or of a joint's point, from the centre of mass of the first body, of a joint's point from the centre of mass of its body, or the
-    /// largest radius of gyration. One metre for particles that have no length to go by.
+    /// The length (m): the largest distance of a centre of mass, or of a joint's point, from the
+    /// centre of mass of the first body, of a joint's point from the centre of mass of its body, or
+    /// the largest radius of gyration. One metre for particles that have no length to go by.
     pub length: S,
-    /// The time (s) in which something turns by a radian or goes the length: by the velocities, the accelerations that forces and constraints give, the drivers, or in free fall of all
-    /// bodies together under the forces on them, whichever is the shortest. Free fall counts where the scene stands in equilibrium too; the stiffness of a spring counts only as far as the spring pulls.
+    /// The time (s) in which something turns by a radian or goes the length: by the velocities, the
+    /// accelerations that forces and constraints give, the drivers, or in free fall of all bodies
+    /// together under the forces on them, whichever is the shortest. Free fall counts where the
+    /// scene stands in equilibrium too; the stiffness of a spring counts only as far as the spring
+    /// pulls.
     ///
     /// One second where nothing moves, nothing is driven and no force acts.
     pub time: S,
 }
 
-/// What counts as an acceleration, over what the forces would do without constraints: less may be what the compliance of the solution leaves, a part `sqrt(EPSILON)`.
+/// What counts as an acceleration, over what the forces would do without constraints: less may be
+/// what the compliance of the solution leaves, a part `sqrt(EPSILON)`.
 const COUNTS: f64 = 4.0;
 
 /// What is below so many `EPSILON` of the forces that it is the sum of is their round-off.
@@ -67,15 +79,17 @@ impl<S: Real> Scales<S> {
     /// It costs a few evaluations: for the beginning of a run, not for every step.
     ///
     /// # Errors
-    /// [`Fault::Parameter`]; a described state, forces or drivers that are not finite ([`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], [`Fault::RatesNotFinite`]); [`Fault::Setting`] for a scale
-    /// that the number type does not hold.
+    /// [`Fault::Parameter`]; a described state, forces or drivers that are not finite
+    /// ([`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], [`Fault::RatesNotFinite`]);
+    /// [`Fault::Setting`] for a scale that the number type does not hold.
     pub fn of<M: Mechanism>(mechanism: &M) -> Result<Self, Fault> {
         let constants = constants(mechanism)?;
         let state = M::initial_state(&constants);
         Self::found::<M>(&constants, S::zero(), &state)
     }
 
-    /// The scales in another state, or at another time (s): where a run does not start as the attributes describe.
+    /// The scales in another state, or at another time (s): where a run does not start as the
+    /// attributes describe.
     ///
     /// # Errors
     /// As [`Scales::of`].
@@ -240,7 +254,8 @@ fn turning<S: Real, M: Mechanism>(velocities: &M::Velocities<S>, length: S) -> S
     turning
 }
 
-/// The acceleration (m/s^2) of the centre of mass of all bodies, without constraints: of gravity, what gravity is; forces between bodies cancel.
+/// The acceleration (m/s^2) of the centre of mass of all bodies, without constraints: of gravity,
+/// what gravity is; forces between bodies cancel.
 fn falling<S: Real, M: Mechanism>(forces: &M::Velocities<S>, mass: &M::Velocities<S>) -> S {
     let (mut sum, mut whole) = ([S::zero(); 3], S::zero());
     for body in M::REPORT.bodies {

@@ -7,18 +7,20 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::{Block, BodyInfo, BodyKind};
 use crate::state::vector::{Array, StateParts};
 
-/// Loads that cancel to this part of what they are one by one: equations that are as good as dependent.
+/// Loads that cancel to this part of what they are one by one: equations that are as good as
+/// dependent.
 const CANCELLED: f64 = 1e-2;
 
-/// How far ahead a state is looked at, as a part of the extent of the mechanism (or in radians), to see whether equations that nearly depend on
-/// each other will go on doing so.
+/// How far ahead a state is looked at, as a part of the extent of the mechanism (or in radians), to
+/// see whether equations that nearly depend on each other will go on doing so.
 const FURTHER: f64 = 1e-2;
 
-/// On the way through a singular configuration loads that cancel there cancel this many times less a short way further.
+/// On the way through a singular configuration loads that cancel there cancel this many times less
+/// a short way further.
 const PASSING: f64 = 10.0;
 
-/// Whether multipliers are nearly a state of self-stress: equation by equation they load the bodies, but together the loads
-/// `D^T lambda` cancel to a hundredth, on every body.
+/// Whether multipliers are nearly a state of self-stress: equation by equation they load the
+/// bodies, but together the loads `D^T lambda` cancel to a hundredth, on every body.
 pub(crate) fn self_stressed<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,
@@ -28,8 +30,9 @@ pub(crate) fn self_stressed<S: Real, M: Mechanism>(
     cancellation::<S, M>(constants, time, state, multipliers) <= S::constant(CANCELLED)
 }
 
-/// Whether multipliers that are nearly a state of self-stress will not be one a short way further along the velocities: the
-/// mechanism passes a singular configuration. Else its equations go on to depend on each other nearly.
+/// Whether multipliers that are nearly a state of self-stress will not be one a short way further
+/// along the velocities: the mechanism passes a singular configuration. Else its equations go on to
+/// depend on each other nearly.
 #[cold]
 pub(crate) fn passing<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
@@ -46,12 +49,13 @@ pub(crate) fn passing<S: Real, M: Mechanism>(
     cancellation::<S, M>(constants, time, &further, multipliers) > S::constant(PASSING) * now
 }
 
-/// To which part of what they are one by one the loads of multipliers cancel, on the body where they do so least. A body that is loaded
-/// by no more than a hundredth of the load on another, one by one, counts as if it were loaded by that.
+/// To which part of what they are one by one the loads of multipliers cancel, on the body where
+/// they do so least. A body that is loaded by no more than a hundredth of the load on another, one
+/// by one, counts as if it were loaded by that.
 ///
-/// Such multipliers exist where equations depend on each other, nearly or exactly: the loads of independent equations do not
-/// cancel. Moments count as forces at the radius of gyration, so that neither units nor masses weigh: a light
-/// body between heavy ones is not a dependence.
+/// Such multipliers exist where equations depend on each other, nearly or exactly: the loads of
+/// independent equations do not cancel. Moments count as forces at the radius of gyration, so that
+/// neither units nor masses weigh: a light body between heavy ones is not a dependence.
 fn cancellation<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,

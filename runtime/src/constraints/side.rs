@@ -33,7 +33,8 @@ pub(crate) fn wrong<S: Real, M: Mechanism>(
     (from..M::REPORT.joints.len()).find(is_wrong)
 }
 
-/// The state with what joints carry turned over, where these are not well on the side that is meant; as in another state, where no turn about an axis leads over.
+/// The state with what joints carry turned over, where these are not well on the side that is
+/// meant; as in another state, where no turn about an axis leads over.
 pub(crate) fn righted<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     state: &M::State<S>,

@@ -19,8 +19,9 @@ where
     P: Orientation,
     A: AppliedForces<S, M>,
 {
-    /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly vanished at a state, and with what the number type resolves
-    /// of a position where that is coarser than an absolute tolerance.
+    /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly
+    /// vanished at a state, and with what the number type resolves of a position where that is
+    /// coarser than an absolute tolerance.
     #[cold]
     pub(crate) fn explained(
         &self,
@@ -48,7 +49,8 @@ where
         }
     }
 
-    /// Asks a closure twice at a time and a state, and at another time and state in between, so that a sum over times does not stand still.
+    /// Asks a closure twice at a time and a state, and at another time and state in between, so
+    /// that a sum over times does not stand still.
     ///
     /// # Errors
     /// [`Fault::TwoAnswers`] where its forces differ in any digit.
@@ -86,7 +88,8 @@ where
         (relative < S::constant(NEARLY_VANISHED)).then(|| field::<M>(joint.to_f64() as usize))
     }
 
-    /// Why an evaluation is not sound: solved again, so that the rates of one that is sound need not be kept.
+    /// Why an evaluation is not sound: solved again, so that the rates of one that is sound need
+    /// not be kept.
     #[cold]
     #[inline(never)]
     pub(super) fn fault(&self, time: S, state: &M::State<S>) -> Fault {
@@ -110,7 +113,8 @@ where
         }
     }
 
-    /// Pivot and accelerations as an evaluation computes them, by the kernels that it uses, so that no others are compiled.
+    /// Pivot and accelerations as an evaluation computes them, by the kernels that it uses, so that
+    /// no others are compiled.
     #[cold]
     #[inline(never)]
     pub(super) fn solved_again(

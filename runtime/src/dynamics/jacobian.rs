@@ -16,7 +16,8 @@ where
     P: Orientation,
     A: AppliedForces<S, M>,
 {
-    /// Writes the columns of the Jacobian, and says how many there were. `None` where a derivative is not finite.
+    /// Writes the columns of the Jacobian, and says how many there were. `None` where a derivative
+    /// is not finite.
     pub(super) fn differentiated(
         &self,
         time: S,

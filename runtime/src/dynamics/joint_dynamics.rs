@@ -23,8 +23,9 @@ use crate::mechanism::report::BodyKind;
 
 /// A mechanism in joint coordinates with a formulation, prepared: what an integrator moves.
 ///
-/// Its states are [`JointCoordinates::JointState`]; [`JointDynamics::bodies`] says how the bodies stand in one, and everything that can be read of a mechanism
-/// ([`View`](crate::View), reactions by [`Dynamics::evaluate`]) is read there.
+/// Its states are [`JointCoordinates::JointState`]; [`JointDynamics::bodies`] says how the bodies
+/// stand in one, and everything that can be read of a mechanism ([`View`](crate::View), reactions
+/// by [`Dynamics::evaluate`]) is read there.
 ///
 /// ```
 /// use holonom::joints::Revolute;
@@ -84,7 +85,8 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>> JointDynamics<S, M, F> {
     }
 }
 
-/// The compliances of the equations that remain: those of the same rows of the bodies, so that one coefficient means the same in both descriptions.
+/// The compliances of the equations that remain: those of the same rows of the bodies, so that one
+/// coefficient means the same in both descriptions.
 fn closing<S: Real, M: JointCoordinates>(
     of_bodies: &M::Multipliers<S>,
     otherwise: S,
@@ -141,7 +143,8 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
         Ok(())
     }
 
-    /// How often the augmented Lagrangian solved its system in [`System::rates`]; zero for other formulations, and where no equation remains.
+    /// How often the augmented Lagrangian solved its system in [`System::rates`]; zero for other
+    /// formulations, and where no equation remains.
     #[must_use]
     pub fn iterations(&self) -> Iterations {
         self.iterations
@@ -150,7 +153,8 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     /// The state that the attributes of the bodies describe.
     ///
     /// # Errors
-    /// [`Fault::InconsistentStart`] where the bodies do not stand as the joints let them; [`MechanismExt::assemble`](crate::MechanismExt::assemble) mends that.
+    /// [`Fault::InconsistentStart`] where the bodies do not stand as the joints let them;
+    /// [`MechanismExt::assemble`](crate::MechanismExt::assemble) mends that.
     pub fn initial_state(&self) -> Result<M::JointState<S>, Fault> {
         self.joints(&M::initial_state(self.bodies.constants()))
     }
@@ -185,8 +189,10 @@ impl<S: Real, M: JointCoordinates, F: Formulation<S>, A> JointDynamics<S, M, F, 
     /// The joint coordinates of bodies.
     ///
     /// # Errors
-    /// [`Fault::InconsistentStart`] where the bodies do not stand as the joints let them, or move so that one would open within a second, by more
-    /// than four digits; smaller violations of the joints of the tree are taken away. [`Fault::StateNotFinite`] where the two axes of a joint are in line.
+    /// [`Fault::InconsistentStart`] where the bodies do not stand as the joints let them, or move
+    /// so that one would open within a second, by more than four digits; smaller violations of the
+    /// joints of the tree are taken away. [`Fault::StateNotFinite`] where the two axes of a joint
+    /// are in line.
     pub fn joints(&self, bodies: &M::State<S>) -> Result<M::JointState<S>, Fault> {
         let mut bodies = *bodies;
         M::recount(self.bodies.constants(), &mut bodies);
@@ -232,7 +238,8 @@ where
     F: Formulation<S>,
     A: AppliedForces<S, M>,
 {
-    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation may iterate.
+    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation
+    /// may iterate.
     const IN_PARTS: bool = A::PRESENT || F::ITERATED;
 
     /// The kernel of a step: without multipliers, unless it goes on from them.
@@ -251,7 +258,8 @@ where
         M::joint_rates_into::<S, F::Terms>(constants, coefficients, time, state, rates)
     }
 
-    /// Adds applied forces to what an evaluation gives, and lets the formulation iterate; returns how often the system was solved.
+    /// Adds applied forces to what an evaluation gives, and lets the formulation iterate; returns
+    /// how often the system was solved.
     #[inline(never)]
     fn completed(
         &self,
@@ -311,7 +319,8 @@ where
         Ok(evaluation)
     }
 
-    /// The same, written into a place ([`JointEvaluation::zeros`] makes one): nothing is copied, which counts beside a short kernel. What stands there after a fault is of no use.
+    /// The same, written into a place ([`JointEvaluation::zeros`] makes one): nothing is copied,
+    /// which counts beside a short kernel. What stands there after a fault is of no use.
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`].

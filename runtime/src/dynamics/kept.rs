@@ -1,6 +1,7 @@
 //! How near equations that depend on each other are to a configuration where more of them do.
 //!
-//! Their pivots vanish everywhere, so the rank is followed by the least eigenvalue beside zero of the rows' own matrix, `G = D M^-1 D^T`, in the scale of its diagonal.
+//! Their pivots vanish everywhere, so the rank is followed by the least eigenvalue beside zero of
+//! the rows' own matrix, `G = D M^-1 D^T`, in the scale of its diagonal.
 
 use super::Dynamics;
 use crate::constraints::rows::Rows;
@@ -10,7 +11,8 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::kernels::{Compliant, Mechanism, Orientation, Pivot};
 use crate::state::vector::Array;
 
-/// Steps of the inverse iteration. Near a singular configuration one is enough; far from it any estimate is.
+/// Steps of the inverse iteration. Near a singular configuration one is enough; far from it any
+/// estimate is.
 const ITERATIONS: usize = 3;
 
 impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
@@ -21,10 +23,12 @@ where
     P: Orientation,
     A: AppliedForces<S, M>,
 {
-    /// The least eigenvalue beside zero of `S^-1 G S^-1`, with `S^2` the diagonal of `G`, and the joint whose rows have most of it. It goes with the square of the distance from where it vanishes, as a
-    /// relative pivot does, down to the compliance that keeps the matrix regular.
+    /// The least eigenvalue beside zero of `S^-1 G S^-1`, with `S^2` the diagonal of `G`, and the
+    /// joint whose rows have most of it. It goes with the square of the distance from where it
+    /// vanishes, as a relative pivot does, down to the compliance that keeps the matrix regular.
     ///
-    /// An inverse iteration with `e = sqrt(EPSILON)`: `x / (G + e)`, and `x - e x / (G + e)`, by which what depends on others for good drops out.
+    /// An inverse iteration with `e = sqrt(EPSILON)`: `x / (G + e)`, and `x - e x / (G + e)`, by
+    /// which what depends on others for good drops out.
     #[inline(never)]
     pub(super) fn kept_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
         let rows = Rows::<S, M>::at(&self.constants, time, state);
@@ -87,7 +91,8 @@ where
     }
 }
 
-/// Numbers without a pattern that a mechanism could share, from 0.5 to 1 (Weyl's sequence of the golden ratio).
+/// Numbers without a pattern that a mechanism could share, from 0.5 to 1 (Weyl's sequence of the
+/// golden ratio).
 fn beginning<S: Real, M: Mechanism>() -> M::Multipliers<S> {
     let mut x = M::Multipliers::<S>::zeros();
     let mut fraction = 0.5;

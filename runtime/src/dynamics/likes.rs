@@ -1,9 +1,9 @@
 //! Whether what was decided at the typical values of parameters holds for other values.
 //!
-//! The macro finds the rank and the redundant equations at the typical values. Here the mechanism is
-//! assembled with the given ones. Its equations must be independent at the start. Each equation that
-//! was left out must hold, and its gradient must be a combination of those of the others: at the
-//! start, and at configurations that motions within the constraints lead to.
+//! The macro finds the rank and the redundant equations at the typical values. Here the mechanism
+//! is assembled with the given ones. Its equations must be independent at the start. Each equation
+//! that was left out must hold, and its gradient must be a combination of those of the others: at
+//! the start, and at configurations that motions within the constraints lead to.
 
 use crate::constraints::extent::extent;
 use crate::constraints::projection::Projection;

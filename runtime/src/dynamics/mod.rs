@@ -36,7 +36,8 @@ use crate::watch::Seen;
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
-/// `P` says how Euler parameters are read, `A` which forces come on top of those of the description.
+/// `P` says how Euler parameters are read, `A` which forces come on top of those of the
+/// description.
 pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A = NoForces> {
     parameters: M::Parameters<S>,
     constants: M::Constants<S>,
@@ -64,12 +65,14 @@ pub struct Iterations {
     pub total: usize,
     /// In the evaluation that took the most.
     pub largest: usize,
-    /// The evaluations in which the iteration was ended before its tolerance, near a singular configuration.
+    /// The evaluations in which the iteration was ended before its tolerance, near a singular
+    /// configuration.
     pub excused: usize,
 }
 
 impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
-    /// Prepares the kernels: Euler parameters normalised inside the evaluation, no forces beyond the description.
+    /// Prepares the kernels: Euler parameters normalised inside the evaluation, no forces beyond
+    /// the description.
     ///
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
@@ -163,7 +166,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
         Ok(())
     }
 
-    /// Takes these inputs, and leaves the parameters: in the number type of the run, at the cost of what depends on inputs.
+    /// Takes these inputs, and leaves the parameters: in the number type of the run, at the cost of
+    /// what depends on inputs.
     ///
     /// # Errors
     /// An input that is not finite; the former ones then stay.
@@ -194,7 +198,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
         &self.formulation
     }
 
-    /// How often the augmented Lagrangian solved its system in [`System::rates`]; zero for other formulations.
+    /// How often the augmented Lagrangian solved its system in [`System::rates`]; zero for other
+    /// formulations.
     #[must_use]
     pub fn iterations(&self) -> Iterations {
         self.iterations
@@ -215,14 +220,16 @@ where
     P: Orientation,
     A: AppliedForces<S, M>,
 {
-    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation may iterate.
+    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation
+    /// may iterate.
     const IN_PARTS: bool = A::PRESENT || F::ITERATED;
 
     /// Rates of the state and multipliers, and how often the system was solved.
     ///
     /// # Errors
-    /// [`Fault::Singular`] where constraints depend on each other and the formulation has no compliance,
-    /// [`Fault::NotConverged`] of the augmented Lagrangian, a state or rates that are not finite.
+    /// [`Fault::Singular`] where constraints depend on each other and the formulation has no
+    /// compliance, [`Fault::NotConverged`] of the augmented Lagrangian, a state or rates that are
+    /// not finite.
     #[inline(always)]
     pub fn evaluate(
         &self,
@@ -234,7 +241,8 @@ where
         Ok((evaluation, iterations))
     }
 
-    /// The same, written into a place ([`Evaluation::zeros`] makes one): nothing is copied, which counts beside a short kernel. What stands there after a fault is of no use.
+    /// The same, written into a place ([`Evaluation::zeros`] makes one): nothing is copied, which
+    /// counts beside a short kernel. What stands there after a fault is of no use.
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`].
@@ -286,7 +294,8 @@ where
         as_read::<S, M, P>(state)
     }
 
-    /// Forces and moments of the closure alone, as [`Mechanism::forces`] has them, in a state whose Euler parameters have length 1.
+    /// Forces and moments of the closure alone, as [`Mechanism::forces`] has them, in a state whose
+    /// Euler parameters have length 1.
     pub(crate) fn applied(&self, time: S, state: &M::State<S>) -> M::Velocities<S> {
         let mut forces = M::Velocities::<S>::zeros();
         self.forces
@@ -297,7 +306,8 @@ where
     /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
     ///
     /// # Errors
-    /// [`Fault::StateNotFinite`] where a pivot vanishes or something is not finite: [`Dynamics::fault`] says what, once this has given its stack back.
+    /// [`Fault::StateNotFinite`] where a pivot vanishes or something is not finite:
+    /// [`Dynamics::fault`] says what, once this has given its stack back.
     fn evaluate_in_parts(
         &self,
         time: S,
@@ -355,7 +365,8 @@ where
         })
     }
 
-    /// Forces and moments of the description and of a closure, in a state whose Euler parameters have length 1.
+    /// Forces and moments of the description and of a closure, in a state whose Euler parameters
+    /// have length 1.
     fn all_forces(&self, time: S, state: &M::State<S>) -> M::Velocities<S> {
         let mut forces = M::forces(&self.constants, time, state);
         if A::PRESENT {
@@ -365,11 +376,13 @@ where
         forces
     }
 
-    /// How far the accelerations of an evaluation at a state are from what the constraints ask: the largest `|D u' - gamma*|` of a row, relative to
-    /// the sum of the sizes of its terms and of what the applied forces would do without constraints; and the row's joint.
+    /// How far the accelerations of an evaluation at a state are from what the constraints ask: the
+    /// largest `|D u' - gamma*|` of a row, relative to the sum of the sizes of its terms and of
+    /// what the applied forces would do without constraints; and the row's joint.
     ///
-    /// Round-off for rigid constraints; the bias of a [`Penalty`](crate::Penalty), which a motion gathers; for an augmented Lagrangian what its tolerance, or
-    /// an excuse, leaves. It costs about as much as one evaluation. `p` is read as by the formulation.
+    /// Round-off for rigid constraints; the bias of a [`Penalty`](crate::Penalty), which a motion
+    /// gathers; for an augmented Lagrangian what its tolerance, or an excuse, leaves. It costs
+    /// about as much as one evaluation. `p` is read as by the formulation.
     pub fn inconsistency(
         &self,
         time: S,
@@ -477,7 +490,8 @@ where
         }
     }
 
-    // Part of every stage of an integrator: rates then reach the next stage without passing through memory, or by one way through it.
+    // Part of every stage of an integrator: rates then reach the next stage without passing through
+    // memory, or by one way through it.
     #[inline(always)]
     fn stage(
         &mut self,
@@ -493,7 +507,8 @@ where
         }
         let pivot = self.straight(time, state, rates, &mut multipliers);
         if vanishes::<S, F::Terms>(pivot.relative) {
-            // Why is not asked here: a reference to the state would keep it in memory at every stage.
+            // Why is not asked here: a reference to the state would keep it in memory at every
+            // stage.
             return Err(Fault::StateNotFinite);
         }
         self.look(pivot.relative, &multipliers);
@@ -504,8 +519,10 @@ where
         Some(self.fault(time, state))
     }
 
-    /// Exact, by the kernels over [`Forward`](crate::Forward) numbers: a law that is a closure enters by differences of its forces. By differences of the rates for an [`AugmentedLagrangian`](crate::AugmentedLagrangian),
-    /// which iterates, and where a derivative is not finite.
+    /// Exact, by the kernels over [`Forward`](crate::Forward) numbers: a law that is a closure
+    /// enters by differences of its forces. By differences of the rates for an
+    /// [`AugmentedLagrangian`](crate::AugmentedLagrangian), which iterates, and where a derivative
+    /// is not finite.
     ///
     /// A column takes longer than a difference would, by bodies more than by joints.
     fn jacobian(
@@ -571,9 +588,11 @@ struct Parts<S> {
     applied_power: S,
 }
 
-/// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of the multiplier is left.
+/// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of
+/// the multiplier is left.
 ///
-/// With a compliance the system is solvable whatever the constraints are. A pivot of NaN shows in the rates.
+/// With a compliance the system is solvable whatever the constraints are. A pivot of NaN shows in
+/// the rates.
 #[inline(always)]
 fn sound<S: Real, M: Mechanism, T: Terms>(evaluation: &Evaluation<S, M>) -> bool {
     evaluation.rates.is_finite() && !vanishes::<S, T>(evaluation.pivot.relative)

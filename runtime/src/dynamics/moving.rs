@@ -74,13 +74,15 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// What evaluations leave behind for the watch.
     type Seen: Copy;
 
-    /// How the bodies stand and move, when they stood near by a moment ago: Euler parameters keep their signs as far as they can.
+    /// How the bodies stand and move, when they stood near by a moment ago: Euler parameters keep
+    /// their signs as far as they can.
     fn bodies(&self, state: &Self::State, near: &M::State<S>) -> M::State<S>;
 
     /// The state in which they stand and move so, or nearly so.
     fn of(&self, bodies: &M::State<S>) -> Self::State;
 
-    /// The same, with those signs of Euler parameters that are nearer to those of another state: a method that looks back at former steps does not know that both are one orientation.
+    /// The same, with those signs of Euler parameters that are nearer to those of another state: a
+    /// method that looks back at former steps does not know that both are one orientation.
     fn of_near(&self, bodies: &M::State<S>, near: &Self::State) -> Self::State;
 
     /// What reads the mechanism.
@@ -98,7 +100,8 @@ pub trait Moving<S: Real, M: Mechanism>: System<S> {
     /// As if that had been the last evaluation.
     fn recall(&mut self, seen: Self::Seen);
 
-    /// The smallest relative pivot between the ends of steps; `None` where there is nothing to look at.
+    /// The smallest relative pivot between the ends of steps; `None` where there is nothing to look
+    /// at.
     fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S>;
 
     /// Finds the joint of the smallest pivot of a run.

@@ -20,7 +20,8 @@ const ITERATIONS: usize = 100;
 /// From here on changes that do not fall are taken for divergence.
 const TRANSIENT: usize = 30;
 
-/// Solutions for a displacement by the gradients at both ends: with those at the end alone one would do.
+/// Solutions for a displacement by the gradients at both ends: with those at the end alone one
+/// would do.
 const BOTH_SIDES: usize = 3;
 
 /// A pivot that has lost this part of its size.
@@ -29,7 +30,8 @@ const NEARLY_VANISHED: f64 = 1e-2;
 /// A change of so many `EPSILON`, relative, is none.
 const ROUND_OFF: f64 = 4.0;
 
-/// Changes fall where they are less than so many iterations before: positions and velocities may take turns.
+/// Changes fall where they are less than so many iterations before: positions and velocities may
+/// take turns.
 const TURNS: usize = 4;
 
 /// Below this power of `EPSILON` changes that no longer fall are round-off.
@@ -46,7 +48,8 @@ where
     /// See [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     ///
     /// # Errors
-    /// [`Fault::NoConstraints`] of a formulation that lets constraints yield, [`Fault::Singular`], [`Fault::StepNotSolved`] where the iteration does not converge, what is not finite.
+    /// [`Fault::NoConstraints`] of a formulation that lets constraints yield, [`Fault::Singular`],
+    /// [`Fault::StepNotSolved`] where the iteration does not converge, what is not finite.
     #[inline(never)]
     pub(super) fn solved_on_constraints(
         &mut self,
@@ -70,7 +73,8 @@ where
             let state = trial.state(&self.constants);
             let seen = match self.iterate(&mut trial, &state, (size, &mass)) {
                 Ok(seen) => seen,
-                // What is wrong where the iteration begins is wrong with the motion, later with the iteration.
+                // What is wrong where the iteration begins is wrong with the motion, later with the
+                // iteration.
                 Err(fault) if iteration == 1 => return Err(fault),
                 Err(_) => return Err(self.unsolved(asked, iteration)),
             };
@@ -93,7 +97,8 @@ where
         Err(self.unsolved(asked, ITERATIONS))
     }
 
-    /// That the iteration does not converge, and the joint whose pivot has nearly vanished at the start of the step.
+    /// That the iteration does not converge, and the joint whose pivot has nearly vanished at the
+    /// start of the step.
     #[cold]
     fn unsolved(&self, asked: &AlphaStep<'_, S, M::State<S>>, iterations: usize) -> Fault {
         let (constants, start) = (&self.constants, asked.end - asked.step);
@@ -115,7 +120,8 @@ where
     /// [ D   0  ] [ mu ] = [    -Phi'     ]      [ D   0  ] [ eta ] = [ -Phi ]
     /// ```
     ///
-    /// with `w` the change of velocities for one of accelerations. Positions take half of the loads of `eta` as they were at the start.
+    /// with `w` the change of velocities for one of accelerations. Positions take half of the loads
+    /// of `eta` as they were at the start.
     fn iterate(
         &self,
         trial: &mut Trial<'_, S, M>,
@@ -144,7 +150,8 @@ where
         let jacobian = M::jacobian(constants, end, state);
         let mut farther = M::Velocities::<S>::zeros();
         let mut left = phi;
-        // By the gradients at the end alone: what vanishes with the violation, however those at the start are.
+        // By the gradients at the end alone: what vanishes with the violation, however those at the
+        // start are.
         let mut violation = None;
         for _ in 0..BOTH_SIDES {
             let (last, eta) = solve(&Array::zeros(), &negative(left));
@@ -211,7 +218,8 @@ where
 struct Iteration<S: Scalar, M: Mechanism> {
     /// By how much velocities have changed and positions are off, relative to what they are.
     change: S,
-    /// The same, but a velocity that passes over all positions in a step counts as one: what positions do not resolve, stiff springs show in velocities.
+    /// The same, but a velocity that passes over all positions in a step counts as one: what
+    /// positions do not resolve, stiff springs show in velocities.
     resolved: S,
     /// The smallest relative pivot.
     pivot: S,

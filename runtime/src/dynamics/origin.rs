@@ -6,8 +6,8 @@ use crate::mechanism::kernels::{Mechanism, Terms};
 use crate::mechanism::report::{BodyInfo, BodyKind, Report};
 use crate::state::vector::Array;
 
-/// Looks for the first thing that is not finite, at a state as the kernels read it: forces of the description, what a closure has made of their sum,
-/// equations, accelerations.
+/// Looks for the first thing that is not finite, at a state as the kernels read it: forces of the
+/// description, what a closure has made of their sum, equations, accelerations.
 #[cold]
 #[inline(never)]
 pub(crate) fn origin<S: Real, M: Mechanism, T: Terms>(
@@ -22,8 +22,8 @@ pub(crate) fn origin<S: Real, M: Mechanism, T: Terms>(
     })
 }
 
-/// The first thing that is not finite of those that accelerations are made of. Only what the terms ask for is looked at: a user compiles no kernel for a message that
-/// nothing else needs.
+/// The first thing that is not finite of those that accelerations are made of. Only what the terms
+/// ask for is looked at: a user compiles no kernel for a message that nothing else needs.
 #[cold]
 #[inline(never)]
 pub(crate) fn before_accelerations<S: Real, M: Mechanism, T: Terms>(

@@ -5,7 +5,8 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array;
 
-/// How many pairs are kept before they are begun anew: as many stiff springs and dampers may be followed at once.
+/// How many pairs are kept before they are begun anew: as many stiff springs and dampers may be
+/// followed at once.
 const PAIRS: usize = 5;
 
 /// A difference that is known from the others to this part tells nothing.
@@ -59,10 +60,14 @@ impl<S: Real, M: Mechanism> Change<S, M> {
     }
 }
 
-/// The changes that an iteration by fixed points has made, and what has become of them: the next one is the combination that leaves least (Anderson, *Iterative procedures for nonlinear integral equations*, J. ACM 12 (1965), 547-560;
-/// for linear forces the method of generalised minimal residuals: Walker and Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011), 1715-1735).
+/// The changes that an iteration by fixed points has made, and what has become of them: the next
+/// one is the combination that leaves least (Anderson, *Iterative procedures for nonlinear integral
+/// equations*, J. ACM 12 (1965), 547-560; for linear forces the method of generalised minimal
+/// residuals: Walker and Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer.
+/// Anal. 49 (2011), 1715-1735).
 pub(super) struct Secants<S: Scalar, M: Mechanism> {
-    /// Steps, and by what they have changed the changes: those are of length 1 and perpendicular to each other.
+    /// Steps, and by what they have changed the changes: those are of length 1 and perpendicular to
+    /// each other.
     pairs: [(Change<S, M>, Change<S, M>); PAIRS],
     count: usize,
     /// The last step, and the change that it was made from.

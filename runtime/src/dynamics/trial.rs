@@ -12,7 +12,9 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
-/// What an iteration displaces bodies by, at most, in radians or sizes of the mechanism, and twice as much after every one that is held to it: stiff springs would throw bodies beyond where what is known of them holds.
+/// What an iteration displaces bodies by, at most, in radians or sizes of the mechanism, and twice
+/// as much after every one that is held to it: stiff springs would throw bodies beyond where what
+/// is known of them holds.
 const FARTHEST: f64 = 0.02;
 
 /// What a step is solved for.
@@ -41,7 +43,8 @@ impl<'a, S: Real, M: Mechanism> Trial<'a, S, M> {
         }
     }
 
-    /// Begins where bodies go on at their velocities, if their accelerations would throw them: those of stiff springs last a part of the step only.
+    /// Begins where bodies go on at their velocities, if their accelerations would throw them:
+    /// those of stiff springs last a part of the step only.
     pub(super) fn begin_nearby(&mut self, size: S) {
         let AlphaWeights {
             alpha_m,
@@ -56,7 +59,8 @@ impl<'a, S: Real, M: Mechanism> Trial<'a, S, M> {
         if self.reach(&thrown, size) <= self.farthest {
             return;
         }
-        // (1 - alpha_m) a1 + alpha_m a0 = (1 - alpha_f) u1' + alpha_f u0' with beta a1 = (beta - 1/2) a0.
+        // (1 - alpha_m) a1 + alpha_m a0 = (1 - alpha_f) u1' + alpha_f u0' with beta a1 = (beta -
+        // 1/2) a0.
         let rest = (S::one() - alpha_f).reciprocal();
         let share = (beta - S::constant(0.5)).quotient(beta);
         let before = ((S::one() - alpha_m) * share + alpha_m) * rest;
@@ -162,7 +166,8 @@ impl<'a, S: Real, M: Mechanism> Trial<'a, S, M> {
         both
     }
 
-    /// Takes what an iteration changes of velocities and of positions, as former ones let expect the rest.
+    /// Takes what an iteration changes of velocities and of positions, as former ones let expect
+    /// the rest.
     pub(super) fn take(
         &mut self,
         faster: &M::Velocities<S>,
@@ -190,7 +195,8 @@ impl<'a, S: Real, M: Mechanism> Trial<'a, S, M> {
         add(correction, S::one(), step.farther.as_slice());
     }
 
-    /// How far bodies are displaced by a step of the iteration, at most: in radians, or in sizes of the mechanism (its extent, or its distance from the origin).
+    /// How far bodies are displaced by a step of the iteration, at most: in radians, or in sizes of
+    /// the mechanism (its extent, or its distance from the origin).
     fn reach(&self, step: &Change<S, M>, size: S) -> S {
         let AlphaWeights { beta, gamma, .. } = self.asked.weights;
         let share = self.asked.step * beta.quotient(gamma);
@@ -210,7 +216,8 @@ impl<'a, S: Real, M: Mechanism> Trial<'a, S, M> {
     }
 }
 
-/// Makes rotations that follow rotations `d` the changes of `d` that lead there: `z + d x z / 2 + d x (d x z) / 12`, by the first terms of Baker, Campbell and Hausdorff.
+/// Makes rotations that follow rotations `d` the changes of `d` that lead there:
+/// `z + d x z / 2 + d x (d x z) / 12`, by the first terms of Baker, Campbell and Hausdorff.
 fn add_to_rotations<S: Real, M: Mechanism>(
     displacement: &M::Velocities<S>,
     step: &mut M::Velocities<S>,

@@ -9,9 +9,11 @@ use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::state::vector::{Array, StateParts};
 use crate::watch::{Beginning, Step, Watch};
 
-/// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as the forces do.
+/// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as
+/// the forces do.
 const BIAS_EVERY: usize = 16;
-/// Of how many steps one is factorised without its compliance: what is passed between two of them is found all the same.
+/// Of how many steps one is factorised without its compliance: what is passed between two of them
+/// is found all the same.
 const PIVOT_EVERY: usize = 2;
 
 impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
@@ -56,7 +58,8 @@ where
         }
     }
 
-    /// Shows the end of a step to the watch, with what was seen at the last evaluation, and with a relative pivot that counts beside it.
+    /// Shows the end of a step to the watch, with what was seen at the last evaluation, and with a
+    /// relative pivot that counts beside it.
     #[inline]
     pub(crate) fn watch(
         &self,
@@ -79,7 +82,8 @@ where
         watch.step(step);
     }
 
-    /// Shows the watch what acts at the start of a run, by two evaluations: whether anything moves, and what round-off there is.
+    /// Shows the watch what acts at the start of a run, by two evaluations: whether anything moves,
+    /// and what round-off there is.
     #[inline(never)]
     pub(crate) fn begin(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
         let there = self.evaluation(time, &watch.shaken(state));
@@ -114,7 +118,8 @@ where
         }
     }
 
-    /// The power (W) of all forces without a potential, and of drivers, whose multipliers work against `Phi_t`.
+    /// The power (W) of all forces without a potential, and of drivers, whose multipliers work
+    /// against `Phi_t`.
     fn power(&self, time: S, state: &M::State<S>) -> Option<S> {
         let is_driven = M::REPORT.time.constraints;
         if M::REPORT.forces.is_empty() && !is_driven && !A::PRESENT {
@@ -129,8 +134,9 @@ where
         Some(power)
     }
 
-    /// The smallest relative pivot at the end of a step; with a compliance, by a factorisation without it. Where equations that depend on others are kept, whose
-    /// pivots tell nothing, it is their least eigenvalue; `None` where these have no solution anyway.
+    /// The smallest relative pivot at the end of a step; with a compliance, by a factorisation
+    /// without it. Where equations that depend on others are kept, whose pivots tell nothing, it is
+    /// their least eigenvalue; `None` where these have no solution anyway.
     #[inline]
     fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<S> {
         if M::REPORT.equations == 0 || Self::HAS_NO_RANK {
@@ -167,7 +173,8 @@ where
         M::factor::<S, Plain>(&self.constants, &self.coefficients, time, state).1
     }
 
-    /// Finds the joint of the smallest pivot of a run: once, at the end, so that no step has to know it.
+    /// Finds the joint of the smallest pivot of a run: once, at the end, so that no step has to
+    /// know it.
     #[cold]
     pub(crate) fn name_smallest_pivot(&self, watch: &mut Watch<S, M>) {
         if let Some((time, state)) = watch.nearest() {

@@ -1,4 +1,5 @@
-//! What can go wrong at run time. Small enums, no strings; the last good state travels with them. What they say is in [`crate::message`].
+//! What can go wrong at run time. Small enums, no strings; the last good state travels with them.
+//! What they say is in [`crate::message`].
 
 /// A number of the description that the macro could not see is not acceptable.
 ///
@@ -24,8 +25,8 @@ pub enum ParameterFault {
     TriangleInequality,
     /// A vector of length zero where a direction is needed.
     ZeroLength,
-    /// With this parameter no configuration was found that satisfies all equations: neither from the
-    /// described one and near it, nor by continuation from the typical values of parameters.
+    /// With this parameter no configuration was found that satisfies all equations: neither from
+    /// the described one and near it, nor by continuation from the typical values of parameters.
     NotAssembled {
         /// The joint that stays open most.
         joint: &'static str,
@@ -36,8 +37,8 @@ pub enum ParameterFault {
         /// The joint whose pivot vanishes.
         joint: &'static str,
     },
-    /// With this parameter an equation that was left out does not follow from the others. It does at
-    /// the typical values of parameters (`like`).
+    /// With this parameter an equation that was left out does not follow from the others. It does
+    /// at the typical values of parameters (`like`).
     Independent {
         /// The joint that it belongs to.
         joint: &'static str,
@@ -55,7 +56,8 @@ pub enum Fault {
     StateNotFinite,
     /// The state of a system is not made of coordinates and velocities, which the method needs.
     NoVelocities,
-    /// The system is not solved with rigid constraints, which the method needs, see [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    /// The system is not solved with rigid constraints, which the method needs, see
+    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     NoConstraints,
     /// A spectral radius that is not from 0 to 1.
     SpectralRadius {
@@ -67,7 +69,8 @@ pub enum Fault {
         /// The body's field.
         body: &'static str,
     },
-    /// The rates came out as NaN or infinity: forces beyond the range of numbers, or a singular system.
+    /// The rates came out as NaN or infinity: forces beyond the range of numbers, or a singular
+    /// system.
     RatesNotFinite {
         /// Where that began.
         origin: NotFinite,
@@ -87,21 +90,24 @@ pub enum Fault {
         iterations: usize,
         /// The last change (augmented Lagrangian) or the violation left (correction).
         residual: f64,
-        /// The joint whose equations are violated most, by accelerations in the augmented Lagrangian, where it is known.
+        /// The joint whose equations are violated most, by accelerations in the augmented
+        /// Lagrangian, where it is known.
         joint: Option<&'static str>,
         /// The penalty factor of the augmented Lagrangian; `None` for a correction.
         alpha: Option<f64>,
     },
-    /// The step control found no step with an error within the tolerance, down to what the time's own digits resolve, or to
-    /// [`StepLimits::least`](crate::StepLimits::least).
+    /// The step control found no step with an error within the tolerance, down to what the time's
+    /// own digits resolve, or to [`StepLimits::least`](crate::StepLimits::least).
     StepSizeUnderflow {
         /// The last step that was tried (s).
         step: f64,
         /// Whether it was the least one that the run may take, and not what the time resolves.
         is_least: bool,
-        /// The joint whose pivot has nearly vanished, where that is the cause, see [`crate::Pivot`].
+        /// The joint whose pivot has nearly vanished, where that is the cause, see
+        /// [`crate::Pivot`].
         joint: Option<&'static str>,
-        /// What the digits of the number type resolve of the largest position (m), where that is coarser than the absolute tolerance.
+        /// What the digits of the number type resolve of the largest position (m), where that is
+        /// coarser than the absolute tolerance.
         resolution: Option<f64>,
     },
     /// A step that was asked for is below what the time's own digits resolve.
@@ -111,54 +117,62 @@ pub enum Fault {
         /// The time (s).
         time: f64,
     },
-    /// A fixed step that is too long for the rate at which the formulation makes violations decay: the motion grew beyond all numbers.
+    /// A fixed step that is too long for the rate at which the formulation makes violations decay:
+    /// the motion grew beyond all numbers.
     StepTooLong {
         /// The step (s).
         step: f64,
         /// The rate (1/s).
         rate: f64,
     },
-    /// The closure of [`Simulation::forces`](crate::Simulation::forces) gives two answers for one time and state: it remembers something.
+    /// The closure of [`Simulation::forces`](crate::Simulation::forces) gives two answers for one
+    /// time and state: it remembers something.
     TwoAnswers {
         /// The body's field on which its forces differ.
         body: &'static str,
         /// The time (s) at which it was asked twice.
         time: f64,
     },
-    /// A fixed step that is too long for what moves or acts: a spin, a spring, a damper. The motion grew beyond all numbers.
+    /// A fixed step that is too long for what moves or acts: a spin, a spring, a damper. The motion
+    /// grew beyond all numbers.
     Unstable {
         /// The step (s).
         step: f64,
     },
-    /// The equation of an implicit step was not solved: the step is too long for an iteration by fixed points, see [`ImplicitMidpoint`](crate::ImplicitMidpoint).
+    /// The equation of an implicit step was not solved: the step is too long for an iteration by
+    /// fixed points, see [`ImplicitMidpoint`](crate::ImplicitMidpoint).
     NoFixedPoint {
         /// The step (s).
         step: f64,
         /// The iterations done.
         iterations: usize,
     },
-    /// The iteration of a step on the constraints does not converge, see [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    /// The iteration of a step on the constraints does not converge, see
+    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     StepNotSolved {
         /// The step (s).
         step: f64,
         /// The iterations done.
         iterations: usize,
-        /// The joint whose pivot has nearly vanished, where the configuration is the cause, see [`crate::Pivot`].
+        /// The joint whose pivot has nearly vanished, where the configuration is the cause, see
+        /// [`crate::Pivot`].
         joint: Option<&'static str>,
     },
-    /// The factor of a penalty is so large that its compliance is lost in round-off, while equations are kept that depend on others and have nothing
-    /// else to go by.
+    /// The factor of a penalty is so large that its compliance is lost in round-off, while
+    /// equations are kept that depend on others and have nothing else to go by.
     PenaltyFactor {
         /// The factor `alpha`.
         alpha: f64,
         /// The largest that the masses of the mechanism and the digits of the numbers allow.
         largest: f64,
     },
-    /// A run has taken as many evaluations as it may, see [`StepLimits::evaluations`](crate::StepLimits::evaluations).
+    /// A run has taken as many evaluations as it may, see
+    /// [`StepLimits::evaluations`](crate::StepLimits::evaluations).
     Budget {
         /// How many it has taken.
         evaluations: usize,
-        /// The joint whose pivot has nearly vanished, where the configuration is the cause, see [`crate::Pivot`].
+        /// The joint whose pivot has nearly vanished, where the configuration is the cause, see
+        /// [`crate::Pivot`].
         joint: Option<&'static str>,
     },
     /// A run was to begin where a joint is open, or where its bodies move against it.
@@ -169,38 +183,46 @@ pub enum Fault {
         quantity: Quantity,
         /// By how much, in the unit of the quantity.
         violation: f64,
-        /// Whether it is refused whatever was asked for, because joint coordinates describe no such state.
+        /// Whether it is refused whatever was asked for, because joint coordinates describe no such
+        /// state.
         is_final: bool,
     },
-    /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer than velocities.
+    /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer
+    /// than velocities.
     NotDriven {
         /// Velocities less equations.
         degrees_of_freedom: isize,
     },
-    /// A kinematic analysis came to a configuration where the equations, although enough, leave a motion free.
+    /// A kinematic analysis came to a configuration where the equations, although enough, leave a
+    /// motion free.
     Undetermined {
         /// The share of a trial motion's energy that stays free, from 0 to 1.
         share: f64,
     },
-    /// A joint is on a side that is not meant: its equations hold, but the other way round (`require .. > 0` in its definition).
+    /// A joint is on a side that is not meant: its equations hold, but the other way round
+    /// (`require .. > 0` in its definition).
     WrongSide {
         /// The joint's field.
         joint: &'static str,
     },
-    /// Assembly found no way from the reference configuration, or from the state it was to start from, to what was set, along one branch.
+    /// Assembly found no way from the reference configuration, or from the state it was to start
+    /// from, to what was set, along one branch.
     WayEnds {
-        /// The joint whose pivot has nearly vanished where it ends, or that cannot be brought to where it was set; `None` where none of these is known.
+        /// The joint whose pivot has nearly vanished where it ends, or that cannot be brought to
+        /// where it was set; `None` where none of these is known.
         joint: Option<&'static str>,
         /// The share of the way that was gone.
         share: f64,
     },
-    /// A kinematic analysis found no pose that goes on with the motion, however short its stride: a law that jumps, or a branch that ends.
+    /// A kinematic analysis found no pose that goes on with the motion, however short its stride: a
+    /// law that jumps, or a branch that ends.
     Jump {
         /// The body that the nearest pose would let jump most.
         body: &'static str,
         /// By how much (rad, or lengths of the mechanism).
         size: f64,
-        /// The joint whose pivot has nearly vanished, where a singular configuration is the cause, see [`crate::Pivot`].
+        /// The joint whose pivot has nearly vanished, where a singular configuration is the cause,
+        /// see [`crate::Pivot`].
         joint: Option<&'static str>,
     },
     /// A tolerance, a step or a coefficient that is not finite and positive.
@@ -238,8 +260,8 @@ pub enum Fault {
         /// The driver's field.
         joint: &'static str,
     },
-    /// An angle, a displacement or an orientation was to be set of a joint that carries no body in the spanning tree, see
-    /// [`Report::carriers`](crate::Report::carriers).
+    /// An angle, a displacement or an orientation was to be set of a joint that carries no body in
+    /// the spanning tree, see [`Report::carriers`](crate::Report::carriers).
     CarriesNothing {
         /// The joint's field.
         joint: &'static str,
@@ -316,7 +338,8 @@ impl core::error::Error for Fault {}
 
 /// A run or a step that could not go on: when, why, and the last good state.
 ///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error; the state is not part of it.
+/// `Debug` prints the sentence of `Display`, for a `main` that returns the error; the state is not
+/// part of it.
 #[derive(Clone, Copy, PartialEq)]
 pub struct SimulationError<X> {
     /// The time of the last good state (s).

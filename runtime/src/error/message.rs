@@ -1,4 +1,5 @@
-//! What faults say. `Debug` says the same, because that is what a `main` that returns an error prints.
+//! What faults say. `Debug` says the same, because that is what a `main` that returns an error
+//! prints.
 
 use core::fmt;
 

@@ -1,7 +1,8 @@
 //! Given forces and moments.
 
 crate::force! {
-    /// A force (N) at the point of `j`, fixed in the axes of `i`: constant where `i` is the ground. There is no reaction on `i`.
+    /// A force (N) at the point of `j`, fixed in the axes of `i`: constant where `i` is the ground.
+    /// There is no reaction on `i`.
     pub force PointForce(i, j; point: Point, force: Vector) {
         force i.force at j.point;
     }
@@ -15,7 +16,8 @@ crate::force! {
 }
 
 crate::force! {
-    /// A moment (N m) on `j`, fixed in the axes of `i`: constant where `i` is the ground. There is no reaction on `i`.
+    /// A moment (N m) on `j`, fixed in the axes of `i`: constant where `i` is the ground. There is
+    /// no reaction on `i`.
     pub force ConstantMoment(i, j; moment: Vector) {
         moment i.moment on j;
     }

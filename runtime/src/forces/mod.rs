@@ -11,12 +11,13 @@
 //! | [`ConstantMoment`] | i, j | a moment on `j`, fixed in the axes of `i` |
 //! | [`FollowerMoment`] | j | a moment on `j`, fixed in its own axes |
 //!
-//! Gravity is an attribute of the mechanism; forces that cannot be said in the language come from a closure, see
-//! [`Simulation::forces`](crate::Simulation::forces). Springs have a potential energy, which is part of
-//! [`View::potential_energy`](crate::View::potential_energy); what dampers, actuators and given forces do is the power of
-//! [`View::power`](crate::View::power).
+//! Gravity is an attribute of the mechanism; forces that cannot be said in the language come from a
+//! closure, see [`Simulation::forces`](crate::Simulation::forces). Springs have a potential energy,
+//! which is part of [`View::potential_energy`](crate::View::potential_energy); what dampers,
+//! actuators and given forces do is the power of [`View::power`](crate::View::power).
 //!
-//! Parameters, units and signs of all of them are in [`guide::reference`](mod@crate::guide::reference), examples in
+//! Parameters, units and signs of all of them are in
+//! [`guide::reference`](mod@crate::guide::reference), examples in
 //! [`guide::forces`](crate::guide::forces).
 //!
 //! They are not in the prelude: `use holonom::forces::SpringDamper;`.

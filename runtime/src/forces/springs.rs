@@ -1,9 +1,12 @@
 //! Springs and dampers.
 
 crate::force! {
-    /// A spring and a damper between the point `head` of `i` and the point `tail` of `j`, in parallel: they pull with
-    /// `stiffness (d - free_length) + damping d'` (N), where `d` is the distance of the points (m). Where that is zero there is no direction, and the
-    /// force is not finite; a `free_length` of a literal 0 without damping needs none, and lets the points pass each other. Stiffness in N/m, damping in N s/m, potential energy `stiffness (d - free_length)^2 / 2` (Nikravesh 1988, section 9.3.4).
+    /// A spring and a damper between the point `head` of `i` and the point `tail` of `j`, in
+    /// parallel: they pull with `stiffness (d - free_length) + damping d'` (N), where `d` is the
+    /// distance of the points (m). Where that is zero there is no direction, and the force is not
+    /// finite; a `free_length` of a literal 0 without damping needs none, and lets the points pass
+    /// each other. Stiffness in N/m, damping in N s/m, potential energy
+    /// `stiffness (d - free_length)^2 / 2` (Nikravesh 1988, section 9.3.4).
     pub force SpringDamper(
         i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0, free_length: Length
     ) {
@@ -14,10 +17,11 @@ crate::force! {
 }
 
 crate::force! {
-    /// A spring and a damper on the angle of `j` against `i` about `axis`, in parallel: they turn `j` back by
-    /// `stiffness (a - free_angle) + damping a'` (N m), where `a` is the angle (rad), right-handed, zero in the reference
-    /// configuration; turns are counted by an auxiliary variable of the state. Stiffness in N m/rad, damping in N m s/rad, potential
-    /// energy `stiffness (a - free_angle)^2 / 2` (Nikravesh 1988, section 9.3.5).
+    /// A spring and a damper on the angle of `j` against `i` about `axis`, in parallel: they turn
+    /// `j` back by `stiffness (a - free_angle) + damping a'` (N m), where `a` is the angle (rad),
+    /// right-handed, zero in the reference configuration; turns are counted by an auxiliary
+    /// variable of the state. Stiffness in N m/rad, damping in N m s/rad, potential energy
+    /// `stiffness (a - free_angle)^2 / 2` (Nikravesh 1988, section 9.3.5).
     pub force TorsionalSpringDamper(
         i, j; axis: Axis, stiffness: Number, damping: Number = 0.0, free_angle: Angle = 0.0
     ) {

@@ -11,56 +11,67 @@ use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Compliant, Mechanism, Stabilisation};
 use crate::state::vector::Array;
 
-/// The augmented Lagrangian formulation: the penalty with multipliers iterated until its bias is gone.
+/// The augmented Lagrangian formulation: the penalty with multipliers iterated until its bias is
+/// gone.
 ///
-/// One factorisation serves all iterations. They start from `lambda = 0` at every evaluation, so that the rates are a
-/// function of time and state alone, and end when the accelerations change by no more than `tolerance (1 + |u'|)`, Euclidean
-/// norms over all velocities; the multipliers themselves have no limit where equations are redundant. Bayo, Garcia de Jalon and
-/// Serna 1988 (see [`Penalty`](super::Penalty)); Flores 2015, chapter 14.
+/// One factorisation serves all iterations. They start from `lambda = 0` at every evaluation, so
+/// that the rates are a function of time and state alone, and end when the accelerations change by
+/// no more than `tolerance (1 + |u'|)`, Euclidean norms over all velocities; the multipliers
+/// themselves have no limit where equations are redundant. Bayo, Garcia de Jalon and Serna 1988
+/// (see [`Penalty`](super::Penalty)); Flores 2015, chapter 14.
 ///
 /// Up to which `alpha` it holds: see [`Penalty`](super::Penalty).
 ///
-/// **Near singular configurations.** With `e = 1 / alpha`, a plain iteration leaves `e / (e + s)` of the bias, `s` the eigenvalues of
-/// `D M^-1 D^T`: it is fast for independent equations, unnecessary for exactly dependent ones (`s = 0`, no bias), and slow
-/// between, where equations are nearly dependent: where the change of the multipliers is nearly a state of self-stress, multipliers whose loads on every body
-/// cancel to a hundredth. Where a mechanism passes a singular configuration, the iterate after `max_iterations` is taken then, if its
-/// accelerations meet every equation to a hundredth of the terms of the equation: in these
-/// directions the formulation is a penalty with the compliance `e / max_iterations`. Where equations stay nearly dependent as the mechanism moves, the iteration goes on by
-/// conjugate gradients, which take about one solution for each such `s`, up to `max_iterations` more. [`Iterations::excused`](crate::Iterations::excused) counts
-/// evaluations that end before their tolerance. Where the loads do not cancel,
-/// slow convergence is [`Fault::NotConverged`]: `alpha` is too small for the masses.
+/// **Near singular configurations.** With `e = 1 / alpha`, a plain iteration leaves `e / (e + s)`
+/// of the bias, `s` the eigenvalues of `D M^-1 D^T`: it is fast for independent equations,
+/// unnecessary for exactly dependent ones (`s = 0`, no bias), and slow between, where equations are
+/// nearly dependent: where the change of the multipliers is nearly a state of self-stress,
+/// multipliers whose loads on every body cancel to a hundredth. Where a mechanism passes a singular
+/// configuration, the iterate after `max_iterations` is taken then, if its accelerations meet every
+/// equation to a hundredth of the terms of the equation: in these directions the formulation is a
+/// penalty with the compliance `e / max_iterations`. Where equations stay nearly dependent as the
+/// mechanism moves, the iteration goes on by conjugate gradients, which take about one solution for
+/// each such `s`, up to `max_iterations` more. [`Iterations::excused`](crate::Iterations::excused)
+/// counts evaluations that end before their tolerance. Where the loads do not cancel, slow
+/// convergence is [`Fault::NotConverged`]: `alpha` is too small for the masses.
 ///
-/// In joint coordinates it iterates on the equations that remain, by the rates of their velocities, and goes on by conjugate gradients wherever
-/// `max_iterations` do not do; no evaluation is excused.
+/// In joint coordinates it iterates on the equations that remain, by the rates of their velocities,
+/// and goes on by conjugate gradients wherever `max_iterations` do not do; no evaluation is
+/// excused.
 ///
-/// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other lengths would, which need not
-/// be the way of the perfect one: it may leave that where `Phi`, in lengths of the mechanism, is not small against this
-/// compliance times the masses. With a [`Projection`](crate::Projection) after every step it stays on its way.
+/// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other
+/// lengths would, which need not be the way of the perfect one: it may leave that where `Phi`, in
+/// lengths of the mechanism, is not small against this compliance times the masses. With a
+/// [`Projection`](crate::Projection) after every step it stays on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AugmentedLagrangian<S> {
-    /// `alpha`, positive: kg for a constraint in metres, kg m^2 for one in radians; for others see [`Penalty`](super::Penalty).
+    /// `alpha`, positive: kg for a constraint in metres, kg m^2 for one in radians; for others see
+    /// [`Penalty`](super::Penalty).
     pub alpha: S,
     /// `omega` (rad/s), positive: the frequency of the violation.
     pub omega: S,
     /// `mu`, positive: the damping ratio of the violation, 1 for critical damping.
     pub mu: S,
-    /// How many metres a radian counts as, positive: a constraint in radians has `alpha radian^2`. `None` is one metre.
+    /// How many metres a radian counts as, positive: a constraint in radians has `alpha radian^2`.
+    /// `None` is one metre.
     pub radian: Option<S>,
     /// The change of the accelerations, relative to `1 + |u'|`, that ends the iteration; positive.
     pub tolerance: S,
-    /// How often the system may be solved in one evaluation; at least 2. Near singular configurations it is solved as often.
+    /// How often the system may be solved in one evaluation; at least 2. Near singular
+    /// configurations it is solved as often.
     pub max_iterations: usize,
     /// Whether it is always solved as often, see [`AugmentedLagrangian::exactly`].
     pub is_exact: bool,
 }
 
-/// The largest `|D u' - gamma*|` of an evaluation that did not converge, relative to the terms of its row; and the largest change by the last of an exact number of solutions,
-/// relative to the accelerations.
+/// The largest `|D u' - gamma*|` of an evaluation that did not converge, relative to the terms of
+/// its row; and the largest change by the last of an exact number of solutions, relative to the
+/// accelerations.
 const EXCUSED: f64 = 1e-2;
 
 impl<S: Real> AugmentedLagrangian<S> {
-    /// The formulation with its three coefficients, a tolerance of 1e-10 (at least `64 EPSILON` of the number type)
-    /// and at most 20 iterations.
+    /// The formulation with its three coefficients, a tolerance of 1e-10 (at least `64 EPSILON` of
+    /// the number type) and at most 20 iterations.
     #[must_use]
     pub fn new(alpha: S, omega: S, mu: S) -> Self {
         let tolerance = S::constant(1e-10).max(S::constant(64.0) * S::EPSILON);
@@ -75,11 +86,14 @@ impl<S: Real> AugmentedLagrangian<S> {
         }
     }
 
-    /// The same with a number of solutions that does not depend on data, for a step whose cost is known in advance; at least 2.
+    /// The same with a number of solutions that does not depend on data, for a step whose cost is
+    /// known in advance; at least 2.
     ///
-    /// The tolerance is not looked at then: a part `(e / (e + s))^(solutions - 1)` of the bias of the penalty is left, see above.
-    /// [`Dynamics::inconsistency`](crate::Dynamics::inconsistency) says how much that is at a state. Where the last solution still changes the accelerations by more than a hundredth, the
-    /// evaluation is refused, [`Fault::NotConverged`]: `alpha` is too small for the masses.
+    /// The tolerance is not looked at then: a part `(e / (e + s))^(solutions - 1)` of the bias of
+    /// the penalty is left, see above. [`Dynamics::inconsistency`](crate::Dynamics::inconsistency)
+    /// says how much that is at a state. Where the last solution still changes the accelerations by
+    /// more than a hundredth, the evaluation is refused, [`Fault::NotConverged`]: `alpha` is too
+    /// small for the masses.
     #[must_use]
     pub fn exactly(self, solutions: usize) -> Self {
         Self {
@@ -90,7 +104,8 @@ impl<S: Real> AugmentedLagrangian<S> {
     }
 }
 
-/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15: for a pendulum of a metre and some kilograms. [`AugmentedLagrangian::of`] is for any mechanism.
+/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15: for a pendulum of a
+/// metre and some kilograms. [`AugmentedLagrangian::of`] is for any mechanism.
 impl<S: Real> Default for AugmentedLagrangian<S> {
     fn default() -> Self {
         Self::new(S::constant(1e7), S::constant(10.0), S::one())
@@ -223,7 +238,8 @@ impl<S: Real> AugmentedLagrangian<S> {
         change <= self.tolerance * (S::one() + size)
     }
 
-    /// A solution where equations stay nearly dependent: as often solved again, at most, and excused where that is not enough.
+    /// A solution where equations stay nearly dependent: as often solved again, at most, and
+    /// excused where that is not enough.
     #[cold]
     fn by_conjugate_gradients<M: Mechanism>(
         &self,
@@ -258,9 +274,11 @@ impl<S: Real> AugmentedLagrangian<S> {
 
 /// The iterates as conjugate gradients, preconditioned by the factorised system.
 ///
-/// The multipliers `lambda` that the constraints ask for solve `S lambda = b` with `S = D M^-1 D^T`. A solution after `lambda` changes them
-/// by `z = (S + E)^-1 (b - S lambda)`, and the accelerations by `w = -M^-1 D^T z`, so that `z^T S z = w^T M w`: all that the method needs.
-/// Where `S` is large against `E`, a step is `z`, as without it; a few nearly dependent equations take an iteration each.
+/// The multipliers `lambda` that the constraints ask for solve `S lambda = b` with
+/// `S = D M^-1 D^T`. A solution after `lambda` changes them by `z = (S + E)^-1 (b - S lambda)`, and
+/// the accelerations by `w = -M^-1 D^T z`, so that `z^T S z = w^T M w`: all that the method needs.
+/// Where `S` is large against `E`, a step is `z`, as without it; a few nearly dependent equations
+/// take an iteration each.
 struct Conjugate<S: Scalar, M: Mechanism> {
     /// The last direction, of accelerations and multipliers.
     direction: (M::Velocities<S>, M::Multipliers<S>),

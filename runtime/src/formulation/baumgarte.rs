@@ -8,8 +8,9 @@ use crate::mechanism::kernels::{Stabilisation, Stabilised};
 
 /// Baumgarte's stabilisation: `Phi'' + 2 alpha Phi' + beta^2 Phi = 0`.
 ///
-/// A violation decays with `alpha = beta` as a critically damped oscillator of the time constant `1 / alpha`; explicit steps must
-/// be shorter than about `2 / alpha`; beyond that violations grow, at once or after some time. Baumgarte, *Stabilization of constraints and integrals of motion in
+/// A violation decays with `alpha = beta` as a critically damped oscillator of the time constant
+/// `1 / alpha`; explicit steps must be shorter than about `2 / alpha`; beyond that violations grow,
+/// at once or after some time. Baumgarte, *Stabilization of constraints and integrals of motion in
 /// dynamical systems*, Comput. Methods Appl. Mech. Eng. 1 (1972), 1-16; Flores 2015, chapter 12.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Baumgarte<S> {
@@ -27,7 +28,8 @@ impl<S> Baumgarte<S> {
     }
 }
 
-/// `alpha = beta = 5 / s`, as in Flores 2015, chapter 15: for a pendulum of a metre. [`Baumgarte::of`] is for any mechanism.
+/// `alpha = beta = 5 / s`, as in Flores 2015, chapter 15: for a pendulum of a metre.
+/// [`Baumgarte::of`] is for any mechanism.
 impl<S: Real> Default for Baumgarte<S> {
     fn default() -> Self {
         Self::new(S::constant(5.0), S::constant(5.0))

@@ -4,9 +4,9 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array;
 
-/// The row whose accelerations are farthest from `D u' = gamma*`, and how far: relative to the sum of the sizes of its terms, `|D| |u'|`,
-/// `|D| M^-1 |g|` (what applied forces would do without constraints) and `|gamma*|`. Zero where all are met, about one where a constraint does
-/// nothing.
+/// The row whose accelerations are farthest from `D u' = gamma*`, and how far: relative to the sum
+/// of the sizes of its terms, `|D| |u'|`, `|D| M^-1 |g|` (what applied forces would do without
+/// constraints) and `|gamma*|`. Zero where all are met, about one where a constraint does nothing.
 pub(crate) fn inconsistency<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     (time, state): (S, &M::State<S>),

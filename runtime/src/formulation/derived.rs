@@ -7,10 +7,12 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 
-/// The frequency of violations over the rate of the motion, `1 / time`, of a penalty: what a steady reaction leaves of violation goes with its square. Without such a bias, one.
+/// The frequency of violations over the rate of the motion, `1 / time`, of a penalty: what a steady
+/// reaction leaves of violation goes with its square. Without such a bias, one.
 const FASTER: f64 = 2.0;
 
-/// `alpha` of a penalty over the mass that the constraints may have to carry: one over the bias of accelerations.
+/// `alpha` of a penalty over the mass that the constraints may have to carry: one over the bias of
+/// accelerations.
 const STIFFER: f64 = 1e6;
 
 /// What `alpha` keeps away from where its compliance is lost in round-off.
@@ -23,7 +25,8 @@ const LEAST: f64 = 100.0;
 const OF_STEP: f64 = 0.1;
 
 impl<S: Real> Baumgarte<S> {
-    /// The coefficients for a mechanism as its attributes describe it: `alpha = beta = 1 / time`, see [`Scales::time`].
+    /// The coefficients for a mechanism as its attributes describe it: `alpha = beta = 1 / time`,
+    /// see [`Scales::time`].
     ///
     /// # Errors
     /// As [`Scales::of`].
@@ -38,7 +41,8 @@ impl<S: Real> Baumgarte<S> {
         Self::new(rate, rate)
     }
 
-    /// The same, at most a tenth over a fixed step (s): what decays faster costs the accuracy of the step. For [`SemiImplicitEuler`](crate::SemiImplicitEuler), too.
+    /// The same, at most a tenth over a fixed step (s): what decays faster costs the accuracy of
+    /// the step. For [`SemiImplicitEuler`](crate::SemiImplicitEuler), too.
     #[must_use]
     pub fn at_step(self, step: S) -> Self {
         let most = most(step);
@@ -47,13 +51,16 @@ impl<S: Real> Baumgarte<S> {
 }
 
 impl<S: Real> Penalty<S> {
-    /// The coefficients for a mechanism as its attributes describe it: `alpha` is a million times the mass that the constraints may have to carry ([`Scales::mass`]), a
-    /// radian counts as [`Scales::length`], `omega = 2 / time` ([`Scales::time`]), `mu = 1`.
+    /// The coefficients for a mechanism as its attributes describe it: `alpha` is a million times
+    /// the mass that the constraints may have to carry ([`Scales::mass`]), a radian counts as
+    /// [`Scales::length`], `omega = 2 / time` ([`Scales::time`]), `mu = 1`.
     ///
-    /// Where equations are kept that depend on others, `alpha` stays below a quarter of where its compliance is lost in round-off, `1 / (64 EPSILON s)`.
+    /// Where equations are kept that depend on others, `alpha` stays below a quarter of where its
+    /// compliance is lost in round-off, `1 / (64 EPSILON s)`.
     ///
     /// # Errors
-    /// As [`Scales::of`]; [`Fault::PenaltyFactor`] where that is less than a hundred times the mass: ratios of masses for which the number type has no penalty.
+    /// As [`Scales::of`]; [`Fault::PenaltyFactor`] where that is less than a hundred times the
+    /// mass: ratios of masses for which the number type has no penalty.
     pub fn of<M: Mechanism>(mechanism: &M) -> Result<Self, Fault> {
         let scales = Scales::of(mechanism)?;
         let alpha = alpha::<S, M>(&scales)?;
@@ -83,7 +90,8 @@ impl<S: Real> Penalty<S> {
 }
 
 impl<S: Real> AugmentedLagrangian<S> {
-    /// The coefficients for a mechanism as its attributes describe it: those of [`Penalty::of`], but for `omega = 1 / time`, since no bias is to be held down.
+    /// The coefficients for a mechanism as its attributes describe it: those of [`Penalty::of`],
+    /// but for `omega = 1 / time`, since no bias is to be held down.
     ///
     /// # Errors
     /// As [`Penalty::of`].

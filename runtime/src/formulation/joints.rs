@@ -1,4 +1,5 @@
-//! The saddle system of the equations that remain in joint coordinates, and the augmented Lagrangian of it.
+//! The saddle system of the equations that remain in joint coordinates, and the augmented
+//! Lagrangian of it.
 
 use core::marker::PhantomData;
 
@@ -119,10 +120,12 @@ impl<S: Real, M: JointCoordinates> Change<S, M> {
 }
 
 impl<S: Real> AugmentedLagrangian<S> {
-    /// The iteration in joint coordinates, plain and then, where equations nearly depend on each other, by conjugate gradients.
+    /// The iteration in joint coordinates, plain and then, where equations nearly depend on each
+    /// other, by conjugate gradients.
     ///
-    /// With `S = D M^-1 D^T`, a solution after `lambda` changes the multipliers by `z = (S + E)^-1 r`, where `r = D u' - gamma*` is what is missing at
-    /// `lambda`. What is missing after it is `E z`, and so `S z = r - E z`: the mass matrix is not needed.
+    /// With `S = D M^-1 D^T`, a solution after `lambda` changes the multipliers by
+    /// `z = (S + E)^-1 r`, where `r = D u' - gamma*` is what is missing at `lambda`. What is
+    /// missing after it is `E z`, and so `S z = r - E z`: the mass matrix is not needed.
     pub(super) fn iterate<M: JointCoordinates>(
         &self,
         saddle: &JointSaddle<'_, S, M, Compliant>,

@@ -7,9 +7,11 @@
 //! [ D   -E  ] [ lambda ] = [ gamma* - E lambda_previous  ]
 //! ```
 //!
-//! A row in metres, or in radians, has the compliance `e`. A row in another unit has `e` times the square of what a metre is in it at the reference
-//! configuration, so that `e` means the same for all: `(2 l)^2 e` for a [`Distance`](crate::joints::Distance) of the length `l`, which is the
-//! difference of squares. Where a radian counts as another length `L` than a metre ([`Formulation::radian`]), a row in radians has `e / L^2`.
+//! A row in metres, or in radians, has the compliance `e`. A row in another unit has `e` times the
+//! square of what a metre is in it at the reference configuration, so that `e` means the same for
+//! all: `(2 l)^2 e` for a [`Distance`](crate::joints::Distance) of the length `l`, which is the
+//! difference of squares. Where a radian counts as another length `L` than a metre
+//! ([`Formulation::radian`]), a row in radians has `e / L^2`.
 //!
 //! | formulation | a, b | e | lambda_previous |
 //! |---|---|---|---|
@@ -18,9 +20,10 @@
 //! | [`Penalty`] | omega mu, omega | 1 / alpha | 0 |
 //! | [`AugmentedLagrangian`] | omega mu, omega | 1 / alpha | 0 first, then the last iterate |
 //!
-//! Flores, *Concepts and Formulations for Spatial Multibody Dynamics* (2015), chapters 11 to 14, in the form of a saddle
-//! system: eliminating `lambda` gives the textbook's `(M + alpha D^T D) u' = g + alpha D^T gamma*`, which loses digits as
-//! `alpha` grows; this form does not.
+//! Flores, *Concepts and Formulations for Spatial Multibody Dynamics* (2015), chapters 11 to 14, in
+//! the form of a saddle system: eliminating `lambda` gives the textbook's
+//! `(M + alpha D^T D) u' = g + alpha D^T gamma*`, which loses digits as `alpha` grows; this form
+//! does not.
 
 mod augmented_lagrangian;
 mod baumgarte;
@@ -68,18 +71,20 @@ pub trait Formulation<S: Real>: Copy + Debug {
     /// [`Fault::Setting`] for a coefficient that is not finite and positive.
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault>;
 
-    /// The rate (1/s) at which violations decay, the faster one of two: explicit steps must be shorter than about two over it. `None` for a formulation
-    /// that lets them stay.
+    /// The rate (1/s) at which violations decay, the faster one of two: explicit steps must be
+    /// shorter than about two over it. `None` for a formulation that lets them stay.
     fn decay_rate(&self) -> Option<S> {
         None
     }
 
-    /// How many metres a radian counts as where a compliance is given in metres: a row in radians has it over the square of that.
+    /// How many metres a radian counts as where a compliance is given in metres: a row in radians
+    /// has it over the square of that.
     fn radian(&self) -> S {
         S::one()
     }
 
-    /// Goes on from a solution of the factorised system, that with `lambda_previous = 0`: leaves it as it is.
+    /// Goes on from a solution of the factorised system, that with `lambda_previous = 0`: leaves it
+    /// as it is.
     ///
     /// # Errors
     /// [`Fault::NotConverged`] for a formulation that iterates.
@@ -91,7 +96,8 @@ pub trait Formulation<S: Real>: Copy + Debug {
         Ok(())
     }
 
-    /// The same in joint coordinates, where the system has been solved once, with `lambda_previous = 0`: takes that solution.
+    /// The same in joint coordinates, where the system has been solved once, with
+    /// `lambda_previous = 0`: takes that solution.
     ///
     /// # Errors
     /// [`Fault::NotConverged`] for a formulation that iterates.
@@ -142,8 +148,8 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
         self.solve_for(&lower, solution);
     }
 
-    /// The row whose accelerations are farthest from `D u' = gamma*`, and how far, relative to its terms: what a compliance does to the
-    /// motion, from 0 to about 1.
+    /// The row whose accelerations are farthest from `D u' = gamma*`, and how far, relative to its
+    /// terms: what a compliance does to the motion, from 0 to about 1.
     #[must_use]
     pub fn inconsistency(&self, solution: &Solution<S, M>) -> (usize, S)
     where
@@ -154,7 +160,8 @@ impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
         inconsistency::<S, M>(self.constants, at, accelerations, self.upper, self.lower)
     }
 
-    /// Whether the state is on its way through a singular configuration, in which the multipliers of two solutions differ.
+    /// Whether the state is on its way through a singular configuration, in which the multipliers
+    /// of two solutions differ.
     pub(crate) fn passing(&self, next: &Solution<S, M>, last: &M::Multipliers<S>) -> bool
     where
         S: Real,
@@ -206,7 +213,8 @@ pub struct Solution<S: Scalar, M: Mechanism> {
     pub multipliers: M::Multipliers<S>,
     /// How often the system was solved.
     pub iterations: usize,
-    /// Whether an iteration was ended before its tolerance, because what still changed was nearly a state of self-stress.
+    /// Whether an iteration was ended before its tolerance, because what still changed was nearly a
+    /// state of self-stress.
     pub excused: bool,
 }
 

@@ -8,24 +8,28 @@ use crate::mechanism::kernels::{Compliant, Stabilisation};
 
 /// The penalty formulation: `lambda = alpha (Phi'' + 2 mu omega Phi' + omega^2 Phi)`.
 ///
-/// `alpha` holds up to `1 / (64 EPSILON s)`, with `s` the largest of what a row yields to a unit load, about one over the least mass: beyond it the compliance is
-/// lost in round-off. Where equations are kept that depend on others, a larger one is refused with [`Fault::PenaltyFactor`]; elsewhere the constraints are then
-/// rigid.
+/// `alpha` holds up to `1 / (64 EPSILON s)`, with `s` the largest of what a row yields to a unit
+/// load, about one over the least mass: beyond it the compliance is lost in round-off. Where
+/// equations are kept that depend on others, a larger one is refused with [`Fault::PenaltyFactor`];
+/// elsewhere the constraints are then rigid.
 ///
-/// Every constraint is a spring, a damper and a mass on the violation. Solvable where constraints are redundant or
-/// the configuration is singular; the motion has a bias of the order `1 / alpha`. Bayo, Garcia de Jalon and Serna, *A modified
-/// Lagrangian formulation for the dynamic analysis of constrained mechanical systems*, Comput. Methods Appl. Mech.
-/// Eng. 71 (1988), 183-195; Flores 2015, chapter 13.
+/// Every constraint is a spring, a damper and a mass on the violation. Solvable where constraints
+/// are redundant or the configuration is singular; the motion has a bias of the order `1 / alpha`.
+/// Bayo, Garcia de Jalon and Serna, *A modified Lagrangian formulation for the dynamic analysis of
+/// constrained mechanical systems*, Comput. Methods Appl. Mech. Eng. 71 (1988), 183-195; Flores
+/// 2015, chapter 13.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty<S> {
-    /// `alpha`, positive: kg for a constraint in metres, kg m^2 for one in radians. A row in another unit is taken in metres: for a
-    /// [`Distance`](crate::joints::Distance) of the length `l`, which is the difference of squares, `alpha / (2 l)^2`.
+    /// `alpha`, positive: kg for a constraint in metres, kg m^2 for one in radians. A row in
+    /// another unit is taken in metres: for a [`Distance`](crate::joints::Distance) of the length
+    /// `l`, which is the difference of squares, `alpha / (2 l)^2`.
     pub alpha: S,
     /// `omega` (rad/s), positive: the frequency of the violation.
     pub omega: S,
     /// `mu`, positive: the damping ratio of the violation, 1 for critical damping.
     pub mu: S,
-    /// How many metres a radian counts as, positive: a constraint in radians has `alpha radian^2`. `None` is one metre.
+    /// How many metres a radian counts as, positive: a constraint in radians has `alpha radian^2`.
+    /// `None` is one metre.
     pub radian: Option<S>,
 }
 
@@ -42,7 +46,8 @@ impl<S> Penalty<S> {
     }
 }
 
-/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15: for a pendulum of a metre and some kilograms. [`Penalty::of`] is for any mechanism.
+/// `alpha = 1e7`, `omega = 10 rad/s`, `mu = 1`, as in Flores 2015, chapter 15: for a pendulum of a
+/// metre and some kilograms. [`Penalty::of`] is for any mechanism.
 impl<S: Real> Default for Penalty<S> {
     fn default() -> Self {
         Self::new(S::constant(1e7), S::constant(10.0), S::one())

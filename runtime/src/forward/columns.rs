@@ -19,8 +19,9 @@ pub(crate) fn lifted<S: Scalar, A: Array<S>, B: Array<Lifted<S>>>(numbers: &A) -
     lifted
 }
 
-/// The Jacobian of the rates by forward numbers, [`LANES`] columns by each evaluation; `like` is any state of such numbers. `evaluate` is told which columns it takes. Returns how
-/// many there were; `None` where one is not finite: there may be no derivative, and differences all the same.
+/// The Jacobian of the rates by forward numbers, [`LANES`] columns by each evaluation; `like` is
+/// any state of such numbers. `evaluate` is told which columns it takes. Returns how many there
+/// were; `None` where one is not finite: there may be no derivative, and differences all the same.
 ///
 /// A column is the derivative along [`Vector::plus`].
 pub(crate) fn by_forward_numbers<S: Real, X: Vector<S>, Y: Vector<Lifted<S>>>(
@@ -77,7 +78,8 @@ pub(crate) fn by_forward_numbers<S: Real, X: Vector<S>, Y: Vector<Lifted<S>>>(
     Some(whole)
 }
 
-/// Numbers at a state that only plain numbers give, as a closure does: their derivatives along some columns by differences.
+/// Numbers at a state that only plain numbers give, as a closure does: their derivatives along some
+/// columns by differences.
 pub(crate) fn with_differences<S: Real, X: Vector<S>, A: Array<S>, B: Array<Lifted<S>>>(
     state: &X,
     columns: &[usize],

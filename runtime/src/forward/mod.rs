@@ -9,11 +9,14 @@ pub(crate) use columns::{Lifted, by_forward_numbers, lifted, with_differences};
 
 use crate::math::scalar::Scalar;
 
-/// A number and its derivatives along `N` directions: what is computed with it carries them along, exact to round-off (forward mode; Griewank and Walther, *Evaluating Derivatives*, chapter 3).
+/// A number and its derivatives along `N` directions: what is computed with it carries them along,
+/// exact to round-off (forward mode; Griewank and Walther, *Evaluating Derivatives*, chapter 3).
 ///
-/// A kernel over such numbers gives `N` columns of its Jacobian at once. Where a function has no derivative, that of one side is taken: of [`Scalar::abs`] at zero that of positive numbers, of
-/// [`Scalar::min`] of equal ones that of the second, of [`Scalar::select`] that of the number which is chosen. [`Scalar::round`] has derivative zero. Where a derivative is infinite, as that of the root
-/// at zero, what comes of it is infinite or NaN.
+/// A kernel over such numbers gives `N` columns of its Jacobian at once. Where a function has no
+/// derivative, that of one side is taken: of [`Scalar::abs`] at zero that of positive numbers, of
+/// [`Scalar::min`] of equal ones that of the second, of [`Scalar::select`] that of the number which
+/// is chosen. [`Scalar::round`] has derivative zero. Where a derivative is infinite, as that of the
+/// root at zero, what comes of it is infinite or NaN.
 ///
 /// ```
 /// use holonom::{Forward, Scalar};

@@ -135,7 +135,8 @@ fn law(state: &Joints<f64>) -> [f64; 1] {
     [sine * state.rates()[1]]
 }
 
-/// Eight columns, in two evaluations; those of second elements of pairs are zero, whatever stood there.
+/// Eight columns, in two evaluations; those of second elements of pairs are zero, whatever stood
+/// there.
 #[test]
 fn columns_are_those_of_increments() {
     let here = state::<f64>();

@@ -18,13 +18,15 @@
 //!
 //! # A first program
 //!
-//! In the folder that has the repository under the name `holonom`: `cargo new pendulum`, into `pendulum/Cargo.toml`
+//! In the folder that has the repository under the name `holonom`: `cargo new pendulum`, into
+//! `pendulum/Cargo.toml`
 //!
 //! ```toml
 //! [dependencies]
-//! holonom = { path = "../holonom/runtime" }    # by its path: it is not published yet. Then: holonom = "0.1"
+//! # By its path: it is not published yet. Then: holonom = "0.1"
+//! holonom = { path = "../holonom/runtime" }
 //!
-//! # The macros run while the program is compiled: optimised, they take a fraction of the time in a debug build.
+//! # Macros run while the program is compiled. Optimised, they take a fraction of the time.
 //! [profile.dev.build-override]
 //! opt-level = 2
 //! ```
@@ -60,7 +62,8 @@
 //!                 Ok(reaction) => reaction,
 //!                 Err(_) => return ControlFlow::Break(()),
 //!             };
-//!             println!("{:.1} s: {:8.4} rad, {:8.3} N", sample.time(), sample.angle(handles.hinge), reaction.force.norm());
+//!             let (time, angle) = (sample.time(), sample.angle(handles.hinge));
+//!             println!("{time:.1} s: {angle:8.4} rad, {:8.3} N", reaction.force.norm());
 //!             ControlFlow::Continue(())
 //!         })?;
 //!     assert!(report.worst_violation < 1e-24);
@@ -68,9 +71,10 @@
 //! }
 //! ```
 //!
-//! The examples of the chapters leave `fn main` out: structs, `joint!` and `force!` stand outside it, what follows inside.
-//! Every example is compiled and run with the tests of the crate, and what the text says of its numbers is asserted in it.
-//! Equations stand twice: typeset, where the page could load KaTeX, and as plain text.
+//! The examples of the chapters leave `fn main` out: structs, `joint!` and `force!` stand outside
+//! it, what follows inside. Every example is compiled and run with the tests of the crate, and what
+//! the text says of its numbers is asserted in it. Equations stand twice: typeset, where the page
+//! could load KaTeX, and as plain text.
 
 #[doc = include_str!("mechanism.md")]
 pub mod mechanism {}

@@ -12,14 +12,19 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// The method of Adams, Bashforth and Moulton of order 4 at a fixed step: predicted from the slopes at four times, corrected with that at the predicted state. Two
-/// evaluations a step, whatever the order; no estimate of the error.
+/// The method of Adams, Bashforth and Moulton of order 4 at a fixed step: predicted from the slopes
+/// at four times, corrected with that at the predicted state. Two evaluations a step, whatever the
+/// order; no estimate of the error.
 ///
-/// With `h` the step, `f0` the slope at its start and `f1`, `f2`, `f3` those at the starts of the steps before, `y* = y + h/24 (55 f0 - 59 f1 + 37 f2 - 9 f3)` and `y + h/24 (9 f(t + h, y*) + 19 f0 - 5 f1 + f2)`:
-/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, (III.1.5) and (III.1.8), evaluated after both (PECE). The first three steps, and a last one that is shortened to the end of
-/// the interval, are those of [`Rk4`]. Output within a step is by the cubic through states and slopes at both ends.
+/// With `h` the step, `f0` the slope at its start and `f1`, `f2`, `f3` those at the starts of the
+/// steps before, `y* = y + h/24 (55 f0 - 59 f1 + 37 f2 - 9 f3)` and
+/// `y + h/24 (9 f(t + h, y*) + 19 f0 - 5 f1 + f2)`: Hairer, Norsett and Wanner, *Solving Ordinary
+/// Differential Equations I*, (III.1.5) and (III.1.8), evaluated after both (PECE). The first three
+/// steps, and a last one that is shortened to the end of the interval, are those of [`Rk4`]. Output
+/// within a step is by the cubic through states and slopes at both ends.
 ///
-/// A state that was corrected after a step goes on with the slope there; the slopes before stay as they were.
+/// A state that was corrected after a step goes on with the slope there; the slopes before stay as
+/// they were.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdamsBashforthMoulton4<S> {
     /// The step `h` (s).
@@ -45,7 +50,8 @@ const FIRST_STEPS: usize = 3;
 
 /// For steps of half a radian an angle is off by half of what `|p|` leaves its length by.
 const TURNING_ERROR: f64 = 1.0;
-/// The limit of that ratio times half the angle of a step, from the root of the method's polynomial next to `exp(i z)`.
+/// The limit of that ratio times half the angle of a step, from the root of the method's polynomial
+/// next to `exp(i z)`.
 const TURNING_ERROR_OF_SHORT_STEPS: f64 = 0.33;
 
 impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
@@ -120,7 +126,8 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
         Ok(())
     }
 
-    /// Whether a step is one of those that the slopes before it belong to. The last one may differ from them by the round-off of its ends.
+    /// Whether a step is one of those that the slopes before it belong to. The last one may differ
+    /// from them by the round-off of its ends.
     fn goes_on(&self, step: S) -> bool {
         let round_off = S::constant(16.0) * self.grid.end.ulp();
         self.counts.accepted >= FIRST_STEPS && (self.grid.nominal - step).abs() <= round_off

@@ -138,7 +138,8 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         })
     }
 
-    /// Why a trial failed, or why its end or its error is not finite; `None` where all rates are finite, and only their sums are not.
+    /// Why a trial failed, or why its end or its error is not finite; `None` where all rates are
+    /// finite, and only their sums are not.
     #[cold]
     #[inline(never)]
     fn refused(

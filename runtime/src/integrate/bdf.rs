@@ -12,15 +12,20 @@ use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
 controlled! {
-    /// Gear's method: numerical differentiation formulas of order 1 to 5 with step control, for stiff systems that are smooth: one evaluation for each iteration of a step,
-    /// where [`RadauIIA`](super::RadauIIA) takes three and its steps are longer.
+    /// Gear's method: numerical differentiation formulas of order 1 to 5 with step control, for
+    /// stiff systems that are smooth: one evaluation for each iteration of a step, where
+    /// [`RadauIIA`](super::RadauIIA) takes three and its steps are longer.
     ///
-    /// The formulas in backward differences, their coefficients and the choice of order and step after Shampine and Reichelt, *The MATLAB ODE Suite*, SIAM J. Sci. Comput. 18 (1997), 1-22
-    /// (`ode15s`), a simplified Newton iteration with a Jacobian that is kept as long as it converges ([`System::jacobian`]). A step keeps its size until there are as many of them as the order and one
-    /// more. Between steps the polynomial through the last states is read.
+    /// The formulas in backward differences, their coefficients and the choice of order and step
+    /// after Shampine and Reichelt, *The MATLAB ODE Suite*, SIAM J. Sci. Comput. 18 (1997), 1-22
+    /// (`ode15s`), a simplified Newton iteration with a Jacobian that is kept as long as it
+    /// converges ([`System::jacobian`]). A step keeps its size until there are as many of them as
+    /// the order and one more. Between steps the polynomial through the last states is read.
     ///
-    /// Orders above 2 are not stable on the imaginary axis: a motion that oscillates without a loss makes steps short; [`RadauIIA`](super::RadauIIA) is for those. A run begins with order 1, and so it does after a break:
-    /// not for short runs. Memory is two matrices of the size of the state and eight states.
+    /// Orders above 2 are not stable on the imaginary axis: a motion that oscillates without a loss
+    /// makes steps short; [`RadauIIA`](super::RadauIIA) is for those. A run begins with order 1,
+    /// and so it does after a break: not for short runs. Memory is two matrices of the size of the
+    /// state and eight states.
     ///
     /// ```
     /// use holonom::{Bdf, Course, Fault, Integrator, Span, System};
@@ -50,10 +55,12 @@ controlled! {
 /// The highest order.
 const HIGHEST: usize = 5;
 
-/// How many backward differences are kept: those of the highest order, and two that tell its error and that of the next one.
+/// How many backward differences are kept: those of the highest order, and two that tell its error
+/// and that of the next one.
 const DIFFERENCES: usize = HIGHEST + 2;
 
-/// What the formulas of order 1 to 5 add to Gear's for the sake of accuracy (Shampine and Reichelt, table 1).
+/// What the formulas of order 1 to 5 add to Gear's for the sake of accuracy (Shampine and Reichelt,
+/// table 1).
 const KAPPA: [f64; HIGHEST + 1] = [0.0, -0.185, -1.0 / 9.0, -0.0823, -0.0415, 0.0];
 
 /// The sums of `1 / j` up to an order.
@@ -155,7 +162,8 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         })
     }
 
-    /// Makes the differences be those of steps of another size: the polynomial through the states stays, of the present order.
+    /// Makes the differences be those of steps of another size: the polynomial through the states
+    /// stays, of the present order.
     fn resize(&mut self, step: S) {
         if step == self.step {
             return;
@@ -308,7 +316,8 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
     }
 }
 
-/// The values of the polynomials of backward differences at steps of another size, by rows from order 1 (Shampine and Reichelt, 2.2).
+/// The values of the polynomials of backward differences at steps of another size, by rows from
+/// order 1 (Shampine and Reichelt, 2.2).
 fn interpolation<S: Real>(factor: S) -> [[S; HIGHEST]; HIGHEST] {
     let mut matrix = [[S::zero(); HIGHEST]; HIGHEST];
     let mut above = [S::one(); HIGHEST];

@@ -6,7 +6,8 @@ use crate::integrate::tableau::{bogacki_shampine as tableau, scaled};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// Bogacki-Shampine 3(2) with the step control of MATLAB's `ode23`, see [`Adaptive`]: `3 k + 1` evaluations for `k` steps. For loose tolerances. Output within a step is by the cubic through
+/// Bogacki-Shampine 3(2) with the step control of MATLAB's `ode23`, see [`Adaptive`]: `3 k + 1`
+/// evaluations for `k` steps. For loose tolerances. Output within a step is by the cubic through
 /// states and slopes at both ends.
 ///
 /// ```
@@ -17,10 +18,12 @@ use crate::state::vector::Vector;
 /// ```
 pub type BogackiShampine<S> = Adaptive<S, BogackiShampine3>;
 
-/// With `z` half the angle of a step, the method leaves `|p|` by `z^4 / 24` and an angle by `z^5 / 15`: their ratio is below one where a step turns by less than a radian.
+/// With `z` half the angle of a step, the method leaves `|p|` by `z^4 / 24` and an angle by
+/// `z^5 / 15`: their ratio is below one where a step turns by less than a radian.
 const TURNING_ERROR: f64 = 1.0;
 
-/// One step of Bogacki-Shampine, of order 3: three evaluations, one of them shared with the next step.
+/// One step of Bogacki-Shampine, of order 3: three evaluations, one of them shared with the next
+/// step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BogackiShampine3;
 

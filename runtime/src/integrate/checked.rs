@@ -5,7 +5,8 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// A fault of a stage that says why; else that of the same once more, with a look at the rates of every stage.
+/// A fault of a stage that says why; else that of the same once more, with a look at the rates of
+/// every stage.
 pub(super) fn named<S: Real, X: Vector<S>, T>(
     fault: Option<Fault>,
     system: &mut dyn System<S, State = X>,
@@ -22,7 +23,8 @@ pub(super) fn named<S: Real, X: Vector<S>, T>(
     }
 }
 
-/// Time and state of the first stage whose rates are not finite; else a fault that was known there, if there was one. No part of its caller, whose question why goes deep.
+/// Time and state of the first stage whose rates are not finite; else a fault that was known there,
+/// if there was one. No part of its caller, whose question why goes deep.
 #[inline(never)]
 fn failing<S: Real, X: Vector<S>, T>(
     system: &mut dyn System<S, State = X>,
@@ -36,7 +38,8 @@ fn failing<S: Real, X: Vector<S>, T>(
     checked.failed.ok_or(fault)
 }
 
-/// A system that looks at the rates of every stage; one piece of code for all systems with such states.
+/// A system that looks at the rates of every stage; one piece of code for all systems with such
+/// states.
 pub(super) struct Checked<'a, S, X> {
     system: &'a mut dyn System<S, State = X>,
     /// The first stage whose rates are not finite.

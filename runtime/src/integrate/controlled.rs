@@ -1,22 +1,27 @@
 //! Methods with control of their steps: what a user says of them.
 
-/// What a step control is held to besides its tolerance. Nothing of it is set by default but the budget.
+/// What a step control is held to besides its tolerance. Nothing of it is set by default but the
+/// budget.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepLimits<S> {
     /// The first step (s), in the place of that of the control.
     pub first: Option<S>,
     /// The smallest step (s): where a smaller one would be needed, the integration ends with
-    /// [`Fault::StepSizeUnderflow`](crate::Fault::StepSizeUnderflow). Never below the resolution of the time.
+    /// [`Fault::StepSizeUnderflow`](crate::Fault::StepSizeUnderflow). Never below the resolution of
+    /// the time.
     pub least: Option<S>,
-    /// The largest step (s), in the place of a tenth of the interval. What happens within a step and leaves no trace at its stages, such as a
-    /// short pulse of a force, is not seen: a step must not be longer than that.
+    /// The largest step (s), in the place of a tenth of the interval. What happens within a step
+    /// and leaves no trace at its stages, such as a short pulse of a force, is not seen: a step
+    /// must not be longer than that.
     pub largest: Option<S>,
-    /// How many evaluations a run may take, [`StepLimits::EVALUATIONS`] by default: then it ends with [`Fault::Budget`](crate::Fault::Budget).
+    /// How many evaluations a run may take, [`StepLimits::EVALUATIONS`] by default: then it ends
+    /// with [`Fault::Budget`](crate::Fault::Budget).
     pub evaluations: usize,
 }
 
 impl<S> StepLimits<S> {
-    /// Ten million evaluations. What takes more is most often caught at a singular configuration, or stiff.
+    /// Ten million evaluations. What takes more is most often caught at a singular configuration,
+    /// or stiff.
     pub const EVALUATIONS: usize = 10_000_000;
 
     /// No limits but the budget of evaluations.
@@ -48,21 +53,24 @@ macro_rules! step_limits {
                 self
             }
 
-            /// Takes no step shorter than this (s); see [`StepLimits::least`](crate::StepLimits::least).
+            /// Takes no step shorter than this (s); see
+            /// [`StepLimits::least`](crate::StepLimits::least).
             #[must_use]
             pub fn least_step(mut self, step: S) -> Self {
                 self.limits.least = Some(step);
                 self
             }
 
-            /// Takes no step longer than this (s); see [`StepLimits::largest`](crate::StepLimits::largest).
+            /// Takes no step longer than this (s); see
+            /// [`StepLimits::largest`](crate::StepLimits::largest).
             #[must_use]
             pub fn largest_step(mut self, step: S) -> Self {
                 self.limits.largest = Some(step);
                 self
             }
 
-            /// Lets a run take so many evaluations; see [`StepLimits::evaluations`](crate::StepLimits::evaluations).
+            /// Lets a run take so many evaluations; see
+            /// [`StepLimits::evaluations`](crate::StepLimits::evaluations).
             #[must_use]
             pub fn budget(mut self, evaluations: usize) -> Self {
                 self.limits.evaluations = evaluations;

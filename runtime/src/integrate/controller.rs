@@ -8,9 +8,11 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Vector;
 
-/// The error to be allowed in a step: `relative * max(|y|, absolute / relative)` for every element of the state.
+/// The error to be allowed in a step: `relative * max(|y|, absolute / relative)` for every element
+/// of the state.
 ///
-/// Both are finite and positive. A relative tolerance below `100 EPSILON` of the number type counts as that.
+/// Both are finite and positive. A relative tolerance below `100 EPSILON` of the number type counts
+/// as that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance<S> {
     /// Relative to the element.
@@ -33,8 +35,10 @@ impl<S: Real> Default for Tolerance<S> {
 const FLOOR: f64 = 1e-3;
 
 impl<S: Real> Tolerance<S> {
-    /// A relative tolerance, with the absolute one for a mechanism as its attributes describe it: the relative one times a thousandth of the least of its scales, of lengths, angles,
-    /// velocities and angular velocities, which all stand in one state: the length, 1 rad, the length over the time, 1 rad over the time, see [`Scales`].
+    /// A relative tolerance, with the absolute one for a mechanism as its attributes describe it:
+    /// the relative one times a thousandth of the least of its scales, of lengths, angles,
+    /// velocities and angular velocities, which all stand in one state: the length, 1 rad, the
+    /// length over the time, 1 rad over the time, see [`Scales`].
     ///
     /// # Errors
     /// As [`Scales::of`].
@@ -67,11 +71,13 @@ pub(super) struct Controller<S> {
     largest: S,
 }
 
-/// What the first step takes of the change that the tolerance allows, if a method does not say otherwise.
+/// What the first step takes of the change that the tolerance allows, if a method does not say
+/// otherwise.
 pub(super) const FIRST_SHARE: f64 = 0.8;
 
 impl<S: Real> Controller<S> {
-    /// With the power of the step that the error goes with; of a method of many orders, that of the first step.
+    /// With the power of the step that the error goes with; of a method of many orders, that of the
+    /// first step.
     pub(super) fn new(
         tolerance: Tolerance<S>,
         limits: &StepLimits<S>,
@@ -112,7 +118,8 @@ impl<S: Real> Controller<S> {
         }
     }
 
-    /// The first step from a state with its slope; `share` is what it takes of the change that the tolerance allows.
+    /// The first step from a state with its slope; `share` is what it takes of the change that the
+    /// tolerance allows.
     pub(super) fn first<X: Vector<S>>(
         &self,
         span: &Span<S>,
@@ -139,7 +146,8 @@ impl<S: Real> Controller<S> {
         self.largest.min(self.smallest(time).max(step))
     }
 
-    /// The first trial of a step, and whether it is stretched to the end of the interval: if it comes within a tenth of it.
+    /// The first trial of a step, and whether it is stretched to the end of the interval: if it
+    /// comes within a tenth of it.
     pub(super) fn opening(&self, (time, end): (S, S), step: S) -> (S, bool) {
         let size = self.limited(time, step);
         let remaining = end - time;

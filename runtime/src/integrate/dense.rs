@@ -7,8 +7,9 @@ use crate::state::vector::Vector;
 
 /// The cubic through states and slopes at both ends, with an error of order `h^4`.
 ///
-/// `y(theta) = (1 - c) y0 + c y1 + h theta (1 - theta)^2 f0 - h theta^2 (1 - theta) f1`, `c = theta^2 (3 - 2 theta)`
-/// (Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, II.6).
+/// `y(theta) = (1 - c) y0 + c y1 + h theta (1 - theta)^2 f0 - h theta^2 (1 - theta) f1`,
+/// `c = theta^2 (3 - 2 theta)` (Hairer, Norsett and Wanner, *Solving Ordinary Differential
+/// Equations I*, II.6).
 pub(super) fn cubic<S: Real, X: Vector<S>, K>(stride: &Stride<'_, S, X, K>, theta: S) -> X {
     let rest = S::one() - theta;
     let weight = theta * theta * (S::constant(3.0) - theta - theta);
@@ -23,7 +24,8 @@ pub(super) fn cubic<S: Real, X: Vector<S>, K>(stride: &Stride<'_, S, X, K>, thet
     )
 }
 
-/// The weights of slopes 1, 3, 4, 5, 6, 7 of Dormand and Prince at the fraction `theta` of a step, times `step`.
+/// The weights of slopes 1, 3, 4, 5, 6, 7 of Dormand and Prince at the fraction `theta` of a step,
+/// times `step`.
 pub(super) fn quartic_weights<S: Scalar>(step: S, theta: S) -> [S; 6] {
     INTERPOLANT.map(|[a, b, c, d]| {
         let inner = S::constant(d)

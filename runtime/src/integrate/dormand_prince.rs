@@ -6,7 +6,8 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// Dormand-Prince 5(4) with the step control of MATLAB's `ode45`, see [`Adaptive`]: `6 k + 1` evaluations for `k` steps. Output within a step is by the free interpolant of order 4.
+/// Dormand-Prince 5(4) with the step control of MATLAB's `ode45`, see [`Adaptive`]: `6 k + 1`
+/// evaluations for `k` steps. Output within a step is by the free interpolant of order 4.
 ///
 /// ```
 /// use holonom::{DormandPrince, Tolerance};
@@ -16,12 +17,12 @@ use crate::state::vector::Vector;
 /// ```
 pub type DormandPrince<S> = Adaptive<S, DormandPrince5>;
 
-/// With `z` half the angle of a step, the method leaves `|p|` by `z^6 / 3600` and an angle by less than `z^7 / 3600`: their ratio is below one where a step
-/// turns by less than two radians.
+/// With `z` half the angle of a step, the method leaves `|p|` by `z^6 / 3600` and an angle by less
+/// than `z^7 / 3600`: their ratio is below one where a step turns by less than two radians.
 const TURNING_ERROR: f64 = 1.0;
 
-/// One step of Dormand-Prince, of order 5: six evaluations, one of them shared with the next step where a
-/// [`FixedStep`](super::FixedStep) drives it.
+/// One step of Dormand-Prince, of order 5: six evaluations, one of them shared with the next step
+/// where a [`FixedStep`](super::FixedStep) drives it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DormandPrince5;
 

@@ -7,11 +7,13 @@ use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
-/// Dormand-Prince 8(5,3) with the step control of [`Adaptive`]: `12 k + 1` evaluations for `k` steps, and three for every step that is looked into. For tight tolerances. Output within a step is by
-/// the interpolant of order 7.
+/// Dormand-Prince 8(5,3) with the step control of [`Adaptive`]: `12 k + 1` evaluations for `k`
+/// steps, and three for every step that is looked into. For tight tolerances. Output within a step
+/// is by the interpolant of order 7.
 ///
-/// The error is `e5^2 / sqrt(e5^2 + 0.01 e3^2)` of the estimates of order 5 and 3, which goes with the eighth power of the step (Hairer, Norsett and Wanner, *Solving Ordinary
-/// Differential Equations I*, 2nd ed., (II.10.17), in the norm of [`Adaptive`]).
+/// The error is `e5^2 / sqrt(e5^2 + 0.01 e3^2)` of the estimates of order 5 and 3, which goes with
+/// the eighth power of the step (Hairer, Norsett and Wanner, *Solving Ordinary Differential
+/// Equations I*, 2nd ed., (II.10.17), in the norm of [`Adaptive`]).
 ///
 /// ```
 /// use holonom::{DormandPrince853, Tolerance};
@@ -21,7 +23,8 @@ use crate::state::vector::Vector;
 /// ```
 pub type DormandPrince853<S> = Adaptive<S, DormandPrince8>;
 
-/// One step of Dormand-Prince, of order 8: twelve evaluations, one of them shared with the next step.
+/// One step of Dormand-Prince, of order 8: twelve evaluations, one of them shared with the next
+/// step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DormandPrince8;
 
@@ -221,7 +224,8 @@ impl<S: Real> Scheme<S> for DormandPrince8 {
         Ok(())
     }
 
-    /// `y0 + x (F0 + (1 - x) (F1 + x (F2 + (1 - x) (F3 + x (F4 + (1 - x) (F5 + x F6))))))` at the fraction `x`: `F0` is the increment of the step, `F1 = h k1 - F0`,
+    /// `y0 + x (F0 + (1 - x) (F1 + x (F2 + (1 - x) (F3 + x (F4 + (1 - x) (F5 + x F6))))))` at the
+    /// fraction `x`: `F0` is the increment of the step, `F1 = h k1 - F0`,
     /// `F2 = 2 F0 - h (k1 + k13)`, the others are given. Here it is a sum of slopes.
     fn interpolate<X: Vector<S>>(
         &self,

@@ -9,7 +9,8 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// A one-step method that estimates the error of its steps. Its last slope is that at the end of a step, and the first of the next one.
+/// A one-step method that estimates the error of its steps. Its last slope is that at the end of a
+/// step, and the first of the next one.
 pub trait EmbeddedPair<S: Real>: Scheme<S> + PartialEq {
     /// The power of the step that its estimate goes with.
     const POWER: f64;
@@ -20,18 +21,22 @@ pub trait EmbeddedPair<S: Real>: Scheme<S> + PartialEq {
 
 /// An [`EmbeddedPair`] with the step control of MATLAB's `ode45` and `ode23`.
 ///
-/// First-same-as-last: an integration without faults takes `n k + 1` evaluations for `k` steps, accepted and rejected, of `n` evaluations each. The control
-/// (Shampine and Reichelt, *The MATLAB ODE Suite*, SIAM J. Sci. Comput. 18 (1997), 1-22, with later versions), with `p` the power of the step that the error goes with:
+/// First-same-as-last: an integration without faults takes `n k + 1` evaluations for `k` steps,
+/// accepted and rejected, of `n` evaluations each. The control (Shampine and Reichelt, *The MATLAB
+/// ODE Suite*, SIAM J. Sci. Comput. 18 (1997), 1-22, with later versions), with `p` the power of
+/// the step that the error goes with:
 ///
-/// - first step `min(T / 10, time to the first output)`, made smaller to `0.8 rtol^(1/p) / max |y'| / max(|y|, atol / rtol)`;
-///   largest step `T / 10`, smallest `16 ulp(t)`;
+/// - first step `min(T / 10, time to the first output)`, made smaller to
+///   `0.8 rtol^(1/p) / max |y'| / max(|y|, atol / rtol)`; largest step `T / 10`, smallest
+///   `16 ulp(t)`;
 /// - error `h max |E| / max(|y|, |y new|, atol / rtol)`, accepted up to `rtol`;
-/// - after an acceptance `h / max(0.2, 1.25 (error / rtol)^(1/p))`, unchanged if the step had been rejected before;
+/// - after an acceptance `h / max(0.2, 1.25 (error / rtol)^(1/p))`, unchanged if the step had been
+///   rejected before;
 /// - after a rejection `h max(0.1, 0.8 (rtol / error)^(1/p))`, then halves;
 /// - the step is stretched to the end of the interval if `1.1 h` reaches it.
 ///
-/// Beyond these: a trial whose rates cannot be computed counts as rejected and is tried again with half the step, and the
-/// integration ends with that fault only where the step gets too small.
+/// Beyond these: a trial whose rates cannot be computed counts as rejected and is tried again with
+/// half the step, and the integration ends with that fault only where the step gets too small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adaptive<S, K> {
     /// The error to be allowed in a step.

@@ -9,7 +9,8 @@ use crate::error::setting::positive;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// A [`Scheme`] at a fixed step: times `t0 + k h`, the last step shortened to the end of the interval.
+/// A [`Scheme`] at a fixed step: times `t0 + k h`, the last step shortened to the end of the
+/// interval.
 ///
 /// Steps do not depend on output times; output between steps is by the interpolant of the scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,10 +9,13 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// The generalized-alpha method of order 2 for mechanisms with rigid constraints, fixed step: positions *and* velocities are on the constraints after every step, high frequencies are damped as much as wanted, and
-/// positions of bodies and orientations never leave their joints or length 1, so that no treatment is needed.
+/// The generalized-alpha method of order 2 for mechanisms with rigid constraints, fixed step:
+/// positions *and* velocities are on the constraints after every step, high frequencies are damped
+/// as much as wanted, and positions of bodies and orientations never leave their joints or length
+/// 1, so that no treatment is needed.
 ///
-/// From `q0`, `u0`, the accelerations `u0'` and the method's own `a0`, a step `h` solves for `u1'`, `lambda` and `eta`
+/// From `q0`, `u0`, the accelerations `u0'` and the method's own `a0`, a step `h` solves for `u1'`,
+/// `lambda` and `eta`
 ///
 /// ```text
 /// M u1' + D^T lambda = g(t1, q1, u1)                     Phi(q1, t1) = 0,  Phi'(q1, u1, t1) = 0
@@ -21,22 +24,45 @@ use crate::state::vector::Vector;
 /// q1 = q0 o exp(d),  d = h u0 + h^2 ((1/2 - beta) a0 + beta a1) - M^-1 (D0 + D1)^T eta / 2
 /// ```
 ///
-/// where `o exp(d)` adds the displacement to positions and turns orientations by the rotation vector along body axes. With the spectral radius `rho` at infinite frequency,
-/// `alpha_m = (2 rho - 1) / (rho + 1)`, `alpha_f = rho / (rho + 1)`, `gamma = 1/2 + alpha_f - alpha_m`, `beta = (gamma + 1/2)^2 / 4`
-/// (Chung and Hulbert 1993; Arnold and Bruls, *Convergence of the generalized-alpha scheme for constrained mechanical systems*, Multibody System Dynamics 18 (2007), 185-202; on the group: Bruls and Cardona, *On the use of Lie group time integrators in multibody dynamics*,
-/// J. Comput. Nonlinear Dynam. 5 (2010), 031002). With `eta` and `Phi'` it is the stabilised form of index 2 of Gear, Gupta and Leimkuhler (for this method: Arnold, Bruls and Cardona, *Error analysis of generalized-alpha Lie group time integration methods for constrained mechanical systems*, Numer. Math. 129 (2015), 149-179;
-/// here `eta` acts through `M^-1`, as in a [`Projection`](crate::Projection), and by the gradients at both ends, so that a step with `rho = 1` is symmetric). Without them, on index 3, velocities would leave the constraints by the second order of the step, `rho = 1` would be unstable, and round-off of positions would reach multipliers by `1 / h^2`.
+/// where `o exp(d)` adds the displacement to positions and turns orientations by the rotation
+/// vector along body axes. With the spectral radius `rho` at infinite frequency,
+/// `alpha_m = (2 rho - 1) / (rho + 1)`, `alpha_f = rho / (rho + 1)`,
+/// `gamma = 1/2 + alpha_f - alpha_m`, `beta = (gamma + 1/2)^2 / 4` (Chung and Hulbert 1993; Arnold
+/// and Bruls, *Convergence of the generalized-alpha scheme for constrained mechanical systems*,
+/// Multibody System Dynamics 18 (2007), 185-202; on the group: Bruls and Cardona, *On the use of
+/// Lie group time integrators in multibody dynamics*, J. Comput. Nonlinear Dynam. 5 (2010),
+/// 031002). With `eta` and `Phi'` it is the stabilised form of index 2 of Gear, Gupta and
+/// Leimkuhler (for this method: Arnold, Bruls and Cardona, *Error analysis of generalized-alpha Lie
+/// group time integration methods for constrained mechanical systems*, Numer. Math. 129 (2015),
+/// 149-179; here `eta` acts through `M^-1`, as in a [`Projection`](crate::Projection), and by the
+/// gradients at both ends, so that a step with `rho = 1` is symmetric). Without them, on index 3,
+/// velocities would leave the constraints by the second order of the step, `rho = 1` would be
+/// unstable, and round-off of positions would reach multipliers by `1 / h^2`.
 ///
-/// **The iteration** is Newton's with the matrix `[M D^T; D 0]`, factorised at every iterate: the saddle system that the mechanism is generated with, without derivatives of forces. Its unknowns are increments of velocities and positions with multipliers scaled to these, so that the matrix does not
-/// depend on `h` and short steps lose no digits. Former iterates tell what forces do: the next one is the combination of the last five changes that leaves least of them (Anderson's acceleration, which for linear forces is the method of generalised minimal residuals), so that a few stiff springs and dampers are followed at steps far beyond
-/// their own times: the governor's dampers decay with 8117 1/s and are solved for at steps of 0.01 s. It goes on until it changes by round-off only: some six iterations for what is not stiff, up to some thirty for what is, each of the cost of an evaluation or somewhat more. Where it does not converge the run ends with [`Fault::StepNotSolved`], and time and state are
-/// those before the step. Many different stiff springs at once, as of a finite element mesh, are beyond it.
+/// **The iteration** is Newton's with the matrix `[M D^T; D 0]`, factorised at every iterate: the
+/// saddle system that the mechanism is generated with, without derivatives of forces. Its unknowns
+/// are increments of velocities and positions with multipliers scaled to these, so that the matrix
+/// does not depend on `h` and short steps lose no digits. Former iterates tell what forces do: the
+/// next one is the combination of the last five changes that leaves least of them (Anderson's
+/// acceleration, which for linear forces is the method of generalised minimal residuals), so that a
+/// few stiff springs and dampers are followed at steps far beyond their own times: the governor's
+/// dampers decay with 8117 1/s and are solved for at steps of 0.01 s. It goes on until it changes
+/// by round-off only: some six iterations for what is not stiff, up to some thirty for what is,
+/// each of the cost of an evaluation or somewhat more. Where it does not converge the run ends with
+/// [`Fault::StepNotSolved`], and time and state are those before the step. Many different stiff
+/// springs at once, as of a finite element mesh, are beyond it.
 ///
-/// **What it needs** is a mechanism by its bodies with [`StandardLagrange`](crate::StandardLagrange). With another formulation, by joint coordinates (a tree has no constraints: any method keeps its joints closed) and for a [`System`] of one's own that does not offer [`System::step_on_constraints`] a run ends
-/// with [`Fault::NoConstraints`]; where equations depend on each other with [`Fault::Singular`].
+/// **What it needs** is a mechanism by its bodies with
+/// [`StandardLagrange`](crate::StandardLagrange). With another formulation, by joint coordinates (a
+/// tree has no constraints: any method keeps its joints closed) and for a [`System`] of one's own
+/// that does not offer [`System::step_on_constraints`] a run ends with [`Fault::NoConstraints`];
+/// where equations depend on each other with [`Fault::Singular`].
 ///
-/// `a0` begins as `u0'`, and so it does after a break. Energy: kept for `rho = 1` but for a swing of the order of `h^2`; a motion of `x` radians a step loses `((1 - rho) / (1 + rho))^3 x^4 / 2` of its amplitude a step, and is late by
-/// `(1/12 + 3/8 ((1 - rho) / (1 + rho))^2) x^3` radians. Output within a step is by the cubic through states and slopes at both ends, on the constraints to its order.
+/// `a0` begins as `u0'`, and so it does after a break. Energy: kept for `rho = 1` but for a swing
+/// of the order of `h^2`; a motion of `x` radians a step loses `((1 - rho) / (1 + rho))^3 x^4 / 2`
+/// of its amplitude a step, and is late by `(1/12 + 3/8 ((1 - rho) / (1 + rho))^2) x^3` radians.
+/// Output within a step is by the cubic through states and slopes at both ends, on the constraints
+/// to its order.
 ///
 /// ```
 /// use holonom::joints::Spherical;
@@ -53,7 +79,8 @@ use crate::state::vector::Vector;
 /// }
 ///
 /// let method = GeneralizedAlpha::every(0.005).spectral_radius(0.9);
-/// Simulation::new(&Pendulum::default(), StandardLagrange, method).run(0.0..=2.0, every(0.1), |sample| {
+/// let pendulum = Pendulum::default();
+/// Simulation::new(&pendulum, StandardLagrange, method).run(0.0..=2.0, every(0.1), |sample| {
 ///     assert!(sample.violation() < 1e-12);
 ///     ControlFlow::Continue(())
 /// })?;
@@ -63,7 +90,8 @@ use crate::state::vector::Vector;
 pub struct GeneralizedAlpha<S> {
     /// The step `h` (s).
     pub step: S,
-    /// The spectral radius at infinite frequency, from 0 (what is fast is gone after a step) to 1 (it stays).
+    /// The spectral radius at infinite frequency, from 0 (what is fast is gone after a step) to 1
+    /// (it stays).
     pub rho: S,
 }
 
@@ -201,7 +229,8 @@ impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
         1.0
     }
 
-    /// Three times that of a linear oscillation: a rod that swings by a right angle to either side is off by 2.3 times as much.
+    /// Three times that of a linear oscillation: a rod that swings by a right angle to either side
+    /// is off by 2.3 times as much.
     fn silent_phase(&self) -> f64 {
         3.0 * (1.0 / 12.0 + 0.375 * self.damping() * self.damping())
     }

@@ -7,13 +7,19 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// The implicit midpoint rule of order 2: `y1 = y0 + h k`, `k = f(t0 + h/2, y0 + h/2 k)`. No estimate of the error.
+/// The implicit midpoint rule of order 2: `y1 = y0 + h k`, `k = f(t0 + h/2, y0 + h/2 k)`. No
+/// estimate of the error.
 ///
-/// Hairer, Lubich and Wanner, *Geometric Numerical Integration*, (I.1.7). It is symmetric: a step back from the end leads to the start. It keeps quadratic invariants (IV.2.1), both up to
-/// round-off: a step of Euler parameters at a constant angular velocity multiplies `|p|^2` by 1. And it is symplectic (VI.4.2) where coordinates and momenta are the state.
+/// Hairer, Lubich and Wanner, *Geometric Numerical Integration*, (I.1.7). It is symmetric: a step
+/// back from the end leads to the start. It keeps quadratic invariants (IV.2.1), both up to
+/// round-off: a step of Euler parameters at a constant angular velocity multiplies `|p|^2` by 1.
+/// And it is symplectic (VI.4.2) where coordinates and momenta are the state.
 ///
-/// The slope `k` is found by fixed-point iteration from that at the start (VIII.6), until it changes by round-off only. An iteration is an evaluation: about seven where `h L` is 0.01, with `L` the largest
-/// rate (1/s) of what the system does, sixteen at 0.2; at 2 it does not converge, and such a step ends with [`Fault::NoFixedPoint`]. Output within a step is by the cubic through states and slopes at both ends.
+/// The slope `k` is found by fixed-point iteration from that at the start (VIII.6), until it
+/// changes by round-off only. An iteration is an evaluation: about seven where `h L` is 0.01, with
+/// `L` the largest rate (1/s) of what the system does, sixteen at 0.2; at 2 it does not converge,
+/// and such a step ends with [`Fault::NoFixedPoint`]. Output within a step is by the cubic through
+/// states and slopes at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ImplicitMidpoint;
 
@@ -28,14 +34,17 @@ impl ImplicitMidpoint {
 /// Iterations that a step may take: enough for a factor of two thirds each, in `f64`.
 const ITERATIONS: usize = 100;
 
-/// From here on changes that do not fall are taken for divergence: what decays critically may change by more before.
+/// From here on changes that do not fall are taken for divergence: what decays critically may
+/// change by more before.
 const TRANSIENT: usize = 10;
 
-/// Changes that are no more than so many times what the last digit of the state changes are round-off, however large they are beside the state: forces that balance each other leave nothing
+/// Changes that are no more than so many times what the last digit of the state changes are
+/// round-off, however large they are beside the state: forces that balance each other leave nothing
 /// but that.
 const ROUND_OFF: f64 = 16.0;
 
-/// A state whose elements are changed in their last digits: of about one at least, for an element may be near zero beside the lengths that it is added to.
+/// A state whose elements are changed in their last digits: of about one at least, for an element
+/// may be near zero beside the lengths that it is added to.
 fn shaken<S: Real, X: Vector<S>>(state: &X) -> X {
     let mut is_up = false;
     state.zip(state, |x, _| {
@@ -110,7 +119,8 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
         Err(too_long(ITERATIONS))
     }
 
-    /// `|p|` stays what it is and says nothing of the angle, which is off by `z^3 / 12` after a step, with `z` the angle of the step.
+    /// `|p|` stays what it is and says nothing of the angle, which is off by `z^3 / 12` after a
+    /// step, with `z` the angle of the step.
     fn turning_error(&self) -> f64 {
         1.0
     }

@@ -131,12 +131,17 @@ impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
     }
 }
 
-/// The inverse of a matrix as a product of eliminations, one for every column, with the largest number of a column as its pivot (Gauss and Jordan).
+/// The inverse of a matrix as a product of eliminations, one for every column, with the largest
+/// number of a column as its pivot (Gauss and Jordan).
 ///
-/// All work is done on whole columns, which is what [`Vector`] offers, without a branch for each element; an elimination whose factor is zero is left out. Most are where the coordinates of a state
-/// keep their own rows ([`Vector::coordinate_count`]): the rates of a position are a velocity, so that its column has nothing in the rows of other coordinates. For that a pivot of such a column is sought in
-/// these rows, of the matrix `shift I - J` of rates of coordinates by coordinates, whose numbers are about `shift` where a step resolves the motion; and in all of them where the
-/// largest is below a hundredth of `shift`, so that no elimination is worse than a hundred divisions by it.
+/// All work is done on whole columns, which is what [`Vector`] offers, without a branch for each
+/// element; an elimination whose factor is zero is left out. Most are where the coordinates of a
+/// state keep their own rows ([`Vector::coordinate_count`]): the rates of a position are a
+/// velocity, so that its column has nothing in the rows of other coordinates. For that a pivot of
+/// such a column is sought in these rows, of the matrix `shift I - J` of rates of coordinates by
+/// coordinates, whose numbers are about `shift` where a step resolves the motion; and in all of
+/// them where the largest is below a hundredth of `shift`, so that no elimination is worse than a
+/// hundred divisions by it.
 pub(super) struct Factors<S: Real, X: Vector<S>, C: Column<S, X>> {
     eliminations: X::Each<C>,
     /// The row of the pivot of every column.
@@ -292,7 +297,8 @@ mod tests {
         }
     }
 
-    /// The rates of coordinates are velocities, but for what is given; those of velocities are anything, and large.
+    /// The rates of coordinates are velocities, but for what is given; those of velocities are
+    /// anything, and large.
     fn kinematic(
         coordinates: f64,
         seed: u64,
@@ -314,7 +320,8 @@ mod tests {
         (like, jacobian)
     }
 
-    /// Also where the coordinates have no pivots of their own: their rates take away the shift, or nearly so.
+    /// Also where the coordinates have no pivots of their own: their rates take away the shift, or
+    /// nearly so.
     #[test]
     fn coordinates_keep_their_rows_where_they_can() {
         let shift = 40.0;

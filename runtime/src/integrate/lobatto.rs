@@ -20,9 +20,11 @@ pub(super) struct Taken<'a, S, X> {
 }
 
 impl<S: Real, X: Vector<S>> Taken<'_, S, X> {
-    /// Where Lobatto's rule of order 4, which is Simpson's, leads from the slopes at both ends and in the middle of the cubic through them.
+    /// Where Lobatto's rule of order 4, which is Simpson's, leads from the slopes at both ends and
+    /// in the middle of the cubic through them.
     ///
-    /// What a method of order 2 misses stands in the difference of the ends, up to a power of the step that is higher by one. Hairer, Norsett and Wanner, *Solving Ordinary Differential
+    /// What a method of order 2 misses stands in the difference of the ends, up to a power of the
+    /// step that is higher by one. Hairer, Norsett and Wanner, *Solving Ordinary Differential
     /// Equations I*, II.1.
     pub(super) fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<X, Fault> {
         let half = S::constant(0.5);

@@ -17,8 +17,9 @@
 //! | [`Bdf::new(tolerance)`](Bdf::new) | backward differentiation of order 1 to 5 for stiff systems, order and step control of MATLAB's `ode15s` | 1 an iteration; the Jacobian besides |
 //! | [`Adams::new(tolerance)`](Adams::new) | Adams of order 1 to 12 in divided differences, the step and order control of MATLAB's `ode113` | 2 a step, 1 a rejected trial, and 1 |
 //!
-//! [`Scheme::step`] takes one step at a time, for loops that somebody else owns; [`Integrator::start`] begins a
-//! [`Course`] over an interval, with output at any time within the last step.
+//! [`Scheme::step`] takes one step at a time, for loops that somebody else owns;
+//! [`Integrator::start`] begins a [`Course`] over an interval, with output at any time within the
+//! last step.
 
 mod adams;
 mod adams_fixed;
@@ -113,11 +114,13 @@ pub trait System<S: Real> {
     /// Rates that are not finite, and what else keeps the system from having rates here.
     fn rates(&mut self, time: S, state: &Self::State) -> Result<Self::State, Fault>;
 
-    /// Writes the rates at a stage of a step. They need not be finite: whoever takes the step looks at what it leads to, once, and where that is not finite asks
-    /// [`System::why`] at the first stage that is not.
+    /// Writes the rates at a stage of a step. They need not be finite: whoever takes the step looks
+    /// at what it leads to, once, and where that is not finite asks [`System::why`] at the first
+    /// stage that is not.
     ///
     /// # Errors
-    /// What else keeps the system from having rates here; [`Fault::StateNotFinite`] leaves it to [`System::why`] to say why.
+    /// What else keeps the system from having rates here; [`Fault::StateNotFinite`] leaves it to
+    /// [`System::why`] to say why.
     #[inline(always)]
     fn stage(
         &mut self,
@@ -129,15 +132,19 @@ pub trait System<S: Real> {
         Ok(())
     }
 
-    /// Why the rates of a stage are not taken: asked once, after the step has given its stack back. `None` where nothing is wrong with them.
+    /// Why the rates of a stage are not taken: asked once, after the step has given its stack back.
+    /// `None` where nothing is wrong with them.
     fn why(&mut self, time: S, state: &Self::State) -> Option<Fault> {
         self.rates(time, state).err()
     }
 
-    /// Writes the Jacobian of the rates: column `k` is the change of the rates for an increment of element `k` of the state, divided by that increment. `rates` are those of the
-    /// state; zero where [`Vector::has_part`] says so. Returns how many evaluations that has taken; one that gives several columns counts once for each.
+    /// Writes the Jacobian of the rates: column `k` is the change of the rates for an increment of
+    /// element `k` of the state, divided by that increment. `rates` are those of the state; zero
+    /// where [`Vector::has_part`] says so. Returns how many evaluations that has taken; one that
+    /// gives several columns counts once for each.
     ///
-    /// Implicit methods ask for it, and need it for the sake of convergence only. By differences of rates, if a system does not know better. A mechanism does: its kernels give it over
+    /// Implicit methods ask for it, and need it for the sake of convergence only. By differences of
+    /// rates, if a system does not know better. A mechanism does: its kernels give it over
     /// [`Forward`](crate::Forward) numbers.
     ///
     /// # Errors
@@ -150,7 +157,8 @@ pub trait System<S: Real> {
         columns: &mut <Self::State as Vector<S>>::Each<Self::State>,
     ) -> Result<usize, Fault>
     where
-        // No part of an object: else it would be compiled for every system, though explicit methods never ask for it.
+        // No part of an object: else it would be compiled for every system, though explicit methods
+        // never ask for it.
         Self: Sized,
     {
         by_differences(state, rates, columns, |state, rates| {
@@ -158,10 +166,12 @@ pub trait System<S: Real> {
         })
     }
 
-    /// Puts the rates of the coordinates at the velocities at the end of a step in the place of those at its start: at the velocities that the other rates lead to.
+    /// Puts the rates of the coordinates at the velocities at the end of a step in the place of
+    /// those at its start: at the velocities that the other rates lead to.
     ///
     /// # Errors
-    /// [`Fault::NoVelocities`] of a system whose state is not made of coordinates and velocities, which is what stands here.
+    /// [`Fault::NoVelocities`] of a system whose state is not made of coordinates and velocities,
+    /// which is what stands here.
     #[inline(always)]
     fn with_new_velocities(
         &mut self,
@@ -173,10 +183,12 @@ pub trait System<S: Real> {
         Err(Fault::NoVelocities)
     }
 
-    /// One step of [`GeneralizedAlpha`], solved together with multipliers: only the system knows masses and constraints.
+    /// One step of [`GeneralizedAlpha`], solved together with multipliers: only the system knows
+    /// masses and constraints.
     ///
     /// # Errors
-    /// [`Fault::NoConstraints`] of a system that is not solved with rigid constraints, which is what stands here; what keeps the step from being solved.
+    /// [`Fault::NoConstraints`] of a system that is not solved with rigid constraints, which is
+    /// what stands here; what keeps the step from being solved.
     fn step_on_constraints(
         &mut self,
         _asked: AlphaStep<'_, S, Self::State>,
@@ -184,9 +196,11 @@ pub trait System<S: Real> {
         Err(Fault::NoConstraints)
     }
 
-    /// Brings a state that a step has led to into its normal form, and its rates, where they are known, with it.
+    /// Brings a state that a step has led to into its normal form, and its rates, where they are
+    /// known, with it.
     ///
-    /// What the state says must not change, so that the rates stay valid; a step that goes on from it uses both as they come out.
+    /// What the state says must not change, so that the rates stay valid; a step that goes on from
+    /// it uses both as they come out.
     #[inline(always)]
     fn settle(&mut self, _state: &mut Self::State, _rates: Option<&mut Self::State>) {}
 }
@@ -204,7 +218,8 @@ pub trait Integrator<S: Real>: Copy + Debug {
     /// Begins an integration.
     ///
     /// # Errors
-    /// A setting that is not finite and positive, an interval without a length; a fault of the system at the start.
+    /// A setting that is not finite and positive, an interval without a length; a fault of the
+    /// system at the start.
     fn start<Y: System<S>>(
         &self,
         system: &mut Y,
@@ -222,23 +237,26 @@ pub trait Integrator<S: Real>: Copy + Debug {
         None
     }
 
-    /// By how much an angle (rad) is off, at most, where Euler parameters left length 1 by so much in a step of this method: their length and
-    /// their phase are wrong together.
+    /// By how much an angle (rad) is off, at most, where Euler parameters left length 1 by so much
+    /// in a step of this method: their length and their phase are wrong together.
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
     }
 
-    /// The same for short steps, times half the angle (rad) of a step: of a method of even order an angle is off by one power of the step less than `|p|` is. Zero for others.
+    /// The same for short steps, times half the angle (rad) of a step: of a method of even order an
+    /// angle is off by one power of the step less than `|p|` is. Zero for others.
     fn turning_error_of_short_steps(&self) -> f64 {
         0.0
     }
 
-    /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a method of order 2, whose energy does not tell; zero for others.
+    /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a
+    /// method of order 2, whose energy does not tell; zero for others.
     fn silent_phase(&self) -> f64 {
         0.0
     }
 
-    /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that takes these by velocities at the end of a step; zero for others.
+    /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that
+    /// takes these by velocities at the end of a step; zero for others.
     fn velocity_lead(&self) -> f64 {
         0.0
     }
@@ -269,7 +287,8 @@ pub trait Course<S: Real, X: Vector<S>> {
     /// A fault of the system, where the interpolant needs an evaluation at the end of the step.
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault>;
 
-    /// Where the last step would have led by the rule of Lobatto of order 4, from slopes at its ends and in its middle, each evaluated anew and counted nowhere; `None` for methods that
+    /// Where the last step would have led by the rule of Lobatto of order 4, from slopes at its
+    /// ends and in its middle, each evaluated anew and counted nowhere; `None` for methods that
     /// control their errors, or whose energy tells of them.
     ///
     /// # Errors
@@ -278,15 +297,17 @@ pub trait Course<S: Real, X: Vector<S>> {
         Ok(None)
     }
 
-    /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a method that looks back at former steps goes on with these. Call [`Course::at`] before, not after.
+    /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a
+    /// method that looks back at former steps goes on with these. Call [`Course::at`] before, not
+    /// after.
     fn replace(&mut self, state: X);
 
     /// What it has cost so far.
     fn counts(&self) -> Counts;
 }
 
-/// With `z` half the angle of a step, the classical Runge-Kutta method leaves `|p|` by `z^6 / 144` and an angle by `z^5 / 60`: this is their ratio for
-/// steps of half a radian.
+/// With `z` half the angle of a step, the classical Runge-Kutta method leaves `|p|` by `z^6 / 144`
+/// and an angle by `z^5 / 60`: this is their ratio for steps of half a radian.
 const TURNING_ERROR: f64 = 10.0;
 
 /// A one-step method of fixed coefficients.
@@ -302,7 +323,8 @@ pub trait Scheme<S: Real>: Copy + Debug {
     /// Memory for states like this one.
     fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X>;
 
-    /// The state after one step, from the slope at its start; not finite where a slope at a stage is not, see [`System::stage`].
+    /// The state after one step, from the slope at its start; not finite where a slope at a stage
+    /// is not, see [`System::stage`].
     ///
     /// # Errors
     /// A fault of the system at a stage.
@@ -324,7 +346,8 @@ pub trait Scheme<S: Real>: Copy + Debug {
         0.0
     }
 
-    /// Whether [`Course::better_end`] judges steps of this method: those of order 2, whose energy does not tell what they miss.
+    /// Whether [`Course::better_end`] judges steps of this method: those of order 2, whose energy
+    /// does not tell what they miss.
     const IS_JUDGED: bool = false;
 
     /// See [`Integrator::silent_phase`].
@@ -337,7 +360,8 @@ pub trait Scheme<S: Real>: Copy + Debug {
         0.0
     }
 
-    /// Evaluates what [`Scheme::interpolate`] needs besides the slopes of a step that began at `time`, once for each step that is looked into.
+    /// Evaluates what [`Scheme::interpolate`] needs besides the slopes of a step that began at
+    /// `time`, once for each step that is looked into.
     ///
     /// # Errors
     /// A fault of the system.
@@ -424,7 +448,8 @@ pub struct Span<S> {
     pub start: S,
     /// Where it ends (s), later than the start.
     pub end: S,
-    /// The time from the start to the first output (s); a step control may begin with it, as `ode45` does.
+    /// The time from the start to the first output (s); a step control may begin with it, as
+    /// `ode45` does.
     pub first_output: S,
 }
 
@@ -440,8 +465,8 @@ impl<S: Real> Span<S> {
     }
 }
 
-/// A step, if it leads to a state that is finite; else why not, if that is known. No part of its caller: its stack is free again where a step is looked into that was
-/// refused.
+/// A step, if it leads to a state that is finite; else why not, if that is known. No part of its
+/// caller: its stack is free again where a step is looked into that was refused.
 #[inline(never)]
 fn attempt<S: Real, K: Scheme<S>, Y: System<S>>(
     scheme: &K,

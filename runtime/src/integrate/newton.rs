@@ -1,11 +1,13 @@
-//! What implicit methods have in common: a simplified Newton iteration, and the Jacobian of the rates.
+//! What implicit methods have in common: a simplified Newton iteration, and the Jacobian of the
+//! rates.
 
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::math::scalar::increment;
 use crate::state::vector::Vector;
 
-/// A simplified Newton iteration under way, by the sizes of its changes (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8).
+/// A simplified Newton iteration under way, by the sizes of its changes (Hairer and Wanner,
+/// *Solving Ordinary Differential Equations II*, IV.8).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Newton<S> {
     /// What it may leave, relative to what is allowed of errors.
@@ -64,7 +66,8 @@ impl<S: Real> Newton<S> {
         }
     }
 
-    /// What the next step is made shorter by for the sake of its acceptance, the more the harder the iteration was.
+    /// What the next step is made shorter by for the sake of its acceptance, the more the harder
+    /// the iteration was.
     pub(super) fn safety(&self) -> S {
         let most = 2 * self.most;
         S::constant(0.9 * f64::from(most + 1) / f64::from(most + self.iterations))
@@ -82,9 +85,11 @@ pub(super) enum Age {
     Unknown,
 }
 
-/// The Jacobian of the rates by differences of them, one evaluation for every element of the state that has a part in increments.
+/// The Jacobian of the rates by differences of them, one evaluation for every element of the state
+/// that has a part in increments.
 ///
-/// With increments of `sqrt(EPSILON max(1e-5, |y|))` (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8), of angles on a circle as well.
+/// With increments of `sqrt(EPSILON max(1e-5, |y|))` (Hairer and Wanner, *Solving Ordinary
+/// Differential Equations II*, IV.8), of angles on a circle as well.
 pub(crate) fn by_differences<S: Real, X: Vector<S>>(
     state: &X,
     rates: &X,

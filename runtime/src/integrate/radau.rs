@@ -14,14 +14,20 @@ use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
 controlled! {
-    /// Radau IIA of order 5 with step control: for stiff systems, whose fast motions have died out and still keep an explicit method at short steps.
+    /// Radau IIA of order 5 with step control: for stiff systems, whose fast motions have died out
+    /// and still keep an explicit method at short steps.
     ///
-    /// A method of collocation with three stages, stiffly accurate and L-stable, after `RADAU5` (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8): a simplified
-    /// Newton iteration, one real and one complex system of linear equations of the size of the state, a Jacobian that is kept as long as the iteration converges fast
-    /// ([`System::jacobian`]), and the step control of Gustafsson. Its estimate of the error is of order 3, which it holds to `0.1 rtol^(2/3)` for a tolerance `rtol` below 1e-3, so that the
-    /// error is about the tolerance. A state within a step is that of a shorter step, so that it is as exact as those at ends.
+    /// A method of collocation with three stages, stiffly accurate and L-stable, after `RADAU5`
+    /// (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8): a simplified Newton
+    /// iteration, one real and one complex system of linear equations of the size of the state, a
+    /// Jacobian that is kept as long as the iteration converges fast ([`System::jacobian`]), and
+    /// the step control of Gustafsson. Its estimate of the error is of order 3, which it holds to
+    /// `0.1 rtol^(2/3)` for a tolerance `rtol` below 1e-3, so that the error is about the
+    /// tolerance. A state within a step is that of a shorter step, so that it is as exact as those
+    /// at ends.
     ///
-    /// A step takes three evaluations for each iteration and one at its end; a Jacobian what [`System::jacobian`] counts; a state within a step, those of a shorter step. Memory is four
+    /// A step takes three evaluations for each iteration and one at its end; a Jacobian what
+    /// [`System::jacobian`] counts; a state within a step, those of a shorter step. Memory is four
     /// matrices of the size of the state.
     ///
     /// ```
@@ -96,7 +102,8 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         let RadauIIA { tolerance, limits } = method;
         let relative = positive("relative tolerance", tolerance.relative)?;
         let absolute = positive("absolute tolerance", tolerance.absolute)?;
-        // The estimate is that of order 3; that of order 5 is smaller by the power 3/2, which is how `RADAU5` reads a tolerance.
+        // The estimate is that of order 3; that of order 5 is smaller by the power 3/2, which is
+        // how `RADAU5` reads a tolerance.
         let estimated = relative.max(S::constant(0.1) * relative.powf(2.0 / 3.0));
         let tolerance = Tolerance {
             relative: estimated,
@@ -133,7 +140,8 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         })
     }
 
-    /// What the polynomial of the last step adds to the state at its start, at a fraction of it, which may be beyond 1.
+    /// What the polynomial of the last step adds to the state at its start, at a fraction of it,
+    /// which may be beyond 1.
     fn polynomial(&self, theta: S) -> X {
         let powers = [theta, theta * theta, theta * theta * theta];
         let weights = tableau::POLYNOMIAL.map(|row| {
@@ -158,7 +166,8 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         })
     }
 
-    /// Makes Jacobian and factors be those of the present state and this step. `false` if there are none.
+    /// Makes Jacobian and factors be those of the present state and this step. `false` if there are
+    /// none.
     fn prepare<Y: System<S, State = X>>(&mut self, system: &mut Y, step: S) -> Result<bool, Fault> {
         if self.age == Age::Unknown {
             let mut counted = Counted {
@@ -187,7 +196,8 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         self.factorised.is_some()
     }
 
-    /// Solves for the increments to the stages of a step from a time and a state. `None` where the iteration does not converge, or leaves the numbers.
+    /// Solves for the increments to the stages of a step from a time and a state. `None` where the
+    /// iteration does not converge, or leaves the numbers.
     fn collocate<Y: System<S, State = X>>(
         &self,
         system: &mut Y,
@@ -249,8 +259,9 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         norm.quotient(self.controller.relative)
     }
 
-    /// The error of a step, relative to what is allowed, from the difference to a method of order 3; looked at once more where it was rejected before, for it is too large where a
-    /// fast motion has not died out.
+    /// The error of a step, relative to what is allowed, from the difference to a method of order
+    /// 3; looked at once more where it was rejected before, for it is too large where a fast motion
+    /// has not died out.
     fn estimate<Y: System<S, State = X>>(
         &self,
         system: &mut Y,
@@ -316,7 +327,8 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         named(fault, system, |system| self.attempt(system, step, false))
     }
 
-    /// The factor for the next step (Gustafsson, *Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods*, ACM TOMS 20 (1994)).
+    /// The factor for the next step (Gustafsson, *Control-theoretic techniques for stepsize
+    /// selection in implicit Runge-Kutta methods*, ACM TOMS 20 (1994)).
     fn factor(&self, step: S, error: S, newton: &Newton<S>) -> S {
         let exponent = -1.0 / tableau::POWER;
         let mut history = S::one();
@@ -459,7 +471,8 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         mut trial: Trial<S, X>,
         rejected: bool,
     ) {
-        /// An iteration of so few steps, or one that converges so fast, has no need of a new Jacobian.
+        /// An iteration of so few steps, or one that converges so fast, has no need of a new
+        /// Jacobian.
         const FEW: i32 = 2;
         const FAST: f64 = 1e-3;
         let newton = &trial.newton;

@@ -5,19 +5,23 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// The explicit midpoint method of order 2, of Runge: two evaluations a step, no estimate of the error.
+/// The explicit midpoint method of order 2, of Runge: two evaluations a step, no estimate of the
+/// error.
 ///
-/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, (II.1.4). Output within a step is by the cubic through states and slopes at
-/// both ends.
+/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, (II.1.4). Output within
+/// a step is by the cubic through states and slopes at both ends.
 ///
-/// A step of Euler parameters at a constant angular velocity `w` multiplies `|p|^2` by `1 + z^4 / 4` with `z = |w| h / 2`.
+/// A step of Euler parameters at a constant angular velocity `w` multiplies `|p|^2` by
+/// `1 + z^4 / 4` with `z = |w| h / 2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Midpoint;
 
-/// The method of Heun of order 2, the trapezoidal rule with a predictor: two evaluations a step, at its start and at its end, no estimate of the error.
+/// The method of Heun of order 2, the trapezoidal rule with a predictor: two evaluations a step, at
+/// its start and at its end, no estimate of the error.
 ///
-/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, exercise II.1.1. Output within a step is by the cubic through states and slopes at
-/// both ends; Euler parameters lose their length as with [`Midpoint`].
+/// Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, exercise II.1.1. Output
+/// within a step is by the cubic through states and slopes at both ends; Euler parameters lose
+/// their length as with [`Midpoint`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Heun;
 
@@ -37,7 +41,8 @@ impl Heun {
     }
 }
 
-/// Half the angle of a step, `z`, times the ratio of `z^3 / 3`, by which an angle is off after it, and `z^4 / 8`, by which `|p|` is.
+/// Half the angle of a step, `z`, times the ratio of `z^3 / 3`, by which an angle is off after it,
+/// and `z^4 / 8`, by which `|p|` is.
 const TURNING_ERROR_OF_SHORT_STEPS: f64 = 8.0 / 3.0;
 /// The ratio for steps of a radian.
 const TURNING_ERROR: f64 = 2.0 * TURNING_ERROR_OF_SHORT_STEPS;

@@ -7,11 +7,11 @@ use crate::state::vector::Vector;
 
 /// The classical Runge-Kutta method of order 4: four evaluations a step, no estimate of the error.
 ///
-/// Kutta 1901; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2. Output within
-/// a step is by the cubic through states and slopes at both ends.
+/// Kutta 1901; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, table
+/// II.1.2. Output within a step is by the cubic through states and slopes at both ends.
 ///
-/// A step of Euler parameters at a constant angular velocity `w` multiplies `|p|^2` by `1 - z^6/72 + z^8/576` with
-/// `z = |w| h / 2`.
+/// A step of Euler parameters at a constant angular velocity `w` multiplies `|p|^2` by
+/// `1 - z^6/72 + z^8/576` with `z = |w| h / 2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rk4;
 
@@ -76,7 +76,8 @@ impl<S: Real> Scheme<S> for Rk4 {
         Ok(next.plus([(sixth, &slope)]))
     }
 
-    /// The ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`, and `z^6 / 144`, by which `|p|` is.
+    /// The ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`, and
+    /// `z^6 / 144`, by which `|p|` is.
     fn turning_error_of_short_steps(&self) -> f64 {
         2.4
     }

@@ -5,12 +5,16 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// The semi-implicit (symplectic) Euler method of order 1: velocities by the accelerations at the start of the step, then coordinates by the velocities at its end. One
-/// evaluation a step, no estimate of the error.
+/// The semi-implicit (symplectic) Euler method of order 1: velocities by the accelerations at the
+/// start of the step, then coordinates by the velocities at its end. One evaluation a step, no
+/// estimate of the error.
 ///
-/// The energy of a conservative mechanism swings with an amplitude of the order of the step, but does not drift as with the explicit method of Euler, where neither forces nor
-/// masses depend on velocities: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, (I.1.9). It moves states of coordinates and velocities alone: a [`System`] of
-/// one's own offers [`System::with_new_velocities`], or is refused with [`Fault::NoVelocities`]. Output within a step is by the cubic through states and slopes at both ends.
+/// The energy of a conservative mechanism swings with an amplitude of the order of the step, but
+/// does not drift as with the explicit method of Euler, where neither forces nor masses depend on
+/// velocities: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, (I.1.9). It moves
+/// states of coordinates and velocities alone: a [`System`] of one's own offers
+/// [`System::with_new_velocities`], or is refused with [`Fault::NoVelocities`]. Output within a
+/// step is by the cubic through states and slopes at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SemiImplicitEuler;
 
@@ -42,12 +46,14 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
         Ok(state.plus([(step, &slope)]))
     }
 
-    /// `|p|` grows by `z^2 / 2` and an angle is off by `z^3 / 3`: less than `|p|`, for steps below a radian.
+    /// `|p|` grows by `z^2 / 2` and an angle is off by `z^3 / 3`: less than `|p|`, for steps below
+    /// a radian.
     fn turning_error(&self) -> f64 {
         1.0
     }
 
-    /// Coordinates go by velocities of the ends of steps, which are those of their middles half a step on.
+    /// Coordinates go by velocities of the ends of steps, which are those of their middles half a
+    /// step on.
     fn velocity_lead(&self) -> f64 {
         0.5
     }

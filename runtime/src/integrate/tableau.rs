@@ -16,7 +16,8 @@ pub(super) fn scaled<S: Scalar, const N: usize>(row: [f64; N], step: S) -> [S; N
 
 /// The pair of Bogacki and Shampine, order 3 with an embedded order 2.
 ///
-/// Bogacki and Shampine, *A 3(2) pair of Runge-Kutta formulas*, Appl. Math. Lett. 2 (1989), 321-325. Slope 4 is that at the end of the step.
+/// Bogacki and Shampine, *A 3(2) pair of Runge-Kutta formulas*, Appl. Math. Lett. 2 (1989),
+/// 321-325. Slope 4 is that at the end of the step.
 pub(super) mod bogacki_shampine {
     /// Times of the stages 2 and 3.
     pub(crate) const TIMES: [f64; 2] = [1.0 / 2.0, 3.0 / 4.0];
@@ -30,11 +31,13 @@ pub(super) mod bogacki_shampine {
     pub(crate) const ERROR: [f64; 4] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
 }
 
-/// The pair of Dormand and Prince, order 5 with an embedded order 4, and its free interpolant of order 4.
+/// The pair of Dormand and Prince, order 5 with an embedded order 4, and its free interpolant of
+/// order 4.
 ///
-/// Dormand and Prince, *A family of embedded Runge-Kutta formulae*, J. Comp. Appl. Math. 6 (1980), 19-26; Hairer,
-/// Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., table II.5.2. The second column of slopes has no part in
-/// the result, in the error, and in the interpolant.
+/// Dormand and Prince, *A family of embedded Runge-Kutta formulae*, J. Comp. Appl. Math. 6 (1980),
+/// 19-26; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., table
+/// II.5.2. The second column of slopes has no part in the result, in the error, and in the
+/// interpolant.
 ///
 /// ```text
 ///   0   |
@@ -88,9 +91,9 @@ pub(super) mod dormand_prince {
         22.0 / 525.0,
         -1.0 / 40.0,
     ];
-    /// Weights of slopes 1, 3, 4, 5, 6, 7 at the fraction `theta`: a polynomial each, without constant term, from
-    /// `theta` to `theta^4` (`ntrp45` of MATLAB; Shampine, *Some practical Runge-Kutta formulas*, Math. Comp. 46
-    /// (1986), 135-150).
+    /// Weights of slopes 1, 3, 4, 5, 6, 7 at the fraction `theta`: a polynomial each, without
+    /// constant term, from `theta` to `theta^4` (`ntrp45` of MATLAB; Shampine, *Some practical
+    /// Runge-Kutta formulas*, Math. Comp. 46 (1986), 135-150).
     pub(crate) const INTERPOLANT: [[f64; 4]; 6] = [
         [1.0, -183.0 / 64.0, 37.0 / 12.0, -145.0 / 128.0],
         [0.0, 1500.0 / 371.0, -1000.0 / 159.0, 1000.0 / 371.0],

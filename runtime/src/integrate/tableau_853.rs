@@ -1,6 +1,8 @@
-//! The method of Dormand and Prince of order 8 with its two error estimates and its interpolant of order 7.
+//! The method of Dormand and Prince of order 8 with its two error estimates and its interpolant of
+//! order 7.
 //!
-//! Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., II.5 and II.6, and their program `dop853.f`. Slopes that have no part in a row are left out of it.
+//! Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., II.5 and II.6,
+//! and their program `dop853.f`. Slopes that have no part in a row are left out of it.
 
 /// Times of the stages 2 to 11; stage 12 is at the end of the step, where slope 13 is taken.
 pub(super) const TIMES: [f64; 10] = [

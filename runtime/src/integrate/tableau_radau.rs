@@ -1,4 +1,5 @@
-//! The coefficients of Radau IIA of order 5 (Hairer and Wanner, *Solving Ordinary Differential Equations II*, second edition, IV.5 and IV.8).
+//! The coefficients of Radau IIA of order 5 (Hairer and Wanner, *Solving Ordinary Differential
+//! Equations II*, second edition, IV.5 and IV.8).
 
 /// The square root of six.
 const ROOT: f64 = 2.449_489_742_783_178;
@@ -12,10 +13,12 @@ pub(super) const NODES: [f64; 3] = [(4.0 - ROOT) / 10.0, (4.0 + ROOT) / 10.0, 1.
 /// The real eigenvalue of the inverse of the tableau, `3 + 3^(2/3) - 3^(1/3)`.
 pub(super) const REAL: f64 = 3.637_834_252_744_496;
 
-/// One of the complex ones, real and imaginary part: `3 + (3^(1/3) - 3^(2/3)) / 2`, `-(3^(5/6) + 3^(7/6)) / 2`.
+/// One of the complex ones, real and imaginary part: `3 + (3^(1/3) - 3^(2/3)) / 2`,
+/// `-(3^(5/6) + 3^(7/6)) / 2`.
 pub(super) const COMPLEX: [f64; 2] = [2.681_082_873_627_752, -3.050_430_199_247_410_6];
 
-/// The increments to the stages from those in which the inverse of the tableau falls apart into its eigenvalues.
+/// The increments to the stages from those in which the inverse of the tableau falls apart into its
+/// eigenvalues.
 pub(super) const TRANSFORMATION: [[f64; 3]; 3] = [
     [
         0.094_438_762_488_975_24,
@@ -56,7 +59,8 @@ pub(super) const ERROR: [f64; 3] = [
     -1.0 / 3.0,
 ];
 
-/// The polynomial through the state at the start and the stages: the weights of an increment at the powers 1, 2, 3 of the fraction of the step.
+/// The polynomial through the state at the start and the stages: the weights of an increment at the
+/// powers 1, 2, 3 of the fraction of the step.
 pub(super) const POLYNOMIAL: [[f64; 3]; 3] = [
     [
         13.0 / 3.0 + 7.0 * ROOT / 3.0,

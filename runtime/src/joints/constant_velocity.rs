@@ -1,13 +1,15 @@
 //! The constant-velocity joint.
 
 crate::joint! {
-    /// A constant-velocity joint (Rzeppa): the points of both shafts coincide, and `j` does not turn against `i` about the line that
-    /// bisects the shafts, so that both turn at one rate at any angle between them; two rotations are left.
+    /// A constant-velocity joint (Rzeppa): the points of both shafts coincide, and `j` does not
+    /// turn against `i` about the line that bisects the shafts, so that both turn at one rate at
+    /// any angle between them; two rotations are left.
     ///
-    /// `axis_i` and `axis_j` are the directions of the shafts, pointing the same way; at less than a right angle in the reference
-    /// configuration. With `n`, `b` perpendicular to the axis of `i`, and the same turned by the least rotation that takes one axis to
-    /// the other for `j`, the equation is `b_i . n_j = n_i . b_j`: the relative rotation has no part about the shaft (Haug 1989, section
-    /// 9.4).
+    /// `axis_i` and `axis_j` are the directions of the shafts, pointing the same way; at less than
+    /// a right angle in the reference configuration. With `n`, `b` perpendicular to the axis of
+    /// `i`, and the same turned by the least rotation that takes one axis to the other for `j`, the
+    /// equation is `b_i . n_j = n_i . b_j`: the relative rotation has no part about the shaft (Haug
+    /// 1989, section 9.4).
     pub joint ConstantVelocity(i, j; point: Point, axis_i: Axis, axis_j: Axis) {
         j.point - i.point;
         let bisector = i.axis_i + j.axis_j;

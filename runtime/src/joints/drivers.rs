@@ -1,10 +1,12 @@
 //! Drivers: coordinates as explicit functions of time.
 
 crate::joint! {
-    /// A motor of given motion: the angle of `j` against `i` about `axis` is `motion` (rad), right-handed, zero in the reference
-    /// configuration. Turns are counted by an auxiliary variable of the state.
+    /// A motor of given motion: the angle of `j` against `i` about `axis` is `motion` (rad),
+    /// right-handed, zero in the reference configuration. Turns are counted by an auxiliary
+    /// variable of the state.
     ///
-    /// Only this equation: a `Revolute` or another joint says where the axis is. The driving effort is the moment of the motor (N m).
+    /// Only this equation: a `Revolute` or another joint says where the axis is. The driving effort
+    /// is the moment of the motor (N m).
     pub joint AngleDriver(i, j; axis: Axis, motion: Law) {
         drive angle(i, j, axis) to motion();
         angle about axis;
@@ -12,7 +14,8 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// A cylinder of given motion: the distance of the point `tail` of `j` from the point `head` of `i` is `motion` (m), never zero.
+    /// A cylinder of given motion: the distance of the point `tail` of `j` from the point `head` of
+    /// `i` is `motion` (m), never zero.
     ///
     /// The driving effort (N) pushes the points apart where it is positive.
     pub joint DistanceDriver(i, j; head: Point, tail: Point, motion: Law) {
@@ -22,8 +25,8 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// A linear motor of given motion: the point of `j` is displaced against that of `i` along an axis of `i` by `motion` (m), zero in the
-    /// reference configuration.
+    /// A linear motor of given motion: the point of `j` is displaced against that of `i` along an
+    /// axis of `i` by `motion` (m), zero in the reference configuration.
     ///
     /// The driving effort (N) acts on `j` along the axis.
     pub joint DisplacementDriver(i, j; point: Point, axis: Axis, motion: Law) {
@@ -33,8 +36,9 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// An orientation of given motion: `j` is turned against `i` by the angle `motion` (rad) about `axis`, which is fixed on both; zero in
-    /// the reference configuration. Points are not constrained.
+    /// An orientation of given motion: `j` is turned against `i` by the angle `motion` (rad) about
+    /// `axis`, which is fixed on both; zero in the reference configuration. Points are not
+    /// constrained.
     ///
     /// The driving effort is the moment about the axis (N m).
     pub joint OrientationDriver(i, j; axis: Axis, motion: Law) {

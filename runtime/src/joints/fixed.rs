@@ -3,7 +3,8 @@
 crate::joint! {
     /// A weld: `j` moves with `i`; no motion is left.
     ///
-    /// The points coincide, and three pairs of vectors, along the global axes in the reference configuration, stay perpendicular.
+    /// The points coincide, and three pairs of vectors, along the global axes in the reference
+    /// configuration, stay perpendicular.
     pub joint Fixed(i, j; point: Point) {
         j.point - i.point;
         let x = [1.0, 0.0, 0.0];

@@ -23,10 +23,11 @@
 //! | [`AngleDriver`], [`DistanceDriver`], [`DisplacementDriver`] | i, j | 1 | a coordinate as a function of time |
 //! | [`OrientationDriver`] | i, j | 3 | an orientation as a function of time |
 //!
-//! Axes, parameters, zeros and signs of all of them stand on one page of the guide, [`guide::reference`](mod@crate::guide::reference). Equations say what two bodies may do
-//! against each other; joints on top of a chain that forbids it already are redundant, see
-//! [`guide::redundant`](crate::guide::redundant). Reactions are
-//! reduced to the first point of the joint, on either body.
+//! Axes, parameters, zeros and signs of all of them stand on one page of the guide,
+//! [`guide::reference`](mod@crate::guide::reference). Equations say what two bodies may do against
+//! each other; joints on top of a chain that forbids it already are redundant, see
+//! [`guide::redundant`](crate::guide::redundant). Reactions are reduced to the first point of the
+//! joint, on either body.
 //!
 //! They are not in the prelude: `use holonom::joints::Revolute;`.
 

@@ -1,10 +1,12 @@
 //! The prismatic joint.
 
 crate::joint! {
-    /// A slide: an axis of `j` stays on an axis of `i` and does not turn about it; a translation along it is left.
+    /// A slide: an axis of `j` stays on an axis of `i` and does not turn about it; a translation
+    /// along it is left.
     ///
-    /// A cylindrical joint, and two vectors perpendicular to the axis stay perpendicular to each other (Nikravesh 1988, section 7.2.5;
-    /// Flores 2015, section 8.6). The displacement is that of `j`'s point along the axis, zero in the reference configuration.
+    /// A cylindrical joint, and two vectors perpendicular to the axis stay perpendicular to each
+    /// other (Nikravesh 1988, section 7.2.5; Flores 2015, section 8.6). The displacement is that of
+    /// `j`'s point along the axis, zero in the reference configuration.
     pub joint Prismatic(i, j; point: Point, axis: Axis) {
         dot(i.axis.normals(), j.axis);
         dot(i.axis.normals(), j.point - i.point);

@@ -2,9 +2,11 @@
 
 use crate::math::scalar::Real;
 
-/// A time and what its last digits leave over: steps add up without a growing error, however many there are and however short.
+/// A time and what its last digits leave over: steps add up without a growing error, however many
+/// there are and however short.
 ///
-/// The sum of two numbers with its rounding error, after Knuth, *The Art of Computer Programming* 2, section 4.2.2, theorem B.
+/// The sum of two numbers with its rounding error, after Knuth, *The Art of Computer Programming*
+/// 2, section 4.2.2, theorem B.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Clock<S> {
     time: S,

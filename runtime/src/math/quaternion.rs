@@ -1,7 +1,8 @@
 //! Euler parameters and vectors as plain arrays.
 //!
-//! Euler parameters are `(e0, e1, e2, e3)`, scalar first; `A(p)` takes components along body axes to components along global
-//! axes. Nikravesh, *Computer-Aided Analysis of Mechanical Systems* (1988), chapter 6.
+//! Euler parameters are `(e0, e1, e2, e3)`, scalar first; `A(p)` takes components along body axes
+//! to components along global axes. Nikravesh, *Computer-Aided Analysis of Mechanical Systems*
+//! (1988), chapter 6.
 
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::cross;
@@ -47,7 +48,8 @@ pub(crate) fn product<S: Scalar>(p: &[S; 4], q: &[S; 4]) -> [S; 4] {
     ]
 }
 
-/// Euler parameters of a rotation, given row by row: from the largest of the four (Shepperd 1978, J. Guidance and Control 1), of length 1.
+/// Euler parameters of a rotation, given row by row: from the largest of the four (Shepperd 1978,
+/// J. Guidance and Control 1), of length 1.
 pub(crate) fn from_matrix<S: Real>(rows: &[[S; 3]; 3]) -> [S; 4] {
     let [[a11, a12, a13], [a21, a22, a23], [a31, a32, a33]] = *rows;
     let one = S::one();
@@ -100,7 +102,8 @@ pub(crate) fn from_rotation_vector<S: Real>(vector: &[S; 3]) -> [S; 4] {
     [cosine, x * factor, y * factor, z * factor]
 }
 
-/// `| |p| - 1 |` and the factor `1 / |p|`; none where there is no such number: those stay what they are, for whoever uses them to refuse.
+/// `| |p| - 1 |` and the factor `1 / |p|`; none where there is no such number: those stay what they
+/// are, for whoever uses them to refuse.
 #[inline(always)]
 pub(crate) fn to_unit_length<S: Real>(p: &[S; 4]) -> (S, Option<S>) {
     let excess = norm(p) - S::one();

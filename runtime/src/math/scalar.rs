@@ -1,8 +1,9 @@
 //! The numbers a kernel computes with.
 //!
-//! A kernel is generic over [`Scalar`], a handful of operations without branches: real numbers, numbers that carry derivatives along ([`Forward`](crate::Forward)),
-//! counting numbers and lanes fit. What must branch on a value (step control, Newton's loop, verdicts on
-//! pivots) asks for [`Real`], a scalar that can be compared.
+//! A kernel is generic over [`Scalar`], a handful of operations without branches: real numbers,
+//! numbers that carry derivatives along ([`Forward`](crate::Forward)), counting numbers and lanes
+//! fit. What must branch on a value (step control, Newton's loop, verdicts on pivots) asks for
+//! [`Real`], a scalar that can be compared.
 
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -11,11 +12,13 @@ use crate::math::versine;
 
 /// A number that generated kernels compute with: no branches, no conversions, no panics.
 ///
-/// NaN must travel: every operation with a NaN operand yields NaN, [`Scalar::min`] and the functions included.
+/// NaN must travel: every operation with a NaN operand yields NaN, [`Scalar::min`] and the
+/// functions included.
 ///
-/// Most kernels need no function but the square root. [`Scalar::sin`], [`Scalar::cos`] and [`Scalar::exp`] are called where a definition
-/// or a mechanism writes them: drivers, force laws, functions of time. [`Scalar::atan2`] and [`Scalar::round`] make an angle that counts turns
-/// from the orientations of two bodies and from its auxiliary variable.
+/// Most kernels need no function but the square root. [`Scalar::sin`], [`Scalar::cos`] and
+/// [`Scalar::exp`] are called where a definition or a mechanism writes them: drivers, force laws,
+/// functions of time. [`Scalar::atan2`] and [`Scalar::round`] make an angle that counts turns from
+/// the orientations of two bodies and from its auxiliary variable.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no type of numbers that mechanisms compute with",
     label = "neither `f64` nor `f32`",
@@ -40,7 +43,8 @@ pub trait Scalar:
     /// The square root; NaN for a negative number.
     fn sqrt(self) -> Self;
 
-    /// `self * factor + addend`, rounded once where the target has the instruction, twice elsewhere.
+    /// `self * factor + addend`, rounded once where the target has the instruction, twice
+    /// elsewhere.
     fn fused(self, factor: Self, addend: Self) -> Self;
 
     /// The absolute value.
@@ -49,7 +53,8 @@ pub trait Scalar:
     /// The lesser of two numbers; NaN if either is NaN.
     fn min(self, other: Self) -> Self;
 
-    /// `less` where `self < bound`, `otherwise` where not (also where the comparison fails for NaN).
+    /// `less` where `self < bound`, `otherwise` where not (also where the comparison fails for
+    /// NaN).
     fn select(self, bound: Self, less: Self, otherwise: Self) -> Self;
 
     /// The sine of an angle (rad); NaN for an infinite one.
@@ -61,27 +66,31 @@ pub trait Scalar:
     /// The exponential function; infinite beyond the range of numbers.
     fn exp(self) -> Self;
 
-    /// The angle (rad) of the point `(cosine, self)`, from `-pi` to `pi`; zero for the point `(0, 0)`.
+    /// The angle (rad) of the point `(cosine, self)`, from `-pi` to `pi`; zero for the point
+    /// `(0, 0)`.
     fn atan2(self, cosine: Self) -> Self;
 
-    /// The nearest integer, halves away from zero. Piecewise constant: a dual number has derivative zero here, at the jumps too.
+    /// The nearest integer, halves away from zero. Piecewise constant: a dual number has derivative
+    /// zero here, at the jumps too.
     fn round(self) -> Self;
 
-    /// The sines of angles (rad), and their versines, `1 - cos`: what turns by these angles are made of, see [`crate::JointState`]. Both keep
-    /// their digits however small or large the angle is; NaN for an infinite one.
+    /// The sines of angles (rad), and their versines, `1 - cos`: what turns by these angles are
+    /// made of, see [`crate::JointState`]. Both keep their digits however small or large the angle
+    /// is; NaN for an infinite one.
     ///
-    /// By [`Scalar::sin`] and [`Scalar::cos`] of half the angles, if a type does not know better: `f64` and `f32` have no call of a function
-    /// where all angles are below 0.9 rad.
+    /// By [`Scalar::sin`] and [`Scalar::cos`] of half the angles, if a type does not know better:
+    /// `f64` and `f32` have no call of a function where all angles are below 0.9 rad.
     #[must_use]
     fn sines_and_versines<const N: usize>(angles: &[Self; N]) -> [[Self; 2]; N] {
         angles.map(versine::of)
     }
 
-    /// Whether numbers have no more than the seven digits of `f32`: a series may end where these are right.
+    /// Whether numbers have no more than the seven digits of `f32`: a series may end where these
+    /// are right.
     const SEVEN_DIGITS: bool = false;
 
-    /// Whether the absolute values of these numbers are known to be at most `bound`; NaN, which shows in whatever is computed of it, does not count. A type that cannot
-    /// tell says no.
+    /// Whether the absolute values of these numbers are known to be at most `bound`; NaN, which
+    /// shows in whatever is computed of it, does not count. A type that cannot tell says no.
     #[must_use]
     fn are_within<const N: usize>(numbers: &[Self; N], bound: f64) -> bool {
         let _ = (numbers, bound);
@@ -99,7 +108,8 @@ pub trait Scalar:
     }
 }
 
-/// A scalar that can be compared and converted: what steppers, projections and reports compute with.
+/// A scalar that can be compared and converted: what steppers, projections and reports compute
+/// with.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no type of numbers that mechanisms compute with",
     label = "neither `f64` nor `f32`",

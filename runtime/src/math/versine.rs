@@ -1,14 +1,18 @@
 //! Sine and versine, of which a turn by an angle is made.
 //!
-//! `1 - cos` by itself keeps the digits of small angles: a turn adds a small increment, which is rounded once.
+//! `1 - cos` by itself keeps the digits of small angles: a turn adds a small increment, which is
+//! rounded once.
 
 use crate::math::scalar::Scalar;
 
-/// Angles (rad) for which the polynomials of each type of numbers leave nothing beyond round-off: a step seldom turns a joint by more.
+/// Angles (rad) for which the polynomials of each type of numbers leave nothing beyond round-off: a
+/// step seldom turns a joint by more.
 pub(crate) const SMALL: f64 = 0.9;
 
-/// Of the sine, `(sin a - a) / a^3`, and of the versine, `(1 - cos a - a^2 / 2) / a^4`, as polynomials in `a^2` that make the greatest relative error of sine and versine up to
-/// [`SMALL`] as small as it can be (Remez). Six coefficients leave 3.2e-17 and 3.2e-18 of them; Taylor's leave 2.0e-13 and 2.4e-14.
+/// Of the sine, `(sin a - a) / a^3`, and of the versine, `(1 - cos a - a^2 / 2) / a^4`, as
+/// polynomials in `a^2` that make the greatest relative error of sine and versine up to [`SMALL`]
+/// as small as it can be (Remez). Six coefficients leave 3.2e-17 and 3.2e-18 of them; Taylor's
+/// leave 2.0e-13 and 2.4e-14.
 pub(crate) const SIX: [[f64; 6]; 2] = [
     [
         -0.166_666_666_666_664_8,
@@ -28,7 +32,8 @@ pub(crate) const SIX: [[f64; 6]; 2] = [
     ],
 ];
 
-/// Three coefficients, which leave 1.5e-8 and 4.6e-9 as numbers of `f32`: a quarter of what rounding does.
+/// Three coefficients, which leave 1.5e-8 and 4.6e-9 as numbers of `f32`: a quarter of what
+/// rounding does.
 pub(crate) const THREE: [[f64; 3]; 2] = [
     [
         -0.166_666_392_269_373_45,
@@ -42,8 +47,10 @@ pub(crate) const THREE: [[f64; 3]; 2] = [
     ],
 ];
 
-/// Where loops over so many pairs are cut in two: of what is left over when many have been done side by side, compilers make gathers and scatters, or one after the other, which takes
-/// up to four times as long. Eight and up to seven where lanes are wide, else one alone. Measured, see ARCHITECTURE.
+/// Where loops over so many pairs are cut in two: of what is left over when many have been done
+/// side by side, compilers make gathers and scatters, or one after the other, which takes up to
+/// four times as long. Eight and up to seven where lanes are wide, else one alone. Measured, see
+/// ARCHITECTURE.
 pub(crate) const fn cut(pairs: usize) -> usize {
     match pairs {
         9..16 if cfg!(target_feature = "avx") => 8,
@@ -52,7 +59,8 @@ pub(crate) const fn cut(pairs: usize) -> usize {
     }
 }
 
-/// `[sin a, 1 - cos a]` of any angle (rad), by the functions of half the angle: both keep their digits.
+/// `[sin a, 1 - cos a]` of any angle (rad), by the functions of half the angle: both keep their
+/// digits.
 #[inline]
 pub(crate) fn of<S: Scalar>(angle: S) -> [S; 2] {
     let half = S::constant(0.5) * angle;
@@ -61,7 +69,8 @@ pub(crate) fn of<S: Scalar>(angle: S) -> [S; 2] {
     [twice * half.cos(), twice * sine]
 }
 
-/// `[sin a, 1 - cos a]` of a small angle (rad), by the coefficients of both and what makes a polynomial of them: [`SIX`] and [`six`], or [`THREE`] and [`three`].
+/// `[sin a, 1 - cos a]` of a small angle (rad), by the coefficients of both and what makes a
+/// polynomial of them: [`SIX`] and [`six`], or [`THREE`] and [`three`].
 #[inline(always)]
 pub(crate) fn of_small<S: Scalar, const N: usize>(
     angle: S,
@@ -76,7 +85,8 @@ pub(crate) fn of_small<S: Scalar, const N: usize>(
     ]
 }
 
-/// `[sin a, 1 - cos a]` of an angle of 0.0125 rad at most, with the digits that a turn by it needs: Taylor's series, which leave 9.5e-18 of a turn, and 1.0e-9 in `f32`.
+/// `[sin a, 1 - cos a]` of an angle of 0.0125 rad at most, with the digits that a turn by it needs:
+/// Taylor's series, which leave 9.5e-18 of a turn, and 1.0e-9 in `f32`.
 #[inline(always)]
 pub(crate) fn of_little<S: Scalar>(angle: S) -> [S; 2] {
     let square = angle * angle;
@@ -104,8 +114,8 @@ pub(crate) fn three<S: Scalar>(x: S, square: S, &[a, b, c]: &[f64; 3]) -> S {
     S::constant(c).fused(square, pair(x, a, b))
 }
 
-/// A polynomial in `x` by pairs of terms, which do not wait for each other. Written out: a loop over the coefficients is called where much is compiled together, and takes
-/// three times as long.
+/// A polynomial in `x` by pairs of terms, which do not wait for each other. Written out: a loop
+/// over the coefficients is called where much is compiled together, and takes three times as long.
 #[inline(always)]
 pub(crate) fn six<S: Scalar>(x: S, square: S, &[a, b, c, d, e, f]: &[f64; 6]) -> S {
     pair(x, e, f)

@@ -29,13 +29,14 @@ pub struct Pose<S: Scalar> {
 
 /// Access to the state of a mechanism by handle.
 ///
-/// A state stores the orientation and the angular velocity of a body in principal axes; these functions speak the
-/// axes in which the user described the body. With `A(p)` from principal to global axes and `A(c)` from the user's to the
-/// principal axes ([`Mechanism::user_axes`]), the user's axes are turned by `A(p) A(c)`, and an angular velocity `w`
-/// along principal axes is `A(c)^T w` along the user's.
+/// A state stores the orientation and the angular velocity of a body in principal axes; these
+/// functions speak the axes in which the user described the body. With `A(p)` from principal to
+/// global axes and `A(c)` from the user's to the principal axes ([`Mechanism::user_axes`]), the
+/// user's axes are turned by `A(p) A(c)`, and an angular velocity `w` along principal axes is
+/// `A(c)^T w` along the user's.
 ///
-/// A particle has no orientation: its axes are the global ones, its angular velocity is zero, and what is set is
-/// ignored.
+/// A particle has no orientation: its axes are the global ones, its angular velocity is zero, and
+/// what is set is ignored.
 pub trait MechanismExt: Mechanism {
     /// What depends on the parameters of this value alone, as the kernels take it.
     ///
@@ -53,15 +54,21 @@ pub trait MechanismExt: Mechanism {
         Ok(Self::initial_state(&self.constants()?))
     }
 
-    /// Corrects positions and velocities so that they satisfy the constraints at a time, on the branch of the described state.
+    /// Corrects positions and velocities so that they satisfy the constraints at a time, on the
+    /// branch of the described state.
     ///
-    /// What stands otherwise against what carries it in the spanning tree ([`Report::carriers`](crate::Report::carriers)) than in the described state was set, and is moved there in strides of
-    /// at most 0.2 rad, or lengths of the mechanism; the other bodies follow the constraints. So what was set by [`MechanismExt::set_angle`] and its like is kept. A state that opens joints of the tree by less than a tenth of a radian, or a guess of
-    /// all bodies up to half a radian, is corrected at once, see [`Projection`]. Joints come out on the side that is meant ([`Mechanism::joint_side`]). [`Correction::moved`] says how far
-    /// the state was moved.
+    /// What stands otherwise against what carries it in the spanning tree
+    /// ([`Report::carriers`](crate::Report::carriers)) than in the described state was set, and is
+    /// moved there in strides of at most 0.2 rad, or lengths of the mechanism; the other bodies
+    /// follow the constraints. So what was set by [`MechanismExt::set_angle`] and its like is kept.
+    /// A state that opens joints of the tree by less than a tenth of a radian, or a guess of all
+    /// bodies up to half a radian, is corrected at once, see [`Projection`]. Joints come out on the
+    /// side that is meant ([`Mechanism::joint_side`]). [`Correction::moved`] says how far the state
+    /// was moved.
     ///
     /// # Errors
-    /// A parameter that is not acceptable; [`Fault::WayEnds`] where the branch does not reach what was set; [`Fault::NotConverged`]; [`Fault::WrongSide`]. The state is then as before.
+    /// A parameter that is not acceptable; [`Fault::WayEnds`] where the branch does not reach what
+    /// was set; [`Fault::NotConverged`]; [`Fault::WrongSide`]. The state is then as before.
     fn assemble<S: Real>(
         &self,
         time: S,
@@ -72,7 +79,8 @@ pub trait MechanismExt: Mechanism {
         assembled::<S, Self>(&Projection::default(), &constants, time, state, &from)
     }
 
-    /// [`MechanismExt::assemble`] from another state than the described one: the last that satisfied the constraints, whose branch is to be kept.
+    /// [`MechanismExt::assemble`] from another state than the described one: the last that
+    /// satisfied the constraints, whose branch is to be kept.
     ///
     /// # Errors
     /// As [`MechanismExt::assemble`].
@@ -87,7 +95,8 @@ pub trait MechanismExt: Mechanism {
         assembled::<S, Self>(&Projection::default(), &constants, time, state, from)
     }
 
-    /// The Euler parameters (scalar first, of length 1) of the rotation from the user's body axes to the global axes.
+    /// The Euler parameters (scalar first, of length 1) of the rotation from the user's body axes
+    /// to the global axes.
     fn orientation<S: Scalar>(state: &Self::State<S>, body: BodyHandle<Self>) -> [S; 4] {
         match body.orientation() {
             Some((_, place)) => {
@@ -107,12 +116,14 @@ pub trait MechanismExt: Mechanism {
         }
     }
 
-    /// Sets position and orientation of a body; the orientation may have any length but zero, which whatever uses the state
-    /// refuses with [`Fault::ZeroOrientation`].
+    /// Sets position and orientation of a body; the orientation may have any length but zero, which
+    /// whatever uses the state refuses with [`Fault::ZeroOrientation`].
     ///
-    /// **A pose does not tell turns.** Angles that count them ([`Report::auxiliaries`](crate::Report::auxiliaries): of screws, gears, racks, drivers of
-    /// angles, torsional springs and actuators) stay as they are in the state. A run, [`MechanismExt::assemble`] and [`Mechanism::recount`]
-    /// take the whole turns from there and the rest from the orientations: right for a pose that is less than half a turn away from the
+    /// **A pose does not tell turns.** Angles that count them
+    /// ([`Report::auxiliaries`](crate::Report::auxiliaries): of screws, gears, racks, drivers of
+    /// angles, torsional springs and actuators) stay as they are in the state. A run,
+    /// [`MechanismExt::assemble`] and [`Mechanism::recount`] take the whole turns from there and
+    /// the rest from the orientations: right for a pose that is less than half a turn away from the
     /// one before. For any other say the angles too, with [`MechanismExt::set_counted_angles`].
     fn set_pose<S: Scalar>(state: &mut Self::State<S>, body: BodyHandle<Self>, pose: Pose<S>) {
         let Some(info) = body.info() else { return };
@@ -126,20 +137,23 @@ pub trait MechanismExt: Mechanism {
         }
     }
 
-    /// The angles (rad) that a joint or a force counts turns of, as they stand in the state: in the order of its definition, zero in the reference
-    /// configuration, without elements where it counts none.
+    /// The angles (rad) that a joint or a force counts turns of, as they stand in the state: in the
+    /// order of its definition, zero in the reference configuration, without elements where it
+    /// counts none.
     fn counted_angles<S: Scalar, E: CountsTurns<Self>>(state: &Self::State<S>, element: E) -> &[S] {
         let angles = state.coordinates().as_slice().get(element.counters());
         angles.unwrap_or(&[])
     }
 
-    /// Sets the angles (rad) that a joint or a force counts turns of, see [`MechanismExt::counted_angles`]: one for most, two for a `Gear` (of `j`, of `i`).
+    /// Sets the angles (rad) that a joint or a force counts turns of, see
+    /// [`MechanismExt::counted_angles`]: one for most, two for a `Gear` (of `j`, of `i`).
     ///
-    /// Only the count of turns is taken from them: whatever uses the state takes the angles that its orientations have and that are
-    /// nearest to these, which may be off by up to half a turn.
+    /// Only the count of turns is taken from them: whatever uses the state takes the angles that
+    /// its orientations have and that are nearest to these, which may be off by up to half a turn.
     ///
     /// # Errors
-    /// [`Fault::CountedAngles`] for another number of angles than the joint or force counts; the state is then as before.
+    /// [`Fault::CountedAngles`] for another number of angles than the joint or force counts; the
+    /// state is then as before.
     fn set_counted_angles<S: Scalar, E: CountsTurns<Self>>(
         state: &mut Self::State<S>,
         element: E,
@@ -160,16 +174,20 @@ pub trait MechanismExt: Mechanism {
         Ok(())
     }
 
-    /// Sets the angle of a joint (rad), as [`View::angle`](crate::View::angle) reads it: what the joint carries in the spanning tree
-    /// ([`Report::carriers`](crate::Report::carriers)), and all that hangs on that, turns about the joint's axis as one body.
+    /// Sets the angle of a joint (rad), as [`View::angle`](crate::View::angle) reads it: what the
+    /// joint carries in the spanning tree ([`Report::carriers`](crate::Report::carriers)), and all
+    /// that hangs on that, turns about the joint's axis as one body.
     ///
-    /// No other joint of the tree is opened, the velocities of all joints stay what they were, and so angles may be set in any order. A joint that closes a loop is opened: see
-    /// [`MechanismExt::assemble`]. Angles that count turns go along: by the whole way where the joint, or an element between the same two bodies, counts turns of this
-    /// angle, else by the nearest one.
+    /// No other joint of the tree is opened, the velocities of all joints stay what they were, and
+    /// so angles may be set in any order. A joint that closes a loop is opened: see
+    /// [`MechanismExt::assemble`]. Angles that count turns go along: by the whole way where the
+    /// joint, or an element between the same two bodies, counts turns of this angle, else by the
+    /// nearest one.
     ///
     /// # Errors
-    /// [`Fault::CarriesNothing`] for a joint that carries no body: it closes a loop, or drives what another one carries. [`Fault::NotFree`] for one whose angle is not that
-    /// of its motion. [`Fault::StateNotFinite`], a parameter that is not acceptable. The state is then as before.
+    /// [`Fault::CarriesNothing`] for a joint that carries no body: it closes a loop, or drives what
+    /// another one carries. [`Fault::NotFree`] for one whose angle is not that of its motion.
+    /// [`Fault::StateNotFinite`], a parameter that is not acceptable. The state is then as before.
     fn set_angle<S: Real, J: HasAngle>(
         &self,
         state: &mut Self::State<S>,
@@ -181,8 +199,9 @@ pub trait MechanismExt: Mechanism {
         Ok(())
     }
 
-    /// Sets the rate of the angle of a joint (rad/s), as [`View::angle_rate`](crate::View::angle_rate) reads it, in the present configuration: what hangs on the joint
-    /// goes along as one body. Rates of other joints stay what they were.
+    /// Sets the rate of the angle of a joint (rad/s), as
+    /// [`View::angle_rate`](crate::View::angle_rate) reads it, in the present configuration: what
+    /// hangs on the joint goes along as one body. Rates of other joints stay what they were.
     ///
     /// # Errors
     /// As [`MechanismExt::set_angle`].
@@ -197,8 +216,9 @@ pub trait MechanismExt: Mechanism {
         Ok(())
     }
 
-    /// Sets the displacement of a joint (m), as [`View::displacement`](crate::View::displacement) reads it: what hangs on the joint is moved along its direction as one
-    /// body, see [`MechanismExt::set_angle`].
+    /// Sets the displacement of a joint (m), as [`View::displacement`](crate::View::displacement)
+    /// reads it: what hangs on the joint is moved along its direction as one body, see
+    /// [`MechanismExt::set_angle`].
     ///
     /// # Errors
     /// As [`MechanismExt::set_angle`].
@@ -214,7 +234,9 @@ pub trait MechanismExt: Mechanism {
         Ok(())
     }
 
-    /// Sets the rate of the displacement of a joint (m/s), as [`View::displacement_rate`](crate::View::displacement_rate) reads it, in the present configuration.
+    /// Sets the rate of the displacement of a joint (m/s), as
+    /// [`View::displacement_rate`](crate::View::displacement_rate) reads it, in the present
+    /// configuration.
     ///
     /// # Errors
     /// As [`MechanismExt::set_angle`].
@@ -230,13 +252,17 @@ pub trait MechanismExt: Mechanism {
         Ok(())
     }
 
-    /// Sets how the second body of a ball joint is turned against the first, from the reference configuration on: 1 is the reference one, and where the first body stands
-    /// as described, the second is turned by this rotation, global axes. What hangs on the joint turns about its point as one body, see [`MechanismExt::set_angle`].
+    /// Sets how the second body of a ball joint is turned against the first, from the reference
+    /// configuration on: 1 is the reference one, and where the first body stands as described, the
+    /// second is turned by this rotation, global axes. What hangs on the joint turns about its
+    /// point as one body, see [`MechanismExt::set_angle`].
     ///
-    /// The quaternion may have any length but zero, which is refused with [`Fault::StateNotFinite`].
+    /// The quaternion may have any length but zero, which is refused with
+    /// [`Fault::StateNotFinite`].
     ///
     /// # Errors
-    /// As [`MechanismExt::set_angle`]; [`Fault::NotFree`] for a joint that does not leave all rotations free.
+    /// As [`MechanismExt::set_angle`]; [`Fault::NotFree`] for a joint that does not leave all
+    /// rotations free.
     fn set_relative_orientation<S: Real, J: Joint>(
         &self,
         state: &mut Self::State<S>,
@@ -318,7 +344,8 @@ pub trait MechanismExt: Mechanism {
         Vector3::new(x + sx, y + sy, z + sz)
     }
 
-    /// The velocity of a point of a body (m/s, global), given from the centre of mass along the user's body axes (m).
+    /// The velocity of a point of a body (m/s, global), given from the centre of mass along the
+    /// user's body axes (m).
     fn point_velocity<S: Scalar>(
         state: &Self::State<S>,
         body: BodyHandle<Self>,

@@ -79,7 +79,8 @@ impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
         }
     }
 
-    /// A force (N, global) at a point of the body, given from the centre of mass in the user's body axes (m).
+    /// A force (N, global) at a point of the body, given from the centre of mass in the user's body
+    /// axes (m).
     pub fn force_at(&mut self, body: BodyHandle<M>, point: [S; 3], force: [S; 3]) {
         self.force(body, force);
         let arm = rotate(&M::orientation(self.state, body), &point);

@@ -18,8 +18,10 @@ pub struct Wrench<S> {
     pub moment: Vector3<S>,
     /// The point (m, global).
     pub point: Vector3<S>,
-    /// Whether nothing else would do. Not so where equations of the joint depend on others ([`JointInfo::undetermined`](crate::JointInfo)): then a part of the
-    /// reaction is one of many that hold the bodies, by the choice of equations that are kept or the compliance that they share, and zero in it says nothing.
+    /// Whether nothing else would do. Not so where equations of the joint depend on others
+    /// ([`JointInfo::undetermined`](crate::JointInfo)): then a part of the reaction is one of many
+    /// that hold the bodies, by the choice of equations that are kept or the compliance that they
+    /// share, and zero in it says nothing.
     pub is_unique: bool,
 }
 
@@ -29,10 +31,12 @@ struct Reduced<S> {
     moment: [S; 3],
 }
 
-/// The wrench of a joint on the body at a place of its `between`, reduced to the joint's point on that body.
+/// The wrench of a joint on the body at a place of its `between`, reduced to the joint's point on
+/// that body.
 ///
-/// On a body it is `-D^T lambda`: the force, and the moment about the centre of mass moved to the point. On the ground
-/// it is the opposite of the sum over the bodies. `None` for a joint or a place that is not there.
+/// On a body it is `-D^T lambda`: the force, and the moment about the centre of mass moved to the
+/// point. On the ground it is the opposite of the sum over the bodies. `None` for a joint or a
+/// place that is not there.
 pub(crate) fn wrench<S: Scalar, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,
@@ -84,7 +88,8 @@ pub(crate) fn wrench<S: Scalar, M: Mechanism>(
     })
 }
 
-/// `-D^T lambda` of one joint on one body: force (N) and moment about the centre of mass (N m), both global.
+/// `-D^T lambda` of one joint on one body: force (N) and moment about the centre of mass (N m),
+/// both global.
 fn load_on_body<S: Scalar, M: Mechanism>(
     jacobian: &[S],
     state: &M::State<S>,

@@ -34,8 +34,8 @@ impl<S: Scalar, M: Mechanism> Copy for View<'_, S, M> {}
 impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// A view of a state; for the kernels it is read with Euler parameters of length 1.
     ///
-    /// Constants and state do not tell the mechanism: two may have the same sizes. A handle does; where none is used, write
-    /// `View::<_, Swing>::new(..)`.
+    /// Constants and state do not tell the mechanism: two may have the same sizes. A handle does;
+    /// where none is used, write `View::<_, Swing>::new(..)`.
     #[must_use]
     pub fn new(constants: &'a M::Constants<S>, time: S, state: &'a M::State<S>) -> Self {
         Self {
@@ -65,7 +65,8 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         self.state
     }
 
-    /// Position (m, global) of the centre of mass, and orientation from the user's body axes to the global axes.
+    /// Position (m, global) of the centre of mass, and orientation from the user's body axes to the
+    /// global axes.
     #[must_use]
     pub fn pose(&self, body: BodyHandle<M>) -> Pose<S> {
         M::pose(self.state, body)
@@ -101,8 +102,9 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         M::point_velocity(self.state, body, point)
     }
 
-    /// The angle of a joint (rad), zero in the configuration that the attributes describe, positive as the second body
-    /// turns about the joint's axis against the first: from `-pi` to `pi`, or without bounds where the joint's definition counts turns.
+    /// The angle of a joint (rad), zero in the configuration that the attributes describe, positive
+    /// as the second body turns about the joint's axis against the first: from `-pi` to `pi`, or
+    /// without bounds where the joint's definition counts turns.
     #[must_use]
     pub fn angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
         self.angle_parts(joint.index()).angle()
@@ -126,12 +128,14 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         self.displacement_parts(joint.index()).rate
     }
 
-    /// The effort of a driver: the generalised force with which it acts on the quantity that it drives, from the
-    /// multipliers at this state; N for a length, N m for an angle. A positive effort pushes the quantity upwards, so that effort times rate is
-    /// the power that the driver puts in.
+    /// The effort of a driver: the generalised force with which it acts on the quantity that it
+    /// drives, from the multipliers at this state; N for a length, N m for an angle. A positive
+    /// effort pushes the quantity upwards, so that effort times rate is the power that the driver
+    /// puts in.
     ///
     /// # Errors
-    /// [`Fault::NoEffort`] where the driver's equation was left out as redundant: other joints carry what it would.
+    /// [`Fault::NoEffort`] where the driver's equation was left out as redundant: other joints
+    /// carry what it would.
     pub fn driving_effort<J: Driven>(
         &self,
         multipliers: &M::Multipliers<S>,
@@ -146,8 +150,8 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
             })
     }
 
-    /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the joint's point on
-    /// that body, from the multipliers at this state.
+    /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the
+    /// joint's point on that body, from the multipliers at this state.
     ///
     /// # Errors
     /// [`Fault::NotBetween`] for a body that is not of the joint.
@@ -195,8 +199,9 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         M::potential_energy(self.constants, self.time, self.state)
     }
 
-    /// The power (W) of the forces of the language that have no potential, see [`Mechanism::power`]: what changes the energy of a
-    /// mechanism without drivers and without a force closure.
+    /// The power (W) of the forces of the language that have no potential, see
+    /// [`Mechanism::power`]: what changes the energy of a mechanism without drivers and without a
+    /// force closure.
     #[must_use]
     pub fn power(&self) -> S {
         M::power(self.constants, self.time, self.state)
@@ -208,7 +213,8 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         M::force_parts(self.constants, self.time, self.state, force.index())
     }
 
-    /// What a force exerts on one of its bodies: force and moment (N, N m, global) about the body's centre of mass.
+    /// What a force exerts on one of its bodies: force and moment (N, N m, global) about the body's
+    /// centre of mass.
     ///
     /// # Errors
     /// [`Fault::NotBetween`] for a body that is not in the force's `between`.

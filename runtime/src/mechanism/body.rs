@@ -1,6 +1,7 @@
 //! Bodies, as types of a mechanism's fields.
 //!
-//! Each is a type and a macro of one name: the macro carries the kind of the body to where the mechanism is put together.
+//! Each is a type and a macro of one name: the macro carries the kind of the body to where the
+//! mechanism is put together.
 
 /// A rigid body with position and orientation: 7 coordinates, 6 velocities.
 ///
@@ -20,8 +21,8 @@ pub struct Body;
 
 /// A point mass without orientation: 3 coordinates, 3 velocities.
 ///
-/// Described by `#[body(..)]` with `mass`, `position`, `velocity` and `free` as for a [`Body`]. Joints may hold it at its
-/// own position only.
+/// Described by `#[body(..)]` with `mass`, `position`, `velocity` and `free` as for a [`Body`].
+/// Joints may hold it at its own position only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Particle;
 

@@ -8,11 +8,11 @@ use crate::mechanism::report::Kernel;
 use crate::state::joint_state::JointState;
 use crate::state::vector::{Array, Vector};
 
-/// A mechanism with `#[mechanism(coordinates = "joints")]` or `"both"`: besides the kernels of [`Mechanism`] it has those of its equations of motion in joint
-/// coordinates.
+/// A mechanism with `#[mechanism(coordinates = "joints")]` or `"both"`: besides the kernels of
+/// [`Mechanism`] it has those of its equations of motion in joint coordinates.
 ///
-/// Bodies of a spanning tree move by what their joints leave free; only joints that close loops, and those that do not say how they move, keep equations and
-/// multipliers:
+/// Bodies of a spanning tree move by what their joints leave free; only joints that close loops,
+/// and those that do not say how they move, keep equations and multipliers:
 ///
 /// ```text
 /// [ M(q)  D^T ] [ u'     ]   [ forces along the velocities, less what the motion takes ]
@@ -26,7 +26,8 @@ use crate::state::vector::{Array, Vector};
     note = "write `#[mechanism(coordinates = \"joints\")]` above the struct"
 )]
 pub trait JointCoordinates: Mechanism {
-    /// The state: a pair of cosine and sine for every turn, displacements, Euler parameters and auxiliary variables, and the velocities.
+    /// The state: a pair of cosine and sine for every turn, displacements, Euler parameters and
+    /// auxiliary variables, and the velocities.
     type JointState<S: Scalar>: JointParts<S>;
     /// One number per equation that remains.
     type ClosingMultipliers<S: Scalar>: Array<S>;
@@ -34,8 +35,9 @@ pub trait JointCoordinates: Mechanism {
     type JointConstants<S: Scalar>: Array<S>;
     /// What depends on constants and on the coefficients of the formulation.
     type JointCoefficients<S: Scalar>: Array<S>;
-    /// Body by body position and velocity (global), and of a rigid one the rotation matrix from principal to global axes, row by row, and the angular
-    /// velocity in principal axes; behind them the auxiliary variables.
+    /// Body by body position and velocity (global), and of a rigid one the rotation matrix from
+    /// principal to global axes, row by row, and the angular velocity in principal axes; behind
+    /// them the auxiliary variables.
     type BodyMotions<S: Scalar>: Array<S>;
 
     /// What [`JointCoordinates::solve_joints`] takes from a state.
@@ -55,15 +57,17 @@ pub trait JointCoordinates: Mechanism {
         constants: &mut Self::JointConstants<S>,
     );
 
-    /// Computes once what depends on the coefficients of a formulation, with a compliance for each equation that remains.
+    /// Computes once what depends on the coefficients of a formulation, with a compliance for each
+    /// equation that remains.
     fn joint_coefficients<S: Scalar>(
         constants: &Self::JointConstants<S>,
         stabilisation: &Stabilisation<S>,
         compliances: &Self::ClosingMultipliers<S>,
     ) -> Self::JointCoefficients<S>;
 
-    /// The whole right-hand side in one straight line: the slope of the state, and the multipliers of the equations that remain. Writes every element of
-    /// both; returns the smallest relative pivot.
+    /// The whole right-hand side in one straight line: the slope of the state, and the multipliers
+    /// of the equations that remain. Writes every element of both; returns the smallest relative
+    /// pivot.
     fn evaluate_joints_into<S: Scalar, T: Terms>(
         constants: &Self::JointConstants<S>,
         coefficients: &Self::JointCoefficients<S>,
@@ -73,7 +77,8 @@ pub trait JointCoordinates: Mechanism {
         multipliers: &mut Self::ClosingMultipliers<S>,
     ) -> Pivot<S>;
 
-    /// The slope of the state alone, with the same pivot: what only the multipliers need is not computed.
+    /// The slope of the state alone, with the same pivot: what only the multipliers need is not
+    /// computed.
     #[inline(always)]
     fn joint_rates_into<S: Scalar, T: Terms>(
         constants: &Self::JointConstants<S>,
@@ -86,7 +91,8 @@ pub trait JointCoordinates: Mechanism {
         Self::evaluate_joints_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
     }
 
-    /// Factorises the matrix of the equations of motion; with compliance where `T::COMPLIANT`. Its pivots are those of the evaluation of the same `T`.
+    /// Factorises the matrix of the equations of motion; with compliance where `T::COMPLIANT`. Its
+    /// pivots are those of the evaluation of the same `T`.
     fn factor_joints<S: Scalar, T: Terms>(
         constants: &Self::JointConstants<S>,
         coefficients: &Self::JointCoefficients<S>,
@@ -94,8 +100,9 @@ pub trait JointCoordinates: Mechanism {
         state: &Self::JointState<S>,
     ) -> Self::JointFactors<S>;
 
-    /// Solves the equations of motion for forces and moments on the bodies alone (N, global, at the centre of mass; N m, principal body axes; as
-    /// [`Mechanism::forces`]), with factors of the same `T`:
+    /// Solves the equations of motion for forces and moments on the bodies alone (N, global, at the
+    /// centre of mass; N m, principal body axes; as [`Mechanism::forces`]), with factors of the
+    /// same `T`:
     ///
     /// ```text
     /// [ M(q)  D^T ] [ u'     ]   [ upper, along the velocities ]
@@ -124,7 +131,8 @@ pub trait JointCoordinates: Mechanism {
         state: &Self::JointState<S>,
     ) -> Self::BodyMotions<S>;
 
-    /// The joint coordinates of bodies that stand and move as the joints of the tree let them; of others, those of the nearest such motion.
+    /// The joint coordinates of bodies that stand and move as the joints of the tree let them; of
+    /// others, those of the nearest such motion.
     fn joint_state<S: Scalar>(
         constants: &Self::JointConstants<S>,
         state: &Self::State<S>,
@@ -140,7 +148,8 @@ pub struct JointEvaluation<S: Scalar, M: JointCoordinates> {
 }
 
 impl<S: Scalar, M: JointCoordinates> JointEvaluation<S, M> {
-    /// A place for results, see [`JointDynamics::evaluate_into`](crate::JointDynamics::evaluate_into).
+    /// A place for results, see
+    /// [`JointDynamics::evaluate_into`](crate::JointDynamics::evaluate_into).
     #[inline(always)]
     #[must_use]
     pub fn zeros() -> Self {
@@ -217,9 +226,11 @@ pub struct JointReport {
     pub motions: &'static [JointMotion],
     /// The joint of each equation that remains.
     pub closing: &'static [&'static str],
-    /// The row of `Phi` that each of them is; `None` where the equations of the bodies leave it out.
+    /// The row of `Phi` that each of them is; `None` where the equations of the bodies leave it
+    /// out.
     pub rows: &'static [Option<usize>],
-    /// What the evaluations cost, and `rates ..` without the multipliers, which is what a step takes; one alone where no equation remains.
+    /// What the evaluations cost, and `rates ..` without the multipliers, which is what a step
+    /// takes; one alone where no equation remains.
     pub kernels: &'static [Kernel],
     /// The places of Euler parameters among the further coordinates.
     pub euler_parameters: &'static [usize],
@@ -227,9 +238,11 @@ pub struct JointReport {
     pub counters: &'static [JointCounter],
     /// How many of the further coordinates are auxiliary variables; they are the last.
     pub auxiliaries: usize,
-    /// Whether some of these count angles that are no sums of the turns of joints, so that they are put right after every step.
+    /// Whether some of these count angles that are no sums of the turns of joints, so that they are
+    /// put right after every step.
     pub recounts: bool,
-    /// Whether every equation determines a velocity: then pivots go with the distance from where one vanishes, and not with its square.
+    /// Whether every equation determines a velocity: then pivots go with the distance from where
+    /// one vanishes, and not with its square.
     pub determines: bool,
 }
 
@@ -242,13 +255,16 @@ pub struct JointMotion {
     pub body: &'static str,
     /// What it is.
     pub freedom: Freedom,
-    /// The place of its first coordinate: of a turn among [`pairs`](JointState::pairs), of others among [`rest`](JointState::rest).
+    /// The place of its first coordinate: of a turn among [`pairs`](JointState::pairs), of others
+    /// among [`rest`](JointState::rest).
     pub coordinate: usize,
     /// The place of its first velocity among [`rates`](JointState::rates).
     pub velocity: usize,
-    /// The motion whose angle and rate are to be taken off, because both are measured against what carries a run of parallel axes: those of this motion are sums along the run.
+    /// The motion whose angle and rate are to be taken off, because both are measured against what
+    /// carries a run of parallel axes: those of this motion are sums along the run.
     pub against: Option<usize>,
-    /// The angle (rad) in the reference configuration, where that of the joint is zero. Zero of a slide and of a ball.
+    /// The angle (rad) in the reference configuration, where that of the joint is zero. Zero of a
+    /// slide and of a ball.
     pub zero: f64,
 }
 
@@ -264,14 +280,16 @@ pub struct JointCounter {
 /// What a motion is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
-    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may be measured against what carries the run
-    /// ([`JointMotion::against`]); and the angle need not be zero in the reference configuration ([`JointMotion::zero`]).
+    /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may
+    /// be measured against what carries the run ([`JointMotion::against`]); and the angle need not
+    /// be zero in the reference configuration ([`JointMotion::zero`]).
     Turn {
         /// Whether it counts against the joint's own angle.
         is_reversed: bool,
     },
     /// A displacement (m) and its rate (m/s).
     Slide,
-    /// Euler parameters from principal to global axes, and an angular velocity (rad/s) in principal axes.
+    /// Euler parameters from principal to global axes, and an angular velocity (rad/s) in principal
+    /// axes.
     Ball,
 }

@@ -1,4 +1,5 @@
-//! What the elements of a joint state are, for readers: in words, and as coordinates and rates of the joints.
+//! What the elements of a joint state are, for readers: in words, and as coordinates and rates of
+//! the joints.
 
 use core::fmt;
 
@@ -7,7 +8,8 @@ use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::{Freedom, JointMotion, JointParts, JointReport};
 
 impl JointMotion {
-    /// The unit of its coordinate; of its velocity, the same a second. Euler parameters of a ball have none, its velocity is in rad/s.
+    /// The unit of its coordinate; of its velocity, the same a second. Euler parameters of a ball
+    /// have none, its velocity is in rad/s.
     #[must_use]
     pub const fn unit(&self) -> &'static str {
         match self.freedom {
@@ -29,11 +31,12 @@ impl JointMotion {
 }
 
 impl JointReport {
-    /// The coordinate of the joint itself: an angle (rad, from `-pi` to `pi`, zero in the reference configuration), or a displacement (m) since then. `None` for a ball, and where there is no such
-    /// motion.
+    /// The coordinate of the joint itself: an angle (rad, from `-pi` to `pi`, zero in the reference
+    /// configuration), or a displacement (m) since then. `None` for a ball, and where there is no
+    /// such motion.
     ///
     /// ```text
-    /// angle of the joint = +-((angle - zero) - (angle - zero of the motion that it is against)),  minus where it is reversed
+    /// angle of the joint = +-((angle - zero) - (angle - zero of the motion that it is against))
     /// ```
     #[must_use]
     pub fn coordinate<S: Real, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
@@ -52,7 +55,8 @@ impl JointReport {
         }
     }
 
-    /// The rate of the joint itself (rad/s, m/s). `None` as of [`JointReport::coordinate`]. It is linear in the rates of a state, so that it reads accelerations of a slope as well.
+    /// The rate of the joint itself (rad/s, m/s). `None` as of [`JointReport::coordinate`]. It is
+    /// linear in the rates of a state, so that it reads accelerations of a slope as well.
     #[must_use]
     pub fn rate<S: Real, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
         let motion = self.motions.get(motion)?;

@@ -10,21 +10,23 @@ use crate::state::vector::{Array, StateParts};
 
 /// A mechanism whose kernels were generated at compile time.
 ///
-/// Notation: `r` position of a centre of mass (m, global), `p` Euler parameters (scalar first, from body to
-/// global axes), `v = r'` (m/s, global), `w` angular velocity (rad/s, body axes), `q = (r, p)` and `u = (v, w)` of all
-/// bodies; a prime is the time derivative. Body axes are here the *principal* axes about the centre of mass, which
-/// are the user's own axes unless a full inertia tensor was given; access by handle
-/// ([`MechanismExt`](crate::MechanismExt)) speaks the user's axes.
+/// Notation: `r` position of a centre of mass (m, global), `p` Euler parameters (scalar first, from
+/// body to global axes), `v = r'` (m/s, global), `w` angular velocity (rad/s, body axes),
+/// `q = (r, p)` and `u = (v, w)` of all bodies; a prime is the time derivative. Body axes are here
+/// the *principal* axes about the centre of mass, which are the user's own axes unless a full
+/// inertia tensor was given; access by handle ([`MechanismExt`](crate::MechanismExt)) speaks the
+/// user's axes.
 ///
-/// Equations (Nikravesh 1988, chapter 8; Flores 2015, chapter 11), with `gamma*` from [`Stabilisation`] and a diagonal matrix `E` of
-/// compliances `e`, one for each row:
+/// Equations (Nikravesh 1988, chapter 8; Flores 2015, chapter 11), with `gamma*` from
+/// [`Stabilisation`] and a diagonal matrix `E` of compliances `e`, one for each row:
 ///
 /// ```text
 /// [ M   D^T ] [ u'     ]   [ g                           ]      Phi(q, t) = 0,  Phi' = D u + Phi_t
-/// [ D   -E  ] [ lambda ] = [ gamma* - E lambda_previous  ]      reaction on the bodies = -D^T lambda
+/// [ D   -E  ] [ lambda ] = [ gamma* - E lambda_previous  ]    on the bodies: -D^T lambda
 /// ```
 ///
-/// Kernels neither branch on data nor fail. A singular system shows in the [`Pivot`] that comes with the result.
+/// Kernels neither branch on data nor fail. A singular system shows in the [`Pivot`] that comes
+/// with the result.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a mechanism",
     label = "not derived by `#[derive(Mechanism)]`, or its derive came to no end",
@@ -33,8 +35,8 @@ use crate::state::vector::{Array, StateParts};
 pub trait Mechanism: Sized + 'static {
     /// The state: coordinates and velocities. The rates of a state have the same type.
     type State<S: Scalar>: StateParts<S, Velocities = Self::Velocities<S>>;
-    /// One number per velocity: accelerations `u'` (m/s^2 global, rad/s^2 body axes), forces (N global) and
-    /// moments (N m, body axes, about the centre of mass).
+    /// One number per velocity: accelerations `u'` (m/s^2 global, rad/s^2 body axes), forces (N
+    /// global) and moments (N m, body axes, about the centre of mass).
     type Velocities<S: Scalar>: Array<S>;
     /// One number per constraint equation: multipliers, `Phi`, `Phi'`, `gamma`.
     type Multipliers<S: Scalar>: Array<S>;
@@ -42,7 +44,8 @@ pub trait Mechanism: Sized + 'static {
     type Jacobian<S: Scalar>: Array<S>;
     /// Values that are set once per mechanism, and inputs.
     type Parameters<S: Scalar>: Copy + Debug;
-    /// A struct with the fields that are inputs (`#[input]`), under their names; `()` without any. Zero by default.
+    /// A struct with the fields that are inputs (`#[input]`), under their names; `()` without any.
+    /// Zero by default.
     type Inputs<S: Scalar>: Copy + Debug + Default + PartialEq;
     /// What depends on parameters alone; without elements where everything folds at compile time.
     type Constants<S: Scalar>: Array<S>;
@@ -50,20 +53,24 @@ pub trait Mechanism: Sized + 'static {
     type Coefficients<S: Scalar>: Array<S>;
     /// The factorised saddle system, to be used by [`Mechanism::solve`].
     type Factors<S: Scalar>: Copy + Debug;
-    /// A struct with one handle per field of the mechanism, under the field's name; an array of handles where the field is an array.
+    /// A struct with one handle per field of the mechanism, under the field's name; an array of
+    /// handles where the field is an array.
     type Handles: Copy + Debug;
 
     /// One handle per field of the mechanism, under the field's name.
     const HANDLES: Self::Handles;
     /// Sizes, names, operation counts.
     const REPORT: Report;
-    /// The first rows of equations between vectors. Each has three rows, which share one compliance: axes are not told apart.
+    /// The first rows of equations between vectors. Each has three rows, which share one
+    /// compliance: axes are not told apart.
     const VECTOR_ROWS: &'static [usize] = &[];
 
-    /// The parameters of this value, checked as the `f64` that they are: here are all numbers that the macro could not see.
+    /// The parameters of this value, checked as the `f64` that they are: here are all numbers that
+    /// the macro could not see.
     ///
     /// # Errors
-    /// A mass or an inertia that is not positive, an axis of length zero, a number that is not finite.
+    /// A mass or an inertia that is not positive, an axis of length zero, a number that is not
+    /// finite.
     fn parameters<S: Scalar>(&self) -> Result<Self::Parameters<S>, ParameterError>;
 
     /// Checks by numbers that what was decided at typical values (`#[param(like = 0.8)]`) holds for
@@ -71,9 +78,9 @@ pub trait Mechanism: Sized + 'static {
     /// assembled, its equations are independent at the start, and those that were left out follow
     /// from them.
     ///
-    /// `new` of the mechanism, [`Dynamics::new`](crate::Dynamics::new) and `update` call it. It uses
-    /// double precision and takes some dozens of evaluations. It does nothing where no typical value
-    /// was used.
+    /// `new` of the mechanism, [`Dynamics::new`](crate::Dynamics::new) and `update` call it. It
+    /// uses double precision and takes some dozens of evaluations. It does nothing where no typical
+    /// value was used.
     ///
     /// # Errors
     /// The parameter, and the joint where it shows:
@@ -126,7 +133,8 @@ pub trait Mechanism: Sized + 'static {
     ) {
     }
 
-    /// Computes once what depends on the coefficients of a formulation, with one compliance for all rows.
+    /// Computes once what depends on the coefficients of a formulation, with one compliance for all
+    /// rows.
     fn coefficients<S: Scalar>(
         constants: &Self::Constants<S>,
         stabilisation: &Stabilisation<S>,
@@ -136,8 +144,9 @@ pub trait Mechanism: Sized + 'static {
         Self::coefficients_by_row(constants, stabilisation, &compliances)
     }
 
-    /// Computes once what depends on the coefficients of a formulation, with a compliance for each row in the place of
-    /// [`Stabilisation::compliance`]. Of the three rows of a vector equation the first counts, see [`Mechanism::VECTOR_ROWS`].
+    /// Computes once what depends on the coefficients of a formulation, with a compliance for each
+    /// row in the place of [`Stabilisation::compliance`]. Of the three rows of a vector equation
+    /// the first counts, see [`Mechanism::VECTOR_ROWS`].
     fn coefficients_by_row<S: Scalar>(
         constants: &Self::Constants<S>,
         stabilisation: &Stabilisation<S>,
@@ -188,14 +197,16 @@ pub trait Mechanism: Sized + 'static {
     /// Kinetic energy (J).
     fn kinetic_energy<S: Scalar>(constants: &Self::Constants<S>, state: &Self::State<S>) -> S;
 
-    /// Potential energy (J): of gravity, zero where all centres of mass are at the global origin, and of forces with a potential.
+    /// Potential energy (J): of gravity, zero where all centres of mass are at the global origin,
+    /// and of forces with a potential.
     fn potential_energy<S: Scalar>(
         constants: &Self::Constants<S>,
         time: S,
         state: &Self::State<S>,
     ) -> S;
 
-    /// The power (W) of the forces of the language that have no potential: of dampers, actuators and given forces.
+    /// The power (W) of the forces of the language that have no potential: of dampers, actuators
+    /// and given forces.
     fn power<S: Scalar>(_constants: &Self::Constants<S>, _time: S, _state: &Self::State<S>) -> S {
         S::zero()
     }
@@ -213,8 +224,8 @@ pub trait Mechanism: Sized + 'static {
         }
     }
 
-    /// What one force exerts on one of its bodies, by its place in `between`: force (N, global) and moment about the centre of mass
-    /// (N m, principal body axes). Zeros for the ground.
+    /// What one force exerts on one of its bodies, by its place in `between`: force (N, global) and
+    /// moment about the centre of mass (N m, principal body axes). Zeros for the ground.
     fn force_load<S: Scalar>(
         _constants: &Self::Constants<S>,
         _time: S,
@@ -225,25 +236,28 @@ pub trait Mechanism: Sized + 'static {
         [S::zero(); 6]
     }
 
-    /// The rates of the coordinates: `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is; behind them the rates of the auxiliary
-    /// variables.
+    /// The rates of the coordinates: `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is; behind them
+    /// the rates of the auxiliary variables.
     fn coordinate_rates<S: Scalar>(
         constants: &Self::Constants<S>,
         state: &Self::State<S>,
     ) -> <Self::State<S> as StateParts<S>>::Coordinates;
 
-    /// Sets every auxiliary variable to its exact value for the orientations in the state: an angle that counts turns becomes the one
-    /// that is nearest to the value it has. Without effect where there are none.
+    /// Sets every auxiliary variable to its exact value for the orientations in the state: an angle
+    /// that counts turns becomes the one that is nearest to the value it has. Without effect where
+    /// there are none.
     ///
-    /// An integrator moves an auxiliary variable along with the orientations; after a state was set or displaced otherwise, this puts
-    /// it right as long as it is off by less than half a turn.
+    /// An integrator moves an auxiliary variable along with the orientations; after a state was set
+    /// or displaced otherwise, this puts it right as long as it is off by less than half a turn.
     fn recount<S: Scalar>(_constants: &Self::Constants<S>, _state: &mut Self::State<S>) {}
 
-    /// The whole right-hand side in one straight line: rates of the state and multipliers, from the saddle system
-    /// with `lambda_previous = 0` and without applied forces of a user. Writes every element of both; returns the smallest relative pivot.
+    /// The whole right-hand side in one straight line: rates of the state and multipliers, from the
+    /// saddle system with `lambda_previous = 0` and without applied forces of a user. Writes every
+    /// element of both; returns the smallest relative pivot.
     ///
-    /// `T` names the terms that the formulation has, `P` how Euler parameters are read. With `coordinates = "joints"` it is put together from
-    /// [`Mechanism::factor`], [`Mechanism::solve`] and the kernels of the right-hand side.
+    /// `T` names the terms that the formulation has, `P` how Euler parameters are read. With
+    /// `coordinates = "joints"` it is put together from [`Mechanism::factor`], [`Mechanism::solve`]
+    /// and the kernels of the right-hand side.
     fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,
@@ -278,7 +292,8 @@ pub trait Mechanism: Sized + 'static {
         evaluation
     }
 
-    /// Factorises the matrix of the saddle system; with compliance where `T::COMPLIANT`. `p` is read as it is.
+    /// Factorises the matrix of the saddle system; with compliance where `T::COMPLIANT`. `p` is
+    /// read as it is.
     fn factor<S: Scalar, T: Terms>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,
@@ -304,7 +319,8 @@ pub trait Mechanism: Sized + 'static {
         joint: usize,
     ) -> AngleParts<S>;
 
-    /// The displacement of a joint by its index, as its definition states it, and its rate; zeros for a joint without one.
+    /// The displacement of a joint by its index, as its definition states it, and its rate; zeros
+    /// for a joint without one.
     fn joint_displacement<S: Scalar>(
         _constants: &Self::Constants<S>,
         _time: S,
@@ -314,8 +330,9 @@ pub trait Mechanism: Sized + 'static {
         DisplacementParts::none()
     }
 
-    /// Positive where a joint is on the side that is meant, of the configurations that satisfy its equations; what is least where its definition says more than
-    /// one thing (`require .. > 0`), and 1 where it says nothing.
+    /// Positive where a joint is on the side that is meant, of the configurations that satisfy its
+    /// equations; what is least where its definition says more than one thing (`require .. > 0`),
+    /// and 1 where it says nothing.
     fn joint_side<S: Scalar>(
         _constants: &Self::Constants<S>,
         _state: &Self::State<S>,
@@ -324,15 +341,16 @@ pub trait Mechanism: Sized + 'static {
         S::one()
     }
 
-    /// The joint's point on one of its bodies, by its place in `between`: from the centre of mass to the point, in
-    /// principal body axes (m); in global axes from the origin for the ground.
+    /// The joint's point on one of its bodies, by its place in `between`: from the centre of mass
+    /// to the point, in principal body axes (m); in global axes from the origin for the ground.
     fn joint_point<S: Scalar>(constants: &Self::Constants<S>, joint: usize, place: usize)
     -> [S; 3];
 
-    /// The user's body axes, as Euler parameters `c` (scalar first, unit) of the rotation from the user's to the
-    /// principal axes: `A(c)` takes components along the user's axes to components along the principal axes, so that
-    /// the user's axes are turned against the global ones by `A(p) A(c)`, with Euler parameters `p c` (quaternion
-    /// product). `(1, 0, 0, 0)` where the user gave principal moments, and for a particle.
+    /// The user's body axes, as Euler parameters `c` (scalar first, unit) of the rotation from the
+    /// user's to the principal axes: `A(c)` takes components along the user's axes to components
+    /// along the principal axes, so that the user's axes are turned against the global ones by
+    /// `A(p) A(c)`, with Euler parameters `p c` (quaternion product). `(1, 0, 0, 0)` where the user
+    /// gave principal moments, and for a particle.
     fn user_axes(body: usize) -> [f64; 4];
 }
 
@@ -379,9 +397,10 @@ impl<S: Scalar, M: Mechanism> Debug for Evaluation<S, M> {
 
 /// The smallest relative pivot of a factorisation and its joint, per lane.
 ///
-/// A relative pivot is the pivot of a row over what it would be without the other rows: 1 for a row that is orthogonal to the
-/// others (in the metric of the inverse mass matrix), 0 for a row that depends on them. Where two rows determine two components of an
-/// angular acceleration, it is their determinant over that of the reference configuration.
+/// A relative pivot is the pivot of a row over what it would be without the other rows: 1 for a row
+/// that is orthogonal to the others (in the metric of the inverse mass matrix), 0 for a row that
+/// depends on them. Where two rows determine two components of an angular acceleration, it is their
+/// determinant over that of the reference configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pivot<S> {
     /// About 1 or less; 1 where no pivot had to be checked.
@@ -404,8 +423,8 @@ impl<S: Scalar> Pivot<S> {
     #[inline(always)]
     #[must_use]
     pub fn and_nonzero(self, pivot: S, joint: usize) -> Self {
-        /// The least normal number of single precision: the reciprocal of a smaller one is out of its range. No unit leads there,
-        /// as a bound between large and small would have to know.
+        /// The least normal number of single precision: the reciprocal of a smaller one is out of
+        /// its range. No unit leads there, as a bound between large and small would have to know.
         const LEAST: f64 = f32::MIN_POSITIVE as f64;
         let least = S::constant(LEAST);
         self.and(pivot.abs().select(least, S::zero(), S::one()), joint)
@@ -435,7 +454,8 @@ pub struct Stabilisation<S> {
     pub compliance: S,
 }
 
-/// Which terms a formulation has: a type-level choice, so that a formulation pays for its own terms only.
+/// Which terms a formulation has: a type-level choice, so that a formulation pays for its own terms
+/// only.
 pub trait Terms: Copy + Debug + 'static {
     /// Terms of `Phi` and `Phi'`.
     const STABILISED: bool;
@@ -478,27 +498,29 @@ pub trait Orientation: Copy + Debug + Default + 'static {
     const NORMALISED_RATES: bool = false;
 }
 
-/// `A(p)` from `p` as it is, `A = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, which is `|p|^2` times a rotation: cheapest,
-/// for integrations whose drift of `|p|` is below the accuracy asked for.
+/// `A(p)` from `p` as it is, `A = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, which is `|p|^2` times a
+/// rotation: cheapest, for integrations whose drift of `|p|` is below the accuracy asked for.
 ///
-/// The kernels of `Phi`, `Phi'`, `D` and `gamma` are exact for any `p`; a solution of the equations of motion uses that `A` is a
-/// rotation, and is off by the drift. At the inner stages of an explicit step `h` the length is off by the order of
-/// `(|w| h / 2)^2`, whatever the drift is.
+/// The kernels of `Phi`, `Phi'`, `D` and `gamma` are exact for any `p`; a solution of the equations
+/// of motion uses that `A` is a rotation, and is off by the drift. At the inner stages of an
+/// explicit step `h` the length is off by the order of `(|w| h / 2)^2`, whatever the drift is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Raw;
 
-/// `A(p / |p|)`, a rotation to round-off for any `p` but zero, at some seven operations a body more; `p` comes to length 1 after every step.
+/// `A(p / |p|)`, a rotation to round-off for any `p` but zero, at some seven operations a body
+/// more; `p` comes to length 1 after every step.
 ///
-/// The rates are `p' = 1/2 L(p)^T w` with `p` as it is: only so does `p / |p|` turn at `w`, whatever the length has become in the stages of a
-/// step.
+/// The rates are `p' = 1/2 L(p)^T w` with `p` as it is: only so does `p / |p|` turn at `w`,
+/// whatever the length has become in the stages of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Normalised;
 
-/// `p / |p|` in the place of `p`, in `A(p)` and in `p' = 1/2 L(p)^T w`, and `p` left at the length that it has: the reading behind the published
-/// counts of chapter 15 (Flores 2015), here to reproduce them.
+/// `p / |p|` in the place of `p`, in `A(p)` and in `p' = 1/2 L(p)^T w`, and `p` left at the length
+/// that it has: the reading behind the published counts of chapter 15 (Flores 2015), here to
+/// reproduce them.
 ///
-/// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the default tolerance nothing of it is right after
-/// 1000 s. [`Normalised`] is right at the same cost.
+/// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the
+/// default tolerance nothing of it is right after 1000 s. [`Normalised`] is right at the same cost.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Chapter15;
 

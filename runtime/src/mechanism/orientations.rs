@@ -39,8 +39,8 @@ pub(crate) fn with_unit_orientations<S: Scalar, M: Mechanism>(state: &M::State<S
     unit
 }
 
-/// Scales the Euler parameters of every body to length 1, and their rates, which are linear in them, by the same factors. Returns the largest
-/// `| |p| - 1 |` that they had.
+/// Scales the Euler parameters of every body to length 1, and their rates, which are linear in
+/// them, by the same factors. Returns the largest `| |p| - 1 |` that they had.
 #[inline]
 pub(crate) fn bring_to_unit_length<S: Real, M: Mechanism>(
     state: &mut M::State<S>,
@@ -76,7 +76,8 @@ pub(crate) fn stretch<S: Real, M: Mechanism>(state: &M::State<S>) -> S {
     })
 }
 
-/// Multiplies the rates `1/2 L(p)^T w` of Euler parameters by a function of their length in a state: they are linear in `p`.
+/// Multiplies the rates `1/2 L(p)^T w` of Euler parameters by a function of their length in a
+/// state: they are linear in `p`.
 #[inline]
 pub(crate) fn scale_euler_rates<S: Scalar, M: Mechanism>(
     rates: &mut <M::State<S> as StateParts<S>>::Coordinates,

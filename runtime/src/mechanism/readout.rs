@@ -13,13 +13,14 @@ pub struct AngleParts<S> {
     pub sine: S,
     /// The rate of the angle (rad/s).
     pub rate: S,
-    /// For a joint whose definition counts turns: the auxiliary variable of the state (rad) that the angle lies near.
+    /// For a joint whose definition counts turns: the auxiliary variable of the state (rad) that
+    /// the angle lies near.
     pub turns: Option<S>,
 }
 
 impl<S: Scalar> AngleParts<S> {
-    /// The angle (rad): from `-pi` to `pi`, or, where turns are counted, the one of all angles with this sine and cosine
-    /// that is nearest to the auxiliary variable.
+    /// The angle (rad): from `-pi` to `pi`, or, where turns are counted, the one of all angles with
+    /// this sine and cosine that is nearest to the auxiliary variable.
     #[must_use]
     pub fn angle(&self) -> S {
         let angle = self.sine.atan2(self.cosine);

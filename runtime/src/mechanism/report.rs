@@ -17,7 +17,8 @@ pub struct Report {
     pub blocks: &'static [Block],
     /// Coordinates `q` of the bodies: seven a body, three a particle.
     pub coordinates: usize,
-    /// Auxiliary variables, which stand behind the coordinates of the bodies in a state: angles that count turns (rad).
+    /// Auxiliary variables, which stand behind the coordinates of the bodies in a state: angles
+    /// that count turns (rad).
     pub auxiliaries: usize,
     /// Velocities `u`: six a body, three a particle.
     pub velocities: usize,
@@ -25,15 +26,19 @@ pub struct Report {
     pub equations: usize,
     /// The rank of the constraints.
     pub rank: Rank,
-    /// Equations that follow from the others, joint by joint: a choice, without which the others are independent.
+    /// Equations that follow from the others, joint by joint: a choice, without which the others
+    /// are independent.
     pub redundant: &'static [RedundantRow],
-    /// Velocities less the rank where it was decided; else velocities less equations (Gruebler's count).
+    /// Velocities less the rank where it was decided; else velocities less equations (Gruebler's
+    /// count).
     pub degrees_of_freedom: isize,
     /// Where the time itself stands in the equations.
     pub time: ExplicitTime,
-    /// Whether there are velocities without rotation in `gamma`: an equation that is not linear in the positions, such as that of a distance.
+    /// Whether there are velocities without rotation in `gamma`: an equation that is not linear in
+    /// the positions, such as that of a distance.
     pub curved: bool,
-    /// What the kernels cost, one evaluation each. A mechanism with `coordinates = "joints"` has no fused evaluations of its bodies: `"both"` counts them.
+    /// What the kernels cost, one evaluation each. A mechanism with `coordinates = "joints"` has no
+    /// fused evaluations of its bodies: `"both"` counts them.
     pub kernels: &'static [Kernel],
     /// The order of elimination and the frames of the multiplier rows, in words.
     pub plan: &'static str,
@@ -48,8 +53,9 @@ pub struct ExplicitTime {
     pub forces: bool,
     /// In potential energies.
     pub potential: bool,
-    /// The instants (s), in order, at which a `smooth_step` of the time begins or ends: those whose numbers the macro can see. A run begins its
-    /// integration anew there, so that no step passes over a pulse.
+    /// The instants (s), in order, at which a `smooth_step` of the time begins or ends: those whose
+    /// numbers the macro can see. A run begins its integration anew there, so that no step passes
+    /// over a pulse.
     pub breaks: &'static [f64],
 }
 
@@ -71,12 +77,13 @@ impl ExplicitTime {
 
 /// The rank of `D`, found at expansion: the number of independent equations.
 ///
-/// It is judged at the start and at configurations that random motions of about 0.2 rad lead to, each put back onto the
-/// constraints. A row counts as dependent where it stands out from the others by less than `1e-7` of its length, with
-/// translations measured by the size of the mechanism.
+/// It is judged at the start and at configurations that random motions of about 0.2 rad lead to,
+/// each put back onto the constraints. A row counts as dependent where it stands out from the
+/// others by less than `1e-7` of its length, with translations measured by the size of the
+/// mechanism.
 ///
-/// Parameters have their typical values (`#[param(like = 0.8)]`). `new` of the mechanism checks that
-/// the rank is the same at the given ones.
+/// Parameters have their typical values (`#[param(like = 0.8)]`). `new` of the mechanism checks
+/// that the rank is the same at the given ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rank {
     /// Found.
@@ -88,13 +95,14 @@ pub enum Rank {
     },
     /// Not decided at expansion: the constraints depend on numbers that the macro cannot see.
     NotDecided,
-    /// Not decided at expansion: no configuration near the reference one was found that satisfies the constraints.
+    /// Not decided at expansion: no configuration near the reference one was found that satisfies
+    /// the constraints.
     NotAssembled,
 }
 
 impl Rank {
-    /// Whether the mechanism is known to start in a singular configuration: equations depend on each other there, and nowhere
-    /// near it.
+    /// Whether the mechanism is known to start in a singular configuration: equations depend on
+    /// each other there, and nowhere near it.
     #[must_use]
     pub const fn starts_singular(&self) -> bool {
         matches!(self, Self::Decided { rank, at_start } if *at_start < *rank)
@@ -108,7 +116,8 @@ pub struct RedundantRow {
     pub joint: usize,
     /// The place among the equations of the joint's definition.
     pub row: usize,
-    /// Whether it was left out (`redundant = "drop"`): then it is no row of `Phi`, and those behind it move up.
+    /// Whether it was left out (`redundant = "drop"`): then it is no row of `Phi`, and those behind
+    /// it move up.
     pub dropped: bool,
 }
 
@@ -151,10 +160,11 @@ pub struct BodyInfo {
     pub velocity: usize,
 }
 
-/// What carries a body in the spanning tree of a mechanism, which is grown from the ground along joints that say how they move (`motion ..`): the joint with the
-/// fewest motions first.
+/// What carries a body in the spanning tree of a mechanism, which is grown from the ground along
+/// joints that say how they move (`motion ..`): the joint with the fewest motions first.
 ///
-/// It is the tree of [`JointCoordinates`](crate::JointCoordinates), where a mechanism has these; a joint's angle or displacement is set by moving what it carries
+/// It is the tree of [`JointCoordinates`](crate::JointCoordinates), where a mechanism has these; a
+/// joint's angle or displacement is set by moving what it carries
 /// ([`MechanismExt::set_angle`](crate::MechanismExt::set_angle)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Carrier {
@@ -190,18 +200,22 @@ pub struct JointInfo {
     pub has_angle: bool,
     /// Whether the joint's definition has a displacement.
     pub has_displacement: bool,
-    /// Whether the joint's definition has a point, to which reactions are reduced; else they are reduced to the centre of mass.
+    /// Whether the joint's definition has a point, to which reactions are reduced; else they are
+    /// reduced to the centre of mass.
     pub has_point: bool,
     /// The place of its first auxiliary variable in the coordinates of a state, where it has any.
     pub auxiliary: usize,
-    /// How many it has: the angles that its definition counts turns of, in the order in which they stand there.
+    /// How many it has: the angles that its definition counts turns of, in the order in which they
+    /// stand there.
     pub auxiliaries: usize,
-    /// The places, among the equations of its definition, of those whose multipliers are not unique: they take part in a dependence of equations, so
-    /// that [`Report::redundant`] could have been chosen otherwise. Empty where [`Report::rank`] is not decided, too.
+    /// The places, among the equations of its definition, of those whose multipliers are not
+    /// unique: they take part in a dependence of equations, so that [`Report::redundant`] could
+    /// have been chosen otherwise. Empty where [`Report::rank`] is not decided, too.
     pub undetermined: &'static [usize],
-    /// What the joint costs by itself: `Phi`, `D` (rows along global axes) and `gamma` together, as functions of position, Euler
-    /// parameters of length 1, velocity and angular velocity of its bodies, the last in global axes too. In the kernels of a
-    /// mechanism joints share operations, with each other and with the solution.
+    /// What the joint costs by itself: `Phi`, `D` (rows along global axes) and `gamma` together, as
+    /// functions of position, Euler parameters of length 1, velocity and angular velocity of its
+    /// bodies, the last in global axes too. In the kernels of a mechanism joints share operations,
+    /// with each other and with the solution.
     pub operations: Operations,
 }
 
@@ -216,13 +230,15 @@ pub struct ForceInfo {
     pub bodies: &'static [Option<usize>],
     /// The place of its first auxiliary variable in the coordinates of a state, where it has any.
     pub auxiliary: usize,
-    /// How many it has: the angles that its definition counts turns of, in the order in which they stand there.
+    /// How many it has: the angles that its definition counts turns of, in the order in which they
+    /// stand there.
     pub auxiliaries: usize,
 }
 
 /// A block of the Jacobian `D`: the rows of one joint against the velocities of one body.
 ///
-/// Its values stand row by row from `offset` on in the array that [`crate::Mechanism::jacobian`] returns.
+/// Its values stand row by row from `offset` on in the array that [`crate::Mechanism::jacobian`]
+/// returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block {
     /// The joint.
@@ -250,8 +266,9 @@ pub struct Kernel {
     pub operations: Operations,
 }
 
-/// A count of operations. One of `+ - * / sqrt` is one operation, and so is the call of a function, whatever it takes; a fused
-/// multiply-add is two; signs, comparisons and rounding to an integer are free.
+/// A count of operations. One of `+ - * / sqrt` is one operation, and so is the call of a function,
+/// whatever it takes; a fused multiply-add is two; signs, comparisons and rounding to an integer
+/// are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
     /// Additions and subtractions.

@@ -13,35 +13,51 @@ use crate::mechanism::orientations::check_state;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::Array;
 
-/// The correction of a state onto the constraints by the Moore-Penrose pseudo-inverse of the Jacobian, applied once: first positions, then velocities at the corrected positions,
+/// The correction of a state onto the constraints by the Moore-Penrose pseudo-inverse of the
+/// Jacobian, applied once: first positions, then velocities at the corrected positions,
 ///
 /// ```text
 /// dq = -D_q^T (D_q D_q^T)^-1 Phi        dv = -D^T (D D^T)^-1 Phi'
 /// ```
 ///
-/// (Marques, Souto and Flores, *On the constraints violation in forward dynamics of multibody systems*, Multibody System Dynamics 39 (2017), 385-419). Masses do not weigh: that is the difference to
-/// [`Projection`](crate::Projection).
+/// (Marques, Souto and Flores, *On the constraints violation in forward dynamics of multibody
+/// systems*, Multibody System Dynamics 39 (2017), 385-419). Masses do not weigh: that is the
+/// difference to [`Projection`](crate::Projection).
 ///
-/// **The metric.** `dq` is the least `|dr|^2 + |dp|^2` of all bodies with `Phi + D_q dq = 0`, where the constraints that keep every `p` at length 1 are among the equations: then `dp` is a virtual rotation
-/// `dw` (rad) with `|dp| = |dw| / 2`, so that what is least is the sum of `|dr|^2 + |dw|^2 / 4` with `D (dr, dw) = -Phi`. `r` moves by `dr` and `p` by the finite rotation of `dw`,
-/// which keeps its length and is `dp` to second order. Velocities are `(r', w)`, and what is least is the sum of `|dr'|^2 + |dw|^2`.
-/// Metres and radians count alike in these sums: in other units of length the correction is another one. That of [`Projection`](crate::Projection) is the same in any units.
+/// **The metric.** `dq` is the least `|dr|^2 + |dp|^2` of all bodies with `Phi + D_q dq = 0`, where
+/// the constraints that keep every `p` at length 1 are among the equations: then `dp` is a virtual
+/// rotation `dw` (rad) with `|dp| = |dw| / 2`, so that what is least is the sum of
+/// `|dr|^2 + |dw|^2 / 4` with `D (dr, dw) = -Phi`. `r` moves by `dr` and `p` by the finite rotation
+/// of `dw`, which keeps its length and is `dp` to second order. Velocities are `(r', w)`, and what
+/// is least is the sum of `|dr'|^2 + |dw|^2`. Metres and radians count alike in these sums: in
+/// other units of length the correction is another one. That of [`Projection`](crate::Projection)
+/// is the same in any units.
 ///
-/// **One application** leaves of the positions what is of second order in the violation; that stays, the next step goes on with it. Where it is beyond the tolerance, the treatment says so, and
-/// a run has it among its doubts ([`Doubt::Excused`](crate::Doubt::Excused)); beyond `sqrt(tolerance)` it is refused.
+/// **One application** leaves of the positions what is of second order in the violation; that
+/// stays, the next step goes on with it. Where it is beyond the tolerance, the treatment says so,
+/// and a run has it among its doubts ([`Doubt::Excused`](crate::Doubt::Excused)); beyond
+/// `sqrt(tolerance)` it is refused.
 ///
-/// **How it is computed.** A movement that satisfies `D d = -Phi` comes from the factorised saddle system, as for [`Projection`](crate::Projection); conjugate gradients, of which the same factors are the preconditioner, lead to the least
-/// one among these (Gould, Hribar and Nocedal, *On the solution of equality constrained quadratic programming problems arising in optimization*, SIAM J. Sci. Comput. 23 (2001), 1376-1395, algorithm 6.2): exactly in as many iterations as there are degrees of
-/// freedom, here until the movement is the least to `sqrt(EPSILON)`, or as near as round-off lets it come, at least to a hundredth. The compliances of the system are a part of each row, at most `sqrt(EPSILON)` and at least `64 EPSILON`, so that equations may be redundant: a violation that they
-/// agree on is corrected. Near singular configurations nearly dependent equations are held back where they would ask for long movements that lessen nothing; what is then left is kept under the conditions of
-/// [`Projection`](crate::Projection) and else refused.
+/// **How it is computed.** A movement that satisfies `D d = -Phi` comes from the factorised saddle
+/// system, as for [`Projection`](crate::Projection); conjugate gradients, of which the same factors
+/// are the preconditioner, lead to the least one among these (Gould, Hribar and Nocedal, *On the
+/// solution of equality constrained quadratic programming problems arising in optimization*, SIAM
+/// J. Sci. Comput. 23 (2001), 1376-1395, algorithm 6.2): exactly in as many iterations as there are
+/// degrees of freedom, here until the movement is the least to `sqrt(EPSILON)`, or as near as
+/// round-off lets it come, at least to a hundredth. The compliances of the system are a part of
+/// each row, at most `sqrt(EPSILON)` and at least `64 EPSILON`, so that equations may be redundant:
+/// a violation that they agree on is corrected. Near singular configurations nearly dependent
+/// equations are held back where they would ask for long movements that lessen nothing; what is
+/// then left is kept under the conditions of [`Projection`](crate::Projection) and else refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectCorrection<S> {
-    /// The largest `|Phi|` and `|Phi'|` that count as corrected, in sizes of their rows, see [`Projection`](crate::Projection).
+    /// The largest `|Phi|` and `|Phi'|` that count as corrected, in sizes of their rows, see
+    /// [`Projection`](crate::Projection).
     pub tolerance: S,
 }
 
-/// A tolerance of 1e-8, at least `1000 EPSILON`: what one application leaves of a violation of 1e-4.
+/// A tolerance of 1e-8, at least `1000 EPSILON`: what one application leaves of a violation of
+/// 1e-4.
 impl<S: Real> Default for DirectCorrection<S> {
     fn default() -> Self {
         Self {
@@ -53,18 +69,26 @@ impl<S: Real> Default for DirectCorrection<S> {
 /// What the square of a virtual rotation (rad) counts among the positions: `|dp|^2 = |dw|^2 / 4`.
 const TURN: f64 = 0.25;
 
-/// A movement whose distance from the least one is bounded by this part of its length counts as that: round-off may keep it from coming nearer.
+/// A movement whose distance from the least one is bounded by this part of its length counts as
+/// that: round-off may keep it from coming nearer.
 const FAR: f64 = 1e-2;
 
-/// How often a movement is solved for again, at most, with what compliances have left of its equations: a row whose stiffness beside the others is that of its compliance is then satisfied but for a sixty-fourth.
+/// How often a movement is solved for again, at most, with what compliances have left of its
+/// equations: a row whose stiffness beside the others is that of its compliance is then satisfied
+/// but for a sixty-fourth.
 const REFINED: usize = 6;
 
 impl<S: Real> DirectCorrection<S> {
-    /// Corrects positions, then velocities, each by one application; Euler parameters come out at length 1. What is left beyond the tolerance is [`Correction::excused`].
+    /// Corrects positions, then velocities, each by one application; Euler parameters come out at
+    /// length 1. What is left beyond the tolerance is [`Correction::excused`].
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] where an application does not lessen a violation beyond the tolerance, unless that is nearly a state of self-stress, or leaves more than `sqrt(tolerance)` of it, or where the least movement is not found (masses that differ by more than digits allow);
-    /// [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], or [`Fault::Setting`] for a tolerance that is not finite and positive. The state is then as before.
+    /// [`Fault::NotConverged`] where an application does not lessen a violation beyond the
+    /// tolerance, unless that is nearly a state of self-stress, or leaves more than
+    /// `sqrt(tolerance)` of it, or where the least movement is not found (masses that differ by
+    /// more than digits allow); [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], or
+    /// [`Fault::Setting`] for a tolerance that is not finite and positive. The state is then as
+    /// before.
     #[inline(never)]
     pub fn correct<M: Mechanism>(
         &self,
@@ -166,7 +190,8 @@ impl<'a, S: Real, M: Mechanism> System<'a, S, M> {
         M::solve::<S, Compliant>(constants, coefficients, &self.factors, upper, lower).0
     }
 
-    /// Takes a movement to `D d = -violation`: what compliances leave of a row that is stiff against them, or hardly, but not of one that is nearly dependent.
+    /// Takes a movement to `D d = -violation`: what compliances leave of a row that is stiff
+    /// against them, or hardly, but not of one that is nearly dependent.
     fn satisfy(&self, violation: &M::Multipliers<S>, step: &mut M::Velocities<S>) {
         for _ in 0..REFINED {
             let mut lower = *violation;
@@ -204,9 +229,11 @@ impl<'a, S: Real, M: Mechanism> System<'a, S, M> {
     }
 }
 
-/// The `d` with `D d = -violation` and the least sum of `|d_r|^2 + turn |d_w|^2`; `None` where it is not found, or not finite.
+/// The `d` with `D d = -violation` and the least sum of `|d_r|^2 + turn |d_w|^2`; `None` where it
+/// is not found, or not finite.
 ///
-/// In the place of a residual `r` stands `M a` of the `a` that it is projected to: what of it is a load of constraints does not count.
+/// In the place of a residual `r` stands `M a` of the `a` that it is projected to: what of it is a
+/// load of constraints does not count.
 fn least_movement<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     given: &Iterate<S, M>,
@@ -214,7 +241,8 @@ fn least_movement<S: Real, M: Mechanism>(
     turn: S,
 ) -> Option<M::Velocities<S>> {
     let rest = given.sizes.measure(&given.violation, tolerance);
-    // Rows that depend on each other where the constraints hold have a stiffness of the square of the violation beside them: less than this.
+    // Rows that depend on each other where the constraints hold have a stiffness of the square of
+    // the violation beside them: less than this.
     let damping = rest.sqrt().min(S::one());
     let system = System::<S, M>::at(constants, given, part(rest, depth, damping));
     let mass = &system.mass;

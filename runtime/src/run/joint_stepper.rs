@@ -12,11 +12,14 @@ use crate::measure::view::View;
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::run::stepper::end_of_step;
 
-/// What [`Stepper`](crate::Stepper) is for bodies: a mechanism in joint coordinates, a formulation and a one-step method, prepared; takes one step at a time.
+/// What [`Stepper`](crate::Stepper) is for bodies: a mechanism in joint coordinates, a formulation
+/// and a one-step method, prepared; takes one step at a time.
 ///
-/// Its states are [`JointCoordinates::JointState`]. A start is set in a state of the bodies, by handle as ever, and [`JointStepper::joints`] takes it over; what is to be read is read of
-/// [`JointStepper::bodies`]. A step has a fixed number of evaluations, allocates nothing and does not panic. Joints of the tree cannot open; equations that close loops drift or are
-/// stabilised, as the formulation has it.
+/// Its states are [`JointCoordinates::JointState`]. A start is set in a state of the bodies, by
+/// handle as ever, and [`JointStepper::joints`] takes it over; what is to be read is read of
+/// [`JointStepper::bodies`]. A step has a fixed number of evaluations, allocates nothing and does
+/// not panic. Joints of the tree cannot open; equations that close loops drift or are stabilised,
+/// as the formulation has it.
 ///
 /// ```
 /// use holonom::joints::Revolute;
@@ -124,7 +127,8 @@ where
         self.dynamics.update(mechanism)
     }
 
-    /// Takes these inputs, to be called between steps: in the number type of the run, at the cost of what depends on inputs.
+    /// Takes these inputs, to be called between steps: in the number type of the run, at the cost
+    /// of what depends on inputs.
     ///
     /// # Errors
     /// An input that is not finite; the former ones then stay.
@@ -161,8 +165,9 @@ where
         self.dynamics.of_bodies().view(self.time(), bodies)
     }
 
-    /// The multipliers of all joints in a state of the bodies, at the time that was reached and with the inputs of the last step: what [`View::reaction`] asks for. One evaluation
-    /// of the bodies, which costs more than a step.
+    /// The multipliers of all joints in a state of the bodies, at the time that was reached and
+    /// with the inputs of the last step: what [`View::reaction`] asks for. One evaluation of the
+    /// bodies, which costs more than a step.
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`](crate::Dynamics::evaluate).
@@ -181,7 +186,8 @@ where
         &self.dynamics
     }
 
-    /// How often the augmented Lagrangian solved its system; zero for other formulations, and where no equation remains.
+    /// How often the augmented Lagrangian solved its system; zero for other formulations, and where
+    /// no equation remains.
     #[must_use]
     pub fn iterations(&self) -> Iterations {
         self.dynamics.iterations()
@@ -208,7 +214,8 @@ where
         Ok(())
     }
 
-    /// The same with these inputs over the step, which stay until others are set: also where the step is refused for another reason than they.
+    /// The same with these inputs over the step, which stay until others are set: also where the
+    /// step is refused for another reason than they.
     ///
     /// # Errors
     /// As [`Self::step`], and an input that is not finite. State and time are then as before.

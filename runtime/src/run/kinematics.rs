@@ -1,4 +1,5 @@
-//! The motion of a mechanism whose drivers leave it no freedom: positions, velocities, accelerations, and what it takes.
+//! The motion of a mechanism whose drivers leave it no freedom: positions, velocities,
+//! accelerations, and what it takes.
 
 mod motion;
 
@@ -18,25 +19,31 @@ use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts};
 use crate::watch::Doubts;
 
-/// Kinematics and inverse dynamics of a mechanism that is driven fully: as many independent equations as velocities.
+/// Kinematics and inverse dynamics of a mechanism that is driven fully: as many independent
+/// equations as velocities.
 ///
 /// At every reporting time (Nikravesh 1988, chapter 3; Flores 2015, chapter 7):
 ///
-/// 1. positions from `Phi(q, t) = 0` by Newton's method, from the pose before moved by its velocities and accelerations;
+/// 1. positions from `Phi(q, t) = 0` by Newton's method, from the pose before moved by its
+///    velocities and accelerations;
 /// 2. velocities from `Phi' = D u + Phi_t = 0`;
-/// 3. accelerations and multipliers by one evaluation of the equations of motion: [`Sample::accelerations`],
-///    [`Sample::reaction`], [`Sample::driving_effort`] show what the prescribed motion takes.
+/// 3. accelerations and multipliers by one evaluation of the equations of motion:
+///    [`Sample::accelerations`], [`Sample::reaction`], [`Sample::driving_effort`] show what the
+///    prescribed motion takes.
 ///
 /// Nothing is integrated, so no error accumulates.
 ///
-/// **The analysis keeps its branch**, however far apart the reporting times are. Between them it goes by strides, in each of which a body
-/// turns by 0.2 rad at most, or moves by as much of the mechanism's size. A stride is shortened where the pose that is found is far from the one
-/// that positions, velocities and accelerations predict, or where its velocities are. The relative pivots are followed along the way:
-/// a singular configuration, at which another branch begins, is among [`KinematicReport::doubts`], with its joint.
+/// **The analysis keeps its branch**, however far apart the reporting times are. Between them it
+/// goes by strides, in each of which a body turns by 0.2 rad at most, or moves by as much of the
+/// mechanism's size. A stride is shortened where the pose that is found is far from the one that
+/// positions, velocities and accelerations predict, or where its velocities are. The relative
+/// pivots are followed along the way: a singular configuration, at which another branch begins, is
+/// among [`KinematicReport::doubts`], with its joint.
 ///
-/// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the equations are independent; where
-/// some are redundant, [`Penalty`](crate::Penalty) or [`AugmentedLagrangian`](crate::AugmentedLagrangian), with accelerations that are exact up to
-/// the compliance and forces that are shared among redundant equations.
+/// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the
+/// equations are independent; where some are redundant, [`Penalty`](crate::Penalty) or
+/// [`AugmentedLagrangian`](crate::AugmentedLagrangian), with accelerations that are exact up to the
+/// compliance and forces that are shared among redundant equations.
 pub struct KinematicAnalysis<'a, S: Real, M: Mechanism, F, A = NoForces> {
     mechanism: &'a M,
     formulation: F,
@@ -59,7 +66,8 @@ pub struct KinematicReport<S, X> {
     pub iterations: usize,
     /// The largest `Phi^T Phi` at a reporting time.
     pub worst_violation: S,
-    /// The time (s) of the last state: the end, or the reporting time at which the observer stopped the analysis.
+    /// The time (s) of the last state: the end, or the reporting time at which the observer stopped
+    /// the analysis.
     pub time: S,
     /// The last state.
     pub state: X,
@@ -69,8 +77,9 @@ pub struct KinematicReport<S, X> {
 }
 
 impl<S, X> KinematicReport<S, X> {
-    /// What is to be doubted; empty where the motion was followed without a choice. A branch point ([`Doubt::BranchPoint`](crate::Doubt::BranchPoint))
-    /// is found by pivots: not where equations are kept that depend on others.
+    /// What is to be doubted; empty where the motion was followed without a choice. A branch point
+    /// ([`Doubt::BranchPoint`](crate::Doubt::BranchPoint)) is found by pivots: not where equations
+    /// are kept that depend on others.
     #[must_use]
     pub fn doubts(&self) -> Doubts {
         self.doubts
@@ -112,8 +121,9 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M
         self
     }
 
-    /// Applies forces as a function of time and state, `|time, state, loads| loads.force(body, ...)`. The motion does not
-    /// depend on them, reactions and driving efforts do.
+    /// Applies forces as a function of time and state,
+    /// `|time, state, loads| loads.force(body, ...)`. The motion does not depend on them, reactions
+    /// and driving efforts do.
     #[must_use]
     pub fn forces<G>(self, law: G) -> KinematicAnalysis<'a, S, M, F, ForceLaw<G>>
     where
@@ -136,15 +146,17 @@ where
     F: Formulation<S>,
     A: AppliedForces<S, M>,
 {
-    /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at the reporting times and at
-    /// the end; `ControlFlow::Break(())` stops it, so an observer that never does so ends with `ControlFlow::Continue(())`.
-    /// [`every_step`](crate::every_step) reports at start and end.
+    /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at
+    /// the reporting times and at the end; `ControlFlow::Break(())` stops it, so an observer that
+    /// never does so ends with `ControlFlow::Continue(())`. [`every_step`](crate::every_step)
+    /// reports at start and end.
     ///
     /// # Errors
-    /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a mechanism with fewer equations than
-    /// velocities, [`Fault::Undetermined`] where they leave a motion free all the same, [`Fault::NotConverged`] where no pose is found, and what
-    /// an evaluation or a run may refuse. The state is of zeros where a parameter was refused and no initial state had been
-    /// given.
+    /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a
+    /// mechanism with fewer equations than velocities, [`Fault::Undetermined`] where they leave a
+    /// motion free all the same, [`Fault::NotConverged`] where no pose is found, and what an
+    /// evaluation or a run may refuse. The state is of zeros where a parameter was refused and no
+    /// initial state had been given.
     pub fn run<O>(
         &self,
         interval: RangeInclusive<S>,

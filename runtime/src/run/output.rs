@@ -22,7 +22,8 @@ pub enum Reporting<S> {
 }
 
 impl<S> Reporting<S> {
-    /// Reports after so many steps without a report, too: a word for the observer of a run whose steps have become short, which may then stop it.
+    /// Reports after so many steps without a report, too: a word for the observer of a run whose
+    /// steps have become short, which may then stop it.
     #[must_use]
     pub fn or_steps(self, steps: usize) -> Self {
         match self {
@@ -44,8 +45,8 @@ impl<S> Reporting<S> {
 
 /// Reports at `t0 + k dt` (s) and at the end.
 ///
-/// The times do not change the steps, except that [`DormandPrince`](crate::DormandPrince) begins with a step no longer than `dt`, as
-/// `ode45` does.
+/// The times do not change the steps, except that [`DormandPrince`](crate::DormandPrince) begins
+/// with a step no longer than `dt`, as `ode45` does.
 #[must_use]
 pub const fn every<S>(dt: S) -> Reporting<S> {
     Reporting::Every(dt)
@@ -101,7 +102,8 @@ impl<S: Real> Schedule<S> {
         before.then(|| self.count(next))
     }
 
-    /// Whether `reached`, the end of a step, is a time to report, after so many steps without a report.
+    /// Whether `reached`, the end of a step, is a time to report, after so many steps without a
+    /// report.
     pub(crate) fn at(&mut self, reached: S, unseen: usize) -> bool {
         let Some(next) = self.next() else {
             return true;

@@ -18,12 +18,16 @@ use crate::run::direct::DirectCorrection;
 /// | [`VelocityProjection`] | velocities alone | as much as 15 and 9 |
 /// | [`TreeRecovery`] | whatever the joints of a spanning tree allow: positions and velocities of bodies follow from their orientations and from each other, without an iteration | as much as 7 and 1; closing joints keep their violation |
 ///
-/// Costs are of a step of Runge-Kutta against one without a treatment (`study trade --problem pendulum --problem four-bar --scalar f64 --integrator rk4`, small steps). Where they count,
-/// joint coordinates need none, and shorter steps with Baumgarte's terms may be cheaper.
+/// Costs are of a step of Runge-Kutta against one without a treatment
+/// (`study trade --problem pendulum --problem four-bar --scalar f64 --integrator rk4`, small
+/// steps). Where they count, joint coordinates need none, and shorter steps with Baumgarte's terms
+/// may be cheaper.
 ///
-/// A treatment of one's own is a function of the constants of a mechanism, the time and the state. Every one works with every integrator.
+/// A treatment of one's own is a function of the constants of a mechanism, the time and the state.
+/// Every one works with every integrator.
 pub trait Treatment<S: Real, M: Mechanism> {
-    /// Treats a state; returns what it left beyond its tolerance, in sizes of a row, zero where nothing was.
+    /// Treats a state; returns what it left beyond its tolerance, in sizes of a row, zero where
+    /// nothing was.
     ///
     /// # Errors
     /// Why the state cannot be treated; it is then as before.
@@ -59,7 +63,8 @@ impl<S: Real, M: Mechanism> Treatment<S, M> for DirectCorrection<S> {
     }
 }
 
-/// The correction of velocities alone onto the constraints, as [`Projection`] does it; positions stay as they are, and drift.
+/// The correction of velocities alone onto the constraints, as [`Projection`] does it; positions
+/// stay as they are, and drift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityProjection<S>(
     /// Its tolerance and its iterations.
@@ -84,10 +89,13 @@ impl<S: Real, M: Mechanism> Treatment<S, M> for VelocityProjection<S> {
     }
 }
 
-/// The recovery of positions along the tree of the joints: the motion of every joint of the spanning tree is read from the bodies, and the bodies are put where these motions take them.
+/// The recovery of positions along the tree of the joints: the motion of every joint of the
+/// spanning tree is read from the bodies, and the bodies are put where these motions take them.
 ///
-/// Integrated positions of bodies drift apart from their orientations; read from the orientations, they are as good as these. Joints of the tree are closed to round-off then. Those that close
-/// loops, and those that do not say how they move, keep their violation: for them there is [`Projection`].
+/// Integrated positions of bodies drift apart from their orientations; read from the orientations,
+/// they are as good as these. Joints of the tree are closed to round-off then. Those that close
+/// loops, and those that do not say how they move, keep their violation: for them there is
+/// [`Projection`].
 pub struct TreeRecovery<S: Real, M: JointCoordinates> {
     constants: M::JointConstants<S>,
 }

@@ -16,7 +16,8 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::{BodyKind, JointInfo};
 use crate::run::sample::Sample;
 
-/// Writes samples as comma-separated values, for any mechanism: one line a sample, under one line of names with units.
+/// Writes samples as comma-separated values, for any mechanism: one line a sample, under one line
+/// of names with units.
 ///
 /// | columns | meaning |
 /// |---|---|
@@ -31,8 +32,8 @@ use crate::run::sample::Sample;
 /// | `violation` | `Phi^T Phi`, in the mixed units of the equations |
 /// | `pivot.force.x [N]`, y, z, `pivot.moment.x [N m]`, y, z | with [`Recorder::with_reactions`]: what the joint exerts on the last body of its `between`, global, reduced to the joint's point on it; `gears.wheel.force.x [N]` for each body where a joint has more than two |
 ///
-/// A line goes to the writer in one piece and is flushed: an interruption loses the line that it meets and no other. Numbers
-/// are written with the fewest digits that read back to the same `f64`.
+/// A line goes to the writer in one piece and is flushed: an interruption loses the line that it
+/// meets and no other. Numbers are written with the fewest digits that read back to the same `f64`.
 ///
 /// ```
 /// use holonom::joints::Revolute;
@@ -77,7 +78,8 @@ pub struct Recorder<W> {
 /// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
 #[non_exhaustive]
 pub enum RecordError {
-    /// The file could not be created or written. Nothing can be recorded after it, so that the last line may be torn and no other.
+    /// The file could not be created or written. Nothing can be recorded after it, so that the last
+    /// line may be torn and no other.
     Io(io::Error),
     /// An earlier line was not written to its end.
     Torn,
@@ -148,7 +150,8 @@ impl Recorder<File> {
 }
 
 impl<W: Write> Recorder<W> {
-    /// A recorder that writes to any writer, without reactions. It needs no buffer of its own: a line is one call.
+    /// A recorder that writes to any writer, without reactions. It needs no buffer of its own: a
+    /// line is one call.
     #[must_use]
     pub fn new(writer: W) -> Self {
         Self {

@@ -17,12 +17,13 @@ pub struct RunReport<S: Real, M: Mechanism> {
     pub accepted: usize,
     /// Steps that were tried and rejected.
     pub rejected: usize,
-    /// The largest `Phi^T Phi` at a reporting time. Its rows may have different units; [`RunReport::watch`] has violations joint by joint, over all
-    /// steps.
+    /// The largest `Phi^T Phi` at a reporting time. Its rows may have different units;
+    /// [`RunReport::watch`] has violations joint by joint, over all steps.
     pub worst_violation: S,
     /// How often the augmented Lagrangian solved its system; zero for other formulations.
     pub iterations: Iterations,
-    /// The time (s) of the last state: the end, or the reporting time at which the observer stopped the run.
+    /// The time (s) of the last state: the end, or the reporting time at which the observer stopped
+    /// the run.
     pub time: S,
     /// The last state.
     pub state: M::State<S>,
@@ -38,9 +39,10 @@ pub type RunResult<S, M> = Result<RunReport<S, M>, SimulationError<<M as Mechani
 impl<S: Real, M: Mechanism> RunReport<S, M> {
     /// What is to be doubted; empty for a run that can be trusted, as far as its indicators tell.
     ///
-    /// They tell a result that is off by more than about a hundredth: joints that open, energy that comes from nowhere, a singular configuration that was
-    /// passed, tolerances, steps and penalties that do not suit the mechanism. Small errors of a chaotic motion, and laws that are shorter
-    /// than a step, are beyond them: compare two tolerances.
+    /// They tell a result that is off by more than about a hundredth: joints that open, energy that
+    /// comes from nowhere, a singular configuration that was passed, tolerances, steps and
+    /// penalties that do not suit the mechanism. Small errors of a chaotic motion, and laws that
+    /// are shorter than a step, are beyond them: compare two tolerances.
     #[must_use]
     pub fn doubts(&self) -> Doubts {
         self.watch

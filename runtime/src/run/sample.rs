@@ -14,8 +14,8 @@ use crate::state::vector::StateParts;
 
 /// A state at a reporting time: a [`View`], and what takes an evaluation.
 ///
-/// Accelerations, multipliers and reactions are computed when they are first asked for, by one evaluation that the
-/// run does not count.
+/// Accelerations, multipliers and reactions are computed when they are first asked for, by one
+/// evaluation that the run does not count.
 pub struct Sample<'a, S: Real, M: Mechanism> {
     view: View<'a, S, M>,
     dynamics: &'a dyn Evaluate<S, M>,
@@ -77,10 +77,12 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
         self.view.reaction(multipliers, joint, body)
     }
 
-    /// What a joint exerts on the body at a place of its `between`, see [`View::reaction_on_place`].
+    /// What a joint exerts on the body at a place of its `between`, see
+    /// [`View::reaction_on_place`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NoSuchPlace`] for a place that `between` does not have.
+    /// The fault of the evaluation; [`Fault::NoSuchPlace`] for a place that `between` does not
+    /// have.
     pub fn reaction_on_place<J>(
         &self,
         joint: JointHandle<M, J>,
@@ -93,7 +95,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The effort of a driver (N for a length, N m for an angle), see [`View::driving_effort`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NoEffort`] where the driver's equation was left out as redundant.
+    /// The fault of the evaluation; [`Fault::NoEffort`] where the driver's equation was left out as
+    /// redundant.
     pub fn driving_effort<J: Driven>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
         self.view.driving_effort(multipliers, joint)

@@ -1,4 +1,5 @@
-//! A run under way: segments of integration between breaks, corrections, reports, and the watch over them.
+//! A run under way: segments of integration between breaks, corrections, reports, and the watch
+//! over them.
 
 use core::ops::ControlFlow;
 
@@ -22,7 +23,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
     /// What is done to states after steps and before reports.
     pub(crate) treatment: Option<&'r dyn Treatment<S, M>>,
     pub(crate) schedule: Schedule<S>,
-    /// Instants (s) at which the integration begins anew, in any order, besides those of the description.
+    /// Instants (s) at which the integration begins anew, in any order, besides those of the
+    /// description.
     pub(crate) breaks: &'r [S],
     pub(crate) watch: Option<Watch<S, M>>,
     pub(crate) log: Log<'r, S, M>,
@@ -31,7 +33,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
     pub(crate) counts: Counts,
 }
 
-/// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at the cost of three calls.
+/// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at
+/// the cost of three calls.
 const ASKED_TWICE: usize = 1024;
 
 /// Whom states are shown to. Behind a pointer, so that a run is compiled once for all observers.
@@ -133,7 +136,8 @@ where
             }
             let after = course.counts().evaluations;
             let looks = after.saturating_sub(before);
-            // What output within the step evaluates is not what the watch is shown, which is its end.
+            // What output within the step evaluates is not what the watch is shown, which is its
+            // end.
             let mut seen = None;
             while let Some(time) = self.schedule.within(course.time()) {
                 seen.get_or_insert_with(|| self.moving.seen());
@@ -150,7 +154,8 @@ where
                 }
             }
             let is_shared = match seen {
-                // With reports, which find what interpolation needs where a look has evaluated it, or evaluate for each time anew.
+                // With reports, which find what interpolation needs where a look has evaluated it,
+                // or evaluate for each time anew.
                 Some(seen) => {
                     self.moving.recall(seen);
                     course.counts().evaluations == after
@@ -256,8 +261,8 @@ where
         fault: Fault,
         last_good: (S, M::State<S>),
     ) -> Fault {
-        /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5 up to about this over `a`, and grows for some time
-        /// from somewhat less on.
+        /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5
+        /// up to about this over `a`, and grows for some time from somewhat less on.
         const STABLE: f64 = 2.0;
         /// Radians in a step that no motion has.
         const BEYOND: f64 = 1e6;
@@ -274,7 +279,8 @@ where
                 rate: rate.to_f64(),
             };
         }
-        // A step in which something turns by radians, or moves by lengths of the mechanism, is too long whatever came of it: pivots of such numbers may vanish, too.
+        // A step in which something turns by radians, or moves by lengths of the mechanism, is too
+        // long whatever came of it: pivots of such numbers may vanish, too.
         let turned = match fault {
             Fault::Singular { .. } => Some(BEYOND),
             _ => not_finite.then_some(1.0),

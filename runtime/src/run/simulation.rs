@@ -26,8 +26,8 @@ use crate::watch::Watch;
 
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
-/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::Raw)), `A` which forces come on top of those of
-/// the description.
+/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::Raw)), `A` which forces
+/// come on top of those of the description.
 pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoForces, C = Bodies> {
     mechanism: &'a M,
     formulation: F,
@@ -45,8 +45,8 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoFor
 }
 
 impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<'a, S, M, F, I> {
-    /// A simulation from the state that the attributes describe, with Euler parameters normalised inside the
-    /// evaluation, without further forces and without corrections.
+    /// A simulation from the state that the attributes describe, with Euler parameters normalised
+    /// inside the evaluation, without further forces and without corrections.
     #[must_use]
     pub fn new(mechanism: &'a M, formulation: F, integrator: I) -> Self {
         Self {
@@ -96,7 +96,8 @@ where
         self
     }
 
-    /// Treats the state after every step, and every state that is reported, in another way than by a [`Simulation::projection`], see [`Treatment`].
+    /// Treats the state after every step, and every state that is reported, in another way than by
+    /// a [`Simulation::projection`], see [`Treatment`].
     #[must_use]
     pub fn treatment(mut self, treatment: &'a dyn Treatment<S, M>) -> Self {
         self.treatment = Some(treatment);
@@ -104,24 +105,27 @@ where
         self
     }
 
-    /// Accepts a start that violates the constraints by more than four digits, in positions or velocities, which is refused with
-    /// [`Fault::InconsistentStart`] otherwise.
+    /// Accepts a start that violates the constraints by more than four digits, in positions or
+    /// velocities, which is refused with [`Fault::InconsistentStart`] otherwise.
     #[must_use]
     pub fn inconsistent_start(mut self) -> Self {
         self.accepts_any_start = true;
         self
     }
 
-    /// Begins the integration anew at these instants (s), in any order: where a law or a closure jumps or has a short pulse, which a step would pass over
-    /// otherwise. Those of a `smooth_step` of the time with literal numbers are known without ([`ExplicitTime::breaks`](crate::ExplicitTime::breaks)).
+    /// Begins the integration anew at these instants (s), in any order: where a law or a closure
+    /// jumps or has a short pulse, which a step would pass over otherwise. Those of a `smooth_step`
+    /// of the time with literal numbers are known without
+    /// ([`ExplicitTime::breaks`](crate::ExplicitTime::breaks)).
     #[must_use]
     pub fn breaks(mut self, instants: &'a [S]) -> Self {
         self.breaks = instants;
         self
     }
 
-    /// Runs without the watch that [`RunReport::doubts`] speaks of. By bodies that saves some percent;
-    /// by joints, where the watch evaluates the equations of the bodies besides, half of the time and more.
+    /// Runs without the watch that [`RunReport::doubts`] speaks of. By bodies that saves some
+    /// percent; by joints, where the watch evaluates the equations of the bodies besides, half of
+    /// the time and more.
     #[must_use]
     pub fn unwatched(mut self) -> Self {
         self.is_watched = false;
@@ -172,10 +176,13 @@ where
     I: Integrator<S>,
     P: Orientation,
 {
-    /// Applies forces as a function of time and state, `|time, state, loads| loads.force(body, ...)`.
+    /// Applies forces as a function of time and state,
+    /// `|time, state, loads| loads.force(body, ...)`.
     ///
-    /// It is called at trial states, for times that go back and forth, and may remember nothing: what gives two answers for one time and state ends a run with
-    /// [`Fault::TwoAnswers`]. A controller with memory belongs between runs of a period, see [`guide::forces`](mod@crate::guide::forces).
+    /// It is called at trial states, for times that go back and forth, and may remember nothing:
+    /// what gives two answers for one time and state ends a run with [`Fault::TwoAnswers`]. A
+    /// controller with memory belongs between runs of a period, see
+    /// [`guide::forces`](mod@crate::guide::forces).
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
@@ -194,13 +201,17 @@ where
     F: Formulation<S>,
     I: Integrator<S>,
 {
-    /// Moves joint coordinates, see [`JointCoordinates`]: bodies stand as the joints of a spanning tree let them at every step, to round-off, and an evaluation
-    /// costs what the mechanism's freedom asks for.
+    /// Moves joint coordinates, see [`JointCoordinates`]: bodies stand as the joints of a spanning
+    /// tree let them at every step, to round-off, and an evaluation costs what the mechanism's
+    /// freedom asks for.
     ///
-    /// A start that opens a joint is refused, whatever [`Simulation::inconsistent_start`] says: those of the tree cannot open.
+    /// A start that opens a joint is refused, whatever [`Simulation::inconsistent_start`] says:
+    /// those of the tree cannot open.
     ///
-    /// States go in and come out as those of the bodies; reports, reactions, projection (of the joints that close loops) and watch are the same. The watch
-    /// evaluates the equations of the bodies once a step, which takes more time than the step itself: see [`Simulation::unwatched`].
+    /// States go in and come out as those of the bodies; reports, reactions, projection (of the
+    /// joints that close loops) and watch are the same. The watch evaluates the equations of the
+    /// bodies once a step, which takes more time than the step itself: see
+    /// [`Simulation::unwatched`].
     #[must_use]
     pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, A, Joints>
     where
@@ -220,15 +231,17 @@ where
     A: AppliedForces<S, M>,
     C: for<'f> Description<S, M, F, P, &'f A>,
 {
-    /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the reporting times and at the
-    /// end; `ControlFlow::Break(())` stops the run, so an observer that never does so ends with `ControlFlow::Continue(())`.
+    /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the
+    /// reporting times and at the end; `ControlFlow::Break(())` stops the run, so an observer that
+    /// never does so ends with `ControlFlow::Continue(())`.
     ///
     /// An interval of length zero reports once and evaluates nothing.
     ///
     /// # Errors
-    /// Time, cause and last good state where the run cannot go on: a parameter, a coefficient or a setting that is not
-    /// acceptable, a singular configuration, no convergence, a step too small, numbers out of range. The state is of zeros where a
-    /// parameter was refused and no initial state had been given.
+    /// Time, cause and last good state where the run cannot go on: a parameter, a coefficient or a
+    /// setting that is not acceptable, a singular configuration, no convergence, a step too small,
+    /// numbers out of range. The state is of zeros where a parameter was refused and no initial
+    /// state had been given.
     pub fn run<O>(
         &self,
         interval: RangeInclusive<S>,

@@ -15,8 +15,8 @@ use crate::mechanism::orientations::check_state;
 
 /// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
 ///
-/// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4, [`DormandPrince5`](crate::DormandPrince5) 6), allocates
-/// nothing and does not panic.
+/// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
+/// [`DormandPrince5`](crate::DormandPrince5) 6), allocates nothing and does not panic.
 pub struct Stepper<S: Real, M: Mechanism, F: Formulation<S>, K, P = Normalised, A = NoForces> {
     dynamics: Dynamics<S, M, F, P, A>,
     scheme: K,
@@ -126,7 +126,8 @@ where
         self.dynamics.update(mechanism)
     }
 
-    /// Takes these inputs, to be called between steps: in the number type of the run, at the cost of what depends on inputs.
+    /// Takes these inputs, to be called between steps: in the number type of the run, at the cost
+    /// of what depends on inputs.
     ///
     /// # Errors
     /// An input that is not finite; the former ones then stay.
@@ -141,7 +142,8 @@ where
         self.dynamics.view(self.time(), state)
     }
 
-    /// The multipliers of all joints in a state, at the time that was reached and with the inputs of the last step: what [`View::reaction`] asks for. One evaluation.
+    /// The multipliers of all joints in a state, at the time that was reached and with the inputs
+    /// of the last step: what [`View::reaction`] asks for. One evaluation.
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`].
@@ -177,8 +179,9 @@ where
 {
     /// Moves the state by one step of `dt` (s).
     ///
-    /// The steps add up to the time without a growing error. A mechanism with laws of time refuses a step below the resolution of the time,
-    /// [`Fault::StepTooShort`]; without them the time does not matter.
+    /// The steps add up to the time without a growing error. A mechanism with laws of time refuses
+    /// a step below the resolution of the time, [`Fault::StepTooShort`]; without them the time does
+    /// not matter.
     ///
     /// # Errors
     /// Why the step could not be done. State and time are then as before.
@@ -213,7 +216,8 @@ where
         Ok(())
     }
 
-    /// The same with these inputs over the step, which stay until others are set: also where the step is refused for another reason than they.
+    /// The same with these inputs over the step, which stay until others are set: also where the
+    /// step is refused for another reason than they.
     ///
     /// # Errors
     /// As [`Self::step`], and an input that is not finite. State and time are then as before.

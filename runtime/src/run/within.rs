@@ -1,4 +1,5 @@
-//! What the ends of a step do not tell: singular configurations between them, and what a method of low order misses.
+//! What the ends of a step do not tell: singular configurations between them, and what a method of
+//! low order misses.
 
 use crate::dynamics::moving::Moving;
 use crate::error::Fault;
@@ -14,10 +15,12 @@ const FINEST: usize = 8;
 /// How often a step is divided before the course of its pivots may say that nothing was passed.
 const COARSEST: usize = 2;
 
-/// The part of an interval at which it is divided: not its middle, for a motion may repeat itself in half a step.
+/// The part of an interval at which it is divided: not its middle, for a motion may repeat itself
+/// in half a step.
 const DIVISION: f64 = 0.44;
 
-/// Where a rule of higher order would have led in the last step of a course, of some steps of a method that is judged. The bodies stood near by a moment ago.
+/// Where a rule of higher order would have led in the last step of a course, of some steps of a
+/// method that is judged. The bodies stood near by a moment ago.
 #[inline]
 pub(crate) fn better_end<S, M, D, C>(
     watch: &Watch<S, M>,
@@ -42,7 +45,8 @@ where
     better.map(|state| moving.bodies(&state, near))
 }
 
-/// Looks into the last step of a course, before its end is corrected or shown to the watch: as far as pivots at the ends of its parts do not tell that the mechanism kept away from where one
+/// Looks into the last step of a course, before its end is corrected or shown to the watch: as far
+/// as pivots at the ends of its parts do not tell that the mechanism kept away from where one
 /// vanishes. The bodies stood near by a moment ago.
 ///
 /// By joints a step may be a fifth of a turn.

@@ -7,26 +7,36 @@ use crate::state::vector::{
     Vector, greater, greatest, plus, relative_norm, zero_if_finite, zero_if_finite_after,
 };
 
-/// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every turning joint, further coordinates, rates.
+/// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every
+/// turning joint, further coordinates, rates.
 ///
-/// A kernel reads cosines and sines as they are and calls no function. Pairs have length 1; `rest` (displacements, say) and `rates`, of which
-/// there may be as many as the system needs, are plain numbers. The same type holds the slope of a state: there a pair is `[rate of the angle
-/// (rad/s), 0]`, and the second element has no part in anything.
+/// A kernel reads cosines and sines as they are and calls no function. Pairs have length 1; `rest`
+/// (displacements, say) and `rates`, of which there may be as many as the system needs, are plain
+/// numbers. The same type holds the slope of a state: there a pair is
+/// `[rate of the angle (rad/s), 0]`, and the second element has no part in anything.
 ///
 /// # How an integrator moves it
 ///
-/// - [`Vector::plus`] *turns* a pair by the sum of its increments: what a method does with the angle it does with the pair, up to round-off, at
-///   the stages too, because turns about one axis commute. Pairs whose elements are integrated as numbers lose an order of magnitude in
-///   accuracy. The sine and cosine of an increment are exact to round-off for every size; below 0.9 rad a turn calls no function in `f64` and
-///   `f32` ([`Scalar::sines_and_versines`]). Every turn takes back what round-off did to the length before: it does not drift. A pair that was
-///   given with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is no angle.
-/// - [`Vector::plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its end, turns a few pairs on from ones that are known by what the slopes
-///   differ by, where that is 0.0125 rad at most: a short series, so that the next evaluation waits less. [`Vector::plus_once_and_twice`], which leads to the first stage, does so
-///   with a pair that stands alone. The sums are the same, up to round-off; of an error of the length the latter leaves half a square of the angle times as much beside the above.
-/// - [`Vector::relative_norm`] measures the increment of an angle in radians, against `max(1, floor)`. Angles on a circle have no size, so a relative
-///   tolerance is one in radians, and an absolute one counts if it is greater.
+/// - [`Vector::plus`] *turns* a pair by the sum of its increments: what a method does with the
+///   angle it does with the pair, up to round-off, at the stages too, because turns about one axis
+///   commute. Pairs whose elements are integrated as numbers lose an order of magnitude in
+///   accuracy. The sine and cosine of an increment are exact to round-off for every size; below 0.9
+///   rad a turn calls no function in `f64` and `f32` ([`Scalar::sines_and_versines`]). Every turn
+///   takes back what round-off did to the length before: it does not drift. A pair that was given
+///   with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is
+///   no angle.
+/// - [`Vector::plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its
+///   end, turns a few pairs on from ones that are known by what the slopes differ by, where that is
+///   0.0125 rad at most: a short series, so that the next evaluation waits less.
+///   [`Vector::plus_once_and_twice`], which leads to the first stage, does so with a pair that
+///   stands alone. The sums are the same, up to round-off; of an error of the length the latter
+///   leaves half a square of the angle times as much beside the above.
+/// - [`Vector::relative_norm`] measures the increment of an angle in radians, against
+///   `max(1, floor)`. Angles on a circle have no size, so a relative tolerance is one in radians,
+///   and an absolute one counts if it is greater.
 /// - [`Vector::towards`] goes along the circle, by the turn nearest to the given way.
-/// - [`Vector::zip`] and [`Vector::for_each`] see plain numbers: both elements of every pair, `rest`, `rates`.
+/// - [`Vector::zip`] and [`Vector::for_each`] see plain numbers: both elements of every pair,
+///   `rest`, `rates`.
 ///
 /// ```
 /// use holonom::{Fault, JointState, Rk4, Scheme, System};
@@ -68,7 +78,8 @@ impl<S, const TURNS: usize, const REST: usize, const RATES: usize>
         Self { pairs, rest, rates }
     }
 
-    /// Cosine and sine of the angle of every turning joint; of a slope, the rate of the angle (rad/s) and zero.
+    /// Cosine and sine of the angle of every turning joint; of a slope, the rate of the angle
+    /// (rad/s) and zero.
     #[inline(always)]
     #[must_use]
     pub const fn pairs(&self) -> &[[S; 2]; TURNS] {
@@ -137,15 +148,17 @@ fn more_increments<S: Scalar, const T: usize, const Q: usize, const U: usize, co
 
 /// Pairs, turned by angles (rad).
 ///
-/// With the versine `v` and the sine `s` of an angle, a pair `p` and its normal `n` go to `p + (s n - v p)`, which is rounded once where the increment is small.
-/// They are stretched by `1 + e` on the way, `e = (1 - p.p) / 2`, which takes the length to 1 and is known long before the angle is. `e p` alone would do for small
-/// angles; at half a turn it would do the opposite.
+/// With the versine `v` and the sine `s` of an angle, a pair `p` and its normal `n` go to
+/// `p + (s n - v p)`, which is rounded once where the increment is small. They are stretched by
+/// `1 + e` on the way, `e = (1 - p.p) / 2`, which takes the length to 1 and is known long before
+/// the angle is. `e p` alone would do for small angles; at half a turn it would do the opposite.
 #[inline(always)]
 fn turned<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], angles: &[S; T]) -> [[S; 2]; T] {
     turned_by(pairs, &S::sines_and_versines(angles))
 }
 
-/// A pair that is near, turned on by its angle if that is little, or else the one where all began by the whole angle: the same for a pair, whatever stands beside it.
+/// A pair that is near, turned on by its angle if that is little, or else the one where all began
+/// by the whole angle: the same for a pair, whatever stands beside it.
 #[cold]
 #[inline(never)]
 fn turned_beside<S: Scalar>((near, angle): ([S; 2], S), (from, whole): ([S; 2], S)) -> [S; 2] {
@@ -168,7 +181,8 @@ fn turned_a_little<S: Scalar>(pair: [S; 2], angle: S) -> [S; 2] {
 
 /// Where a pair goes in a turn by an angle of at most [`LITTLE`], over that angle.
 ///
-/// `n - a p / 2 - a^2 n / 6 + a^3 p / 24 + a^4 n / 120 - a^5 p / 720` of a pair `p` and its normal `n`: the factors are known before the angle is, and powers do not wait for each other.
+/// `n - a p / 2 - a^2 n / 6 + a^3 p / 24 + a^4 n / 120 - a^5 p / 720` of a pair `p` and its normal
+/// `n`: the factors are known before the angle is, and powers do not wait for each other.
 #[inline(always)]
 fn way<S: Scalar>([c, s]: [S; 2], angle: S) -> [S; 2] {
     let square = angle * angle;
@@ -221,7 +235,8 @@ fn turned_once_and_twice<S: Scalar, const T: usize>(
     angles: &[S; T],
 ) -> [[[S; 2]; T]; 2] {
     let (mut once, mut twice) = (*pairs, *pairs);
-    // Of a pair that stands alone the next evaluation does nothing but wait. What is missing of its length is not turned with it: that would be known later.
+    // Of a pair that stands alone the next evaluation does nothing but wait. What is missing of its
+    // length is not turned with it: that would be known later.
     if T == 1 && S::are_within(angles, LITTLE) {
         for ((once, twice), &angle) in once.iter_mut().zip(&mut twice).zip(angles) {
             let pair = *once;
@@ -342,7 +357,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
         ]
     }
 
-    /// Pairs go on from those that are known by little angles: that is less to compute, and what waits for the last slope is short.
+    /// Pairs go on from those that are known by little angles: that is less to compute, and what
+    /// waits for the last slope is short.
     #[inline(always)]
     fn plus_beside<const K: usize>(
         &self,
@@ -350,7 +366,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
         along: (S, &Self),
         terms: [(S, &Self); K],
     ) -> Self {
-        // Of many the operations count: the turns of a stage do not wait for each other. Measured, see ARCHITECTURE.
+        // Of many the operations count: the turns of a stage do not wait for each other. Measured,
+        // see ARCHITECTURE.
         let few = if S::SEVEN_DIGITS { 12 } else { 5 };
         if TURNS > few {
             return self.plus(terms);
@@ -421,7 +438,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     where
         S: Real,
     {
-        // Of few elements one sum is the least to do, and a kernel of few operations feels it; of more, they would wait for each other.
+        // Of few elements one sum is the least to do, and a kernel of few operations feels it; of
+        // more, they would wait for each other.
         let few = 2 * TURNS + REST + RATES <= 6;
         let pairs = self.pairs.as_flattened();
         let zero = if few {

@@ -1,7 +1,8 @@
 //! Fixed-size arrays of scalars, and the state of a mechanism.
 //!
 //! The algebra of arrays is written as plain loops: optimised they are what iterators are, and in a
-//! build that is not optimised, as that of tests, they take a third of the time and no code of `core`.
+//! build that is not optimised, as that of tests, they take a third of the time and no code of
+//! `core`.
 
 use core::ops::IndexMut;
 
@@ -39,14 +40,16 @@ impl<S: Scalar, const N: usize> Array<S> for [S; N] {
 
 /// What an integrator moves: a vector with addition and scaling, element by element.
 ///
-/// The derivative of a state has the same type. What explicit integrators need has a default body, so that a
-/// vector of another kind (on the heap, say) has three functions to write. A state that is no vector throughout, such as
-/// [`crate::JointState`], replaces what adds to it and what measures an increment.
+/// The derivative of a state has the same type. What explicit integrators need has a default body,
+/// so that a vector of another kind (on the heap, say) has three functions to write. A state that
+/// is no vector throughout, such as [`crate::JointState`], replaces what adds to it and what
+/// measures an increment.
 pub trait Vector<S: Scalar>: Clone {
     /// One thing for every element: an implicit method keeps the columns of a matrix in it.
     type Each<T: Clone>: Clone + IndexMut<usize, Output = T>;
 
-    /// Whether [`Vector::plus`] costs more than to keep a slope: a method then adds its slopes at once.
+    /// Whether [`Vector::plus`] costs more than to keep a slope: a method then adds its slopes at
+    /// once.
     const PLUS_IS_COSTLY: bool = false;
 
     /// `f(self[k], other[k])` for every element.
@@ -89,7 +92,8 @@ pub trait Vector<S: Scalar>: Clone {
         });
     }
 
-    /// How many elements, the first ones, are coordinates: numbers whose rates are made of the velocities behind them. Zero where nothing of that kind is known.
+    /// How many elements, the first ones, are coordinates: numbers whose rates are made of the
+    /// velocities behind them. Zero where nothing of that kind is known.
     ///
     /// Implicit methods eliminate these first, in equations that then couple few of them.
     #[must_use]
@@ -97,7 +101,8 @@ pub trait Vector<S: Scalar>: Clone {
         0
     }
 
-    /// Whether an increment of the element at a place has a part in [`Vector::plus`]: implicit methods need no derivative for one that has none.
+    /// Whether an increment of the element at a place has a part in [`Vector::plus`]: implicit
+    /// methods need no derivative for one that has none.
     #[must_use]
     fn has_part(&self, index: usize) -> bool {
         let _ = index;
@@ -114,14 +119,16 @@ pub trait Vector<S: Scalar>: Clone {
         result
     }
 
-    /// [`Vector::plus`] of one direction, by a factor and by twice that factor: what these have in common is computed once.
+    /// [`Vector::plus`] of one direction, by a factor and by twice that factor: what these have in
+    /// common is computed once.
     #[must_use]
     fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
         [factor, factor + factor].map(|factor| self.plus([(factor, direction)]))
     }
 
-    /// [`Vector::plus`] of directions that hardly differ from one for which the sum is known: `near` is `self.plus([along])`. Where that helps, the result is `near`
-    /// and what the increments differ by.
+    /// [`Vector::plus`] of directions that hardly differ from one for which the sum is known:
+    /// `near` is `self.plus([along])`. Where that helps, the result is `near` and what the
+    /// increments differ by.
     #[must_use]
     fn plus_beside<const N: usize>(
         &self,
@@ -133,10 +140,11 @@ pub trait Vector<S: Scalar>: Clone {
         self.plus(terms)
     }
 
-    /// `self + weight * (to - self) + sum of factor * direction`: on the way to another state, and beside it.
+    /// `self + weight * (to - self) + sum of factor * direction`: on the way to another state, and
+    /// beside it.
     ///
-    /// `way` is the increment, in its sum, that leads to the other state or nearly so. It counts where many increments lead there: an angle
-    /// goes on by any number of turns.
+    /// `way` is the increment, in its sum, that leads to the other state or nearly so. It counts
+    /// where many increments lead there: an angle goes on by any number of turns.
     #[must_use]
     fn towards<const W: usize, const N: usize>(
         &self,
@@ -149,8 +157,8 @@ pub trait Vector<S: Scalar>: Clone {
         self.plus([(-weight, self), (weight, to)]).plus(terms)
     }
 
-    /// `max over k of |sum of factor * direction[k]| / max(|self[k]|, |other[k]|, floor)`: an increment, relative
-    /// to the larger of two vectors. NaN if any element is NaN.
+    /// `max over k of |sum of factor * direction[k]| / max(|self[k]|, |other[k]|, floor)`: an
+    /// increment, relative to the larger of two vectors. NaN if any element is NaN.
     #[must_use]
     fn relative_norm<const N: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); N]) -> S
     where
@@ -286,7 +294,8 @@ pub(crate) fn greater<S: Real>(a: S, b: S) -> S {
 
 /// The greatest of non-negative numbers; NaN if one is NaN.
 ///
-/// Four places at once, and NaN looked for apart, so that the comparisons do not wait for each other.
+/// Four places at once, and NaN looked for apart, so that the comparisons do not wait for each
+/// other.
 #[inline(always)]
 pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
     let mut lanes = [S::zero(); 4];
@@ -309,16 +318,19 @@ pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
     }
 }
 
-/// A sum and -0 times all elements: the sum where these are finite, else NaN, as is -0 times any other number, and every sum with NaN. A comparison for each would be more.
+/// A sum and -0 times all elements: the sum where these are finite, else NaN, as is -0 times any
+/// other number, and every sum with NaN. A comparison for each would be more.
 ///
-/// By -0, because what is known to be +0 then changes no sum that begins with -0, and costs nothing.
+/// By -0, because what is known to be +0 then changes no sum that begins with -0, and costs
+/// nothing.
 #[inline(always)]
 pub(crate) fn zero_if_finite_after<S: Real>(sum: S, elements: &[S]) -> S {
     let add = |sum, element: &S| element.fused(-S::zero(), sum);
     elements.iter().fold(sum, add)
 }
 
-/// The same from -0 on, of many four places at once, as in [`greatest`]; for few, one sum after the other is less than to bring four together.
+/// The same from -0 on, of many four places at once, as in [`greatest`]; for few, one sum after the
+/// other is less than to bring four together.
 #[inline(always)]
 pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
     if elements.len() <= 4 {
@@ -338,12 +350,14 @@ pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
     (a + b) + (c + d)
 }
 
-/// The state of a mechanism: coordinates and velocities of its bodies, and auxiliary variables, in an order that the mechanism knows.
+/// The state of a mechanism: coordinates and velocities of its bodies, and auxiliary variables, in
+/// an order that the mechanism knows.
 ///
-/// The elements are read and written by handle, see [`crate::Mechanism`]; the order of the raw arrays is, body by
-/// body, `[r (m, global), p (Euler parameters, scalar first, principal axes)]` and `[v (m/s, global), w (rad/s,
-/// principal axes)]`; a particle has `r` and `v` only. Behind the coordinates of all bodies stand the auxiliary variables of
-/// mechanisms that have some: angles that count turns (rad). The same type holds the rates of a state.
+/// The elements are read and written by handle, see [`crate::Mechanism`]; the order of the raw
+/// arrays is, body by body, `[r (m, global), p (Euler parameters, scalar first, principal axes)]`
+/// and `[v (m/s, global), w (rad/s, principal axes)]`; a particle has `r` and `v` only. Behind the
+/// coordinates of all bodies stand the auxiliary variables of mechanisms that have some: angles
+/// that count turns (rad). The same type holds the rates of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<S, const Q: usize, const U: usize> {
     coordinates: [S; Q],

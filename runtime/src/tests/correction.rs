@@ -33,7 +33,8 @@ fn the_correction_is_the_least_movement_in_the_metric_of_the_mass() {
     Rod::set_velocity(&mut state, ROD, nalgebra::Vector3::new(0.0, 0.0, 1.0));
     let given = *state.velocities();
     rod().assemble(0.0, &mut state).unwrap();
-    // M (u - u0) is a combination of the rows of D: the motion left free, a turn about x, does no work on it.
+    // M (u - u0) is a combination of the rows of D: the motion left free, a turn about x, does no
+    // work on it.
     let free = [0.0, 0.0, 0.5, 1.0, 0.0, 0.0];
     let work: f64 = (0..6)
         .map(|k| constants[k] * (state.velocities()[k] - given[k]) * free[k])

@@ -1,4 +1,5 @@
-//! The rod of [`super::rod`] with a driver: its angle, which counts turns, follows a polynomial of time.
+//! The rod of [`super::rod`] with a driver: its angle, which counts turns, follows a polynomial of
+//! time.
 
 use core::array::from_fn;
 

@@ -1,4 +1,5 @@
-//! The saddle system of one body, dense: `(D M^-1 D^T + e I) lambda = D M^-1 g - gamma*` by Cholesky's method.
+//! The saddle system of one body, dense: `(D M^-1 D^T + e I) lambda = D M^-1 g - gamma*` by
+//! Cholesky's method.
 
 use core::array::from_fn;
 

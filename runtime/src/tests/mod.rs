@@ -1,4 +1,5 @@
-//! Tests of what runs a mechanism, on one that is written by hand and knows nothing of the generator.
+//! Tests of what runs a mechanism, on one that is written by hand and knows nothing of the
+//! generator.
 
 mod access;
 mod correction;

@@ -1,7 +1,8 @@
-//! The rod of Flores 2015, chapter 15, hinged to the ground about x, with dense kernels written by hand.
+//! The rod of Flores 2015, chapter 15, hinged to the ground about x, with dense kernels written by
+//! hand.
 //!
-//! The user's axes are chosen
-//! turned by 90 degrees about x against the principal axes, so that access by handle has something to do.
+//! The user's axes are chosen turned by 90 degrees about x against the principal axes, so that
+//! access by handle has something to do.
 
 use core::array::from_fn;
 

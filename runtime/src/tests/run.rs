@@ -25,7 +25,8 @@ fn evaluations<F: Formulation<f64>, P: Orientation>(method: F) -> usize {
     report.evaluations
 }
 
-/// Counts of an independent calculation with MATLAB's control (problem D01), and near them where `p` is brought to length 1.
+/// Counts of an independent calculation with MATLAB's control (problem D01), and near them where
+/// `p` is brought to length 1.
 #[test]
 fn chapter_15_takes_the_known_evaluations() {
     assert_eq!(evaluations::<_, Chapter15>(StandardLagrange), 1765);
@@ -40,8 +41,8 @@ fn chapter_15_takes_the_known_evaluations() {
     assert_eq!(evaluations::<_, Normalised>(Penalty::default()), 3697);
 }
 
-/// With Euler parameters as they are, the counts hang on how `A(p)` is written off the unit sphere: within 8 percent of
-/// that calculation, and equal for the last two.
+/// With Euler parameters as they are, the counts hang on how `A(p)` is written off the unit sphere:
+/// within 8 percent of that calculation, and equal for the last two.
 #[test]
 fn chapter_15_takes_about_the_known_evaluations_without_normalisation() {
     let near = |count: usize, known: f64| (count as f64 / known - 1.0).abs() < 0.08;

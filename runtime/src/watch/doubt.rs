@@ -6,13 +6,15 @@ use core::iter::Flatten;
 
 use crate::error::readable::Measured;
 
-/// A reason not to trust the result of a run as it is. `Display` says it in a sentence, with what to do.
+/// A reason not to trust the result of a run as it is. `Display` says it in a sentence, with what
+/// to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Doubt {
     /// The run was not watched.
     Unwatched,
-    /// A joint was on a side of its equations that is not meant: as after a start that was accepted as it is.
+    /// A joint was on a side of its equations that is not meant: as after a start that was accepted
+    /// as it is.
     WrongSide {
         /// The joint's field.
         joint: &'static str,
@@ -59,7 +61,8 @@ pub enum Doubt {
         /// When (s).
         time: f64,
     },
-    /// A kinematic analysis passed a singular configuration, or nearly: another branch of the motion begins there.
+    /// A kinematic analysis passed a singular configuration, or nearly: another branch of the
+    /// motion begins there.
     BranchPoint {
         /// The joint whose pivot, or whose gradient, all but vanished.
         joint: &'static str,
@@ -84,7 +87,8 @@ pub enum Doubt {
         /// The shift (rad), estimated.
         shift: f64,
     },
-    /// The round-off of many steps may have shifted the phase of a long motion, whatever the balance of energy shows at its end.
+    /// The round-off of many steps may have shifted the phase of a long motion, whatever the
+    /// balance of energy shows at its end.
     LongRun {
         /// Steps that were accepted.
         steps: usize,
@@ -107,7 +111,8 @@ pub enum Doubt {
     },
     /// Steps are long for the motion, of a method of low order, whose energy does not tell.
     LongSteps {
-        /// What a body may be off by at the worst (rad, or over what it has moved by where that is less): of all steps, estimated.
+        /// What a body may be off by at the worst (rad, or over what it has moved by where that is
+        /// less): of all steps, estimated.
         shift: f64,
     },
     /// The absolute tolerance is coarse for a mechanism of this size.
@@ -124,7 +129,8 @@ pub enum Doubt {
         /// What angles may be off by at the end (rad): of all steps, estimated.
         shift: f64,
     },
-    /// The mechanism is so small, or so far from the origin, that the digits of its positions are few.
+    /// The mechanism is so small, or so far from the origin, that the digits of its positions are
+    /// few.
     CoarseNumbers {
         /// What they resolve (m).
         resolution: f64,

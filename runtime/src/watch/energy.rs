@@ -12,13 +12,16 @@ pub(super) struct Balance<S> {
     work: S,
     /// The potential energy at the start, and the largest difference from it.
     potential: (S, S),
-    /// The largest kinetic energy, the largest work so far, and the largest size of the potential energy.
+    /// The largest kinetic energy, the largest work so far, and the largest size of the potential
+    /// energy.
     kinetic: S,
     exchanged: S,
     height: S,
-    /// What energies that cancel are made of at least (J): weights over the length of the mechanism.
+    /// What energies that cancel are made of at least (J): weights over the length of the
+    /// mechanism.
     parts: S,
-    /// By how much the integral of the power may be off (J): what the parabola changes of the trapezoid, step by step.
+    /// By how much the integral of the power may be off (J): what the parabola changes of the
+    /// trapezoid, step by step.
     unsure: S,
     /// The work whatever its sign (J).
     turnover: S,
@@ -86,7 +89,8 @@ impl<S: Real> Balance<S> {
         self.exchanged = self.exchanged.max(self.work.abs());
     }
 
-    /// The integral of the power over a step, by the parabola through this step's ends and the end before.
+    /// The integral of the power over a step, by the parabola through this step's ends and the end
+    /// before.
     fn add_work(&mut self, time: S, power: S) {
         if let Some((then, last)) = self.before {
             let step = time - then;
@@ -114,7 +118,8 @@ impl<S: Real> Balance<S> {
         self.kinetic.max(self.potential.1).max(self.exchanged)
     }
 
-    /// What no force accounts for at the end, over what is exchanged; zero where it is below the digits of the energies.
+    /// What no force accounts for at the end, over what is exchanged; zero where it is below the
+    /// digits of the energies.
     pub(super) fn drift(&self) -> S {
         self.relative(self.last)
     }
@@ -134,7 +139,8 @@ impl<S: Real> Balance<S> {
         self.unsure <= S::constant(limit) * self.size()
     }
 
-    /// How much of the work is not known, whatever its sign: large where forces change faster than steps follow.
+    /// How much of the work is not known, whatever its sign: large where forces change faster than
+    /// steps follow.
     pub(super) fn doubt_of_work(&self) -> S {
         if self.unsure > S::zero() {
             self.unsure.quotient(self.turnover)
@@ -143,13 +149,15 @@ impl<S: Real> Balance<S> {
         }
     }
 
-    /// Whether nothing works on the mechanism: no force without a potential, no driver, no potential that changes by the time alone.
+    /// Whether nothing works on the mechanism: no force without a potential, no driver, no
+    /// potential that changes by the time alone.
     pub(super) fn is_of_a_closed_system(&self) -> bool {
         self.before.is_none() && self.turnover <= S::zero()
     }
 
     fn relative(&self, energy: S) -> S {
-        // Round-off of the energies themselves, as in a mechanism far from the origin, and what is not known of the work.
+        // Round-off of the energies themselves, as in a mechanism far from the origin, and what is
+        // not known of the work.
         let parts = self.parts + self.height + self.kinetic;
         let digits = S::constant(DIGITS) * S::EPSILON * parts;
         let sure = energy.abs() - digits - self.unsure;

@@ -8,13 +8,16 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::Block;
 use crate::state::vector::Array;
 
-/// Squares of the lengths of the rows of `D`: of what acts on translations (m), and of what acts on rotations (rad).
+/// Squares of the lengths of the rows of `D`: of what acts on translations (m), and of what acts on
+/// rotations (rad).
 ///
-/// Of a vector equation, whose rows say nothing one by one, the places of its rows hold the sum of the squares, and what is left of the second and third where one row, or two, are
-/// combinations of the others.
+/// Of a vector equation, whose rows say nothing one by one, the places of its rows hold the sum of
+/// the squares, and what is left of the second and third where one row, or two, are combinations of
+/// the others.
 type Lengths<S, M> = [<M as Mechanism>::Multipliers<S>; 2];
 
-/// Where a gradient vanishes, its equation leaves open which way a motion goes on, as where equations depend on each other. A relative pivot does not tell of that: it is compared with what
+/// Where a gradient vanishes, its equation leaves open which way a motion goes on, as where
+/// equations depend on each other. A relative pivot does not tell of that: it is compared with what
 /// the row is without the others, and that vanishes as well.
 ///
 /// A gradient has vanished where both its parts have: a lever arm may become as long as it likes.
@@ -29,7 +32,8 @@ pub(super) struct Gradients<S: Scalar, M: Mechanism> {
     looked: Option<S>,
 }
 
-/// How many times as often as that gradients are looked at: how fast one falls is known from looks before.
+/// How many times as often as that gradients are looked at: how fast one falls is known from looks
+/// before.
 const OFTEN: f64 = 4.0;
 
 /// The gradient that was shortest beside its largest.
@@ -62,7 +66,8 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         }
     }
 
-    /// Whether it is time to look, after so many radians of motion: whether one may have vanished since the last look, which costs as much as the equations themselves.
+    /// Whether it is time to look, after so many radians of motion: whether one may have vanished
+    /// since the last look, which costs as much as the equations themselves.
     #[inline]
     pub(super) fn are_due(&self, travel: S) -> bool {
         let may_have_vanished = match (self.looked, self.approach.last()) {
@@ -75,7 +80,8 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         M::REPORT.equations > 0 && may_have_vanished
     }
 
-    /// Looks at a state, after so many radians of motion, by what [`Self::measure`] returned for it.
+    /// Looks at a state, after so many radians of motion, by what [`Self::measure`] returned for
+    /// it.
     pub(super) fn look(&mut self, time: S, fall: S, travel: S) {
         let motion = travel - self.looked.unwrap_or(travel);
         self.looked = Some(travel);
@@ -92,7 +98,8 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         self.looked = Some(travel);
     }
 
-    /// Takes the gradients at a state; returns the least fall of one from its largest so far, in squares.
+    /// Takes the gradients at a state; returns the least fall of one from its largest so far, in
+    /// squares.
     #[inline(never)]
     pub(super) fn measure(
         &mut self,
@@ -123,7 +130,8 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         &self.approach
     }
 
-    /// The shortest of the run, met or found between two looks, or at its start, whatever came later; `None` without rows.
+    /// The shortest of the run, met or found between two looks, or at its start, whatever came
+    /// later; `None` without rows.
     pub(super) fn shortest(&self, start: S) -> Option<Shortest<S>> {
         let mut least = self.shortest?;
         if let Some(between) = self.approach.least()
@@ -201,7 +209,8 @@ fn parts<S: Real>(jacobian: &[S], block: &Block, row: usize) -> [[S; 3]; 2] {
     [read(jacobian, place), moment]
 }
 
-/// The scalar products of the three rows of a vector equation, by translations and by rotations: 11, 22, 33, 12, 23, 31.
+/// The scalar products of the three rows of a vector equation, by translations and by rotations:
+/// 11, 22, 33, 12, 23, 31.
 fn products<S: Real>(blocks: &[Block], jacobian: &[S], first: usize) -> [[S; 6]; 2] {
     let mut products = [[S::zero(); 6]; 2];
     let own = |block: &&Block| block.row <= first && first + 3 <= block.row + block.rows;
@@ -221,7 +230,8 @@ fn products<S: Real>(blocks: &[Block], jacobian: &[S], first: usize) -> [[S; 6];
     products
 }
 
-/// Of three rows with these products: the sum of the squares, and what the areas and the volume that they span are over it and over the areas. Zero where that is round-off.
+/// Of three rows with these products: the sum of the squares, and what the areas and the volume
+/// that they span are over it and over the areas. Zero where that is round-off.
 fn independent<S: Real>([a, b, c, ab, bc, ca]: [S; 6]) -> [S; 3] {
     let round_off = S::constant(64.0) * S::EPSILON;
     let sum = a + b + c;

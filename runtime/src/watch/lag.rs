@@ -12,7 +12,8 @@ use crate::state::vector::{Array, StateParts};
 /// Of how many steps one is judged.
 const EVERY: usize = 4;
 
-/// The square of a velocity over the largest before, from which on a body begins to move, and under which it rests.
+/// The square of a velocity over the largest before, from which on a body begins to move, and under
+/// which it rests.
 const STARTS: f64 = 1e6;
 const RESTS: f64 = 1e-6;
 
@@ -21,16 +22,21 @@ const HARDLY: f64 = 1e-2;
 
 /// What steps miss, body by body, in radians and in lengths of the body.
 ///
-/// What a step misses along the motion, over its velocity, is a time. It adds up with its sign, so that neither the noise of a fast vibration nor what an oscillation takes back counts; weighted
-/// by the squares of the velocities, it is that of the motion proper. Times the velocity it is what a body is off by. Translations and rotations count by themselves: a fast spin would hide
-/// what an axis does.
+/// What a step misses along the motion, over its velocity, is a time. It adds up with its sign, so
+/// that neither the noise of a fast vibration nor what an oscillation takes back counts; weighted
+/// by the squares of the velocities, it is that of the motion proper. Times the velocity it is what
+/// a body is off by. Translations and rotations count by themselves: a fast spin would hide what an
+/// axis does.
 pub(super) struct Lag<S: Scalar, M: Mechanism> {
-    /// Of each translation and each rotation the sums of what was missed along the velocity, and of the squares of velocities, and what it is off by at the worst.
+    /// Of each translation and each rotation the sums of what was missed along the velocity, and of
+    /// the squares of velocities, and what it is off by at the worst.
     sums: M::Velocities<S>,
-    /// How far each was from where it began, in how many steps it moved, and the square of its largest velocity.
+    /// How far each was from where it began, in how many steps it moved, and the square of its
+    /// largest velocity.
     courses: M::Velocities<S>,
     first: M::State<S>,
-    /// The sums of what bodies missed at the most, whatever its direction: of coordinates, and of velocities (1/s).
+    /// The sums of what bodies missed at the most, whatever its direction: of coordinates, and of
+    /// velocities (1/s).
     missed: [S; 2],
 }
 
@@ -106,7 +112,8 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         }
     }
 
-    /// What all steps have missed, whatever its direction: of coordinates, and of velocities beside the fastest. Nothing of what a method does exactly.
+    /// What all steps have missed, whatever its direction: of coordinates, and of velocities beside
+    /// the fastest. Nothing of what a method does exactly.
     pub(super) fn missed(&self, fastest: S) -> S {
         let [coordinates, velocities] = self.missed;
         if velocities > S::zero() {
@@ -141,7 +148,8 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         write(self.courses.as_mut_slice(), place, course);
     }
 
-    /// What a body is off by, at the worst (rad), or over what it has moved by where that is less than a radian.
+    /// What a body is off by, at the worst (rad), or over what it has moved by where that is less
+    /// than a radian.
     pub(super) fn worst(&self) -> S {
         let farthest = M::REPORT.bodies.iter().fold(S::zero(), |farthest, body| {
             let [way, _] = self.of(body);
@@ -189,7 +197,8 @@ struct Motion<S> {
     velocity: [S; 3],
 }
 
-/// The rotation (rad, body axes) from one orientation to another that is near; a chord where it is not.
+/// The rotation (rad, body axes) from one orientation to another that is near; a chord where it is
+/// not.
 fn rotation<S: Real, M: Mechanism>(place: usize, states: [&M::State<S>; 2]) -> [S; 3] {
     let orientation = |x: &M::State<S>| read::<S, 4>(x.coordinates().as_slice(), place + 3);
     let [p, q] = states;

@@ -1,7 +1,8 @@
 //! The watch over a run: what tells whether its result can be trusted.
 //!
-//! After every step it looks at the violation of every row by position and velocity, the pivots, the balance of energy and the length of the
-//! Euler parameters; at the end [`Doubts`] says what is to be doubted. It costs some kernels a step: `Phi`, `Phi'`, the energies, and, for a formulation
+//! After every step it looks at the violation of every row by position and velocity, the pivots,
+//! the balance of energy and the length of the Euler parameters; at the end [`Doubts`] says what is
+//! to be doubted. It costs some kernels a step: `Phi`, `Phi'`, the energies, and, for a formulation
 //! with a compliance, a factorisation without it.
 
 mod doubt;
@@ -78,13 +79,15 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     turning_error: S,
     turning_error_of_short_steps: S,
     lag: Lag<S, M>,
-    /// What a phase is off by for the third power of a step (rad), of a method whose energy does not tell.
+    /// What a phase is off by for the third power of a step (rad), of a method whose energy does
+    /// not tell.
     silent_phase: S,
     /// By what part of a step velocities are ahead of coordinates.
     velocity_lead: S,
     /// The longest step (s).
     longest: S,
-    /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of what was turned (rad), and of what the rate changed by.
+    /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of
+    /// what was turned (rad), and of what the rate changed by.
     rate: S,
     fastest: S,
     cubes: [S; 2],
@@ -97,15 +100,19 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     /// The tolerance of a method that controls its steps: relative, absolute.
     tolerance: Option<(S, S)>,
     steps: usize,
-    /// The largest acceleration that a penalty left of its constraints (m/s^2, angles by the length of the mechanism), and the largest of all.
+    /// The largest acceleration that a penalty left of its constraints (m/s^2, angles by the length
+    /// of the mechanism), and the largest of all.
     left: S,
     acceleration: S,
 }
 
-/// What was accepted although it did not converge, near a singular configuration or after one application of a pseudo-inverse.
+/// What was accepted although it did not converge, near a singular configuration or after one
+/// application of a pseudo-inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excused<S> {
-    /// Corrections of a [`Projection`](crate::Projection), or of a [`DirectCorrection`](crate::DirectCorrection), which also counts where one application left more than its tolerance.
+    /// Corrections of a [`Projection`](crate::Projection), or of a
+    /// [`DirectCorrection`](crate::DirectCorrection), which also counts where one application left
+    /// more than its tolerance.
     pub corrections: usize,
     /// Evaluations of the augmented Lagrangian.
     pub evaluations: usize,
@@ -116,7 +123,8 @@ pub struct Excused<S> {
 /// The largest violation of a joint's equations over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Violation<S> {
-    /// Of equations between lengths (m; of their rates m/s): the distance by which the joint is open.
+    /// Of equations between lengths (m; of their rates m/s): the distance by which the joint is
+    /// open.
     pub length: S,
     /// Of equations between directions (rad; of their rates rad/s).
     pub angle: S,
@@ -138,7 +146,8 @@ pub struct SmallestPivot<S> {
 /// The shortest gradient of an equation over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShortestGradient<S> {
-    /// Its length over its largest, by translations or by rotations, whichever is left more of; of a vector equation of all its rows, or what one has beside the others.
+    /// Its length over its largest, by translations or by rotations, whichever is left more of; of
+    /// a vector equation of all its rows, or what one has beside the others.
     pub relative: S,
     /// The joint's field.
     pub joint: &'static str,
@@ -241,7 +250,8 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     pub(crate) constants: &'a M::Constants<S>,
     pub(crate) time: S,
     pub(crate) state: &'a M::State<S>,
-    /// The power (W) of all forces without a potential, drivers included; `None` where there are none.
+    /// The power (W) of all forces without a potential, drivers included; `None` where there are
+    /// none.
     pub(crate) power: Option<S>,
     /// The relative pivot at this state; `None` where it was not looked at.
     pub(crate) pivot: Option<S>,
@@ -449,7 +459,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.joint = joint;
     }
 
-    /// Looks at the end of a run, on which side of its equations every joint is: none gets to another one without being wide open on the way.
+    /// Looks at the end of a run, on which side of its equations every joint is: none gets to
+    /// another one without being wide open on the way.
     pub(crate) fn end(&mut self, constants: &M::Constants<S>, time: S, state: &M::State<S>) {
         let wrong = wrong::<S, M>(constants, state, 0);
         self.wrong = wrong.map(|joint| (joint, time));
@@ -514,8 +525,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// The smallest relative pivot with its joint and its time; `None` without equations. Where equations are kept that depend on others it is their least
-    /// eigenvalue beside zero.
+    /// The smallest relative pivot with its joint and its time; `None` without equations. Where
+    /// equations are kept that depend on others it is their least eigenvalue beside zero.
     #[must_use]
     pub fn smallest_pivot(&self) -> Option<SmallestPivot<S>> {
         let nearest = self.approach.as_ref()?.least()?;
@@ -527,9 +538,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// The gradient of an equation that was shortest beside its largest, with its joint and its time; `None` without equations.
+    /// The gradient of an equation that was shortest beside its largest, with its joint and its
+    /// time; `None` without equations.
     ///
-    /// Where a gradient vanishes, its equation leaves open which way a motion goes on, whatever the pivots, which are compared with what an equation is without the others.
+    /// Where a gradient vanishes, its equation leaves open which way a motion goes on, whatever the
+    /// pivots, which are compared with what an equation is without the others.
     #[must_use]
     pub fn shortest_gradient(&self) -> Option<ShortestGradient<S>> {
         let shortest = self.gradients.shortest(self.start)?;
@@ -540,28 +553,33 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// The change of energy that no force and no driver accounts for, over the energy that the mechanism exchanges; `None` where the work of forces, summed
-    /// from step to step, is not known to a hundredth of that. What is not known of it is not counted.
+    /// The change of energy that no force and no driver accounts for, over the energy that the
+    /// mechanism exchanges; `None` where the work of forces, summed from step to step, is not known
+    /// to a hundredth of that. What is not known of it is not counted.
     #[must_use]
     pub fn energy_drift(&self) -> Option<S> {
         let tells = self.balance.tells(limits::ENERGY);
         tells.then(|| self.balance.drift())
     }
 
-    /// The change of energy (J) that no force and no driver accounts for, where it was largest, as the work of forces, summed from step to step, is known.
+    /// The change of energy (J) that no force and no driver accounts for, where it was largest, as
+    /// the work of forces, summed from step to step, is known.
     #[must_use]
     pub fn unaccounted_energy(&self) -> S {
         self.balance.unaccounted()
     }
 
-    /// The largest `| |p| - 1 |` of Euler parameters at the end of a step, before they were brought to length 1.
+    /// The largest `| |p| - 1 |` of Euler parameters at the end of a step, before they were brought
+    /// to length 1.
     #[must_use]
     pub fn orientation_drift(&self) -> S {
         self.stretch
     }
 
-    /// What a body is off by at the worst because its coordinates lag behind (rad, or lengths of the mechanism; over what it has moved by where that is less than one), as far as single
-    /// steps tell: they do not tell of a motion that takes errors apart. Estimated with methods of order 2, zero with others.
+    /// What a body is off by at the worst because its coordinates lag behind (rad, or lengths of
+    /// the mechanism; over what it has moved by where that is less than one), as far as single
+    /// steps tell: they do not tell of a motion that takes errors apart. Estimated with methods of
+    /// order 2, zero with others.
     #[must_use]
     pub fn lag(&self) -> S {
         self.lag.worst()

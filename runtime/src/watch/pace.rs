@@ -34,7 +34,8 @@ impl<S: Real, M: Mechanism> Pace<S, M> {
         let mut lengths = M::Velocities::<S>::zeros();
         let rows = Rows::<S, M>::at(constants, time, state);
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
-            // The rotation of a rigid body tells of it. A particle has none, and may be a small part of a mechanism that is large.
+            // The rotation of a rigid body tells of it. A particle has none, and may be a small
+            // part of a mechanism that is large.
             let length = match info.kind {
                 BodyKind::Rigid => extent,
                 BodyKind::Particle => rows.length_of(body).map_or(extent, |own| own.min(extent)),
@@ -70,7 +71,8 @@ impl<S: Real, M: Mechanism> Pace<S, M> {
         rate
     }
 
-    /// By how much the rate of a body is another than at the start, at the most (rad/s): of rigid bodies the size, for a steady turn changes directions; of particles the vector.
+    /// By how much the rate of a body is another than at the start, at the most (rad/s): of rigid
+    /// bodies the size, for a steady turn changes directions; of particles the vector.
     pub(super) fn change(&self, state: &M::State<S>) -> S {
         let (now, first) = (state.velocities().as_slice(), self.first.as_slice());
         let size = |velocities: &[S], place| square(&read::<S, 3>(velocities, place)).sqrt();

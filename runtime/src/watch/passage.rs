@@ -30,7 +30,8 @@ impl<S: Real, M: Mechanism> Passage<S, M> {
         }
     }
 
-    /// Takes the next pose, after so much motion (rad), with its pivot, where equations are independent.
+    /// Takes the next pose, after so much motion (rad), with its pivot, where equations are
+    /// independent.
     pub(crate) fn step(
         &mut self,
         constants: &M::Constants<S>,
@@ -50,7 +51,8 @@ impl<S: Real, M: Mechanism> Passage<S, M> {
         }
     }
 
-    /// About how far (rad) the last pose is from a configuration in which a pivot or a gradient vanishes, at most about 1.
+    /// About how far (rad) the last pose is from a configuration in which a pivot or a gradient
+    /// vanishes, at most about 1.
     pub(crate) fn distance(&self) -> S {
         let one = S::one();
         let pivot = self.approach.left().unwrap_or(one);
@@ -58,7 +60,8 @@ impl<S: Real, M: Mechanism> Passage<S, M> {
         pivot.min(gradient).max(S::zero()).min(one).sqrt()
     }
 
-    /// The joint of a singular configuration that was passed, or nearly, or of an equation that all but vanished.
+    /// The joint of a singular configuration that was passed, or nearly, or of an equation that all
+    /// but vanished.
     pub(crate) fn passed(&self) -> Option<&'static str> {
         self.branch_point().map(|(joint, ..)| joint)
     }

@@ -1,6 +1,7 @@
 //! Whether a mechanism is at rest, as far as its numbers tell.
 //!
-//! Relative measures compare with what the motion itself is. Where nothing moves but round-off, or what a tolerance or a compliance lets move, they compare an error with itself.
+//! Relative measures compare with what the motion itself is. Where nothing moves but round-off, or
+//! what a tolerance or a compliance lets move, they compare an error with itself.
 
 use super::limits;
 use super::{Watch, exceeds};
@@ -15,7 +16,8 @@ use crate::state::vector::{Array, StateParts};
 /// What is known of rest at a time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rest<S> {
-    /// What the last digit of the coordinates changes of the accelerations (m/s^2, angles by the length of the mechanism).
+    /// What the last digit of the coordinates changes of the accelerations (m/s^2, angles by the
+    /// length of the mechanism).
     noise: S,
     /// Whether the run began at rest and has stayed there.
     lasts: bool,
@@ -41,7 +43,8 @@ pub(crate) struct Beginning<'a, S: Real, M: Mechanism> {
     pub(crate) bias: S,
 }
 
-/// A state whose coordinates are changed in their last digit, without a pattern that a mechanism could share.
+/// A state whose coordinates are changed in their last digit, without a pattern that a mechanism
+/// could share.
 fn shaken<S: Real, M: Mechanism>(state: &M::State<S>, length: S) -> M::State<S> {
     const SIGNS: u32 = 0b1011_0010_0111_0100_0110_1110_1010_0011;
     let mut shaken = *state;
@@ -110,7 +113,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.balance.made_of(self.work_over(forces, reach));
     }
 
-    /// The largest translation (m, of so many derivatives) or rotation, by the length of the mechanism.
+    /// The largest translation (m, of so many derivatives) or rotation, by the length of the
+    /// mechanism.
     fn largest(&self, velocities: &M::Velocities<S>) -> S {
         let elements = velocities.as_slice();
         M::REPORT.bodies.iter().fold(S::zero(), |largest, body| {
@@ -124,7 +128,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// The work (J) of all forces over a length, and of all moments over a radian, whatever their directions.
+    /// The work (J) of all forces over a length, and of all moments over a radian, whatever their
+    /// directions.
     fn work_over(&self, forces: &M::Velocities<S>, length: S) -> S {
         let elements = forces.as_slice();
         M::REPORT.bodies.iter().fold(S::zero(), |sum, body| {
@@ -138,7 +143,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// Looks whether a step has led away from rest, in which bodies turned or moved by so many radians.
+    /// Looks whether a step has led away from rest, in which bodies turned or moved by so many
+    /// radians.
     pub(super) fn look_at_rest(&mut self, state: &M::State<S>, turned: S) {
         if !self.rest.lasts {
             return;
@@ -161,7 +167,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.rest.lasts = !exceeds(way, self.hardly());
     }
 
-    /// A way (m) that says of no motion: what round-off, the tolerance and the violations so far account for, as long as that is little.
+    /// A way (m) that says of no motion: what round-off, the tolerance and the violations so far
+    /// account for, as long as that is little.
     fn hardly(&self) -> S {
         let time = self.time - self.start;
         let reach = self.length + self.resolution.quotient(S::EPSILON);
@@ -176,12 +183,14 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         way.min(S::constant(limits::COARSE) * self.length)
     }
 
-    /// Whether the run began at rest and has stayed there, as far as its numbers tell: what moved since says of nothing.
+    /// Whether the run began at rest and has stayed there, as far as its numbers tell: what moved
+    /// since says of nothing.
     pub(super) fn rests(&self) -> bool {
         self.rest.lasts
     }
 
-    /// A speed (m/s) that is round-off: of accelerations, for so long, or by less than a digit of a position in a step.
+    /// A speed (m/s) that is round-off: of accelerations, for so long, or by less than a digit of a
+    /// position in a step.
     pub(super) fn speed_of_round_off(&self) -> S {
         let of_forces = self.rest.noise * (self.time - self.start);
         let of_positions = if self.longest > S::zero() {

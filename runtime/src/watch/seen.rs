@@ -4,9 +4,11 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array;
 
-/// Kept by [`Dynamics`](crate::Dynamics) at every evaluation, for the watch to read at the end of a step.
+/// Kept by [`Dynamics`](crate::Dynamics) at every evaluation, for the watch to read at the end of a
+/// step.
 pub struct Seen<S: Scalar, M: Mechanism> {
-    /// The smallest relative pivot of the last evaluation, without its joint: to find that costs more than to look again at the end of a run.
+    /// The smallest relative pivot of the last evaluation, without its joint: to find that costs
+    /// more than to look again at the end of a run.
     pub(crate) pivot: S,
     /// The multipliers of the last evaluation, of a mechanism with drivers.
     pub(crate) multipliers: M::Multipliers<S>,

@@ -11,8 +11,9 @@ pub(super) struct Nearest<S> {
 
 /// The course of the relative pivot over the steps of a run.
 ///
-/// A pivot goes with the square of the distance from the configuration in which it vanishes, and steps may pass over that. So three steps in which the
-/// middle one is least are looked at twice: a parabola through them tells how small the pivot was in between, and where its root, the distance
+/// A pivot goes with the square of the distance from the configuration in which it vanishes, and
+/// steps may pass over that. So three steps in which the middle one is least are looked at twice: a
+/// parabola through them tells how small the pivot was in between, and where its root, the distance
 /// with a sign, runs more smoothly through zero than back, it was zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach<S> {
@@ -22,13 +23,15 @@ pub(super) struct Approach<S> {
     least: Nearest<S>,
     /// The last two steps: time and pivot.
     before: [Option<(S, S)>; 2],
-    /// The largest motion (rad) of a step over the roots of the pivots at its ends, which go with the distances from where they vanish.
+    /// The largest motion (rad) of a step over the roots of the pivots at its ends, which go with
+    /// the distances from where they vanish.
     widest: S,
     /// The largest change of the root of a pivot over the motion (rad) on the way.
     steepest: S,
 }
 
-/// The sum of the roots of two pivots, over that of the largest, from where on they have fallen: it is 2 where all are the same.
+/// The sum of the roots of two pivots, over that of the largest, from where on they have fallen: it
+/// is 2 where all are the same.
 const VARIED: f64 = 1.5;
 
 /// A change of a root, over the largest, that tells something.
@@ -48,7 +51,8 @@ impl<S: Real> Approach<S> {
         }
     }
 
-    /// Takes the pivot at the end of a step that the mechanism moved by so far (rad) in; tells whether there, or since the step before, it was smaller than ever.
+    /// Takes the pivot at the end of a step that the mechanism moved by so far (rad) in; tells
+    /// whether there, or since the step before, it was smaller than ever.
     #[inline]
     pub(super) fn step(&mut self, time: S, pivot: S, motion: S) -> bool {
         self.largest = self.largest.max(pivot);
@@ -78,7 +82,8 @@ impl<S: Real> Approach<S> {
         is_least
     }
 
-    /// The lowest point between three of which the second is lowest; whether it is the smallest pivot.
+    /// The lowest point between three of which the second is lowest; whether it is the smallest
+    /// pivot.
     fn between(&mut self, points: [(S, S); 3]) -> bool {
         let [a, b, c] = points;
         let (slope, curvature) = parabola(points);
@@ -102,8 +107,9 @@ impl<S: Real> Approach<S> {
         self.least.pivot.is_finite().then_some(self.least)
     }
 
-    /// Whether a step was so long that it may have passed over a singular configuration unseen: the distances from one at both its ends, a root of the pivot over the largest each, are
-    /// together less than its motion.
+    /// Whether a step was so long that it may have passed over a singular configuration unseen: the
+    /// distances from one at both its ends, a root of the pivot over the largest each, are together
+    /// less than its motion.
     pub(super) fn may_have_passed(&self) -> bool {
         /// The largest pivot that was met need not be the largest there is.
         const MARGIN: f64 = 1.25;
@@ -112,7 +118,9 @@ impl<S: Real> Approach<S> {
 
     /// The same of a motion (rad) with these pivots at its ends, that can be looked into.
     pub(super) fn may_pass(&self, motion: S, ends: [S; 2]) -> bool {
-        /// How many times faster than with the distance the root of a pivot may grow to its largest: a mechanism need not move by a radian from where one vanishes to where it is largest.
+        /// How many times faster than with the distance the root of a pivot may grow to its
+        /// largest: a mechanism need not move by a radian from where one vanishes to where it is
+        /// largest.
         const MARGIN: f64 = 4.0;
         let [first, last] = ends.map(|pivot| pivot.max(S::zero()).sqrt());
         let slope = S::constant(MARGIN) * self.largest.sqrt();

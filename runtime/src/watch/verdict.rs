@@ -60,8 +60,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// Round-off of velocities changes the energy like a random walk, whose end tells little of its way. Only where nothing works on the mechanism: forces and
-    /// drivers set a phase of their own.
+    /// Round-off of velocities changes the energy like a random walk, whose end tells little of its
+    /// way. Only where nothing works on the mechanism: forces and drivers set a phase of their own.
     fn long_run(&self) -> Option<Doubt> {
         if !self.balance.is_of_a_closed_system() || self.phase().is_some() {
             return None;
@@ -124,7 +124,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// The joint that is beyond its limits by most, with the kind of violation that is: the other is zero.
+    /// The joint that is beyond its limits by most, with the kind of violation that is: the other
+    /// is zero.
     fn worst(
         &self,
         worst: &Worst<S, M>,
@@ -180,7 +181,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// Whether pivots, or squares of gradients, that fell so far tell of a singular configuration. A mechanism that is open by a little passes one at a distance whose square goes with that;
+    /// Whether pivots, or squares of gradients, that fell so far tell of a singular configuration.
+    /// A mechanism that is open by a little passes one at a distance whose square goes with that;
     /// of one that is open by more all is doubted.
     fn is_near(&self, fall: S) -> bool {
         let open = self.largest_violation();
@@ -259,7 +261,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    /// A rate that changes by a part `x` of the largest in a step is that of an oscillation of `x` radians a step.
+    /// A rate that changes by a part `x` of the largest in a step is that of an oscillation of `x`
+    /// radians a step.
     fn silent_shift(&self) -> S {
         let [turned, changed] = self.cubes;
         let fastest = self.fastest * self.fastest * self.fastest;
@@ -270,7 +273,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a rate changes by over so much time.
+    /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a
+    /// rate changes by over so much time.
     fn led_shift(&self) -> S {
         self.velocity_lead * self.longest * self.changed
     }
@@ -295,7 +299,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn orientation(&self) -> Option<Doubt> {
-        // On average over the steps; those that turn further stretch more, and are off by less of it.
+        // On average over the steps; those that turn further stretch more, and are off by less of
+        // it.
         let half = S::constant(0.5) * self.travel.quotient(S::constant(self.steps as f64));
         let of_short = self.turning_error_of_short_steps.quotient(half);
         let error = if half > S::zero() {

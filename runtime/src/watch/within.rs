@@ -38,7 +38,8 @@ impl<S: Real> Nearness<S> {
     }
 }
 
-/// Whether what goes with a distance shows no sign of having been zero between three instants: there it bends by twice the distance that it has at one of them.
+/// Whether what goes with a distance shows no sign of having been zero between three instants:
+/// there it bends by twice the distance that it has at one of them.
 fn keeps_away<S: Real>(squares: [S; 3]) -> bool {
     let [a, b, c] = squares.map(|square| square.max(S::zero()).sqrt());
     let bend = (a - (b + b) + c).abs();
@@ -51,7 +52,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.time
     }
 
-    /// How near the mechanism was at the last look, which was at the end of the last step or shortly before.
+    /// How near the mechanism was at the last look, which was at the end of the last step or
+    /// shortly before.
     pub(crate) fn last_nearness(&self) -> Nearness<S> {
         let last = self.approach.as_ref().and_then(|approach| approach.last());
         Nearness {
@@ -60,7 +62,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// Whether a step of this length may have passed a singular configuration, whatever was at its end, with the fastest motion so far.
+    /// Whether a step of this length may have passed a singular configuration, whatever was at its
+    /// end, with the fastest motion so far.
     pub(crate) fn may_have_passed(&self, step: S) -> bool {
         self.may_pass(
             self.fastest * step,
@@ -68,7 +71,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         )
     }
 
-    /// Whether a motion (rad) between such states may have passed a singular configuration. Nothing is to be found where one is known.
+    /// Whether a motion (rad) between such states may have passed a singular configuration. Nothing
+    /// is to be found where one is known.
     pub(crate) fn may_pass(&self, motion: S, [from, to]: [Nearness<S>; 2]) -> bool {
         let by_pivots = self.approach.as_ref().is_some_and(|approach| {
             above(approach.fall(), limits::NEARLY_SINGULAR)
@@ -80,7 +84,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
                 && approach.may_pass(motion, [from.gradient, to.gradient])
     }
 
-    /// How fast the mechanism moves at the most (rad/s): at the end of the last step, or in a state.
+    /// How fast the mechanism moves at the most (rad/s): at the end of the last step, or in a
+    /// state.
     pub(crate) fn faster(&self, state: &M::State<S>) -> S {
         self.rate.max(self.pace.of(state))
     }
@@ -110,7 +115,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.nearest = (time, *state);
     }
 
-    /// Takes that so much motion (rad) since the last step was looked into, and nothing was passed unseen.
+    /// Takes that so much motion (rad) since the last step was looked into, and nothing was passed
+    /// unseen.
     pub(crate) fn is_known_for(&mut self, motion: S) {
         let travel = self.travel + motion;
         self.looked = travel;

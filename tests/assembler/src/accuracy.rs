@@ -2,21 +2,22 @@
 
 use nalgebra::DVector;
 
-/// What kernels that compute the same thing in two ways may differ by in double precision, as corrected relative error.
+/// What kernels that compute the same thing in two ways may differ by in double precision, as
+/// corrected relative error.
 pub const DOUBLE: f64 = 1e-12;
 
 /// The same in single precision.
 pub const SINGLE: f64 = 1e-4;
 
-/// Corrected relative error: `|a - b| / max(1, |a|, |b|)`. Relative for large numbers, absolute for small ones; infinite
-/// if one of them is not a number.
+/// Corrected relative error: `|a - b| / max(1, |a|, |b|)`. Relative for large numbers, absolute for
+/// small ones; infinite if one of them is not a number.
 #[must_use]
 pub fn relative_error(a: f64, b: f64) -> f64 {
     scaled_error(a, b, 1.0)
 }
 
-/// `|a - b| / max(scale, |a|, |b|)`: `scale` is the size below which a number of this kind counts as small. Infinite
-/// if one of the two is not a number; zero if they are equal.
+/// `|a - b| / max(scale, |a|, |b|)`: `scale` is the size below which a number of this kind counts
+/// as small. Infinite if one of the two is not a number; zero if they are equal.
 #[must_use]
 pub fn scaled_error(a: f64, b: f64, scale: f64) -> f64 {
     let error = (a - b).abs() / scale.max(a.abs()).max(b.abs());
@@ -29,8 +30,9 @@ pub fn scaled_error(a: f64, b: f64, scale: f64) -> f64 {
     }
 }
 
-/// The largest error of two rows of numbers, all measured on the scale of the largest number in both (at least 1); so
-/// an entry that cancels is not held to more digits than the entries it was made of.
+/// The largest error of two rows of numbers, all measured on the scale of the largest number in
+/// both (at least 1); so an entry that cancels is not held to more digits than the entries it was
+/// made of.
 ///
 /// # Panics
 /// If they have different lengths.
@@ -60,8 +62,9 @@ pub fn assert_close(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
     );
 }
 
-/// Euclidean distance over the norm of the reference, or over `floor` where the reference is smaller: what is zero but for cancelling
-/// numbers of that size is known to that size only. Infinite if a number is none.
+/// Euclidean distance over the norm of the reference, or over `floor` where the reference is
+/// smaller: what is zero but for cancelling numbers of that size is known to that size only.
+/// Infinite if a number is none.
 ///
 /// # Panics
 /// If they have different lengths.

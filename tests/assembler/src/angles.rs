@@ -1,16 +1,20 @@
 //! The angle of one body against another about an axis, with its turns counted.
 //!
-//! With `n1`, `n2`, `a` a right-handed frame in the reference configuration, `n1` and `n2` fixed on body `i` and `m`, which
-//! is `n1` there, fixed on body `j`:
+//! With `n1`, `n2`, `a` a right-handed frame in the reference configuration, `n1` and `n2` fixed on
+//! body `i` and `m`, which is `n1` there, fixed on body `j`:
 //!
 //! ```text
-//! x = n1 . m    y = n2 . m    theta = atan2(y, x) + 2 pi round((s - atan2(y, x)) / 2 pi)    s' = a . (w_j - w_i)
-//! theta' = (x y' - y x') / c    theta'' = (x y'' - y x'') / c - 2 (x y' - y x') (x x' + y y') / c^2    c = x^2 + y^2
+//! x = n1 . m    y = n2 . m    s' = a . (w_j - w_i)
+//! theta = atan2(y, x) + 2 pi round((s - atan2(y, x)) / 2 pi)
+//! theta' = (x y' - y x') / c    c = x^2 + y^2
+//! theta'' = (x y'' - y x'') / c - 2 (x y' - y x') (x x' + y y') / c^2
 //! ```
 //!
-//! by the quotient rule alone, so that it holds off the constraints as well; the lengths of `p` cancel in `theta`. The
-//! auxiliary state `s` only decides the number of turns: half a turn of error in it does no harm. The gradient is
-//! that of the product `b . m` with `b = (x n2 - y n1) / c` fixed on body `i` while `x`, `y` and `c` are held. Source: Haug (1989), chapter 9 (relative angle of two bodies, its count of turns).
+//! by the quotient rule alone, so that it holds off the constraints as well; the lengths of `p`
+//! cancel in `theta`. The auxiliary state `s` only decides the number of turns: half a turn of
+//! error in it does no harm. The gradient is that of the product `b . m` with
+//! `b = (x n2 - y n1) / c` fixed on body `i` while `x`, `y` and `c` are held. Source: Haug (1989),
+//! chapter 9 (relative angle of two bodies, its count of turns).
 
 use core::f64::consts::TAU;
 
@@ -18,7 +22,8 @@ use nalgebra::Vector3;
 
 use crate::kinematics::{Kinematics, Mark};
 
-/// An angle between two bodies (rad): positive if `j` turns by the right hand about the axis against `i`.
+/// An angle between two bodies (rad): positive if `j` turns by the right hand about the axis
+/// against `i`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle {
     /// `n1` and `n2` on body `i`.
@@ -69,7 +74,8 @@ pub fn counted(principal: f64, near: f64) -> f64 {
 }
 
 impl Angle {
-    /// An angle that is not counted yet: a joint or a force gives it an auxiliary state where it is added.
+    /// An angle that is not counted yet: a joint or a force gives it an auxiliary state where it is
+    /// added.
     #[must_use]
     pub const fn new(normals: [Mark; 2], pointer: Mark, axis: Mark) -> Self {
         Self {

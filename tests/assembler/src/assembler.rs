@@ -1,14 +1,16 @@
-//! The generic run-time assembler: a list of bodies and joints, and the kernels of their equations of motion.
+//! The generic run-time assembler: a list of bodies and joints, and the kernels of their equations
+//! of motion.
 //!
 //! ```text
-//! M u' + D^T lambda = g      Phi(q) = 0      Phi' = D u      D u' = gamma      reaction on the bodies = -D^T lambda
+//! M u' + D^T lambda = g      Phi(q) = 0      Phi' = D u      D u' = gamma
+//! reaction on the bodies = -D^T lambda
 //! ```
 //!
-//! With a driver `Phi(q, t) = 0` and `Phi' = D u + Phi_t`. `q` holds `(r, p)` of all bodies in the order in which they were
-//! added, `u` holds `(v, w)`; a particle has `r` and `v` only, the ground nothing. Behind the bodies `q` holds one
-//! auxiliary state for every angle, those of the joints in their order and then those of the forces. Equations stand
-//! in the order of the joints. Sources: Nikravesh (1988), chapters 8
-//! and 11; Flores (2015), chapters 10 and 11.
+//! With a driver `Phi(q, t) = 0` and `Phi' = D u + Phi_t`. `q` holds `(r, p)` of all bodies in the
+//! order in which they were added, `u` holds `(v, w)`; a particle has `r` and `v` only, the ground
+//! nothing. Behind the bodies `q` holds one auxiliary state for every angle, those of the joints in
+//! their order and then those of the forces. Equations stand in the order of the joints. Sources:
+//! Nikravesh (1988), chapters 8 and 11; Flores (2015), chapters 10 and 11.
 
 use nalgebra::{DVector, Vector3};
 
@@ -156,8 +158,8 @@ impl Assembler {
         self.add_joint(Joint::spherical(self, between, point))
     }
 
-    /// Adds a revolute joint from a point (m) and an axis (any length), both in global axes at the initial
-    /// configuration.
+    /// Adds a revolute joint from a point (m) and an axis (any length), both in global axes at the
+    /// initial configuration.
     pub fn add_revolute(
         &mut self,
         between: [BodyId; 2],
@@ -217,7 +219,8 @@ impl Assembler {
         self.equations
     }
 
-    /// The bodies that were added (the ground is not among them), each with its first coordinate and velocity.
+    /// The bodies that were added (the ground is not among them), each with its first coordinate
+    /// and velocity.
     pub fn bodies(&self) -> impl Iterator<Item = (&Body, usize, usize)> {
         self.bodies[1..]
             .iter()

@@ -1,11 +1,12 @@
 //! Bodies: mass, initial pose and the kinematics of one instant.
 //!
-//! Notation of every module of the assembler: `r` position of the centre of mass (m, global axes), `p = (e0, e)` Euler
-//! parameters from body to global axes, `A(p)` the rotation from body to global axes, `v = r'` (m/s, global axes), `w`
-//! angular velocity (rad/s, **body** axes), `x~` the matrix of the cross product, a prime the time derivative.
+//! Notation of every module of the assembler: `r` position of the centre of mass (m, global axes),
+//! `p = (e0, e)` Euler parameters from body to global axes, `A(p)` the rotation from body to global
+//! axes, `v = r'` (m/s, global axes), `w` angular velocity (rad/s, **body** axes), `x~` the matrix
+//! of the cross product, a prime the time derivative.
 //!
-//! Sources: Nikravesh, *Computer-Aided Analysis of Mechanical Systems* (1988), chapter 6; Flores, *Concepts and
-//! Formulations for Spatial Multibody Dynamics* (2015), chapters 4 to 6.
+//! Sources: Nikravesh, *Computer-Aided Analysis of Mechanical Systems* (1988), chapter 6; Flores,
+//! *Concepts and Formulations for Spatial Multibody Dynamics* (2015), chapters 4 to 6.
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
@@ -79,8 +80,8 @@ pub struct Body {
 }
 
 impl Body {
-    /// A rigid body at rest with its axes parallel to the global ones: mass (kg), principal moments of inertia
-    /// (kg m^2), position of the centre of mass (m, global axes).
+    /// A rigid body at rest with its axes parallel to the global ones: mass (kg), principal moments
+    /// of inertia (kg m^2), position of the centre of mass (m, global axes).
     #[must_use]
     pub fn rigid(mass: f64, inertia: [f64; 3], position: [f64; 3]) -> Self {
         Self {
@@ -140,8 +141,8 @@ impl Body {
     }
 }
 
-/// `A(p) = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, body to global axes; `|p|^2` times a rotation (Nikravesh 1988,
-/// section 6.2).
+/// `A(p) = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, body to global axes; `|p|^2` times a rotation
+/// (Nikravesh 1988, section 6.2).
 #[must_use]
 pub fn rotation(p: &Vector4<f64>) -> Matrix3<f64> {
     let [e0, e1, e2, e3] = [p[0], p[1], p[2], p[3]];
@@ -159,8 +160,8 @@ pub fn rotation(p: &Vector4<f64>) -> Matrix3<f64> {
     )
 }
 
-/// `p' = 1/2 L(p)^T w` with `L(p) = [-e, e0 I - e~]`, `w` in body axes and `p` as it is (Nikravesh 1988, section 6.4).
-/// It is orthogonal to `p`, so it leaves `|p|` unchanged to first order.
+/// `p' = 1/2 L(p)^T w` with `L(p) = [-e, e0 I - e~]`, `w` in body axes and `p` as it is (Nikravesh
+/// 1988, section 6.4). It is orthogonal to `p`, so it leaves `|p|` unchanged to first order.
 #[must_use]
 pub fn euler_rate(p: &Vector4<f64>, w: &Vector3<f64>) -> Vector4<f64> {
     let [e0, e1, e2, e3] = [p[0], p[1], p[2], p[3]];
@@ -172,7 +173,8 @@ pub fn euler_rate(p: &Vector4<f64>, w: &Vector3<f64>) -> Vector4<f64> {
     )
 }
 
-/// The kinematics of one body at one instant, and where its velocities stand among those of the mechanism.
+/// The kinematics of one body at one instant, and where its velocities stand among those of the
+/// mechanism.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// `r` (m, global axes).

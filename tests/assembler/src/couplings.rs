@@ -1,7 +1,8 @@
-//! Joints whose rows couple several products or angles: constant velocity, screw, gears, rack and pinion.
+//! Joints whose rows couple several products or angles: constant velocity, screw, gears, rack and
+//! pinion.
 //!
-//! Points (m) and axes (any length) as in [`library`](crate::library). Sources: Haug (1989), chapter 9 (screw, gears, rack and
-//! pinion); Nikravesh (1988), chapter 7.
+//! Points (m) and axes (any length) as in [`library`](crate::library). Sources: Haug (1989),
+//! chapter 9 (screw, gears, rack and pinion); Nikravesh (1988), chapter 7.
 
 use core::f64::consts::TAU;
 
@@ -14,8 +15,9 @@ use crate::library::{along, coincidence, joint, unit};
 use crate::scalars::Scalar;
 
 impl Joint {
-    /// `P_j - P_i`, `b_i . n_j - n_i . b_j`: 4 rows. `n_j`, `b_j` are the normals of `axis_i`, turned by the least rotation
-    /// that takes `axis_i` to `axis_j`: in this frame both shafts turn by the same angle at any bend.
+    /// `P_j - P_i`, `b_i . n_j - n_i . b_j`: 4 rows. `n_j`, `b_j` are the normals of `axis_i`,
+    /// turned by the least rotation that takes `axis_i` to `axis_j`: in this frame both shafts turn
+    /// by the same angle at any bend.
     #[must_use]
     pub fn constant_velocity(
         scene: &Assembler,
@@ -39,7 +41,8 @@ impl Joint {
         joint(scene, [i, j], point, point, rows)
     }
 
-    /// The rows of a cylindrical joint, then `a_i . d - pitch / (2 pi) theta` with the advance `pitch` (m) per turn: 5 rows.
+    /// The rows of a cylindrical joint, then `a_i . d - pitch / (2 pi) theta` with the advance
+    /// `pitch` (m) per turn: 5 rows.
     #[must_use]
     pub fn screw(
         scene: &Assembler,
@@ -56,8 +59,8 @@ impl Joint {
         joint
     }
 
-    /// Angle of `j` against the carrier `k` minus `ratio` times that of `i` against `k`: 1 row; external gears have a
-    /// negative ratio.
+    /// Angle of `j` against the carrier `k` minus `ratio` times that of `i` against `k`: 1 row;
+    /// external gears have a negative ratio.
     #[must_use]
     pub fn gear(
         scene: &Assembler,
@@ -73,8 +76,8 @@ impl Joint {
         Self::new([i, j, k], [Vector3::zeros(); 3], [row])
     }
 
-    /// `slide_k . (P_j - P_k) - radius theta` with `theta` the angle of the pinion `i` against the carrier `k` about
-    /// `axis`, `j` the rack: 1 row.
+    /// `slide_k . (P_j - P_k) - radius theta` with `theta` the angle of the pinion `i` against the
+    /// carrier `k` about `axis`, `j` the rack: 1 row.
     #[must_use]
     pub fn rack_and_pinion(
         scene: &Assembler,

@@ -1,7 +1,8 @@
 //! Primitive joints between axes and points, and drivers: rows that follow a law of time.
 //!
-//! Like [`library`](crate::library): points (m) and axes (any length) in global axes of the reference configuration, `d`
-//! from a point of `i` to a point of `j`. Sources: Nikravesh (1988), chapter 7; Haug (1989), chapter 9.
+//! Like [`library`](crate::library): points (m) and axes (any length) in global axes of the
+//! reference configuration, `d` from a point of `i` to a point of `j`. Sources: Nikravesh (1988),
+//! chapter 7; Haug (1989), chapter 9.
 
 use nalgebra::Vector3;
 

@@ -1,16 +1,19 @@
-//! `Phi` over any number type of num-dual, and from it `D` and `gamma` by automatic differentiation.
+//! `Phi` over any number type of num-dual, and from it `D` and `gamma` by automatic
+//! differentiation.
 //!
-//! Nothing here is derived by hand and nothing is shared with the rows of [`joints`](crate::joints): points and
-//! vectors are rotated by the formula for one vector, `A(p) s = (e0^2 - e.e) s + 2 e (e.s) + 2 e0 (e x s)`, and derivatives
-//! follow curves `q(h)`:
+//! Nothing here is derived by hand and nothing is shared with the rows of
+//! [`joints`](crate::joints): points and vectors are rotated by the formula for one vector,
+//! `A(p) s = (e0^2 - e.e) s + 2 e (e.s) + 2 e0 (e x s)`, and derivatives follow curves `q(h)`:
 //!
-//! * a column of `D`: `r + h`, or `p + h/2 L(p)^T d` with `d` a unit vector of the body, first derivative at `h = 0`;
-//! * `gamma`: `q + q' h + 1/2 q'' h^2` with `u' = 0`, so `p' = 1/2 L(p)^T w`, `p'' = 1/2 L(p')^T w`, at the time `t + h`, and minus
-//!   the second derivative at `h = 0`;
-//! * `Phi_t`: the time `t + h` alone; the gradient of the potential energy of springs: the curves of the columns of `D`.
+//! * a column of `D`: `r + h`, or `p + h/2 L(p)^T d` with `d` a unit vector of the body, first
+//!   derivative at `h = 0`;
+//! * `gamma`: `q + q' h + 1/2 q'' h^2` with `u' = 0`, so `p' = 1/2 L(p)^T w`,
+//!   `p'' = 1/2 L(p')^T w`, at the time `t + h`, and minus the second derivative at `h = 0`;
+//! * `Phi_t`: the time `t + h` alone; the gradient of the potential energy of springs: the curves
+//!   of the columns of `D`.
 //!
-//! A law of time is known by its value and two derivatives, so of a driver this checks how they enter the rows; whether
-//! they are the derivatives of the law, finite differences have to say.
+//! A law of time is known by its value and two derivatives, so of a driver this checks how they
+//! enter the rows; whether they are the derivatives of the law, finite differences have to say.
 
 use core::f64::consts::TAU;
 
@@ -163,7 +166,8 @@ pub fn constraints<T: Number>(assembler: &Assembler, q: &[T]) -> Vec<T> {
     constraints_at(assembler, T::from(0.0), q)
 }
 
-/// `Phi(q, t)` over a number type, one number per equation; the same rows as [`Assembler::constraints_at`].
+/// `Phi(q, t)` over a number type, one number per equation; the same rows as
+/// [`Assembler::constraints_at`].
 pub fn constraints_at<T: Number>(assembler: &Assembler, time: T, q: &[T]) -> Vec<T> {
     let at = Configuration::at(assembler, q);
     let mut rows = Vec::with_capacity(assembler.equations());
@@ -201,8 +205,8 @@ pub fn spring_energy<T: Number>(assembler: &Assembler, q: &[T]) -> T {
     energy
 }
 
-/// The generalised force of springs at the state `x = (q, u)`: minus the gradient of [`spring_energy`], by first derivatives
-/// (N, global axes; N m, body axes).
+/// The generalised force of springs at the state `x = (q, u)`: minus the gradient of
+/// [`spring_energy`], by first derivatives (N, global axes; N m, body axes).
 #[must_use]
 pub fn spring_forces(assembler: &Assembler, x: &[f64]) -> DVector<f64> {
     DVector::from_fn(assembler.velocities(), |column, _| {
@@ -246,8 +250,8 @@ pub fn jacobian(assembler: &Assembler, x: &[f64]) -> DMatrix<f64> {
     out
 }
 
-/// `Phi'` and `gamma` at the state `x = (q, u)` and the time zero by first and second derivatives along the motion with
-/// `u' = 0`.
+/// `Phi'` and `gamma` at the state `x = (q, u)` and the time zero by first and second derivatives
+/// along the motion with `u' = 0`.
 #[must_use]
 pub fn constraint_rates_and_gamma(
     assembler: &Assembler,

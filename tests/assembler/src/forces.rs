@@ -1,9 +1,10 @@
-//! Forces between bodies: what they add to `g`, their potential energy and their power, derived by hand.
+//! Forces between bodies: what they add to `g`, their potential energy and their power, derived by
+//! hand.
 //!
-//! A force `F` along a scalar `f` (a length or a counted angle) does the work `F df`, so it adds `F` times the gradient of
-//! `f`; this holds off the constraints too. A force at a point adds the gradient of `F . P` with `F` held, a moment
-//! `A^T M`, with `A` as it is read. Source: Haug (1989), chapter 11 (springs, dampers and actuators
-//! between points and about axes).
+//! A force `F` along a scalar `f` (a length or a counted angle) does the work `F df`, so it adds
+//! `F` times the gradient of `f`; this holds off the constraints too. A force at a point adds the
+//! gradient of `F . P` with `F` held, a moment `A^T M`, with `A` as it is read. Source: Haug
+//! (1989), chapter 11 (springs, dampers and actuators between points and about axes).
 
 use nalgebra::Vector3;
 
@@ -28,7 +29,8 @@ pub enum Force {
         /// The length or angle without force.
         free: f64,
     },
-    /// A law of `(f, f', t)` along `f`: positive pushes the points apart, or turns `j` forward against `i`.
+    /// A law of `(f, f', t)` along `f`: positive pushes the points apart, or turns `j` forward
+    /// against `i`.
     Actuator {
         /// `f`.
         along: Scalar,
@@ -52,8 +54,8 @@ pub enum Force {
 }
 
 impl Force {
-    /// A spring and a damper side by side between a point `head` of body `i` and a point `tail` of body `j` (m, global
-    /// axes, reference configuration).
+    /// A spring and a damper side by side between a point `head` of body `i` and a point `tail` of
+    /// body `j` (m, global axes, reference configuration).
     #[must_use]
     pub fn spring_damper(
         scene: &Assembler,
@@ -72,8 +74,8 @@ impl Force {
         }
     }
 
-    /// A torsional spring and damper on the counted angle of `j` against `i` about an axis (global axes, reference
-    /// configuration).
+    /// A torsional spring and damper on the counted angle of `j` against `i` about an axis (global
+    /// axes, reference configuration).
     #[must_use]
     pub fn torsional_spring_damper(
         scene: &Assembler,
@@ -120,7 +122,8 @@ impl Force {
         }
     }
 
-    /// A force (N, global axes in the reference configuration) fixed in the axes of `i`, at a point of `j` (m).
+    /// A force (N, global axes in the reference configuration) fixed in the axes of `i`, at a point
+    /// of `j` (m).
     #[must_use]
     pub fn point_force(
         scene: &Assembler,
@@ -175,7 +178,8 @@ impl Force {
         }
     }
 
-    /// The part along a scalar that is not booked as potential energy: damping, or the law of an actuator.
+    /// The part along a scalar that is not booked as potential energy: damping, or the law of an
+    /// actuator.
     fn driving(&self, at: &Kinematics) -> Option<(&Scalar, f64)> {
         match self {
             Self::Spring { along, damping, .. } => Some((along, -damping * along.rate(at))),

@@ -1,7 +1,7 @@
 //! The four formulations in their textbook forms, as right-hand sides that allocate nothing.
 //!
-//! Sources: Flores (2015), chapters 11 to 14; Baumgarte (1972); Bayo, Garcia de Jalon, Serna (1988) for penalty and
-//! augmented Lagrangian.
+//! Sources: Flores (2015), chapters 11 to 14; Baumgarte (1972); Bayo, Garcia de Jalon, Serna (1988)
+//! for penalty and augmented Lagrangian.
 
 use core::fmt;
 
@@ -27,8 +27,9 @@ pub enum Formulation {
         /// `beta` (1/s).
         beta: f64,
     },
-    /// `(M + alpha D^T D) u' = g + alpha D^T gamma*`, `lambda = alpha (D u' - gamma*)`, `a = mu omega`, `b = omega`.
-    /// Rows in metres or radians: others are brought to these units first.
+    /// `(M + alpha D^T D) u' = g + alpha D^T gamma*`, `lambda = alpha (D u' - gamma*)`,
+    /// `a = mu omega`, `b = omega`. Rows in metres or radians: others are brought to these units
+    /// first.
     Penalty {
         /// `alpha` (kg).
         alpha: f64,
@@ -38,7 +39,8 @@ pub enum Formulation {
         mu: f64,
     },
     /// `(M + alpha D^T D) u'_(k+1) = M u'_k + alpha D^T gamma*` from `M u'_0 = g` until
-    /// `|u'_(k+1) - u'_k| <= tolerance (1 + |u'_(k+1)|)`; `lambda` is the sum of `alpha (D u'_k - gamma*)`, `k >= 1`.
+    /// `|u'_(k+1) - u'_k| <= tolerance (1 + |u'_(k+1)|)`; `lambda` is the sum of
+    /// `alpha (D u'_k - gamma*)`, `k >= 1`.
     AugmentedLagrangian {
         /// `alpha` (kg).
         alpha: f64,
@@ -70,9 +72,11 @@ impl Formulation {
 /// Why there are no accelerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolveError {
-    /// The matrix has a zero pivot, is not positive definite, or holds something that is not a number.
+    /// The matrix has a zero pivot, is not positive definite, or holds something that is not a
+    /// number.
     Singular,
-    /// The iteration of the augmented Lagrangian did not come to rest. The rates of the last iterate were written.
+    /// The iteration of the augmented Lagrangian did not come to rest. The rates of the last
+    /// iterate were written.
     NotConverged,
 }
 
@@ -89,8 +93,9 @@ impl core::error::Error for SolveError {}
 
 /// An [`Assembler`] with a formulation and the work space for its right-hand side.
 ///
-/// Everything is allocated once. The matrix has the size `U + M` for multipliers (Gaussian elimination in place) and
-/// `U` for penalty and augmented Lagrangian (nalgebra's Cholesky, which gives its storage back).
+/// Everything is allocated once. The matrix has the size `U + M` for multipliers (Gaussian
+/// elimination in place) and `U` for penalty and augmented Lagrangian (nalgebra's Cholesky, which
+/// gives its storage back).
 #[derive(Clone, Debug)]
 pub struct Evaluator {
     assembler: Assembler,
@@ -116,8 +121,8 @@ pub struct Evaluator {
     iterations: usize,
 }
 
-/// One over the largest gradient of each row in the reference configuration: with respect to the position of a body, or to the
-/// rotation of one where it does not depend on positions.
+/// One over the largest gradient of each row in the reference configuration: with respect to the
+/// position of a body, or to the rotation of one where it does not depend on positions.
 fn units(assembler: &Assembler) -> DVector<f64> {
     let jacobian = assembler.jacobian(assembler.initial_state().as_slice());
     let gradient = |row: usize, first: usize| jacobian.fixed_view::<1, 3>(row, first).norm();
@@ -182,13 +187,15 @@ impl Evaluator {
         &self.multipliers
     }
 
-    /// Solutions with the matrix of the last evaluation: 1, or the iterations of the augmented Lagrangian.
+    /// Solutions with the matrix of the last evaluation: 1, or the iterations of the augmented
+    /// Lagrangian.
     #[must_use]
     pub fn iterations(&self) -> usize {
         self.iterations
     }
 
-    /// The right-hand side `x' = (q', u')` of `x = (q, u)`, all coordinates first, then all velocities.
+    /// The right-hand side `x' = (q', u')` of `x = (q, u)`, all coordinates first, then all
+    /// velocities.
     ///
     /// # Errors
     /// See [`SolveError`].
@@ -253,8 +260,8 @@ impl Evaluator {
         Ok(())
     }
 
-    /// `(M + alpha D^T D) u' = M u'_previous + alpha D^T gamma*`, `max_iterations` times or until the accelerations
-    /// come to rest; penalty is one iteration without a test.
+    /// `(M + alpha D^T D) u' = M u'_previous + alpha D^T gamma*`, `max_iterations` times or until
+    /// the accelerations come to rest; penalty is one iteration without a test.
     fn penalise(
         &mut self,
         alpha: f64,

@@ -1,15 +1,17 @@
 //! Singular values and the pseudo-inverse by one-sided Jacobi rotations.
 //!
-//! nalgebra's `svd` (0.35) is not used: for some matrices with dependent rows, such as `D` of a door on two hinges,
-//! its factors give back the matrix with errors of 1e-2 (dimforge/nalgebra, issues 1072 and 1172). One-sided Jacobi is
-//! slower and accurate to rounding for any rank (Golub, Van Loan, *Matrix Computations*, section 8.6).
+//! nalgebra's `svd` (0.35) is not used: for some matrices with dependent rows, such as `D` of a
+//! door on two hinges, its factors give back the matrix with errors of 1e-2 (dimforge/nalgebra,
+//! issues 1072 and 1172). One-sided Jacobi is slower and accurate to rounding for any rank (Golub,
+//! Van Loan, *Matrix Computations*, section 8.6).
 
 use nalgebra::DMatrix;
 
 /// Singular values and vectors: `matrix = left * diag(values) * right^T`.
 #[derive(Clone, Debug)]
 pub struct SingularValues {
-    /// `left * diag(values)`: rows of the matrix by the smaller of its two sizes, columns orthogonal.
+    /// `left * diag(values)`: rows of the matrix by the smaller of its two sizes, columns
+    /// orthogonal.
     scaled: DMatrix<f64>,
     /// Orthogonal.
     right: DMatrix<f64>,
@@ -98,7 +100,8 @@ impl SingularValues {
 fn sweep(columns: &mut DMatrix<f64>, right: &mut DMatrix<f64>) -> bool {
     // Below this a product comes from rounding: it belongs to columns that stand for zero.
     let noise = 1e-17 * columns.norm_squared();
-    // Those of columns that were turned are a little off, and are computed anew in the next sweep; the last one turns none.
+    // Those of columns that were turned are a little off, and are computed anew in the next sweep;
+    // the last one turns none.
     let mut squares: Vec<f64> = columns.column_iter().map(|c| c.norm_squared()).collect();
     let mut turned = false;
     for i in 0..columns.ncols() {

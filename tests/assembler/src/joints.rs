@@ -1,15 +1,17 @@
 //! Joints: the bodies they connect and the rows they write.
 //!
-//! A joint is a list of primitive rows over the marks of one to three bodies: coincidences of points, and scalar rows
-//! `Phi = sum of c_k f_k(q) - f(t)` of the functions of [`scalars`](crate::scalars). The time stands apart from the
-//! configuration, so `Phi_t = -f'`, `Phi_tt = -f''` and no mixed derivative is left:
+//! A joint is a list of primitive rows over the marks of one to three bodies: coincidences of
+//! points, and scalar rows `Phi = sum of c_k f_k(q) - f(t)` of the functions of
+//! [`scalars`](crate::scalars). The time stands apart from the configuration, so `Phi_t = -f'`,
+//! `Phi_tt = -f''` and no mixed derivative is left:
 //!
 //! ```text
 //! Phi' = D u + Phi_t      D u' = gamma      gamma = -(sum of c_k f_k'' at u' = 0) + f''
 //! ```
 //!
-//! Coincidence: `Phi = P_j - P_i`, rows `I`, `-A_j s_j~` for `v_j`, `w_j` (those of `i` alike), `gamma` the centripetal terms
-//! `A_i w_i~ w_i~ s_i - A_j w_j~ w_j~ s_j`. Sources: Nikravesh (1988), chapters 7 and 8; Flores (2015), chapters 7 to 9.
+//! Coincidence: `Phi = P_j - P_i`, rows `I`, `-A_j s_j~` for `v_j`, `w_j` (those of `i` alike),
+//! `gamma` the centripetal terms `A_i w_i~ w_i~ s_i - A_j w_j~ w_j~ s_j`. Sources: Nikravesh
+//! (1988), chapters 7 and 8; Flores (2015), chapters 7 to 9.
 //!
 //! The joints by name, from points and axes in global axes, are in [`library`](crate::library) and
 //! [`drivers`](crate::drivers).
@@ -37,7 +39,8 @@ pub enum Row {
     },
 }
 
-/// A joint among one to three bodies, with points (m) and vectors in the axes of the body that carries them.
+/// A joint among one to three bodies, with points (m) and vectors in the axes of the body that
+/// carries them.
 #[derive(Clone, Debug)]
 pub struct Joint {
     bodies: Vec<BodyId>,
@@ -50,8 +53,8 @@ pub type Normals = fn(&Vector3<f64>) -> [Vector3<f64>; 2];
 
 /// Two unit vectors that with the unit axis `a` make a right-handed frame `(n1, n2, a)`.
 ///
-/// With `k` the place of the component of `a` that is smallest in absolute value (the first one of equals):
-/// `n1 = (e_k x a) / |e_k x a|`, `n2 = a x n1`.
+/// With `k` the place of the component of `a` that is smallest in absolute value (the first one of
+/// equals): `n1 = (e_k x a) / |e_k x a|`, `n2 = a x n1`.
 #[must_use]
 pub fn normals(a: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let mut k = 0;
@@ -66,8 +69,9 @@ pub fn normals(a: &Vector3<f64>) -> [Vector3<f64>; 2] {
     [n1, a.cross(&n1)]
 }
 
-/// The same by a rule that compares no components, for an axis that becomes known at run time: `n1 = (1 + s a1^2 c, s a1 a2 c, -s a1)` and
-/// `n2 = a x n1`, with `s` the sign of `a3` and `c = -1 / (s + a3)` (Duff et al., *Building an Orthonormal Basis, Revisited*, Journal of
+/// The same by a rule that compares no components, for an axis that becomes known at run time:
+/// `n1 = (1 + s a1^2 c, s a1 a2 c, -s a1)` and `n2 = a x n1`, with `s` the sign of `a3` and
+/// `c = -1 / (s + a3)` (Duff et al., *Building an Orthonormal Basis, Revisited*, Journal of
 /// Computer Graphics Techniques 6 (2017), 1-8).
 #[must_use]
 pub fn smooth_normals(a: &Vector3<f64>) -> [Vector3<f64>; 2] {
@@ -117,7 +121,8 @@ impl Row {
         }
     }
 
-    /// Calls `three` with the points of a coincidence, `one` with the terms and the law of a combination.
+    /// Calls `three` with the points of a coincidence, `one` with the terms and the law of a
+    /// combination.
     fn write(
         &self,
         out: &mut [f64],
@@ -137,8 +142,8 @@ fn sum(terms: &[(f64, Scalar)], of: impl Fn(&Scalar) -> f64) -> f64 {
 }
 
 impl Joint {
-    /// A joint from its bodies, the point on each of them to which reactions are reduced (m, body axes; zero is the
-    /// centre of mass), and its rows.
+    /// A joint from its bodies, the point on each of them to which reactions are reduced (m, body
+    /// axes; zero is the centre of mass), and its rows.
     ///
     /// # Panics
     /// Without as many points as bodies.
@@ -163,8 +168,8 @@ impl Joint {
         Self::new(between, points, [coincidence(between, points)])
     }
 
-    /// Two points coincide and two axes stay parallel: the 3 rows of a spherical joint, then `n_1 . h` and `n_2 . h` of
-    /// `n_1` and `n_2` on body `i` and the axis `h` on body `j`.
+    /// Two points coincide and two axes stay parallel: the 3 rows of a spherical joint, then
+    /// `n_1 . h` and `n_2 . h` of `n_1` and `n_2` on body `i` and the axis `h` on body `j`.
     #[must_use]
     pub fn revolute_at(
         between: [BodyId; 2],
@@ -208,8 +213,8 @@ impl Joint {
         &self.bodies
     }
 
-    /// The point on each body (m, body axes) to which reactions are reduced; the centre of mass where a joint names
-    /// none.
+    /// The point on each body (m, body axes) to which reactions are reduced; the centre of mass
+    /// where a joint names none.
     #[must_use]
     pub fn points(&self) -> &[Vector3<f64>] {
         &self.points

@@ -1,4 +1,5 @@
-//! The kernels once more, as functions of a state that return what they compute: for tests, not for speed.
+//! The kernels once more, as functions of a state that return what they compute: for tests, not for
+//! speed.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -69,7 +70,8 @@ impl Assembler {
         self.rows(time, x, Self::write_gamma)
     }
 
-    /// `Phi_t` for the order 1 and `Phi_tt` for the order 2 at a time (s); they do not depend on the state.
+    /// `Phi_t` for the order 1 and `Phi_tt` for the order 2 at a time (s); they do not depend on
+    /// the state.
     #[must_use]
     pub fn time_derivatives(&self, time: f64, order: usize) -> DVector<f64> {
         let mut out = DVector::zeros(self.equations());
@@ -77,8 +79,8 @@ impl Assembler {
         out
     }
 
-    /// `D` at the state `x = (q, u)`: equations by velocities, with respect to `v` in global and `w` in body axes. It does
-    /// not depend on the time.
+    /// `D` at the state `x = (q, u)`: equations by velocities, with respect to `v` in global and
+    /// `w` in body axes. It does not depend on the time.
     #[must_use]
     pub fn jacobian(&self, x: &[f64]) -> DMatrix<f64> {
         let mut out = DMatrix::zeros(self.equations(), self.velocities());
@@ -92,8 +94,8 @@ impl Assembler {
         self.forces_at(0.0, x)
     }
 
-    /// `g` at a time (s) and the state `x = (q, u)`: weight, gyroscopic moment and the forces that were added (N, global
-    /// axes; N m, body axes).
+    /// `g` at a time (s) and the state `x = (q, u)`: weight, gyroscopic moment and the forces that
+    /// were added (N, global axes; N m, body axes).
     #[must_use]
     pub fn forces_at(&self, time: f64, x: &[f64]) -> DVector<f64> {
         let mut out = DVector::zeros(self.velocities());
@@ -101,8 +103,8 @@ impl Assembler {
         out
     }
 
-    /// Power (W) at a time (s) of the forces that have no potential energy: dampers, actuators, forces at points,
-    /// moments.
+    /// Power (W) at a time (s) of the forces that have no potential energy: dampers, actuators,
+    /// forces at points, moments.
     #[must_use]
     pub fn power_at(&self, time: f64, x: &[f64]) -> f64 {
         let at = self.kinematics_at(time, x);
@@ -125,8 +127,8 @@ impl Assembler {
         0.5 * mass.iter().zip(u).map(|(m, u)| m * u * u).sum::<f64>()
     }
 
-    /// Potential energy (J): of gravity, `-m g . r` summed, zero where all centres of mass are at the global origin; and of
-    /// springs, zero where they are free.
+    /// Potential energy (J): of gravity, `-m g . r` summed, zero where all centres of mass are at
+    /// the global origin; and of springs, zero where they are free.
     #[must_use]
     pub fn potential_energy(&self, x: &[f64]) -> f64 {
         let at = self.kinematics(x);
@@ -145,14 +147,15 @@ impl Assembler {
         weight + springs
     }
 
-    /// Reactions of all joints as generalised forces `-D^T lambda` (N, global axes; N m, body axes, about the centre
-    /// of mass).
+    /// Reactions of all joints as generalised forces `-D^T lambda` (N, global axes; N m, body axes,
+    /// about the centre of mass).
     #[must_use]
     pub fn generalised_reactions(&self, x: &[f64], lambda: &DVector<f64>) -> DVector<f64> {
         -self.jacobian(x).tr_mul(lambda)
     }
 
-    /// What a joint exerts on its body `i` and on its body `j`: the first two of [`Assembler::wrenches`].
+    /// What a joint exerts on its body `i` and on its body `j`: the first two of
+    /// [`Assembler::wrenches`].
     ///
     /// # Panics
     /// If the joint has one body.
@@ -164,8 +167,9 @@ impl Assembler {
 
     /// What a joint exerts on each of its bodies, reduced to the point of the joint on that body.
     ///
-    /// What acts on the ground is found like the rest, from the rows that the ground would have if it could move. For
-    /// `p` of unit length; with [`Orientation::Raw`](crate::bodies::Orientation::Raw) the moment is otherwise scaled like
+    /// What acts on the ground is found like the rest, from the rows that the ground would have if
+    /// it could move. For `p` of unit length; with
+    /// [`Orientation::Raw`](crate::bodies::Orientation::Raw) the moment is otherwise scaled like
     /// `A(p)`.
     #[must_use]
     pub fn wrenches(&self, joint: JointId, x: &[f64], lambda: &DVector<f64>) -> Vec<Wrench> {

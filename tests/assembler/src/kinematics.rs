@@ -25,8 +25,9 @@ impl Kinematics {
 
 /// A point (m) or a vector fixed on a body, in the axes of that body.
 ///
-/// Its gradients hand `(column, line)` to `add`: three entries of a row of `D` from a column on. A virtual rotation `d`
-/// in body axes moves `A s` by `A (d x s)`, so `b . A s` has the line `s x A^T b` for `w`.
+/// Its gradients hand `(column, line)` to `add`: three entries of a row of `D` from a column on. A
+/// virtual rotation `d` in body axes moves `A s` by `A (d x s)`, so `b . A s` has the line
+/// `s x A^T b` for `w`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
     /// The body that carries it.

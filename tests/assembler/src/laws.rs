@@ -56,7 +56,8 @@ impl Motion {
         }))
     }
 
-    /// `from` before `start`, `to` after `start + duration`, between them `6 x^5 - 15 x^4 + 10 x^3`.
+    /// `from` before `start`, `to` after `start + duration`, between them
+    /// `6 x^5 - 15 x^4 + 10 x^3`.
     #[must_use]
     pub fn smooth_step(from: f64, to: f64, start: f64, duration: f64) -> Self {
         Self::Law(Arc::new(move |t| {
@@ -80,7 +81,8 @@ impl Motion {
     }
 }
 
-/// What an actuator exerts (N or N m) for a length or an angle (m or rad), its rate and the time (s).
+/// What an actuator exerts (N or N m) for a length or an angle (m or rad), its rate and the time
+/// (s).
 #[derive(Clone)]
 pub struct ForceLaw(Arc<dyn Fn(f64, f64, f64) -> f64 + Send + Sync>);
 

@@ -1,9 +1,10 @@
 //! The generic run-time assembler that judges the generated kernels.
 //!
-//! [`assembler`] takes bodies and joints at run time, as an engineer would who had no generator: heap, dense matrices of
-//! run-time size, textbook equations derived by hand. It shares no code with the generator or with the kernels of the
-//! run time, so that agreement between the two means something, and its speed is what the generated code is compared
-//! with. [`smatrix`] is the same for the pendulum of chapter 15 with sizes known to the compiler.
+//! [`assembler`] takes bodies and joints at run time, as an engineer would who had no generator:
+//! heap, dense matrices of run-time size, textbook equations derived by hand. It shares no code
+//! with the generator or with the kernels of the run time, so that agreement between the two means
+//! something, and its speed is what the generated code is compared with. [`smatrix`] is the same
+//! for the pendulum of chapter 15 with sizes known to the compiler.
 
 #![forbid(unsafe_code)]
 

@@ -1,8 +1,10 @@
-//! The joints by name, from points (m) and axes (any length) in global axes of the reference configuration.
+//! The joints by name, from points (m) and axes (any length) in global axes of the reference
+//! configuration.
 //!
-//! Rows stand in the order of the definitions; [`Assembler::normals`] is applied to the axis in global axes and the two vectors are
-//! carried to the body that the definition names. `d` is the point on `j` minus the point on `i`. Sources: Nikravesh
-//! (1988), chapter 7; Haug (1989), chapter 9; Flores (2015), chapter 8.
+//! Rows stand in the order of the definitions; [`Assembler::normals`] is applied to the axis in
+//! global axes and the two vectors are carried to the body that the definition names. `d` is the
+//! point on `j` minus the point on `i`. Sources: Nikravesh (1988), chapter 7; Haug (1989), chapter
+//! 9; Flores (2015), chapter 8.
 
 use nalgebra::Vector3;
 
@@ -195,7 +197,8 @@ impl Joint {
         joint
     }
 
-    /// `P_j - P_i`, then `y_i . x_j`, `z_i . x_j`, `y_i . z_j` of the global axes of the reference configuration: 6 rows.
+    /// `P_j - P_i`, then `y_i . x_j`, `z_i . x_j`, `y_i . z_j` of the global axes of the reference
+    /// configuration: 6 rows.
     #[must_use]
     pub fn fixed(scene: &Assembler, between: [BodyId; 2], point: [f64; 3]) -> Self {
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
@@ -223,7 +226,8 @@ impl Joint {
         joint(scene, between, point, point, [r1, r2, flat])
     }
 
-    /// `d . d - L^2` between `head` on `i` and `tail` on `j`, the reference distance without a `length` (m): 1 row.
+    /// `d . d - L^2` between `head` on `i` and `tail` on `j`, the reference distance without a
+    /// `length` (m): 1 row.
     #[must_use]
     pub fn distance(
         scene: &Assembler,
@@ -254,7 +258,8 @@ impl Joint {
         joint(scene, between, hinge, ball, rows)
     }
 
-    /// `n1 . a_j`, `n2 . a_j`, then `a_i . d` and `d . d` as described, from `first` on `i` to `second` on `j`: 4 rows.
+    /// `n1 . a_j`, `n2 . a_j`, then `a_i . d` and `d . d` as described, from `first` on `i` to
+    /// `second` on `j`: 4 rows.
     #[must_use]
     pub fn revolute_revolute(
         scene: &Assembler,

@@ -1,15 +1,16 @@
 //! Gaussian elimination with partial pivoting in the storage of the matrix.
 //!
-//! nalgebra's own `LU` takes the matrix, allocates its permutation, and does not give the storage back: two
-//! allocations per evaluation. This one needs none and is faster, see [`solve_in_place`]; a test compares the two.
+//! nalgebra's own `LU` takes the matrix, allocates its permutation, and does not give the storage
+//! back: two allocations per evaluation. This one needs none and is faster, see [`solve_in_place`];
+//! a test compares the two.
 
 use nalgebra::DMatrix;
 
 /// Overwrites `rhs` with the solution of `matrix x = rhs` and `matrix` with its triangular factor.
 ///
-/// Columns are worked on whole because they are contiguous; those with a zero in the pivot row are skipped, of
-/// which a matrix `[M D^T; D 0]` has many. Returns false if a pivot is zero or not a number; what is
-/// left in `matrix` and `rhs` is then without meaning.
+/// Columns are worked on whole because they are contiguous; those with a zero in the pivot row are
+/// skipped, of which a matrix `[M D^T; D 0]` has many. Returns false if a pivot is zero or not a
+/// number; what is left in `matrix` and `rhs` is then without meaning.
 ///
 /// # Panics
 /// If `matrix` is not square or `rhs` has another size.

@@ -1,8 +1,10 @@
-//! The saddle system that serves all four formulations, assembled and solved at once: for tests, not for speed.
+//! The saddle system that serves all four formulations, assembled and solved at once: for tests,
+//! not for speed.
 //!
 //! ```text
 //! [ M   D^T    ] [ u'     ]   [ g                        ]
-//! [ D  -eps I  ] [ lambda ] = [ gamma* - eps lambda_prev ]      gamma* = gamma - 2 a Phi' - b^2 Phi
+//! [ D  -eps I  ] [ lambda ] = [ gamma* - eps lambda_prev ]
+//! gamma* = gamma - 2 a Phi' - b^2 Phi
 //! ```
 
 use nalgebra::{DMatrix, DVector};
@@ -91,12 +93,12 @@ impl Assembler {
         self.solve_saddle_at(0.0, x, coefficients, previous)
     }
 
-    /// Solves the saddle system at a time (s) by nalgebra's LU with partial pivoting; `previous` is `lambda_prev`, zero if
-    /// `None`.
+    /// Solves the saddle system at a time (s) by nalgebra's LU with partial pivoting; `previous` is
+    /// `lambda_prev`, zero if `None`.
     ///
     /// # Errors
-    /// [`SolveError::Singular`] if a pivot is exactly zero. Where rows are redundant and `eps = 0`, rounding usually
-    /// leaves a pivot that is only small: look at [`Solution::condition`].
+    /// [`SolveError::Singular`] if a pivot is exactly zero. Where rows are redundant and `eps = 0`,
+    /// rounding usually leaves a pivot that is only small: look at [`Solution::condition`].
     pub fn solve_saddle_at(
         &self,
         time: f64,

@@ -1,7 +1,8 @@
-//! The scalars that rows and forces are made of: value, rate, second derivative and gradient, derived by hand.
+//! The scalars that rows and forces are made of: value, rate, second derivative and gradient,
+//! derived by hand.
 //!
-//! With `d = P_t - P_h` (a tail and a head), vectors `a` and `b` fixed on bodies, and a double prime the second derivative
-//! at `u' = 0`, where `(A s)'' = A (w x (w x s))`:
+//! With `d = P_t - P_h` (a tail and a head), vectors `a` and `b` fixed on bodies, and a double
+//! prime the second derivative at `u' = 0`, where `(A s)'' = A (w x (w x s))`:
 //!
 //! | scalar | rate | second derivative | gradient |
 //! |---|---|---|---|
@@ -10,8 +11,9 @@
 //! | `d . d` | `2 d . d'` | `2 (d' . d' + d . d'')` | of `d` along `2 d` |
 //! | `l = sqrt(d . d)` | `d . d' / l` | `(d' . d' + d . d'' - l'^2) / l` | of `d` along `d / l` |
 //!
-//! None of them uses `A^T A = I`, so they are exact for Euler parameters of any length. Sources: Nikravesh (1988),
-//! chapter 7 (perpendicular types 1 and 2); Haug (1989), chapter 9 (dot 1, dot 2, distance).
+//! None of them uses `A^T A = I`, so they are exact for Euler parameters of any length. Sources:
+//! Nikravesh (1988), chapter 7 (perpendicular types 1 and 2); Haug (1989), chapter 9 (dot 1, dot 2,
+//! distance).
 
 use nalgebra::Vector3;
 
@@ -141,8 +143,8 @@ impl Scalar {
         }
     }
 
-    /// Hands `factor` times the gradient to `add`, as lines of three entries from a column on; a column may come twice
-    /// unless [`Scalar::touches_columns_once`].
+    /// Hands `factor` times the gradient to `add`, as lines of three entries from a column on; a
+    /// column may come twice unless [`Scalar::touches_columns_once`].
     pub(crate) fn gradient(
         &self,
         at: &Kinematics,
@@ -171,7 +173,8 @@ impl Scalar {
         }
     }
 
-    /// Whether the gradient hands out no column twice, so that it can be written without being added up.
+    /// Whether the gradient hands out no column twice, so that it can be written without being
+    /// added up.
     pub(crate) const fn touches_columns_once(&self) -> bool {
         !matches!(self, Self::Along { .. })
     }

@@ -1,4 +1,5 @@
-//! The mechanisms with published data that the assembler is tried on, and scenes of one joint with random data.
+//! The mechanisms with published data that the assembler is tried on, and scenes of one joint with
+//! random data.
 
 use crate::assembler::Assembler;
 use crate::bodies::{Body, GROUND};
@@ -12,7 +13,8 @@ pub use random::{Ends, connected, random_body, two_bodies};
 /// The standard acceleration of the published problems (m/s^2, global axes).
 pub const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// The rod of chapter 15 (Flores 2015, table 15.1) hinged to the ground about x, along y and at rest.
+/// The rod of chapter 15 (Flores 2015, table 15.1) hinged to the ground about x, along y and at
+/// rest.
 #[must_use]
 pub fn pendulum() -> Assembler {
     let mut scene = Assembler::new(GRAVITY);
@@ -54,10 +56,11 @@ fn rod(position: [f64; 3]) -> Body {
     Body::rigid(7.02, [0.5855265, 0.0010530, 0.5855265], position)
 }
 
-/// A door on two hinges, 10 equations of which 5 are independent, released 90 degrees from equilibrium.
+/// A door on two hinges, 10 equations of which 5 are independent, released 90 degrees from
+/// equilibrium.
 ///
-/// 0.8 m wide along x, 2 m high along y, hinged along y at `x = z = 0`; the axis leans 10 degrees from the vertical,
-/// so gravity has a part along -z, which turns the door about +y.
+/// 0.8 m wide along x, 2 m high along y, hinged along y at `x = z = 0`; the axis leans 10 degrees
+/// from the vertical, so gravity has a part along -z, which turns the door about +y.
 #[must_use]
 pub fn door() -> Assembler {
     let lean = 10_f64.to_radians();

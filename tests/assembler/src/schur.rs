@@ -1,7 +1,9 @@
-//! The strongest opponent with run-time matrices: multipliers from `(D M^-1 D^T) lambda = D M^-1 g - gamma*`.
+//! The strongest opponent with run-time matrices: multipliers from
+//! `(D M^-1 D^T) lambda = D M^-1 g - gamma*`.
 //!
-//! `M` is diagonal, so the matrix is a sum over the columns of `D` and factorised by Cholesky in its storage; then
-//! `u' = M^-1 (g - D^T lambda)` (Flores 2015, chapter 11; the rows of `D` must be independent).
+//! `M` is diagonal, so the matrix is a sum over the columns of `D` and factorised by Cholesky in
+//! its storage; then `u' = M^-1 (g - D^T lambda)` (Flores 2015, chapter 11; the rows of `D` must be
+//! independent).
 
 use nalgebra::linalg::Cholesky;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -12,7 +14,8 @@ use crate::kinematics::Kinematics;
 use crate::rows::Jacobian;
 use crate::symmetric::{add_outer_product, factor_in_place};
 
-/// An [`Assembler`] with the work space for Lagrange multipliers or Baumgarte by the Schur complement.
+/// An [`Assembler`] with the work space for Lagrange multipliers or Baumgarte by the Schur
+/// complement.
 ///
 /// Allocates nothing per evaluation.
 #[derive(Clone, Debug)]
@@ -35,7 +38,8 @@ pub struct SchurEvaluator {
 }
 
 impl SchurEvaluator {
-    /// Allocates the work space. `a` and `b` (1/s) are Baumgarte's, both zero for plain Lagrange multipliers.
+    /// Allocates the work space. `a` and `b` (1/s) are Baumgarte's, both zero for plain Lagrange
+    /// multipliers.
     #[must_use]
     pub fn new(assembler: Assembler, a: f64, b: f64) -> Self {
         let (velocities, equations) = (assembler.velocities(), assembler.equations());
@@ -60,7 +64,8 @@ impl SchurEvaluator {
         &self.multipliers
     }
 
-    /// The right-hand side `x' = (q', u')` of `x = (q, u)`, all coordinates first, then all velocities.
+    /// The right-hand side `x' = (q', u')` of `x = (q, u)`, all coordinates first, then all
+    /// velocities.
     ///
     /// # Errors
     /// [`SolveError::Singular`] if the rows of `D` are not independent.

@@ -1,5 +1,5 @@
-//! The pendulum of chapter 15 with matrices whose sizes the compiler knows: what a good engineer writes by hand for one
-//! body and one revolute joint to the ground, without a generator.
+//! The pendulum of chapter 15 with matrices whose sizes the compiler knows: what a good engineer
+//! writes by hand for one body and one revolute joint to the ground, without a generator.
 //!
 //! ```text
 //! Phi = (r + A s - c, n_1 . A h, n_2 . A h)      D = [ I  -A s~ ; 0  (h x A^T n_k)^T ]
@@ -50,7 +50,8 @@ struct Terms {
 }
 
 impl Pendulum {
-    /// The rod of chapter 15: hinged at the origin about x, gravity along -z (Flores 2015, table 15.1).
+    /// The rod of chapter 15: hinged at the origin about x, gravity along -z (Flores 2015, table
+    /// 15.1).
     #[must_use]
     pub fn chapter_15(orientation: Orientation) -> Self {
         let axis = Vector3::x();
@@ -66,8 +67,9 @@ impl Pendulum {
         }
     }
 
-    /// The right-hand side `x' = (r', p', v', w')` by the Schur complement `(D M^-1 D^T) lambda = D M^-1 g - gamma` and
-    /// Cholesky; returns `lambda`, or `None` and leaves `out` alone if the complement is not positive definite.
+    /// The right-hand side `x' = (r', p', v', w')` by the Schur complement
+    /// `(D M^-1 D^T) lambda = D M^-1 g - gamma` and Cholesky; returns `lambda`, or `None` and
+    /// leaves `out` alone if the complement is not positive definite.
     #[must_use]
     pub fn rates_schur(
         &self,
@@ -92,8 +94,8 @@ impl Pendulum {
         Some(lambda)
     }
 
-    /// The same right-hand side by LU with partial pivoting of the whole `[M D^T; D 0]`, 11 by 11; returns `lambda`, or
-    /// `None` and leaves `out` alone if the matrix is singular.
+    /// The same right-hand side by LU with partial pivoting of the whole `[M D^T; D 0]`, 11 by 11;
+    /// returns `lambda`, or `None` and leaves `out` alone if the matrix is singular.
     #[must_use]
     pub fn rates_lu(&self, _time: f64, x: &[f64; 13], out: &mut [f64; 13]) -> Option<Multipliers> {
         let terms = self.terms(x);

@@ -1,4 +1,5 @@
-//! States for tests: random ones near the initial configuration, and their correction onto the constraints.
+//! States for tests: random ones near the initial configuration, and their correction onto the
+//! constraints.
 
 use core::f64::consts::TAU;
 
@@ -16,7 +17,8 @@ pub fn generator(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
 
-/// How far a random state is from the initial one; every bound is a largest magnitude per body and axis.
+/// How far a random state is from the initial one; every bound is a largest magnitude per body and
+/// axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// Displacement of the centre of mass (m).
@@ -45,7 +47,8 @@ impl Default for Spread {
 }
 
 impl Spread {
-    /// From one state of a walk to the next: far enough to get about, near enough to stay on a branch.
+    /// From one state of a walk to the next: far enough to get about, near enough to stay on a
+    /// branch.
     pub const STRIDE: Self = Self {
         position: 0.1,
         angle: 0.4,
@@ -61,7 +64,8 @@ pub fn random_state(assembler: &Assembler, spread: Spread, rng: &mut ChaCha8Rng)
     moved(assembler, &assembler.initial_state(), spread, rng)
 }
 
-/// A state with every body moved by a random displacement, its Euler parameters scaled, and with random velocities.
+/// A state with every body moved by a random displacement, its Euler parameters scaled, and with
+/// random velocities.
 #[must_use]
 pub fn moved(
     assembler: &Assembler,
@@ -95,8 +99,9 @@ pub fn moved(
     x
 }
 
-/// Moves the coordinates of `x = (q, u)` by finite displacements: translations (m, global axes), and rotation vectors
-/// (rad, body axes) that leave `p` at unit length. Angles keep their count while they change by less than half a turn.
+/// Moves the coordinates of `x = (q, u)` by finite displacements: translations (m, global axes),
+/// and rotation vectors (rad, body axes) that leave `p` at unit length. Angles keep their count
+/// while they change by less than half a turn.
 pub fn displace(assembler: &Assembler, x: &mut [f64], motion: &[f64]) {
     for (body, q, n) in assembler.bodies() {
         if body.kind != Kind::Ground {
@@ -108,7 +113,8 @@ pub fn displace(assembler: &Assembler, x: &mut [f64], motion: &[f64]) {
             let turn = Vector3::from_column_slice(&motion[n + 3..n + 6]);
             let half = 0.5 * turn.norm();
             let p = Vector4::from_column_slice(&x[q + 3..q + 7]).normalize();
-            // p times (cos half, sin half * direction); 2 p' of the rate `turn` is p times (0, turn).
+            // p times (cos half, sin half * direction); 2 p' of the rate `turn` is p times (0,
+            // turn).
             let sinc = if half == 0.0 { 1.0 } else { half.sin() / half };
             let p = half.cos() * p + sinc * euler_rate(&p, &turn);
             x[q + 3..q + 7].copy_from_slice(p.normalize().as_slice());
@@ -117,17 +123,17 @@ pub fn displace(assembler: &Assembler, x: &mut [f64], motion: &[f64]) {
     assembler.recount(x);
 }
 
-/// Lets the auxiliary states of `x = (q, u)` count up to three turns more or fewer, and drift from the angles by up to 1
-/// rad as an integration would let them.
+/// Lets the auxiliary states of `x = (q, u)` count up to three turns more or fewer, and drift from
+/// the angles by up to 1 rad as an integration would let them.
 pub fn add_turns(assembler: &Assembler, x: &mut [f64], rng: &mut ChaCha8Rng) {
     for s in &mut x[assembler.body_coordinates()..assembler.coordinates()] {
         *s += TAU * f64::from(rng.random_range(-3..=3_i8)) + rng.random_range(-1.0..=1.0);
     }
 }
 
-/// Corrects `x = (q, u)` onto `Phi = 0` and `Phi' = 0` with the pseudo-inverse of `D` (Flores 2015, chapter 12): Newton
-/// steps `-D^+ Phi` on the coordinates, rotations as rotations, then `u - D^+ Phi'`. Redundant rows are allowed. `p`
-/// comes out with unit length.
+/// Corrects `x = (q, u)` onto `Phi = 0` and `Phi' = 0` with the pseudo-inverse of `D` (Flores 2015,
+/// chapter 12): Newton steps `-D^+ Phi` on the coordinates, rotations as rotations, then
+/// `u - D^+ Phi'`. Redundant rows are allowed. `p` comes out with unit length.
 ///
 /// Returns the largest `|Phi|` that is left, or `None` if 50 steps do not bring it to rounding.
 #[must_use]
@@ -167,8 +173,8 @@ pub fn make_consistent_at(assembler: &Assembler, time: f64, x: &mut [f64]) -> Op
     Some(left)
 }
 
-/// A random state on the constraints at a time (s): [`random_state`], corrected. Drivers must be near the initial
-/// configuration at that time.
+/// A random state on the constraints at a time (s): [`random_state`], corrected. Drivers must be
+/// near the initial configuration at that time.
 ///
 /// # Panics
 /// If 100 random states cannot be corrected.

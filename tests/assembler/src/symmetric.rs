@@ -1,4 +1,5 @@
-//! Symmetric matrices `sum of w d d^T`, formed and factorised in their storage. Only the lower triangle is used.
+//! Symmetric matrices `sum of w d d^T`, formed and factorised in their storage. Only the lower
+//! triangle is used.
 
 use core::mem;
 
@@ -7,8 +8,8 @@ use nalgebra::{DMatrix, Dyn};
 
 use crate::formulation::SolveError;
 
-/// Adds `weight d d^T` to the lower triangle. Zeros of `d` cost nothing but a comparison: a row of a Jacobian has a
-/// dozen entries however many bodies there are.
+/// Adds `weight d d^T` to the lower triangle. Zeros of `d` cost nothing but a comparison: a row of
+/// a Jacobian has a dozen entries however many bodies there are.
 pub(crate) fn add_outer_product(matrix: &mut DMatrix<f64>, weight: f64, d: &[f64]) {
     let n = d.len();
     for (j, column) in matrix.as_mut_slice().chunks_exact_mut(n).enumerate() {
@@ -21,7 +22,8 @@ pub(crate) fn add_outer_product(matrix: &mut DMatrix<f64>, weight: f64, d: &[f64
     }
 }
 
-/// Cholesky factors in the storage of `matrix`, which is left empty; `unpack_dirty` gives the storage back.
+/// Cholesky factors in the storage of `matrix`, which is left empty; `unpack_dirty` gives the
+/// storage back.
 ///
 /// If the matrix is not positive definite, its storage is allocated anew.
 pub(crate) fn factor_in_place(matrix: &mut DMatrix<f64>) -> Result<Cholesky<f64, Dyn>, SolveError> {

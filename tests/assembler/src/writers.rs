@@ -1,4 +1,5 @@
-//! The kernels of the assembler, written into storage that the caller keeps: nothing here allocates but the work space.
+//! The kernels of the assembler, written into storage that the caller keeps: nothing here allocates
+//! but the work space.
 
 use nalgebra::{Vector3, Vector4};
 
@@ -81,8 +82,8 @@ impl Assembler {
         }
     }
 
-    /// Writes `g`: weight (N, global axes) and gyroscopic moment `-w x J w` (N m, body axes) of every body, and the
-    /// forces that were added.
+    /// Writes `g`: weight (N, global axes) and gyroscopic moment `-w x J w` (N m, body axes) of
+    /// every body, and the forces that were added.
     pub fn write_forces(&self, at: &Kinematics, out: &mut [f64]) {
         for (placed, frame) in self.bodies.iter().zip(&at.frames) {
             let Body { mass, inertia, .. } = &placed.body;
@@ -99,8 +100,8 @@ impl Assembler {
         }
     }
 
-    /// Writes the rates of the coordinates at `x = (q, u)`, of which `at` is the kinematics: `r' = v`, `p' = 1/2 L(p)^T w` with
-    /// `p` as it is, `s' = a . (w_j - w_i)` of the angles.
+    /// Writes the rates of the coordinates at `x = (q, u)`, of which `at` is the kinematics:
+    /// `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is, `s' = a . (w_j - w_i)` of the angles.
     pub fn write_coordinate_rates(&self, at: &Kinematics, x: &[f64], out: &mut [f64]) {
         let (q, u) = x.split_at(self.coordinates());
         for (body, k, n) in self.bodies() {
@@ -119,7 +120,8 @@ impl Assembler {
         }
     }
 
-    /// Sets every auxiliary state of `x = (q, u)` to the angle itself, with the turns that it counted before.
+    /// Sets every auxiliary state of `x = (q, u)` to the angle itself, with the turns that it
+    /// counted before.
     pub fn recount(&self, x: &mut [f64]) {
         if self.angles().is_empty() {
             return;

@@ -1,4 +1,5 @@
-//! Mechanisms at 1 kHz on a controller: what they take is counted, and what they compute is checked against the host.
+//! Mechanisms at 1 kHz on a controller: what they take is counted, and what they compute is checked
+//! against the host.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -65,14 +66,16 @@ fn stack(work: &mut dyn FnMut()) -> impl Display + use<> {
     board::stack_size() - board::stack_painted() - before
 }
 
-/// How far the readings may be from those of the host in `f64`: of the angle (rad), and of the force relative to its size.
+/// How far the readings may be from those of the host in `f64`: of the angle (rad), and of the
+/// force relative to its size.
 const TOLERANCE: f64 = if cfg!(feature = "single") {
     1e-3
 } else {
     1e-12
 };
 
-/// A second, which turns joints by more than the series for small angles take, and a time after which nothing is finite: the longest ways that a step can go.
+/// A second, which turns joints by more than the series for small angles take, and a time after
+/// which nothing is finite: the longest ways that a step can go.
 const LONG: [f64; 2] = [
     1.0,
     if cfg!(feature = "single") {
@@ -82,8 +85,9 @@ const LONG: [f64; 2] = [
     },
 ];
 
-/// Counts what a trial takes, and prints it: mechanism and description, formulation, type of numbers, instructions of an evaluation, of a step and of the longest, bytes of stack
-/// of a step and of the deepest. Gives what there is after so many periods.
+/// Counts what a trial takes, and prints it: mechanism and description, formulation, type of
+/// numbers, instructions of an evaluation, of a step and of the longest, bytes of stack of a step
+/// and of the deepest. Gives what there is after so many periods.
 fn counted<T: Trial<Number>>(periods: u32) -> Result<(T, T::State), Fault> {
     let (mut trial, mut state) = T::new()?;
     let evaluation = instructions(|| {
@@ -130,7 +134,8 @@ fn counted<T: Trial<Number>>(periods: u32) -> Result<(T, T::State), Fault> {
     Ok((trial, state))
 }
 
-/// Counts what a formulation takes with the pendulum and the four-bar, in a program of its own: a kernel with several callers is compiled in another way.
+/// Counts what a formulation takes with the pendulum and the four-bar, in a program of its own: a
+/// kernel with several callers is compiled in another way.
 ///
 /// # Errors
 /// Those of the trials.
@@ -146,7 +151,8 @@ fn count<T: Trial<Number>>() -> Result<(), Fault> {
     Ok(())
 }
 
-/// Counts what a trial takes, and prints how far it is from the host. Whether that is little enough.
+/// Counts what a trial takes, and prints how far it is from the host. Whether that is little
+/// enough.
 ///
 /// # Errors
 /// Those of the trial.

@@ -1,4 +1,5 @@
-//! What the host computes in `f64`: an angle (rad) and a force (N) after the last period. `tests/tests/firmware.rs` holds it.
+//! What the host computes in `f64`: an angle (rad) and a force (N) after the last period.
+//! `tests/tests/firmware.rs` holds it.
 
 /// The pendulum by its bodies.
 pub const PENDULUM_BY_BODIES: [f64; 2] = [-0.794677366553959, 96.12261239583279];

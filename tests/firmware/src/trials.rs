@@ -1,4 +1,5 @@
-//! What is run, here and on the host: each mechanism at 1 kHz, by its bodies and by its joints, over any type of numbers.
+//! What is run, here and on the host: each mechanism at 1 kHz, by its bodies and by its joints,
+//! over any type of numbers.
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;

@@ -1,4 +1,5 @@
-//! Text as the content of `joint!` and of `force!`: tokens come out, and none of them reports a panic.
+//! Text as the content of `joint!` and of `force!`: tokens come out, and none of them reports a
+//! panic.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,5 +1,6 @@
-//! Bytes as the choices of a random mechanism: bodies, joints, forces, their order. What is generated for it agrees with a dense solution of
-//! the same equations. The test `mechanisms` of the engine does the same from seeds, and on a stable compiler.
+//! Bytes as the choices of a random mechanism: bodies, joints, forces, their order. What is
+//! generated for it agrees with a dense solution of the same equations. The test `mechanisms` of
+//! the engine does the same from seeds, and on a stable compiler.
 #![no_main]
 #![allow(dead_code, reason = "the test uses more of it")]
 

@@ -1,12 +1,13 @@
-//! A definition and an annotated struct that uses it, with a line of `===` between them: what is not refused where it is defined can be
-//! assembled, and nothing panics.
+//! A definition and an annotated struct that uses it, with a line of `===` between them: what is
+//! not refused where it is defined can be assembled, and nothing panics.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
-/// Whether a number stands behind a `;` that has more than one figure: the length of an array whose kernels nobody would wait for.
+/// Whether a number stands behind a `;` that has more than one figure: the length of an array whose
+/// kernels nobody would wait for.
 fn has_long_array(tokens: TokenStream) -> bool {
     let mut behind = false;
     tokens.into_iter().any(|token| {
@@ -36,7 +37,8 @@ fuzz_target!(|text: &str| {
     if has_long_array(item.clone()) {
         return;
     }
-    // The carriers of a compiler session: a body, a particle, then whatever is defined as a joint and as a force.
+    // The carriers of a compiler session: a body, a particle, then whatever is defined as a joint
+    // and as a force.
     let delivery = quote! {
         [::holonom] [[body] [particle] [joint { #definition }] [force { #definition }]] { #item }
     };

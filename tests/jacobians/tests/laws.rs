@@ -1,4 +1,5 @@
-//! Laws, inputs, closures, readings of Euler parameters and number types: what else a Jacobian is made of.
+//! Laws, inputs, closures, readings of Euler parameters and number types: what else a Jacobian is
+//! made of.
 
 use holonom::forces::{Actuator, TorsionalActuator};
 use holonom::joints::{Revolute, Spherical};
@@ -40,7 +41,8 @@ fn swing() -> Swing {
     Swing::new(0.8).expect("sound")
 }
 
-/// What central differences leave, relative to the largest number; and what those of a closure's forces do, to one side.
+/// What central differences leave, relative to the largest number; and what those of a closure's
+/// forces do, to one side.
 const EXACT: f64 = 1e-8;
 const CLOSURE: f64 = 1e-6;
 
@@ -87,7 +89,8 @@ fn parameters_and_inputs_enter() {
     }
 }
 
-/// A drag of the air, which only plain numbers know, enters by differences, and everything else does not.
+/// A drag of the air, which only plain numbers know, enters by differences, and everything else
+/// does not.
 #[test]
 fn closures_enter_by_differences_of_their_forces() {
     let swing = Swing {
@@ -171,7 +174,8 @@ fn single_precision_has_its_digits() {
     assert!(whole < 2e-6, "{whole:e}");
 }
 
-/// The root of a distance has no derivative where the distance is zero, and an implicit method no worse a Jacobian than by differences.
+/// The root of a distance has no derivative where the distance is zero, and an implicit method no
+/// worse a Jacobian than by differences.
 #[test]
 fn where_there_is_no_derivative_differences_stand_in() {
     /// A cart on a spring that is the softer the farther it is pulled.

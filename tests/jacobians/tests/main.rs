@@ -1,4 +1,6 @@
-//! The Jacobian that implicit methods take, of every model, in both descriptions: against the dual numbers of num-dual, one column at a time from parameters on, and against central differences of the rates.
+//! The Jacobian that implicit methods take, of every model, in both descriptions: against the dual
+//! numbers of num-dual, one column at a time from parameters on, and against central differences of
+//! the rates.
 
 #![forbid(unsafe_code)]
 
@@ -17,10 +19,12 @@ use self::dual::Dual;
 
 const TIME: f64 = 0.13;
 
-/// What dual numbers may differ by, relative to the largest number of a row: round-off, and what is made of it by equations that nearly depend on each other.
+/// What dual numbers may differ by, relative to the largest number of a row: round-off, and what is
+/// made of it by equations that nearly depend on each other.
 const ROUND_OFF: f64 = 1e-9;
 
-/// What central differences may differ by, relative to the largest number of the matrix: the square of their step, and round-off over it.
+/// What central differences may differ by, relative to the largest number of the matrix: the square
+/// of their step, and round-off over it.
 const FINITE: f64 = 1e-5;
 const STEP: f64 = 1e-5;
 
@@ -42,7 +46,8 @@ fn beside<X: Vector<f64>>(state: &X, size: f64, seed: u64) -> X {
     state.plus([(size, &direction)])
 }
 
-/// The matrix that a system offers: rows are rates, columns elements of the state. With the number of evaluations that it counts.
+/// The matrix that a system offers: rows are rates, columns elements of the state. With the number
+/// of evaluations that it counts.
 pub(crate) fn offered<Y: System<f64>>(system: &mut Y, state: &Y::State) -> (DMatrix<f64>, usize) {
     let rates = system.rates(TIME, state).expect("rates");
     let mut columns = state.each(rates.clone());
@@ -114,7 +119,8 @@ fn stabilisation<F: Formulation<f64>>(formulation: &F) -> holonom::Stabilisation
     }
 }
 
-/// The compliance of every row: in metres, so that a difference of squares of a length `l` has `(2 l)^2` times as much.
+/// The compliance of every row: in metres, so that a difference of squares of a length `l` has
+/// `(2 l)^2` times as much.
 fn compliances<M: Mechanism>(mechanism: &M, compliance: Dual) -> M::Multipliers<Dual> {
     let mut compliances = M::Multipliers::<Dual>::zeros();
     compliances.as_mut_slice().fill(compliance);
@@ -219,7 +225,8 @@ fn by_dual_numbers_of_joints<M: JointCoordinates, F: Formulation<f64>>(
 /// How many roundings on the way may count as much as one of the state does.
 const ROUNDINGS: f64 = 16.0;
 
-/// Judges a matrix by two others. The exact one is given at the state and at the next numbers above its elements: what that changes is what a rounding does.
+/// Judges a matrix by two others. The exact one is given at the state and at the next numbers above
+/// its elements: what that changes is what a rounding does.
 #[track_caller]
 fn judge(what: &str, offered: &DMatrix<f64>, exact: [&DMatrix<f64>; 2], finite: &DMatrix<f64>) {
     let [exact, beside] = exact;

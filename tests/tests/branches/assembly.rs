@@ -7,7 +7,8 @@ use holonom::prelude::*;
 
 use super::linkages::{CRANK_ROCKER, DrivenFourBar, FourBar, Lengths, Random, wrapped};
 
-/// Assembles a four-bar from its description with the crank at an angle; what crank and rocker are off by.
+/// Assembles a four-bar from its description with the crank at an angle; what crank and rocker are
+/// off by.
 fn assembled(lengths: Lengths, angle: f64) -> (f64, f64, Correction<f64>) {
     let mechanism = lengths.four_bar();
     let handles = FourBar::HANDLES;
@@ -50,7 +51,8 @@ fn a_small_turn_is_kept_as_well() {
     }
 }
 
-/// A crank and a rocker about axes that cross in one point, where the rod between them has no hold on the rocker.
+/// A crank and a rocker about axes that cross in one point, where the rod between them has no hold
+/// on the rocker.
 #[derive(Mechanism)]
 struct Slack {
     #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.2, 0.0, 0.0])]
@@ -202,7 +204,8 @@ fn a_state_to_start_from_says_which_branch() {
     assert!(off.abs() < 1e-9, "{off}");
 }
 
-/// Crank and rocker of one length, coupler and ground too: flat at half a turn, where a second branch begins.
+/// Crank and rocker of one length, coupler and ground too: flat at half a turn, where a second
+/// branch begins.
 #[derive(Mechanism)]
 struct Parallelogram {
     #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.0, 0.2, 0.0])]

@@ -61,7 +61,8 @@ pub(crate) struct DrivenFourBar {
     motor: AngleDriver,
 }
 
-/// Lengths (m) of crank, coupler, rocker and ground, and on which side of the line from crank pin to rocker pivot their pin is.
+/// Lengths (m) of crank, coupler, rocker and ground, and on which side of the line from crank pin
+/// to rocker pivot their pin is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lengths {
     pub(crate) links: [f64; 4],

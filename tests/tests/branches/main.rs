@@ -1,4 +1,5 @@
-//! Branches: assembly and kinematic analysis stay on the one that was described, and joints on the side that is meant.
+//! Branches: assembly and kinematic analysis stay on the one that was described, and joints on the
+//! side that is meant.
 
 mod analysis;
 mod assembly;

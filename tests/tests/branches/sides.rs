@@ -1,4 +1,5 @@
-//! Equations that hold upside down as well: assembly goes to the side that is meant, and a start on the other one is refused.
+//! Equations that hold upside down as well: assembly goes to the side that is meant, and a start on
+//! the other one is refused.
 
 use holonom::joints::{
     ConstantVelocity, Cylindrical, Fixed, Parallel1, Planar, Prismatic, Revolute, RevoluteRevolute,
@@ -57,7 +58,8 @@ fn turned(axis: [f64; 3], degrees: f64) -> Quaternion<f64> {
     Quaternion::new(cosine, x * sine / size, y * sine / size, z * sine / size)
 }
 
-/// Where the joint says its side is, after an assembly from turned positions of the body; the least of all.
+/// Where the joint says its side is, after an assembly from turned positions of the body; the least
+/// of all.
 fn side<M: MechanismExt + Default>(body: BodyHandle<M>) -> f64 {
     let kind = M::REPORT.joints[0].kind;
     let mechanism = M::default();

@@ -3,7 +3,8 @@
 use holonom::joints::PointOnPlane;
 use holonom::prelude::*;
 
-/// A particle on two planes through the x axis at a small angle to each other: it falls along their line, which slopes at 45 degrees.
+/// A particle on two planes through the x axis at a small angle to each other: it falls along their
+/// line, which slopes at 45 degrees.
 #[derive(Mechanism)]
 #[mechanism(gravity = [-7.0, 0.0, -7.0])]
 struct Wedge {
@@ -21,7 +22,8 @@ struct Wedge {
     second: PointOnPlane,
 }
 
-/// How far the bead is from the line after 1 s, in the planes' common plane, and how often something was excused.
+/// How far the bead is from the line after 1 s, in the planes' common plane, and how often
+/// something was excused.
 fn strayed<F: Formulation<f64>>(method: F, angle: f64, projected: bool) -> (f64, usize) {
     let wedge = Wedge::new(angle).expect("acceptable");
     let mut simulation = Simulation::new(&wedge, method, Rk4::every(1e-3));

@@ -13,7 +13,8 @@ use holonom::{
 };
 use nalgebra::Vector3;
 
-/// A cart with a boom, which carries a weight by a weld and a load by a cross and a ball; numbers that are known at run time, springs, a motor.
+/// A cart with a boom, which carries a weight by a weld and a load by a cross and a ball; numbers
+/// that are known at run time, springs, a motor.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.3, -9.81], coordinates = "joints")]
 pub(crate) struct Crane {
@@ -86,7 +87,8 @@ impl Crane {
     }
 }
 
-/// A box that slides and turns on a table with a bead on a wire and a rod through a sleeve; a satellite with a wheel; nothing is held but by joints.
+/// A box that slides and turns on a table with a bead on a wire and a rod through a sleeve; a
+/// satellite with a wheel; nothing is held but by joints.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.5, 0.0, -0.2], coordinates = "joints")]
 pub(crate) struct Loose {
@@ -137,7 +139,8 @@ impl Loose {
     }
 }
 
-/// A four-bar in the plane, whose joints are more than enough, with a gear on its crank; and a spatial pendulum on its coupler.
+/// A four-bar in the plane, whose joints are more than enough, with a gear on its crank; and a
+/// spatial pendulum on its coupler.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", redundant = "drop")]
 pub(crate) struct FourBar {
@@ -176,7 +179,8 @@ fn tight() -> DormandPrince<f64> {
     })
 }
 
-/// Coordinates and velocities. Euler parameters of either sign are one orientation: those of one state are given the sign of the other.
+/// Coordinates and velocities. Euler parameters of either sign are one orientation: those of one
+/// state are given the sign of the other.
 fn compare<M: Mechanism>(left: &M::State<f64>, right: &M::State<f64>) -> f64 {
     let mut worst = 0.0_f64;
     let (a, b) = (

@@ -1,4 +1,5 @@
-//! What may be described, in which coordinates, at which place and of which size; what depends on what.
+//! What may be described, in which coordinates, at which place and of which size; what depends on
+//! what.
 
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,5 @@
-//! Angles and displacements of joints that are set in a state: what hangs on a joint goes along, and nothing else moves.
+//! Angles and displacements of joints that are set in a state: what hangs on a joint goes along,
+//! and nothing else moves.
 
 use core::f64::consts::TAU;
 
@@ -40,7 +41,8 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     pairs.fold(0.0, |worst, (a, b)| worst.max((a - b).abs()))
 }
 
-/// How a body stands and moves as seen from another one: rotation, arm, angular velocity, velocity, in the other's axes.
+/// How a body stands and moves as seen from another one: rotation, arm, angular velocity, velocity,
+/// in the other's axes.
 fn relative<M: Mechanism>(state: &M::State<f64>, [from, to]: [BodyHandle<M>; 2]) -> Vec<f64> {
     let [i, j] = [from, to].map(|body| {
         let pose = M::pose(state, body);
@@ -131,7 +133,8 @@ fn a_crane_is_set_in_any_order() {
     }
 }
 
-/// From the side of the last body: `hook` is between the load and the rod, and the rod carries the load.
+/// From the side of the last body: `hook` is between the load and the rod, and the rod carries the
+/// load.
 #[test]
 fn a_ball_is_turned() {
     let crane = Crane::driven().expect("acceptable");

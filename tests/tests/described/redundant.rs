@@ -1,4 +1,5 @@
-//! Mechanisms of which redundant equations were left out: the motion is that of the whole, by closed forms and published values.
+//! Mechanisms of which redundant equations were left out: the motion is that of the whole, by
+//! closed forms and published values.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -23,7 +24,8 @@ fn rows(report: &Report) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// A door of 0.8 m x 2 m and 20 kg on two hinges, the edge leaning 10 degrees, released 90 degrees from equilibrium.
+/// A door of 0.8 m x 2 m and 20 kg on two hinges, the edge leaning 10 degrees, released 90 degrees
+/// from equilibrium.
 #[derive(Mechanism)]
 #[mechanism(
     gravity = [0.0, -9.81 * cos(deg(10.0)), -9.81 * sin(deg(10.0))],
@@ -81,7 +83,8 @@ fn a_door_hangs_on_its_lower_hinge() {
     assert!((-last.1 + 1.19878325592002).abs() < 1e-9, "{last:?}");
 }
 
-/// The four-bar of the IFToMM library with spatial hinges: three links of 1 m and 1 kg, 20 equations of rank 17.
+/// The four-bar of the IFToMM library with spatial hinges: three links of 1 m and 1 kg, 20
+/// equations of rank 17.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
 struct FourBar {
@@ -142,7 +145,8 @@ fn a_planar_loop_of_spatial_hinges() {
         })
         .expect("independent");
     assert!(run.worst_violation < 1e-22, "{}", run.worst_violation);
-    // Where all links are in line, the rank is smaller: at 0.708450008835759 s (problems.md) the motion has two ways to go on.
+    // Where all links are in line, the rank is smaller: at 0.708450008835759 s (problems.md) the
+    // motion has two ways to go on.
     assert!((reference.at(0.708450008835759) - FRAC_PI_2).abs() < 1e-12);
     let error = Simulation::new(&model, StandardLagrange, tight())
         .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
@@ -243,7 +247,8 @@ fn a_loop_that_moves_against_the_count() {
     assert_eq!(seen, published.len());
 }
 
-/// The door without gravity, swung by a motor whose equations of direction follow from those of the hinge.
+/// The door without gravity, swung by a motor whose equations of direction follow from those of the
+/// hinge.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, 0.0], redundant = "drop")]
 struct SwungDoor {
@@ -277,7 +282,8 @@ fn the_effort_of_a_driver_is_read_behind_equations_that_were_left_out() {
         .expect("driven");
 }
 
-/// Bennett's linkage: links of 1 m and sqrt(3) m in turn, axes twisted by 30 and 60 degrees, so that lengths are as the sines of the twists.
+/// Bennett's linkage: links of 1 m and sqrt(3) m in turn, axes twisted by 30 and 60 degrees, so
+/// that lengths are as the sines of the twists.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop")]
 struct Bennett {
@@ -305,7 +311,8 @@ fn what_is_left_out_of_bennetts_linkage_is_never_missed() {
     assert_eq!((report.equations, report.degrees_of_freedom), (17, 1));
     let linkage = Bennett::default();
     let handles = Bennett::HANDLES;
-    // tan(theta_1 / 2) tan(theta_2 / 2) = sin((beta + alpha) / 2) / sin((beta - alpha) / 2), Denavit and Hartenberg's angles.
+    // tan(theta_1 / 2) tan(theta_2 / 2) = sin((beta + alpha) / 2) / sin((beta - alpha) / 2),
+    // Denavit and Hartenberg's angles.
     let product = (45.0_f64.to_radians()).sin() / (15.0_f64.to_radians()).sin();
     let start = [1.2, 2.0 * (product / (0.6_f64).tan()).atan()];
     let (mut energy, mut turned) = (None, 0.0_f64);
@@ -335,8 +342,9 @@ fn what_is_left_out_of_bennetts_linkage_is_never_missed() {
     assert!(turned > 2.5, "{turned}");
 }
 
-/// Two bodies on two parallel hinges, which are one: it swings about a third one, parallel and askew to all axes. Of the last hinge one equation counts, along a global axis that it passes
-/// on the way; its equations of axes hold by themselves, but for round-off.
+/// Two bodies on two parallel hinges, which are one: it swings about a third one, parallel and
+/// askew to all axes. Of the last hinge one equation counts, along a global axis that it passes on
+/// the way; its equations of axes hold by themselves, but for round-off.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 1.0], redundant = "drop", coordinates = "both")]
 struct Locked {

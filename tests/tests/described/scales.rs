@@ -49,7 +49,8 @@ struct Linked {
     plane: PointOnPlane,
 }
 
-/// A slider-crank with a motor: a crank of 3 and a rod of 5 parts, whose end stays at the height of the crank's hinge.
+/// A slider-crank with a motor: a crank of 3 and a rod of 5 parts, whose end stays at the height of
+/// the crank's hinge.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
 struct SliderCrank {
@@ -156,7 +157,8 @@ fn disturbed<S: Real, M: Mechanism>(mechanism: &M, length: f64, part: f64) -> M:
     state
 }
 
-/// The largest violation of a state, with rows of equal kind made relative: `size` is that of a row by its number.
+/// The largest violation of a state, with rows of equal kind made relative: `size` is that of a row
+/// by its number.
 fn violation<S: Real, M: Mechanism>(
     mechanism: &M,
     time: f64,
@@ -229,7 +231,8 @@ fn mechanisms_of_any_size_mass_and_place_assemble_in_single_precision() {
     all_assemble::<f32>();
 }
 
-/// The angle of a hinge after one and a half units of time `sqrt(length / g)`, with a projection after every step.
+/// The angle of a hinge after one and a half units of time `sqrt(length / g)`, with a projection
+/// after every step.
 fn swung<S: Real, M: Mechanism>(
     mechanism: &M,
     length: f64,

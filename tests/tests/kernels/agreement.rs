@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, Vector3};
 use crate::comparison::{DOUBLE, Worst, distance, tolerance};
 use crate::scene::{STATES, Scene, consistent, constants, dense, rounded, state, values, violated};
 
-/// What a vector of residuals is compared with where it is smaller: residuals are differences of numbers of the size 1
-/// (m, m/s, m/s^2, and of unit vectors).
+/// What a vector of residuals is compared with where it is smaller: residuals are differences of
+/// numbers of the size 1 (m, m/s, m/s^2, and of unit vectors).
 const UNIT: f64 = 1.0;
 
 /// The states of both sets, as the number type sees them.

@@ -46,7 +46,8 @@ fn handles_read_their_own_element() {
                 let rate = sample.angular_velocity(handles.links[k]).x;
                 assert!((rate - [0.1, 0.3, 0.6][k]).abs() < 1e-12);
             }
-            // The moment about x that motor k holds is that of the loads on the links behind it, and of the centripetal forces.
+            // The moment about x that motor k holds is that of the loads on the links behind it,
+            // and of the centripetal forces.
             let load = |k: usize| 10.0 * (2 - k) as f64;
             let found = sample.driving_effort(handles.motors[2]).expect("regular");
             if sample.time() == 0.0 {
@@ -62,7 +63,8 @@ fn handles_read_their_own_element() {
         .expect("an analysis");
 }
 
-/// Links whose lengths, masses and thrusts are known at run time or in a table, in both descriptions.
+/// Links whose lengths, masses and thrusts are known at run time or in a table, in both
+/// descriptions.
 #[derive(Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Given {

@@ -1,5 +1,6 @@
-//! The kernels `D` and `gamma` are derivatives of the kernels `Phi` and `Phi'`: by the kernels themselves over dual numbers, by
-//! the assembler's `Phi` over dual numbers, and by finite differences.
+//! The kernels `D` and `gamma` are derivatives of the kernels `Phi` and `Phi'`: by the kernels
+//! themselves over dual numbers, by the assembler's `Phi` over dual numbers, and by finite
+//! differences.
 
 use holonom::{Array, Mechanism, Scalar, StateParts};
 use holonom_assembler::bodies::Orientation;
@@ -11,7 +12,8 @@ use crate::comparison::{DOUBLE, Worst, distance};
 use crate::scalars::Dual;
 use crate::scene::{Scene, consistent, constants, dense, off, state, values, violated};
 
-/// What finite differences may differ by: their step is 1e-5, its square and the round-off over it are 1e-10.
+/// What finite differences may differ by: their step is 1e-5, its square and the round-off over it
+/// are 1e-10.
 const FINITE: f64 = 1e-6;
 const STEP: f64 = 1e-5;
 

@@ -81,7 +81,8 @@ fn free_bodies_obey_newton_and_euler() {
 fn fly<F: Formulation<f64>>(method: F) {
     /// Round-off of 1000 steps over 2 s; the fourth-order method is exact for a parabola.
     const ROUND_OFF: f64 = 1e-12;
-    /// The spin about a principal axis is turned by RK4 with the phase error `z^5 / 120` a step, `z = w h / 2`.
+    /// The spin about a principal axis is turned by RK4 with the phase error `z^5 / 120` a step,
+    /// `z = w h / 2`.
     const PHASE: f64 = 1e-10;
     let thrown = Thrown::default();
     let (block, stone) = (Thrown::HANDLES.block, Thrown::HANDLES.stone);

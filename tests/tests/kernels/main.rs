@@ -1,6 +1,8 @@
-//! The generated kernels, judged by the run-time assembler, by automatic differentiation and by counting.
+//! The generated kernels, judged by the run-time assembler, by automatic differentiation and by
+//! counting.
 //!
-//! The mechanisms are declared twice, once with the derive and once for the assembler: see [`mechanisms`].
+//! The mechanisms are declared twice, once with the derive and once for the assembler: see
+//! [`mechanisms`].
 
 #![forbid(unsafe_code)]
 

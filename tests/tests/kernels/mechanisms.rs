@@ -1,8 +1,8 @@
 //! The mechanisms of these tests: with the derive, and beside it once more for the assembler.
 //!
-//! For the assembler everything that a body carries is worked out here, by [`Assembler::to_body_point`] and
-//! [`Assembler::to_body_vector`]; the two normals of an axis come from the rule that both sides document, applied to the
-//! axis in global axes.
+//! For the assembler everything that a body carries is worked out here, by
+//! [`Assembler::to_body_point`] and [`Assembler::to_body_vector`]; the two normals of an axis come
+//! from the rule that both sides document, applied to the axis in global axes.
 
 mod loops;
 mod open;

@@ -1,4 +1,5 @@
-//! Evaluations of bodies that are put together from their parts, where a mechanism is described by its joints, against the fused ones of the same mechanism.
+//! Evaluations of bodies that are put together from their parts, where a mechanism is described by
+//! its joints, against the fused ones of the same mechanism.
 
 use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::{PointOnLine, Revolute, Screw, Spherical};
@@ -11,7 +12,8 @@ use holonom_assembler::accuracy::assert_close;
 
 macro_rules! described {
     ($name:ident $coordinates:literal) => {
-        /// A loop of four bars that a point on a line closes, a nut with a particle on it, whose turns are counted, and a spring.
+        /// A loop of four bars that a point on a line closes, a nut with a particle on it, whose
+        /// turns are counted, and a spring.
         #[derive(Debug, Mechanism)]
         #[mechanism(gravity = [0.3, -9.81, 0.2], coordinates = $coordinates)]
         struct $name {
@@ -48,7 +50,8 @@ macro_rules! described {
 described!(Fused "both");
 described!(Together "joints");
 
-/// Coordinates and velocities off the constraints. Euler parameters have not length 1, unless they are read as they are: kernels rely on the length then.
+/// Coordinates and velocities off the constraints. Euler parameters have not length 1, unless they
+/// are read as they are: kernels rely on the length then.
 fn state<M: Mechanism, P: Orientation>(constants: &M::Constants<f64>, seed: f64) -> M::State<f64> {
     let mut state = M::initial_state(constants);
     let noise = |place: usize| 0.2 * ((place as f64 + seed) * 12.9898).sin();

@@ -1,4 +1,5 @@
-//! The correction onto the constraints: to round-off, with the least movement in the metric of the mass, or not at all.
+//! The correction onto the constraints: to round-off, with the least movement in the metric of the
+//! mass, or not at all.
 
 use holonom::prelude::*;
 use holonom::{Array, Correction, Fault};
@@ -73,7 +74,8 @@ fn to_round_off<M: Scene>() {
     println!("corrected: Phi {:e}, Phi' {:e}", phi.0, rates.0);
 }
 
-/// From one configuration to another: displacements (m), and rotation vectors along body axes (rad) to first order.
+/// From one configuration to another: displacements (m), and rotation vectors along body axes (rad)
+/// to first order.
 fn movement(scene: &Assembler, from: &DVector<f64>, to: &DVector<f64>) -> DVector<f64> {
     let mut movement = DVector::zeros(scene.velocities());
     for (body, q, n) in scene.bodies() {
@@ -91,8 +93,8 @@ fn movement(scene: &Assembler, from: &DVector<f64>, to: &DVector<f64>) -> DVecto
     movement
 }
 
-/// The part of `M d` along the motions that the constraints leave free, relative to `|M d|`: zero for the least movement. And
-/// the norm of `D^+`.
+/// The part of `M d` along the motions that the constraints leave free, relative to `|M d|`: zero
+/// for the least movement. And the norm of `D^+`.
 fn along_free_motions(scene: &Assembler, x: &DVector<f64>, movement: &DVector<f64>) -> (f64, f64) {
     let jacobian = scene.jacobian(x.as_slice());
     let inverse = SingularValues::new(&jacobian).pseudo_inverse(1e-9);
@@ -102,10 +104,11 @@ fn along_free_motions(scene: &Assembler, x: &DVector<f64>, movement: &DVector<f6
 }
 
 fn with_the_least_movement<M: Scene>() {
-    /// A displacement is the least one up to its square: the rows of `D` turn with it, and where they are nearly dependent
-    /// (`|D^+|` is large) the more so.
+    /// A displacement is the least one up to its square: the rows of `D` turn with it, and where
+    /// they are nearly dependent (`|D^+|` is large) the more so.
     const CURVATURE: f64 = 10.0;
-    /// Velocities are corrected by a linear system, solved to the compliance of `sqrt(EPSILON)` and repeated.
+    /// Velocities are corrected by a linear system, solved to the compliance of `sqrt(EPSILON)` and
+    /// repeated.
     const LINEAR: f64 = 1e-9;
     let scene = M::assembler();
     let (mut positions, mut velocities) = (Worst::default(), Worst::default());
@@ -156,8 +159,9 @@ mod with_the_least_movement {
     each! { with_the_least_movement: door crate::mechanisms::Door }
 }
 
-/// Off the constraints the equations of a planar loop are nearly, not exactly, dependent: a violation of the size `s` meets
-/// pivots of the size `s`, and part of the movement is along the free motion, whatever `s` is.
+/// Off the constraints the equations of a planar loop are nearly, not exactly, dependent: a
+/// violation of the size `s` meets pivots of the size `s`, and part of the movement is along the
+/// free motion, whatever `s` is.
 #[test]
 fn a_planar_loop_moves_little_more_than_it_must() {
     /// The part of `M d` along the free motion: a movement longer by some percent than the least.

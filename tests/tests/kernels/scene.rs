@@ -82,8 +82,9 @@ pub(crate) fn dense<S: Real, M: Mechanism>(blocks: &[S]) -> DMatrix<f64> {
 /// How many states of a kind are tried.
 pub(crate) const STATES: usize = if IS_EXHAUSTIVE { 300 } else { 30 };
 
-/// States on the constraints, in position and velocity: a walk that starts in the initial configuration and gets far
-/// from it without leaving its branch, each corrected by the assembler's own Newton method.
+/// States on the constraints, in position and velocity: a walk that starts in the initial
+/// configuration and gets far from it without leaving its branch, each corrected by the assembler's
+/// own Newton method.
 pub(crate) fn consistent(scene: &Assembler, count: usize, seed: u64) -> Vec<DVector<f64>> {
     let mut rng = generator(seed);
     let mut states = Vec::with_capacity(count);
@@ -98,8 +99,8 @@ pub(crate) fn consistent(scene: &Assembler, count: usize, seed: u64) -> Vec<DVec
     states
 }
 
-/// States up to 0.1 rad and 0.1 m off the constraints with Euler parameters of length 1: those of [`consistent`], every body
-/// moved by itself.
+/// States up to 0.1 rad and 0.1 m off the constraints with Euler parameters of length 1: those of
+/// [`consistent`], every body moved by itself.
 pub(crate) fn violated(scene: &Assembler, count: usize, seed: u64) -> Vec<DVector<f64>> {
     off(scene, count, seed, Spread::default())
 }

@@ -1,10 +1,13 @@
 //! Accelerations and multipliers of all formulations equal a dense LU of the same saddle system.
 //!
-//! The deviation is that of the whole vector `(M^(1/2) u', lambda)` in the Euclidean norm, relative to the reference, and the
-//! condition number is that of the matrix that goes with it, `[I, M^(-1/2) D^T; D M^(-1/2), -e I]`: in SI units alone the moment of
-//! inertia of a thin rod would be 1e-4 of its mass for no reason. A condition number (largest over smallest singular value)
-//! bounds what a solution in floating point may be off by. Where a ratio that is never more than the condition number shows that the bound holds, the
-//! singular values are not computed: that of the largest to the smallest column of the matrix, or of what the matrix and its inverse make of a vector.
+//! The deviation is that of the whole vector `(M^(1/2) u', lambda)` in the Euclidean norm, relative
+//! to the reference, and the condition number is that of the matrix that goes with it,
+//! `[I, M^(-1/2) D^T; D M^(-1/2), -e I]`: in SI units alone the moment of inertia of a thin rod
+//! would be 1e-4 of its mass for no reason. A condition number (largest over smallest singular
+//! value) bounds what a solution in floating point may be off by. Where a ratio that is never more
+//! than the condition number shows that the bound holds, the singular values are not computed: that
+//! of the largest to the smallest column of the matrix, or of what the matrix and its inverse make
+//! of a vector.
 
 use holonom::{
     Array, AugmentedLagrangian, Compliant, Dynamics, Normalised, Orientation, Plain, Raw, Real,
@@ -33,7 +36,8 @@ pub(crate) fn evaluated<S: Real, M: Scene, T: Terms, P: Orientation>(
     (solution, values(evaluation.rates.coordinates().as_slice()))
 }
 
-/// `(u', lambda)` by factorisation and back-substitution, with the right-hand side put together from kernels.
+/// `(u', lambda)` by factorisation and back-substitution, with the right-hand side put together
+/// from kernels.
 pub(crate) fn solved_in_parts<S: Real, M: Scene, T: Terms>(
     coefficients: Coefficients,
     x: &[f64],
@@ -97,7 +101,8 @@ impl Reference {
         pairs.map(|(value, weight)| value * weight).collect()
     }
 
-    /// The deviation of a solution over the condition number; over a lower bound of it where that is enough.
+    /// The deviation of a solution over the condition number; over a lower bound of it where that
+    /// is enough.
     pub(crate) fn deviation(&self, solution: &[f64], limit: f64) -> f64 {
         let [computed, reference] = [solution, &self.solution].map(|s| self.weighted(s));
         let deviation = distance(&computed, &reference, 0.0);
@@ -120,8 +125,8 @@ impl Reference {
     }
 }
 
-/// A bound of the condition number from below, and close to it: how much longer a vector becomes by the matrix and by its inverse, along what some steps of
-/// the power method make of it.
+/// A bound of the condition number from below, and close to it: how much longer a vector becomes by
+/// the matrix and by its inverse, along what some steps of the power method make of it.
 fn condition_from_below(matrix: &DMatrix<f64>) -> f64 {
     let factors = matrix.clone().lu();
     let stretch = |step: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
@@ -212,8 +217,8 @@ fn with_a_compliance<M: Scene>() {
     formulation::<f64, M, Compliant>("penalty 1e2", SOFT, &states);
 }
 
-/// As many iterations of the saddle system as the run time took, by one dense LU; then the run time's own rule to stop has to
-/// hold, and not before.
+/// As many iterations of the saddle system as the run time took, by one dense LU; then the run
+/// time's own rule to stop has to hold, and not before.
 fn augmented_lagrangian<M: Scene>() {
     let scene = M::read_as(bodies::Orientation::Normalised);
     let method = AugmentedLagrangian::<f64>::default();

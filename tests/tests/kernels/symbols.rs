@@ -109,7 +109,8 @@ fn motion<M: Mechanism + Default, F: Formulation<f64>>(method: F, x: &[f64]) -> 
     let view = dynamics.view(0.0, &state);
     let mut motion = flat::<f64, M>(&evaluation.rates);
     motion.extend([view.kinetic_energy(), view.potential_energy()]);
-    // The normals of an axis that the macro cannot see are other ones: the size of the violation is the same.
+    // The normals of an axis that the macro cannot see are other ones: the size of the violation is
+    // the same.
     motion.extend([view.violation(), view.velocity_violation()]);
     motion
 }

@@ -1,5 +1,5 @@
-//! Penalty and augmented Lagrangian equal their textbook forms, `(M + alpha D^T D) u' = ..`, which lose digits as alpha
-//! grows: how many is printed.
+//! Penalty and augmented Lagrangian equal their textbook forms, `(M + alpha D^T D) u' = ..`, which
+//! lose digits as alpha grows: how many is printed.
 
 use holonom::{Array, AugmentedLagrangian, Dynamics, Formulation, Penalty, StateParts};
 use holonom_assembler::bodies::Orientation;
@@ -10,12 +10,13 @@ use crate::scene::{Scene, consistent, flat, state, values, violated};
 
 /// Where both forms keep their digits.
 const SOFT: f64 = 1e2;
-/// What they may then differ by: the matrix of the textbook has a condition of the order `alpha / J`, 1e5 for the thinnest body
-/// here.
+/// What they may then differ by: the matrix of the textbook has a condition of the order
+/// `alpha / J`, 1e5 for the thinnest body here.
 const AGREEMENT: f64 = 1e-10;
 /// The penalty of chapter 15.
 const RIGID: f64 = 1e7;
-/// What the textbook form may lose there: round-off times `alpha / J`, 1e10 for the thinnest body, is the worst case, and hardly met.
+/// What the textbook form may lose there: round-off times `alpha / J`, 1e10 for the thinnest body,
+/// is the worst case, and hardly met.
 const LOSS: f64 = 1e-5;
 const OMEGA: f64 = 10.0;
 const MU: f64 = 1.0;

@@ -1,4 +1,5 @@
-//! A body with a full inertia tensor: what is read and set by handle is in the axes in which it was described.
+//! A body with a full inertia tensor: what is read and set by handle is in the axes in which it was
+//! described.
 
 use holonom::prelude::*;
 use holonom::{Pose, StateParts};
@@ -108,7 +109,8 @@ fn a_moment_in_body_axes_turns_the_body_as_its_tensor_says() {
     let w = FullTensors::angular_velocity(&state, HANDLES.tilted);
     let gyroscopic = w.cross(&(tensor(TILTED) * w));
     let error = tensor(TILTED) * spin_rate - (moment - gyroscopic);
-    // What the compliance of 1e9 still transmits: 1e-9 times accelerations and stabilisation of the size 10.
+    // What the compliance of 1e9 still transmits: 1e-9 times accelerations and stabilisation of the
+    // size 10.
     assert!(error.amax() <= 1e-7, "{error}");
 }
 

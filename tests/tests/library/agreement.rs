@@ -1,5 +1,6 @@
-//! The kernels of every joint equal those of the assembler and derivatives by dual numbers, at random times, on the constraints and
-//! off them, for random placements of the bodies; and every joint has its number of equations.
+//! The kernels of every joint equal those of the assembler and derivatives by dual numbers, at
+//! random times, on the constraints and off them, for random placements of the bodies; and every
+//! joint has its number of equations.
 
 use holonom::Rank;
 use holonom_assembler::assembler::Assembler;
@@ -16,8 +17,8 @@ use crate::kernels::Kernels;
 use crate::library::library;
 use crate::states::{all, consistent};
 
-/// What residuals, energies and forces are compared with where they are smaller: they are differences of numbers of the size 1 or
-/// more (m, m/s, m/s^2, unit vectors).
+/// What residuals, energies and forces are compared with where they are smaller: they are
+/// differences of numbers of the size 1 or more (m, m/s, m/s^2, unit vectors).
 const UNIT: f64 = 1.0;
 
 /// How many random placements are tried, and states of each kind for each of them.
@@ -145,7 +146,8 @@ impl Deviations {
         }
     }
 
-    /// `u'` and `lambda`, with Euler parameters normalised in `A` and as they are in `q'`, against the assembler's dense solution.
+    /// `u'` and `lambda`, with Euler parameters normalised in `A` and as they are in `q'`, against
+    /// the assembler's dense solution.
     fn solution(
         &mut self,
         what: &str,
@@ -156,7 +158,8 @@ impl Deviations {
     ) {
         let found = kernels.evaluate(time, x);
         let mut rates = vec![0.0; x.len()];
-        // The pivot of two rows that pair with accelerations is exact on the constraints alone, and so is the solution.
+        // The pivot of two rows that pair with accelerations is exact on the constraints alone, and
+        // so is the solution.
         evaluator.rates(time, x, &mut rates).expect("solvable");
         let first = evaluator.assembler().coordinates();
         let deviation = distance(&found.rates[..first], &rates[..first], UNIT);

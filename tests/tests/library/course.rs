@@ -61,8 +61,8 @@ impl System<f64> for Moving<'_> {
     }
 }
 
-/// Moves a state from a time to a later one by Dormand and Prince's method and shows every step: time (s), `x`, work (J);
-/// until `show` has seen enough.
+/// Moves a state from a time to a later one by Dormand and Prince's method and shows every step:
+/// time (s), `x`, work (J); until `show` has seen enough.
 pub(crate) fn run(
     kernels: &dyn Kernels,
     [start, end]: [f64; 2],

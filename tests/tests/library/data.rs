@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Poses of three bodies, points (m), axes (any length), a number; global axes, reference configuration.
+/// Poses of three bodies, points (m), axes (any length), a number; global axes, reference
+/// configuration.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Data {
     pub(crate) gravity: [f64; 3],

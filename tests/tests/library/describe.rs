@@ -1,4 +1,5 @@
-//! One element of the library among bodies, as a mechanism: with run-time values everywhere, or with literals everywhere.
+//! One element of the library among bodies, as a mechanism: with run-time values everywhere, or
+//! with literals everywhere.
 
 /// Whether axes become known at run time.
 macro_rules! late {
@@ -10,11 +11,13 @@ macro_rules! late {
     };
 }
 
-/// A function from [`Data`](crate::data::Data) to the kernels of a mechanism with one joint or force.
+/// A function from [`Data`](crate::data::Data) to the kernels of a mechanism with one joint or
+/// force.
 ///
-/// `describe! { param [i j] [i, j] joint Revolute { point = head, axis = a } }`: the mode; the bodies that move, `bead` for a particle;
-/// what the element is between; the element with its attributes. In these a word stands for one of the data: as parameters in the mode
-/// `param`, as the numbers of [`LITERAL`](crate::data::LITERAL) in the mode `literal`.
+/// `describe! { param [i j] [i, j] joint Revolute { point = head, axis = a } }`: the mode; the
+/// bodies that move, `bead` for a particle; what the element is between; the element with its
+/// attributes. In these a word stands for one of the data: as parameters in the mode `param`, as
+/// the numbers of [`LITERAL`](crate::data::LITERAL) in the mode `literal`.
 macro_rules! describe {
     (@words param $done:tt [$key:ident = head, $($rest:tt)*] $($then:tt)*) => {
         describe! { @done param $done [$key = [hx, hy, hz],] [$($rest)*] $($then)* }

@@ -1,5 +1,5 @@
-//! Every force of the library, and potentials of one's own: loads, energies and powers against the assembler and against differences of
-//! the energy; and the books of energy over motions.
+//! Every force of the library, and potentials of one's own: loads, energies and powers against the
+//! assembler and against differences of the energy; and the books of energy over motions.
 
 mod by_closure;
 mod table;
@@ -65,7 +65,8 @@ impl Scene {
     }
 }
 
-/// The scenes of all placements, with some data for each; the last of an entry is the one of literals.
+/// The scenes of all placements, with some data for each; the last of an entry is the one of
+/// literals.
 fn scenes(seed: u64, gravity: bool, mut test: impl FnMut(&Entry, &Scene)) {
     let mut rng = generator(seed);
     for entry in entries() {

@@ -1,5 +1,5 @@
-//! What each joint leaves free, from the geometry alone: the relative motions of `j` against `i` that it allows, as twists at a point of
-//! `j`. Nothing here knows an equation of a joint.
+//! What each joint leaves free, from the geometry alone: the relative motions of `j` against `i`
+//! that it allows, as twists at a point of `j`. Nothing here knows an equation of a joint.
 
 use core::f64::consts::TAU;
 
@@ -11,11 +11,13 @@ use nalgebra::{DMatrix, Vector3, Vector6};
 
 type V = [f64; 3];
 
-/// A point (m, global axes) and the motions that are free there: velocity of the point, then angular velocity, global axes.
+/// A point (m, global axes) and the motions that are free there: velocity of the point, then
+/// angular velocity, global axes.
 pub(crate) struct Freedom {
     pub(crate) point: Vector3<f64>,
     pub(crate) twists: Vec<Vector6<f64>>,
-    /// From 1 to 0 where the directions become undetermined: their round-off is that of a unit vector over this.
+    /// From 1 to 0 where the directions become undetermined: their round-off is that of a unit
+    /// vector over this.
     pub(crate) sharpness: f64,
 }
 
@@ -93,7 +95,8 @@ fn free(point: Vector3<f64>, twists: &[&[Vector6<f64>]]) -> Freedom {
     }
 }
 
-/// A twist at a point as it is at the origin: the velocity of what moves along there, and the same angular velocity.
+/// A twist at a point as it is at the origin: the velocity of what moves along there, and the same
+/// angular velocity.
 pub(crate) fn at_origin(twist_there: &Vector6<f64>, point: &Vector3<f64>) -> Vector6<f64> {
     let [v, w] = [0, 3].map(|k| Vector3::from(twist_there.fixed_rows::<3>(k)));
     twist(v + point.cross(&w), w)
@@ -228,8 +231,8 @@ pub(crate) fn parallel2(p: &Pair<'_>, [axis, _, tail]: [V; 3]) -> Freedom {
     free(p.point(J, tail), &[&slides(a), &turns(any())])
 }
 
-/// The angle is that of a pointer on `j`, seen along the axis of `i`: it stays while `j` turns about the pointer, or about
-/// a line that is perpendicular to both the axis and the pointer.
+/// The angle is that of a pointer on `j`, seen along the axis of `i`: it stays while `j` turns
+/// about the pointer, or about a line that is perpendicular to both the axis and the pointer.
 pub(crate) fn angle_driver(p: &Pair<'_>, [axis]: [V; 1]) -> Freedom {
     let [normal, _] = p.scene.normals(&Vector3::from(axis).normalize());
     let pointer = p.axis(J, normal.into());

@@ -1,4 +1,5 @@
-//! The kernels of any mechanism as functions of `x = (q, u)`, without its type: what judges them is compiled once.
+//! The kernels of any mechanism as functions of `x = (q, u)`, without its type: what judges them is
+//! compiled once.
 
 use holonom::{
     Array, ForceHandle, JointHandle, Mechanism, MechanismExt, Normalised, Plain, Report,
@@ -25,7 +26,8 @@ pub(crate) struct Books {
     pub(crate) power: f64,
 }
 
-/// A mechanism at work, and the one element that it was described for. `x = (q, u)`; `q` ends with the auxiliary states.
+/// A mechanism at work, and the one element that it was described for. `x = (q, u)`; `q` ends with
+/// the auxiliary states.
 pub(crate) trait Kernels {
     fn report(&self) -> &'static Report;
     fn initial_state(&self) -> Vec<f64>;
@@ -45,8 +47,8 @@ pub(crate) trait Kernels {
     fn reaction(&self, time: f64, x: &[f64], multipliers: &[f64], place: usize) -> Wrench<f64>;
     /// Angle (rad) and displacement (m) of the joint, each with its rate.
     fn readings(&self, time: f64, x: &[f64]) -> [[f64; 2]; 2];
-    /// Potential energy (J) and power (W) of the force, and its load on the body at a place: force (N, global), then moment (N m, principal
-    /// axes).
+    /// Potential energy (J) and power (W) of the force, and its load on the body at a place: force
+    /// (N, global), then moment (N m, principal axes).
     fn force(&self, time: f64, x: &[f64], place: usize) -> ([f64; 2], [f64; 6]);
 }
 

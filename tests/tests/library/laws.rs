@@ -1,4 +1,5 @@
-//! Laws of time: every function that a driver may follow, with its first two derivatives by dual numbers in time, and the efforts of drivers as their multipliers.
+//! Laws of time: every function that a driver may follow, with its first two derivatives by dual
+//! numbers in time, and the efforts of drivers as their multipliers.
 
 use holonom::joints::{
     AngleDriver, DisplacementDriver, DistanceDriver, OrientationDriver, Revolute,
@@ -179,7 +180,8 @@ struct Robot {
 fn efforts_are_multipliers_and_put_in_the_power_of_the_motion() {
     let robot = Robot::default();
     let handles = Robot::HANDLES;
-    // The strut alone is not determined: six motions of the arm and the tool are, two of the bead are free.
+    // The strut alone is not determined: six motions of the arm and the tool are, two of the bead
+    // are free.
     assert_eq!(Robot::REPORT.degrees_of_freedom, 2);
     let mut worst = [0.0_f64; 2];
     Simulation::new(

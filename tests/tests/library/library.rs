@@ -22,7 +22,8 @@ pub(crate) struct Placement {
 pub(crate) struct Entry {
     pub(crate) name: &'static str,
     pub(crate) equations: usize,
-    /// With parameters for all data; the last one with the numbers of [`LITERAL`](crate::data::LITERAL).
+    /// With parameters for all data; the last one with the numbers of
+    /// [`LITERAL`](crate::data::LITERAL).
     pub(crate) placements: Vec<Placement>,
     pub(crate) assemble: fn(&Assembler, &[BodyId], &Data) -> Joint,
     /// Of two bodies.
@@ -64,7 +65,8 @@ macro_rules! placement {
     };
 }
 
-/// A joint of two bodies, or of three: its name, the number of its equations, its attributes; how it is assembled; what is free.
+/// A joint of two bodies, or of three: its name, the number of its equations, its attributes; how
+/// it is assembled; what is free.
 macro_rules! entry {
     (
         $equations:literal $joint:ident $attributes:tt,

@@ -1,4 +1,5 @@
-//! Every joint, driver and force of the library as generated code, judged by the run-time assembler, by dual numbers and by mechanics.
+//! Every joint, driver and force of the library as generated code, judged by the run-time
+//! assembler, by dual numbers and by mechanics.
 
 #![forbid(unsafe_code)]
 #![recursion_limit = "256"]

@@ -37,7 +37,8 @@ pub(crate) fn screw(at: &Kinematics, body: BodyId, kind: Kind, values: &[f64]) -
     }
 }
 
-/// The motions that are free at every instant, as velocities at the origin and angular velocities that stand still in space.
+/// The motions that are free at every instant, as velocities at the origin and angular velocities
+/// that stand still in space.
 pub(crate) fn standing(instants: &[Freedom]) -> Vec<Vector6<f64>> {
     let mut beside = DMatrix::<f64>::zeros(6, 6);
     for freedom in instants {

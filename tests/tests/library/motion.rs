@@ -1,5 +1,6 @@
-//! Motions of two bodies with a joint between them: the violation stays bounded, and what the joint leaves free moves by mechanics
-//! alone. Nothing of this knows an equation of a joint: [`freedom`](crate::freedom) says what is free.
+//! Motions of two bodies with a joint between them: the violation stays bounded, and what the joint
+//! leaves free moves by mechanics alone. Nothing of this knows an equation of a joint:
+//! [`freedom`](crate::freedom) says what is free.
 
 use core::ops::ControlFlow;
 
@@ -17,7 +18,8 @@ use crate::library::{Entry, Placement, library};
 use crate::mechanics::{Screw, momentum, screw, standing};
 use crate::states::consistent;
 
-/// Less sharp than this, a motion is not looked at further: the joint is near a singular position (shafts folded back).
+/// Less sharp than this, a motion is not looked at further: the joint is near a singular position
+/// (shafts folded back).
 const SHARP: f64 = 0.2;
 
 /// How long a motion goes on (s).
@@ -60,7 +62,8 @@ impl<'a> Trial<'a> {
         (pair, freedom)
     }
 
-    /// `M u' - g` body by body: what the joint does, by the laws of Newton and Euler alone. Nothing for the ground.
+    /// `M u' - g` body by body: what the joint does, by the laws of Newton and Euler alone. Nothing
+    /// for the ground.
     fn efforts(&self, time: f64, x: &[f64], found: &Evaluated) -> [Option<Screw>; 2] {
         let accelerations = &found.rates[self.scene.coordinates()..];
         let mass = self.scene.mass();
@@ -108,7 +111,8 @@ struct Deviations {
 }
 
 impl Deviations {
-    /// What holds at an instant: free directions feel nothing of the joint, and its reactions are what moves the bodies.
+    /// What holds at an instant: free directions feel nothing of the joint, and its reactions are
+    /// what moves the bodies.
     fn instant(&mut self, trial: &Trial<'_>, time: f64, x: &[f64]) {
         /// A solution of some twenty equations, relative to the largest force or moment.
         const SOLVED: f64 = 1e-12;
@@ -175,8 +179,8 @@ impl Deviations {
     }
 }
 
-/// How many components of momentum a body keeps without gravity that is joined to the ground, the first body of the joint: the free
-/// motions about and along lines that stand still in space.
+/// How many components of momentum a body keeps without gravity that is joined to the ground, the
+/// first body of the joint: the free motions about and along lines that stand still in space.
 fn kept(name: &str) -> usize {
     if ["Distance of a particle", "PointOnPlane of a particle"].contains(&name) {
         // It moves on a great circle or a straight line, which stand still as well.
@@ -214,7 +218,8 @@ impl Deviations {
         let mut instants = Vec::new();
         let mut momenta = Vec::new();
         run(&**kernels, [start, start + DURATION], x, |time, at, _| {
-            // Where the joint is violated, its points differ and with them the moments of action and reaction.
+            // Where the joint is violated, its points differ and with them the moments of action
+            // and reaction.
             let mut exact = at.to_vec();
             make_consistent_at(scene, time, &mut exact).expect("close");
             self.instant(trial, time, &exact);

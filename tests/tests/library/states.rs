@@ -5,7 +5,8 @@ use holonom_assembler::states::{Spread, add_turns, generator, make_consistent_at
 use nalgebra::DVector;
 use rand::RngExt;
 
-/// After so many states a walk begins anew, so that it does not come to configurations in which an angle has no value.
+/// After so many states a walk begins anew, so that it does not come to configurations in which an
+/// angle has no value.
 const WALK: usize = 5;
 
 /// The latest time (s) of a state.
@@ -14,8 +15,8 @@ const LATEST: f64 = 2.0;
 /// A time (s) and `x`.
 pub(crate) type Instant = (f64, DVector<f64>);
 
-/// Random times and states on the constraints at these times, in position and velocity: walks from the initial configuration, each
-/// state corrected by the assembler's own Newton method.
+/// Random times and states on the constraints at these times, in position and velocity: walks from
+/// the initial configuration, each state corrected by the assembler's own Newton method.
 pub(crate) fn consistent(scene: &Assembler, count: usize, seed: u64) -> Vec<Instant> {
     let mut rng = generator(seed);
     let mut states = Vec::with_capacity(count);
@@ -60,7 +61,8 @@ pub(crate) fn violated(scene: &Assembler, count: usize, seed: u64, norm: f64) ->
         .collect()
 }
 
-/// The states that kernels are tried at: on the constraints, off them, and off them with `|p|` up to 5 % from 1.
+/// The states that kernels are tried at: on the constraints, off them, and off them with `|p|` up
+/// to 5 % from 1.
 pub(crate) fn all(scene: &Assembler, count: usize, seed: u64) -> Vec<Instant> {
     let mut states = consistent(scene, count, seed);
     states.extend(violated(scene, count, seed + 1, 0.0));

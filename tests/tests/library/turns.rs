@@ -1,4 +1,5 @@
-//! Angles over a hundred turns: screws, gears and racks on bearings keep their proportion without a jump, and go on after a restart.
+//! Angles over a hundred turns: screws, gears and racks on bearings keep their proportion without a
+//! jump, and go on after a restart.
 
 use core::f64::consts::TAU;
 
@@ -36,7 +37,8 @@ struct Nut {
     thread: Screw,
 }
 
-/// Two gears and a rack on a frame that turns itself, free in space: 20 and 50 teeth, and a rack on the pinion.
+/// Two gears and a rack on a frame that turns itself, free in space: 20 and 50 teeth, and a rack on
+/// the pinion.
 #[derive(Debug, Mechanism)]
 struct Train {
     #[body(mass = 4.0, inertia = [0.5, 0.6, 0.7], position = [0.0, 0.0, 0.0], angular_velocity = [0.0, 0.0, 0.7])]
@@ -198,7 +200,8 @@ fn gears_and_racks_keep_their_ratio_on_a_frame_that_turns_for_a_hundred_turns() 
     let mut steady = Steady::new(2.0 * RATE);
     let mut turned = 0.0_f64;
     over_a_hundred_turns::<Train>(state, |sample| {
-        // The angles of the hinges are those within a turn; the counters stand behind the coordinates.
+        // The angles of the hinges are those within a turn; the counters stand behind the
+        // coordinates.
         let counters = &sample.state().coordinates().as_slice()[28..];
         let [wheel, pinion, meshed] = [counters[0], counters[1], counters[2]];
         steady.take(sample.time(), pinion);
@@ -212,7 +215,8 @@ fn gears_and_racks_keep_their_ratio_on_a_frame_that_turns_for_a_hundred_turns() 
             assert!((seen.0 - counted.0).abs() < ERROR && (seen.1 - counted.1).abs() < ERROR);
         }
         assert!((sample.energy() - energy).abs() < 1e-6 * energy);
-        // What the gear does to wheel and pinion is in balance at their ratio, along the axis and nothing else but what the frame takes.
+        // What the gear does to wheel and pinion is in balance at their ratio, along the axis and
+        // nothing else but what the frame takes.
         let on = |body| sample.reaction(handles.gear, body).expect("regular");
         let [on_pinion, on_wheel, on_frame] =
             [handles.pinion, handles.wheel, handles.frame].map(on);
@@ -249,7 +253,8 @@ struct Ball {
     spring: TorsionalSpringDamper,
 }
 
-/// Coarse steps let orientation and counter part, by a turn within a minute or two: the count follows the orientation.
+/// Coarse steps let orientation and counter part, by a turn within a minute or two: the count
+/// follows the orientation.
 #[test]
 fn a_counter_stays_with_its_angle() {
     const STEP: f64 = 0.02;

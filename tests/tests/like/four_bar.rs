@@ -168,8 +168,8 @@ impl Random {
     }
 }
 
-/// A linkage, and its state at the end of a sweep from the lengths that are typical, each assembled from
-/// the one before.
+/// A linkage, and its state at the end of a sweep from the lengths that are typical, each assembled
+/// from the one before.
 fn reached(lengths: [f64; 4]) -> Result<(FourBar, <FourBar as Mechanism>::State<f64>), Fault> {
     const STEPS: u32 = 10;
     const TYPICAL: [f64; 4] = [0.25, 0.9, 0.6, 0.9];

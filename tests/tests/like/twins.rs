@@ -4,8 +4,8 @@
 use holonom::prelude::*;
 use holonom::{Array, Dynamics, JointCoordinates, JointDynamics, Scheme, StateParts};
 
-/// Positions and velocities of rigid bodies after some steps from the assembled start, by bodies and
-/// by joints.
+/// Positions and velocities of rigid bodies after some steps from the assembled start, by bodies
+/// and by joints.
 pub(crate) fn runs<M: JointCoordinates>(
     mechanism: &M,
     (step, steps): (f64, u32),

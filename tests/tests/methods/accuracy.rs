@@ -1,4 +1,5 @@
-//! What a step costs in accuracy: pairs that are turned by the increments of their angles are as good as the angles.
+//! What a step costs in accuracy: pairs that are turned by the increments of their angles are as
+//! good as the angles.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,4 +1,5 @@
-//! Every method of integration on mechanisms of every kind, in both descriptions: the same motion, as exactly as was asked for.
+//! Every method of integration on mechanisms of every kind, in both descriptions: the same motion,
+//! as exactly as was asked for.
 
 use holonom::prelude::*;
 use holonom::{
@@ -77,7 +78,8 @@ fn moves_alike<M: JointCoordinates + Default>(end: f64) {
     );
 }
 
-/// With room on the stack for the matrices of implicit methods, which code that is not optimised copies.
+/// With room on the stack for the matrices of implicit methods, which code that is not optimised
+/// copies.
 fn with_room(moves: fn()) {
     let thread = std::thread::Builder::new().stack_size(1 << 26);
     let moving = thread.spawn(moves).expect("a thread");
@@ -109,7 +111,8 @@ fn loops_move_alike() {
     });
 }
 
-/// Explicit steps are short there, and implicit ones by fixed points do not converge at longer ones.
+/// Explicit steps are short there, and implicit ones by fixed points do not converge at longer
+/// ones.
 #[test]
 fn stiff_ones_move_alike() {
     with_room(|| moves_alike::<FlyballGovernor>(0.05));

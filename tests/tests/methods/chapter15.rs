@@ -1,5 +1,5 @@
-//! Chapter 15 of Flores (2015): four formulations on one pendulum, 10 s, `ode45` at 1e-6 and 1e-9, reports every 0.02 s, Euler
-//! parameters read as the chapter's programs do.
+//! Chapter 15 of Flores (2015): four formulations on one pendulum, 10 s, `ode45` at 1e-6 and 1e-9,
+//! reports every 0.02 s, Euler parameters read as the chapter's programs do.
 
 use holonom::Chapter15;
 use holonom::prelude::*;
@@ -50,7 +50,8 @@ fn run<F: Formulation<f64>>(method: F) -> Run {
     }
 }
 
-/// Counts of table 15.3 and what they may differ by: another order of summation moves a step across the bound of the control.
+/// Counts of table 15.3 and what they may differ by: another order of summation moves a step across
+/// the bound of the control.
 #[track_caller]
 fn count(run: &Run, expected: usize, published: usize, tolerance: f64) {
     assert_eq!(run.evaluations, expected);

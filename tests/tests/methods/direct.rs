@@ -1,4 +1,5 @@
-//! The direct correction against the pseudo-inverse of a dense Jacobian, and where equations depend on each other.
+//! The direct correction against the pseudo-inverse of a dense Jacobian, and where equations depend
+//! on each other.
 
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
@@ -25,7 +26,8 @@ fn jacobian<M: Mechanism>(constants: &M::Constants<f64>, state: &M::State<f64>) 
     dense
 }
 
-/// The least `d` with `D d = -violation`, a square of a rotation counting `turn`, by singular values; those below 1e-10 of the largest are none.
+/// The least `d` with `D d = -violation`, a square of a rotation counting `turn`, by singular
+/// values; those below 1e-10 of the largest are none.
 fn least(jacobian: &DMatrix<f64>, violation: &[f64], metric: &DVector<f64>) -> DVector<f64> {
     let roots = metric.map(f64::sqrt);
     let scaled = DMatrix::from_fn(jacobian.nrows(), jacobian.ncols(), |row, column| {
@@ -89,7 +91,8 @@ fn displaced<S: Real, M: Mechanism>(model: &M, size: f64, seed: u64) -> M::State
     state
 }
 
-/// The largest differences, of coordinates and of velocities, from the pseudo-inverse, over the size of the displacement.
+/// The largest differences, of coordinates and of velocities, from the pseudo-inverse, over the
+/// size of the displacement.
 fn differences<M: Mechanism>(model: &M, size: f64) -> [f64; 2] {
     let constants = model.constants::<f64>().expect("sound");
     let mut largest = [0.0_f64; 2];

@@ -202,7 +202,8 @@ struct Oscillator {
     spring: SpringDamper,
 }
 
-/// The same whose spring is fixed a hundred metres away: the force is linear wherever an iteration leads.
+/// The same whose spring is fixed a hundred metres away: the force is linear wherever an iteration
+/// leads.
 #[derive(Mechanism)]
 struct LinearOscillator {
     #[body(mass = 1.0, position = [1.0, 0.0, 0.0])]
@@ -234,7 +235,8 @@ fn energy_after(rho: f64, step: f64, steps: u32) -> f64 {
     last
 }
 
-/// Position (m from its rest) and velocity after so many steps of the linear recurrence that the method is for `q'' = -w^2 q`, from 1 cm at rest.
+/// Position (m from its rest) and velocity after so many steps of the linear recurrence that the
+/// method is for `q'' = -w^2 q`, from 1 cm at rest.
 fn by_recurrence(rho: f64, frequency: f64, step: f64, steps: u32) -> [f64; 2] {
     let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
     let gamma = 0.5 + alpha_f - alpha_m;
@@ -271,7 +273,8 @@ fn springs_are_followed_or_damped_as_the_theory_has_it_however_stiff() {
     }
 }
 
-/// The spring of a metre pushes to either side of its end: a step that is long for it has two solutions, and which one is found the run must not leave without a doubt.
+/// The spring of a metre pushes to either side of its end: a step that is long for it has two
+/// solutions, and which one is found the run must not leave without a doubt.
 #[test]
 fn steps_with_two_solutions_are_doubted() {
     for rho in [0.0, 0.5, 0.8, 1.0] {
@@ -309,7 +312,8 @@ fn slow_motions_lose_what_is_said_of_them() {
     }
 }
 
-/// The dampers of the governor decay with 8117 1/s: at steps eighty times as long it goes on as it does by the method of Radau.
+/// The dampers of the governor decay with 8117 1/s: at steps eighty times as long it goes on as it
+/// does by the method of Radau.
 #[test]
 fn stiff_dampers_do_not_bound_its_steps() {
     let governor = FlyballGovernor::default();
@@ -460,7 +464,8 @@ fn settings_that_make_no_sense_are_refused() {
     }
 }
 
-/// Steps from good ones to such as nothing can be said of: a run is right, or doubted, or ends with a fault and its last good state.
+/// Steps from good ones to such as nothing can be said of: a run is right, or doubted, or ends with
+/// a fault and its last good state.
 #[test]
 fn long_steps_end_with_a_fault_or_are_doubted() {
     let rod = RodPendulum::default();

@@ -1,4 +1,5 @@
-//! Methods for controllers: their orders and costs in both descriptions, and an augmented Lagrangian of a cost that is known in advance.
+//! Methods for controllers: their orders and costs in both descriptions, and an augmented
+//! Lagrangian of a cost that is known in advance.
 
 use holonom::prelude::*;
 use holonom::{
@@ -104,7 +105,8 @@ fn coordinates_move_by_the_velocities_at_the_end() {
     moves_by_new_velocities::<FlyballGovernor>();
 }
 
-/// Over 100 s the energy swings and comes back; the explicit method of the same order would gain all that it has.
+/// Over 100 s the energy swings and comes back; the explicit method of the same order would gain
+/// all that it has.
 #[test]
 fn semi_implicit_euler_does_not_drift() {
     let rod = RodPendulum::default();

@@ -10,7 +10,8 @@ use nalgebra::Vector4;
 
 use crate::pendulum::{SWINGS, Swing, final_swing};
 
-/// How far the slope of two errors may be from the order: the next term of the expansion, at the steps taken.
+/// How far the slope of two errors may be from the order: the next term of the expansion, at the
+/// steps taken.
 const SLACK: f64 = 0.25;
 
 /// The observed orders of a method between steps that are halved.
@@ -35,8 +36,9 @@ const fn halved(step: f64) -> [f64; 4] {
     [step, step / 2.0, step / 4.0, step / 8.0]
 }
 
-/// The error of the pendulum at an instant against the closed form: of angle and rate, the latter over the frequency of small
-/// oscillations. The angle alone would not do, close to where the rod turns back.
+/// The error of the pendulum at an instant against the closed form: of angle and rate, the latter
+/// over the frequency of small oscillations. The angle alone would not do, close to where the rod
+/// turns back.
 fn of_the_pendulum<P: Orientation>(
     method: impl Formulation<f64>,
     integrator: impl Integrator<f64>,
@@ -52,7 +54,8 @@ fn rk4<P: Orientation>(method: impl Formulation<f64>) {
     has_order(4.0, orders(halved(1.0 / 128.0), error));
 }
 
-/// At 5 s: earlier the error of order 5 is so small that, with stabilising terms, that of order 6 hides it.
+/// At 5 s: earlier the error of order 5 is so small that, with stabilising terms, that of order 6
+/// hides it.
 fn dormand_prince<P: Orientation>(method: impl Formulation<f64>) -> [f64; 3] {
     let error = |step| of_the_pendulum::<P>(method, DormandPrince::every(step), SWINGS[1]);
     orders(halved(1.0 / 50.0), error)
@@ -71,13 +74,15 @@ fn dormand_prince_has_order_5_on_the_pendulum() {
     has_order(5.0, dormand_prince::<Normalised>(StandardLagrange));
     has_order(5.0, dormand_prince::<Raw>(StandardLagrange));
     has_order(5.0, dormand_prince::<Normalised>(Baumgarte::default()));
-    // Here the stabilising terms are so fast that the error of order 6 is the larger one at any step above round-off.
+    // Here the stabilising terms are so fast that the error of order 6 is the larger one at any
+    // step above round-off.
     let observed = dormand_prince::<Normalised>(AugmentedLagrangian::default());
     println!("orders {observed:?}");
     assert!(observed.iter().all(|&order| order >= 5.0 - SLACK));
 }
 
-/// The heavy top at 0.2 s: independent integrations (Gauss and DOP853 in minimal coordinates) agree to 14 digits.
+/// The heavy top at 0.2 s: independent integrations (Gauss and DOP853 in minimal coordinates) agree
+/// to 14 digits.
 const TOP: [f64; 4] = [
     -0.708_279_152_974_32,
     0.438_781_088_126_574,
@@ -141,7 +146,8 @@ fn methods_of_fixed_steps_have_their_order_on_the_pendulum_and_on_the_heavy_top(
     has_its_order_on_both!(Heun, 2.0, 1.0 / 1024.0, 1e-4);
     has_its_order_on_both!(ImplicitMidpoint, 2.0, 1.0 / 512.0, 1e-4);
     has_its_order_on_both!(BogackiShampine, 3.0, 1.0 / 512.0, 1e-4);
-    // Of the pendulum its error of order 4 is so small that those of order 5 and of the start take turns with it.
+    // Of the pendulum its error of order 4 is so small that those of order 5 and of the start take
+    // turns with it.
     let swing = |step| {
         let method = AdamsBashforthMoulton4::every(step);
         of_the_pendulum::<Normalised>(StandardLagrange, method, SWINGS[0])
@@ -208,7 +214,8 @@ fn methods_with_control_of_steps_have_their_order_on_the_heavy_top() {
     }
 }
 
-/// A tolerance a thousand times smaller is an error a hundred times smaller at least, by orders that go along with it.
+/// A tolerance a thousand times smaller is an error a hundred times smaller at least, by orders
+/// that go along with it.
 #[test]
 fn methods_of_many_orders_follow_their_tolerance_on_the_heavy_top() {
     let adams = |relative| top_and_steps(Adams::new(tolerance(relative)));

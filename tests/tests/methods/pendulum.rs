@@ -14,8 +14,8 @@ pub(crate) struct Swing {
     pub(crate) rate: f64,
 }
 
-/// The closed form in elliptic functions, to the last digit: `I phi'' = -m g d sin(phi)` from `phi = pi / 2` at rest, `I = 2.3405265`
-/// kg m^2, `m = 7.02` kg, `d = 0.5` m, `g = 9.81` m/s^2.
+/// The closed form in elliptic functions, to the last digit: `I phi'' = -m g d sin(phi)` from
+/// `phi = pi / 2` at rest, `I = 2.3405265` kg m^2, `m = 7.02` kg, `d = 0.5` m, `g = 9.81` m/s^2.
 pub(crate) const SWINGS: [Swing; 3] = [
     Swing {
         time: 1.0,

@@ -5,7 +5,8 @@ use holonom_models::RodPendulum;
 
 use crate::pendulum::{SWINGS, angle};
 
-/// The angle at 1 s: round-off of 6e-8 a step over 200 steps, which the motion magnifies a few times.
+/// The angle at 1 s: round-off of 6e-8 a step over 200 steps, which the motion magnifies a few
+/// times.
 const ROUND_OFF: f64 = 2e-4;
 
 fn swings<F: Formulation<f32>>(method: F) {

@@ -3,7 +3,8 @@
 use holonom::joints::{DisplacementDriver, Distance, PointOnLine, PointOnPlane};
 use holonom::prelude::*;
 
-/// An arm of two links of 0.5 m whose hand is driven along x at 0.2 m/s, from 0.6 m on: beyond its reach after 2 s.
+/// An arm of two links of 0.5 m whose hand is driven along x at 0.2 m/s, from 0.6 m on: beyond its
+/// reach after 2 s.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0])]
 pub(crate) struct Arm {
@@ -28,8 +29,8 @@ pub(crate) struct Arm {
     pull: DisplacementDriver,
 }
 
-/// The stretched arm is singular, and what its links lack in length is a self-stress, which a correction excuses on the
-/// way through: but not for long.
+/// The stretched arm is singular, and what its links lack in length is a self-stress, which a
+/// correction excuses on the way through: but not for long.
 #[test]
 fn an_arm_pulled_beyond_its_reach_stops() {
     let arm = Arm::default();
@@ -53,7 +54,8 @@ fn an_arm_pulled_beyond_its_reach_stops() {
     );
 }
 
-/// With rigid constraints nothing yields: the accelerations grow without bound, and the step control gives up.
+/// With rigid constraints nothing yields: the accelerations grow without bound, and the step
+/// control gives up.
 #[test]
 fn a_step_control_that_gives_up_names_the_joint() {
     let arm = Arm::default();

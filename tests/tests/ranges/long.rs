@@ -13,7 +13,8 @@ struct Spinning {
     body: Body,
 }
 
-/// Whether a run is doubted, and the largest change of energy (of what it exchanges) that the observer saw.
+/// Whether a run is doubted, and the largest change of energy (of what it exchanges) that the
+/// observer saw.
 fn long<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
     model: &M,
     (method, integrator, projected): (F, I, bool),
@@ -93,7 +94,8 @@ fn a_tight_run_is_trusted() {
     assert!(report.doubts().is_empty(), "{}", report.doubts());
 }
 
-/// Changes of energy that seven digits do not show shift the phase of a long motion: by 0.05 rad after 10^4 s of a pendulum at h = 0.01.
+/// Changes of energy that seven digits do not show shift the phase of a long motion: by 0.05 rad
+/// after 10^4 s of a pendulum at h = 0.01.
 #[test]
 fn what_single_precision_cannot_tell_is_doubted() {
     let rod = RodPendulum::default();

@@ -1,5 +1,6 @@
-//! One mechanism from a micrometre to a kilometre, from a milligram to a kilotonne, at the origin and 1000 km from it, with the defaults of every
-//! formulation: its motion is the same in proportion, or the run refuses, or its report doubts it.
+//! One mechanism from a micrometre to a kilometre, from a milligram to a kilotonne, at the origin
+//! and 1000 km from it, with the defaults of every formulation: its motion is the same in
+//! proportion, or the run refuses, or its report doubts it.
 
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
@@ -117,7 +118,8 @@ const UNIT: Scale = Scale {
     offset: 0.0,
 };
 
-/// The displacement of the body over 2.2 times the square root of the size in metres, in sizes, and whether it is doubted; `None` where it is refused.
+/// The displacement of the body over 2.2 times the square root of the size in metres, in sizes, and
+/// whether it is doubted; `None` where it is refused.
 fn displacement<M: Scaled, F: Formulation<f64>>(
     scale: Scale,
     method: F,

@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy, difference_after};
 
-/// `P3` (m) at 1, 2, 5 and 10 s: by two integrations of the reduced model (one angle) that agree to 2e-13.
+/// `P3` (m) at 1, 2, 5 and 10 s: by two integrations of the reduced model (one angle) that agree to
+/// 2e-13.
 const TIMES: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 const P3: [[f64; 3]; 4] = [
     [

@@ -5,8 +5,8 @@ use holonom::{Dynamics, Pose, StateParts};
 use holonom_models::CartPole;
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// `theta''` (rad/s^2) and `x''` (m/s^2): Florian, *Correct equations for the dynamics of the cart-pole system*, 2007, equations 23 and 24, without
-/// friction.
+/// `theta''` (rad/s^2) and `x''` (m/s^2): Florian, *Correct equations for the dynamics of the
+/// cart-pole system*, 2007, equations 23 and 24, without friction.
 fn closed_form(push: f64, angle: f64, rate: f64) -> [f64; 2] {
     const G: f64 = 9.81;
     const CART: f64 = 1.0;

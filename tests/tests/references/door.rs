@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy, difference, difference_after};
 
-/// `phi'' = -w0^2 sin(phi)` from `pi/2` at rest, `w0^2 = 3.19204613912414751` 1/s^2, in elliptic functions: `phi` (rad)
-/// and `phi'` (rad/s) at 10 s.
+/// `phi'' = -w0^2 sin(phi)` from `pi/2` at rest, `w0^2 = 3.19204613912414751` 1/s^2, in elliptic
+/// functions: `phi` (rad) and `phi'` (rad/s) at 10 s.
 const PHI: f64 = -1.343_747_101_212_868;
 const RATE: f64 = -1.198_783_255_920_019;
 

@@ -15,9 +15,9 @@ fn law(time: f64) -> [f64; 3] {
     ]
 }
 
-/// The moment of the motor (N m): with lengths `r` and `l` of crank and rod, and `beta` the angle of the rod, `r
-/// sin(theta) + l sin(beta) = 0`, all velocities are `theta'` times functions of `theta`. The power of the moment is
-/// that of the inertia and of gravity.
+/// The moment of the motor (N m): with lengths `r` and `l` of crank and rod, and `beta` the angle
+/// of the rod, `r sin(theta) + l sin(beta) = 0`, all velocities are `theta'` times functions of
+/// `theta`. The power of the moment is that of the inertia and of gravity.
 fn moment(time: f64) -> f64 {
     const R: f64 = 0.153;
     const L: f64 = 0.306;
@@ -32,8 +32,8 @@ fn moment(time: f64) -> f64 {
     // beta' = b theta', and db = db/dtheta.
     let b = -R / L * cosine / cosine_of_rod;
     let db = (R / L * sine + b * b * sine_of_rod) / cosine_of_rod;
-    // The centre of the rod: x = r cos(theta) + l/2 cos(beta), y = r sin(theta) + l/2 sin(beta); first and second
-    // derivatives by theta.
+    // The centre of the rod: x = r cos(theta) + l/2 cos(beta), y = r sin(theta) + l/2 sin(beta);
+    // first and second derivatives by theta.
     let x = -R * sine - L / 2.0 * sine_of_rod * b;
     let dx = -R * cosine - L / 2.0 * (cosine_of_rod * b * b + sine_of_rod * db);
     let y = R * cosine + L / 2.0 * cosine_of_rod * b;

@@ -1,7 +1,8 @@
 //! C03: what explicit methods do to Euler parameters at a constant angular velocity.
 //!
-//! `p' = 1/2 L(p)^T w` turns `p` in two planes at half the rate of the body. With `z = |w| h / 2` a step of a method multiplies each of them, as a complex number, by the
-//! stability polynomial `R(i z)`: `|p|^2` by `|R(i z)|^2`, and half the angle comes out too large by `arg R(i z) - z`.
+//! `p' = 1/2 L(p)^T w` turns `p` in two planes at half the rate of the body. With `z = |w| h / 2` a
+//! step of a method multiplies each of them, as a complex number, by the stability polynomial
+//! `R(i z)`: `|p|^2` by `|R(i z)|^2`, and half the angle comes out too large by `arg R(i z) - z`.
 
 use holonom::prelude::*;
 use holonom::{
@@ -11,7 +12,8 @@ use holonom::{
 
 use super::difference;
 
-/// A stability polynomial: its coefficients at `z^0`, `z^1`, .., and `|R(i z)|^2 - 1`, which has no digits left where it is made of those.
+/// A stability polynomial: its coefficients at `z^0`, `z^1`, .., and `|R(i z)|^2 - 1`, which has no
+/// digits left where it is made of those.
 struct Polynomial {
     coefficients: &'static [f64],
     gain: fn(f64) -> f64,
@@ -37,7 +39,8 @@ const FOURTH: Polynomial = Polynomial {
     coefficients: &[1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0],
     gain: |z| -z.powi(6) / 72.0 + z.powi(8) / 576.0,
 };
-/// Of Dormand and Prince's six stages of order 5 (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.2).
+/// Of Dormand and Prince's six stages of order 5 (Hairer and Wanner, *Solving Ordinary Differential
+/// Equations II*, IV.2).
 const FIFTH: Polynomial = Polynomial {
     coefficients: &[
         1.0,
@@ -64,7 +67,8 @@ impl Polynomial {
     }
 }
 
-/// `p (0, axis)`, the product of quaternions: `p'` of twice a unit of angular velocity in the axes of the body.
+/// `p (0, axis)`, the product of quaternions: `p'` of twice a unit of angular velocity in the axes
+/// of the body.
 fn along(p: [f64; 4], [x, y, z]: [f64; 3]) -> [f64; 4] {
     let [e, a, b, c] = p;
     [
@@ -79,7 +83,8 @@ fn dot(p: [f64; 4], q: [f64; 4]) -> f64 {
     p.iter().zip(&q).map(|(p, q)| p * q).sum()
 }
 
-/// `|p|^2`, and how much half of the angle (rad, -pi to pi) is too large after a turn from `start` by twice `half` (rad) about an axis.
+/// `|p|^2`, and how much half of the angle (rad, -pi to pi) is too large after a turn from `start`
+/// by twice `half` (rad) about an axis.
 fn compared(start: [f64; 4], axis: [f64; 3], half: f64, p: [f64; 4]) -> [f64; 2] {
     let (sine, cosine) = half.sin_cos();
     let ahead = along(start, axis);
@@ -93,10 +98,12 @@ const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const STEP: f64 = 1e-3;
 /// Ten seconds.
 const STEPS: u32 = 10_000;
-/// Every step rounds, now up and now down: what that adds up to goes with the square root of their number, a hundred. Ten times as much is allowed.
+/// Every step rounds, now up and now down: what that adds up to goes with the square root of their
+/// number, a hundred. Ten times as much is allowed.
 const ROUND_OFF: f64 = 10.0 * 100.0 * f64::EPSILON;
 
-/// The rates of Euler parameters at a constant angular velocity (rad/s, axes of the body), which is no part of the state.
+/// The rates of Euler parameters at a constant angular velocity (rad/s, axes of the body), which is
+/// no part of the state.
 struct Turning {
     axis: [f64; 3],
     speed: f64,
@@ -181,8 +188,9 @@ fn of_a_ball<K: Scheme<f64>>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4] 
     euler_parameters(&stepper.bodies(&state))
 }
 
-/// Ten seconds about every axis: Euler parameters alone and of a body, as they are and brought to length 1 after every step, against `|p|^2 - 1` and the error of half the
-/// angle (rad) that are returned.
+/// Ten seconds about every axis: Euler parameters alone and of a body, as they are and brought to
+/// length 1 after every step, against `|p|^2 - 1` and the error of half the angle (rad) that are
+/// returned.
 fn drifts<K: Scheme<f64>>(scheme: K, polynomial: &Polynomial, speed: f64) -> [f64; 2] {
     let steps = f64::from(STEPS);
     let z = 0.5 * speed * STEP;
@@ -203,7 +211,8 @@ fn drifts<K: Scheme<f64>>(scheme: K, polynomial: &Polynomial, speed: f64) -> [f6
             ("ball", 1.0, of_a_ball(scheme, axis, speed)),
         ] {
             let [found, angle] = compared(START, axis, z * steps, p);
-            // Of a ball, `p` comes out of joint coordinates with either sign: half the angle counts modulo half a turn.
+            // Of a ball, `p` comes out of joint coordinates with either sign: half the angle counts
+            // modulo half a turn.
             let times = if what == "ball" { 2.0 } else { 1.0 };
             let angle = difference(times * angle, times * ahead) / times;
             let off = [found / square - 1.0, angle];

@@ -9,7 +9,8 @@ use holonom_tests::IS_EXHAUSTIVE;
 
 use super::{at_times, simpson, tight};
 
-/// The height of the slider (m): by Radau and by Dormand-Prince 8(5,3) in minimal coordinates, which agree to 5e-13.
+/// The height of the slider (m): by Radau and by Dormand-Prince 8(5,3) in minimal coordinates,
+/// which agree to 5e-13.
 const TIMES: [f64; 5] = [0.5, 1.0, 2.0, 5.0, 10.0];
 const HEIGHT: [f64; 5] = [
     0.743_249_424_786_323,
@@ -144,7 +145,8 @@ fn the_work_of_the_dampers_is_what_the_energy_loses() {
 
 #[test]
 fn it_keeps_its_angular_momentum() {
-    // About the free axis: shaft and slider (their inertia about z), and the arms as they stand out.
+    // About the free axis: shaft and slider (their inertia about z), and the arms as they stand
+    // out.
     const MOMENTUM: f64 = 53.868_998_658_418_4;
     let h = FlyballGovernor::HANDLES;
     at_times(

@@ -8,9 +8,9 @@ use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy, tight};
 
-/// The angle of the upright links (rad, clockwise from the vertical) and its rate, of `J theta'' = P g sin(theta)` from
-/// 0 at 1 rad/s: by Taylor series with 25 digits. The links lie on one line for the first time at 0.70845 s (N = 1) and
-/// at 0.71436 s (N = 2).
+/// The angle of the upright links (rad, clockwise from the vertical) and its rate, of
+/// `J theta'' = P g sin(theta)` from 0 at 1 rad/s: by Taylor series with 25 digits. The links lie
+/// on one line for the first time at 0.70845 s (N = 1) and at 0.71436 s (N = 2).
 const BEFORE_THE_LINE: f64 = 0.6;
 const FOUR_BAR: [f64; 2] = [1.101_331_653_789_664_7, 3.727_262_255_078_558];
 const DOUBLE: [f64; 2] = [1.085_051_792_735_480_4, 3.633_650_594_187_656];
@@ -102,8 +102,8 @@ fn the_energy_stays() {
     );
 }
 
-/// Position (m) and velocity (m/s) of the pin after five turns in 10 s and ten times on a line, and the largest change of
-/// the energy (J) on the way.
+/// Position (m) and velocity (m/s) of the pin after five turns in 10 s and ten times on a line, and
+/// the largest change of the energy (J) on the way.
 fn five_turns<M: Mechanism, F: Formulation<f64>, I: Integrator<f64> + Copy>(
     model: &M,
     (left, reference): (BodyHandle<M>, [f64; 4]),
@@ -143,7 +143,8 @@ fn passes<M: Mechanism>(model: &M, pin: (BodyHandle<M>, [f64; 4])) {
     let corrected = Some(Projection::default());
     let [position, velocity, energy] = five_turns(model, pin, augmented, tight(), corrected);
     assert!(position <= ASKED && velocity <= 4.0 * ASKED && energy <= ASKED);
-    // Some stages fall upon the lines, where rates are those of a penalty: with an error of their own, but on the right way.
+    // Some stages fall upon the lines, where rates are those of a penalty: with an error of their
+    // own, but on the right way.
     let all = [4e-3, 2e-3, 1.1e-3, 7e-4, 3.3e-4];
     for &step in &all[..if IS_EXHAUSTIVE { all.len() } else { 2 }] {
         let steps = Rk4::every(step);

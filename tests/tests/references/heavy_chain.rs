@@ -42,8 +42,9 @@ fn the_bob_swings_with_coefficients_that_follow_from_its_mass() {
 
 #[test]
 fn a_penalty_too_small_for_the_bob_is_not_excused() {
-    // The tensions of four links carry 1000 kg across masses of 1 g: nearly cancelling accelerations, not forces. The
-    // augmented Lagrangian with 100 kg gains a percent of them in an iteration.
+    // The tensions of four links carry 1000 kg across masses of 1 g: nearly cancelling
+    // accelerations, not forces. The augmented Lagrangian with 100 kg gains a percent of them in an
+    // iteration.
     let weak = AugmentedLagrangian::new(100.0, 10.0, 1.0);
     let error = Simulation::new(&HeavyChain::default(), weak, Rk4::every(1e-4))
         .run(0.0..=0.01, every(0.01), |_| ControlFlow::Continue(()))

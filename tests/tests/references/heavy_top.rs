@@ -6,9 +6,9 @@ use nalgebra::{Vector3, Vector4};
 
 use super::{at_times, change_of_energy};
 
-/// Position (m), Euler parameters, angular velocity (rad/s, body axes) and the force of the tip on the top (N): by
-/// independent integrations in minimal coordinates that agree to 6e-12, and to the digits given in Brüls, Cardona and
-/// Arnold 2012.
+/// Position (m), Euler parameters, angular velocity (rad/s, body axes) and the force of the tip on
+/// the top (N): by independent integrations in minimal coordinates that agree to 6e-12, and to the
+/// digits given in Brüls, Cardona and Arnold 2012.
 struct Top {
     position: [f64; 3],
     euler: [f64; 4],

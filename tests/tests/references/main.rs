@@ -1,5 +1,5 @@
-//! Motion and reactions against closed forms and published references, problem by problem; what a model gains and loses
-//! in energy.
+//! Motion and reactions against closed forms and published references, problem by problem; what a
+//! model gains and loses in energy.
 
 #![forbid(unsafe_code)]
 
@@ -35,11 +35,12 @@ fn tight() -> DormandPrince<f64> {
     })
 }
 
-/// Runs with [`tight`] steps to the last of these times (s, growing, multiples of `step`), shows the samples at them
-/// with their place, and holds the violation of the constraints at every multiple of `step` under `violation` (`Phi^T
-/// Phi`).
+/// Runs with [`tight`] steps to the last of these times (s, growing, multiples of `step`), shows
+/// the samples at them with their place, and holds the violation of the constraints at every
+/// multiple of `step` under `violation` (`Phi^T Phi`).
 ///
-/// In both descriptions, but where a formulation iterates, which `descriptions` has by joints and which takes long to compile; the report is that of the bodies.
+/// In both descriptions, but where a formulation iterates, which `descriptions` has by joints and
+/// which takes long to compile; the report is that of the bodies.
 fn at_times<M: JointCoordinates, F: Formulation<f64>>(
     model: &M,
     method: F,
@@ -48,7 +49,8 @@ fn at_times<M: JointCoordinates, F: Formulation<f64>>(
     mut look: impl FnMut(usize, &Sample<'_, f64, M>),
 ) -> RunReport<f64, M> {
     let end = times.last().copied().expect("a time");
-    // An angle has no size: a tolerance that is relative to positions of some centimetres asks for more than the same one in radians.
+    // An angle has no size: a tolerance that is relative to positions of some centimetres asks for
+    // more than the same one in radians.
     let tighter = DormandPrince::new(Tolerance {
         relative: 1e-12,
         absolute: 1e-13,
@@ -106,7 +108,8 @@ fn change_of_energy<M: Mechanism, F: Formulation<f64>>(
     worst
 }
 
-/// The largest difference of coordinates and velocities from those of the start, after a run with [`tight`] steps.
+/// The largest difference of coordinates and velocities from those of the start, after a run with
+/// [`tight`] steps.
 fn difference_after<M: Mechanism>(model: &M, period: f64) -> f64 {
     let first = model.described_state().expect("described");
     let report = Simulation::new(model, Baumgarte::default(), tight())

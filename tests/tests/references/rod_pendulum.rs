@@ -7,7 +7,8 @@ use nalgebra::Vector3;
 use super::{at_times, change_of_energy, difference, difference_after, tight};
 use crate::pendulum::{SWINGS, angle, final_swing};
 
-/// The force (N) of the hinge on the rod at these instants, along the rod towards the hinge and across it in the direction of growing `phi`: closed forms as well.
+/// The force (N) of the hinge on the rod at these instants, along the rod towards the hinge and
+/// across it in the direction of growing `phi`: closed forms as well.
 const FORCES: [[f64; 2]; 3] = [
     [1.397_699_173_704_197, -17.227_600_661_249_58],
     [34.656_553_861_985_28, -16.875_412_913_594_165],

@@ -1,4 +1,5 @@
-//! A02 with five windows: ten times through a singular configuration with six ways to go on, in both descriptions.
+//! A02 with five windows: ten times through a singular configuration with six ways to go on, in
+//! both descriptions.
 
 use holonom::Integrator;
 use holonom::prelude::*;
@@ -12,13 +13,16 @@ use super::{change_of_energy, tight};
 
 /// The error that is asked of the state (m and m/s, of 2 m and 4 m/s).
 const ASKED: f64 = 1e-4;
-/// Two rods (m) that part by more are none of a parallelogram: a projection leaves round-off, on another way they part by up to 2 m.
+/// Two rods (m) that part by more are none of a parallelogram: a projection leaves round-off, on
+/// another way they part by up to 2 m.
 const PARALLEL: f64 = 1e-10;
 
-/// The largest error of place (m) and velocity (m/s) of the top left pin, together, in ten seconds against the closed form, every 0.1 s.
+/// The largest error of place (m) and velocity (m/s) of the top left pin, together, in ten seconds
+/// against the closed form, every 0.1 s.
 ///
-/// With a projection after every step: without one a violation decides which way the mechanism goes on, and standard multipliers, penalty and augmented Lagrangian of most
-/// settings leave the way of the parallelograms or are refused (the run is doubted, or ends with a fault).
+/// With a projection after every step: without one a violation decides which way the mechanism goes
+/// on, and standard multipliers, penalty and augmented Lagrangian of most settings leave the way of
+/// the parallelograms or are refused (the run is doubted, or ends with a fault).
 fn error<F: Formulation<f64>, I: Integrator<f64> + Copy>(
     by_joints: bool,
     method: F,
@@ -72,7 +76,8 @@ fn errors<F: Formulation<f64>>(method: F, step: f64) -> [f64; 2] {
     })
 }
 
-/// Fixed steps of which no stage falls upon a line, where multipliers are not determined: step control from 1e-8 down comes as near as that, and is refused.
+/// Fixed steps of which no stage falls upon a line, where multipliers are not determined: step
+/// control from 1e-8 down comes as near as that, and is refused.
 #[test]
 fn standard_multipliers_pass() {
     for &step in tried(&[5.5e-3, 4e-3, 2e-3]) {
@@ -85,7 +90,8 @@ fn standard_multipliers_pass() {
     }
 }
 
-/// A penalty has an error of its own on the lines, which falls with the step: 2.4e-4 of 2 ms by bodies are too much.
+/// A penalty has an error of its own on the lines, which falls with the step: 2.4e-4 of 2 ms by
+/// bodies are too much.
 #[test]
 fn penalties_pass_by_short_steps() {
     for &step in tried(&[1.1e-3, 7e-4]) {
@@ -94,7 +100,8 @@ fn penalties_pass_by_short_steps() {
     }
 }
 
-/// By bodies the default `alpha` of 1e7 kg, which does for two windows, does not converge in 20 iterations near the lines of five: ten times as much does, or 100 iterations.
+/// By bodies the default `alpha` of 1e7 kg, which does for two windows, does not converge in 20
+/// iterations near the lines of five: ten times as much does, or 100 iterations.
 #[test]
 fn an_augmented_lagrangian_passes_with_a_larger_alpha() {
     let default = AugmentedLagrangian::default();

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy, difference_after};
 
-/// `sin(phi/2) = sin(phi0/2) cd(w0 t)` from `phi0 = -pi/2`, `w0 = sqrt(9.81)` 1/s: `x`, `y` (m), `x'`, `y'` (m/s), to
-/// the last digit.
+/// `sin(phi/2) = sin(phi0/2) cd(w0 t)` from `phi0 = -pi/2`, `w0 = sqrt(9.81)` 1/s: `x`, `y` (m),
+/// `x'`, `y'` (m/s), to the last digit.
 const MOTION: [(f64, [f64; 4]); 2] = [
     (
         9.99,

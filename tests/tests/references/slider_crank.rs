@@ -5,8 +5,8 @@ use holonom_models::SliderCrank;
 
 use super::{angle_about_z, at_times, change_of_energy, difference};
 
-/// At 0.1 s and 0.2 s: angle (rad) and rate (rad/s) of the crank, angle of the rod (rad), position of the slider (m).
-/// By two integrations of a minimal model that agree to 2e-13.
+/// At 0.1 s and 0.2 s: angle (rad) and rate (rad/s) of the crank, angle of the rod (rad), position
+/// of the slider (m). By two integrations of a minimal model that agree to 2e-13.
 const MOTION: [[f64; 4]; 2] = [
     [
         9.140_152_416_941_7,

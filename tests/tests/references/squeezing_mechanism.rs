@@ -5,9 +5,9 @@ use holonom_models::SqueezingMechanism;
 
 use super::{at_times, difference};
 
-/// beta, Theta, gamma, phi, delta, Omega, epsilon (rad) at 0.03 s as published: Test Set for IVP Solvers 2.4, by PSIDE with
-/// the tolerance 1e-14. It is good to 1.5e-9: inserted in the equations it violates the velocity constraints by 1e-9
-/// m/s.
+/// beta, Theta, gamma, phi, delta, Omega, epsilon (rad) at 0.03 s as published: Test Set for IVP
+/// Solvers 2.4, by PSIDE with the tolerance 1e-14. It is good to 1.5e-9: inserted in the equations
+/// it violates the velocity constraints by 1e-9 m/s.
 const PUBLISHED: [f64; 7] = [
     15.810_771_196_299_04,
     -15.756_371_059_842_98,
@@ -18,8 +18,8 @@ const PUBLISHED: [f64; 7] = [
     1.048_080_741_042_263,
 ];
 
-/// Angles (rad) and rates (rad/s) at 0.03 s and at 0.05 s: by Dormand-Prince 8(5,3) and by Gauss collocation in minimal
-/// coordinates, which agree to 7e-13 rad.
+/// Angles (rad) and rates (rad/s) at 0.03 s and at 0.05 s: by Dormand-Prince 8(5,3) and by Gauss
+/// collocation in minimal coordinates, which agree to 7e-13 rad.
 const MOTION: [[[f64; 7]; 2]; 2] = [
     [
         [

@@ -1,5 +1,5 @@
-//! D02: the variable-length pendulum of Nikravesh's examples 13.6 and 13.7, and what the formulations make of a start
-//! that is rounded.
+//! D02: the variable-length pendulum of Nikravesh's examples 13.6 and 13.7, and what the
+//! formulations make of a start that is rounded.
 
 use core::f64::consts::FRAC_PI_3;
 
@@ -10,8 +10,8 @@ use holonom_models::VariableLengthPendulum;
 
 use super::{angle_about_z, at_times, difference, simpson, tight};
 
-/// `phi` (rad), distance of the slider from the pin (m), and their rates at 1, 2 and 5 s: by two integrations of the
-/// planar model in these two coordinates, which agree to 4e-14.
+/// `phi` (rad), distance of the slider from the pin (m), and their rates at 1, 2 and 5 s: by two
+/// integrations of the planar model in these two coordinates, which agree to 4e-14.
 const TIMES: [f64; 3] = [1.0, 2.0, 5.0];
 const MOTION: [[f64; 4]; 3] = [
     [
@@ -107,8 +107,8 @@ fn the_work_of_the_damper_is_what_the_energy_loses() {
     assert!(lost > 1.0, "nothing is lost");
 }
 
-/// The same in body axes, as the examples define it, with the positions of four digits that they print: the joints are
-/// violated by 1e-5 at the start.
+/// The same in body axes, as the examples define it, with the positions of four digits that they
+/// print: the joints are violated by 1e-5 at the start.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0])]
 struct Rounded {
@@ -177,9 +177,9 @@ fn formulations_treat_a_rounded_start_each_in_its_own_way() {
     let [first, last, _] = rounded(Baumgarte::new(5.0, 5.0));
     let left = 11.0 * f64::exp(-10.0);
     assert!((last / first / left - 1.0).abs() <= 1e-5);
-    // The penalty with theirs has a floor that the mass of 1000 kg sets, and a motion that is off by as much. In the
-    // planar coordinates of the examples the floor is 8e-6 and the error 1.2e-5 m; the equations of the joints are
-    // scaled otherwise here.
+    // The penalty with theirs has a floor that the mass of 1000 kg sets, and a motion that is off
+    // by as much. In the planar coordinates of the examples the floor is 8e-6 and the error 1.2e-5
+    // m; the equations of the joints are scaled otherwise here.
     let [_, last, error] = rounded(Penalty::new(1000.0, 20.0 * PI, 1.0));
     assert!((1e-6..1e-4).contains(&last) && (1e-6..1e-4).contains(&error));
 }

@@ -1,4 +1,5 @@
-//! Coefficients that follow from a mechanism: with its masses, lengths and times, for whatever it is made of, and never without a number.
+//! Coefficients that follow from a mechanism: with its masses, lengths and times, for whatever it
+//! is made of, and never without a number.
 
 use core::fmt::Debug;
 
@@ -8,7 +9,8 @@ use holonom::prelude::*;
 use holonom::{Dynamics, Real, Scales};
 use holonom_models::{Door, RodPendulum, SimplePendulum};
 
-/// A rod on a hinge with a bob on a link and a spring, and a wheel that is driven, in units of its own.
+/// A rod on a hinge with a bob on a link and a spring, and a wheel that is driven, in units of its
+/// own.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, -9.81 * length * rate * rate, 0.0])]
 struct Measured {

@@ -367,8 +367,8 @@ fn an_iteration_that_does_not_converge_is_reported() {
 
 #[test]
 fn what_cannot_be_assembled_is_left_as_it_was() {
-    // Two rods of 1.118 m hold the bead; moved so far out that neither end can be reached, it is pulled back; with
-    // one hinge in two places no position is right.
+    // Two rods of 1.118 m hold the bead; moved so far out that neither end can be reached, it is
+    // pulled back; with one hinge in two places no position is right.
     let parted = Parted::default();
     let mut state = parted.described_state::<f64>().expect("described");
     let before = state;

@@ -1,11 +1,13 @@
-//! Inputs over the number type of a run: the same motion to the last digit as by way of the mechanism, in both descriptions.
+//! Inputs over the number type of a run: the same motion to the last digit as by way of the
+//! mechanism, in both descriptions.
 
 use holonom::forces::{PointForce, TorsionalActuator};
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
 use holonom::{JointStepper, ParameterFault, Real};
 
-/// Two rods and a bar between ground and their end: motors with a gain, a thrust of three numbers, a weight that changes.
+/// Two rods and a bar between ground and their end: motors with a gain, a thrust of three numbers,
+/// a weight that changes.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.3 * lean, 0.0, -9.81 - lean], coordinates = "both")]
 struct Crane {
@@ -94,7 +96,8 @@ fn agree<S: Real, F: Formulation<S>>(formulation: F) {
             .step_with(&mut joint_states[1], &inputs, step)
             .expect("regular");
     }
-    // In `f32` an expression of inputs is rounded once more where it is computed in `f64` first: here it is not, as all of them are computed in the run's type.
+    // In `f32` an expression of inputs is rounded once more where it is computed in `f64` first:
+    // here it is not, as all of them are computed in the run's type.
     assert_eq!(states[0], states[1]);
     assert_eq!(joint_states[0], joint_states[1]);
     let [start, end] = [crane.described_state::<S>().expect("acceptable"), states[1]];

@@ -1,4 +1,5 @@
-//! The kinematic analysis of mechanisms with redundant equations: enough of them by count says little.
+//! The kinematic analysis of mechanisms with redundant equations: enough of them by count says
+//! little.
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;

@@ -1,4 +1,5 @@
-//! What the rates of Baumgarte's terms and of a penalty cost and gain, over the rate of the motion: why `of` takes those that it takes.
+//! What the rates of Baumgarte's terms and of a penalty cost and gain, over the rate of the motion:
+//! why `of` takes those that it takes.
 
 use core::f64::consts::TAU;
 
@@ -40,7 +41,8 @@ fn written(numbers: &[f64]) -> String {
     numbers.collect::<Vec<_>>().join(" ")
 }
 
-/// The errors of the step control and its evaluations over those of standard multipliers, with Baumgarte's terms of every rate; asserts what the guide says of fixed steps.
+/// The errors of the step control and its evaluations over those of standard multipliers, with
+/// Baumgarte's terms of every rate; asserts what the guide says of fixed steps.
 fn tried<M: Mechanism>(mechanism: &M, end: f64) {
     let scales = Scales::of(mechanism).expect("finite");
     let motion = (mechanism, end);

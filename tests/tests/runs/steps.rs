@@ -80,8 +80,9 @@ fn a_run_with_another_start_and_a_stepper_there_agree() {
 
 #[test]
 fn both_readings_of_euler_parameters_agree_to_the_order_of_the_method() {
-    /// At 1/128 s and 5 rad/s. `|p|^2` differs from 1 by `z^2 = 4e-4`, `z = w h / 2`, at the inner stages of a step, which
-    /// cancels to the order of the method, and by `z^6 / 72 = 1e-12` after it.
+    /// At 1/128 s and 5 rad/s. `|p|^2` differs from 1 by `z^2 = 4e-4`, `z = w h / 2`, at the inner
+    /// stages of a step, which cancels to the order of the method, and by `z^6 / 72 = 1e-12` after
+    /// it.
     const TRUNCATION: f64 = 1e-7;
     let rod = RodPendulum::default();
     let mut stepper = Stepper::new(&rod, StandardLagrange, Rk4)
@@ -125,7 +126,8 @@ fn a_step_that_fails_leaves_state_and_time() {
     stepper.step(&mut state, 0.125).expect("it still works");
 }
 
-/// Where the time does not matter, a step may be as short as it likes; a law of time could not tell it.
+/// Where the time does not matter, a step may be as short as it likes; a law of time could not tell
+/// it.
 #[test]
 fn a_law_of_time_refuses_a_step_that_the_time_cannot_tell() {
     let crank = DrivenSliderCrank::default();

@@ -7,7 +7,8 @@ use holonom::{DirectCorrection, JointCoordinates, Treatment, TreeRecovery, Veloc
 use holonom_models::{FourBar, RodPendulum, SliderCrank, VariableLengthPendulum};
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
 
-/// The largest errors (rad) of the angle of the rod of chapter 15 over ten seconds, read from its Euler parameters and from its position, and the largest `Phi^T Phi`.
+/// The largest errors (rad) of the angle of the rod of chapter 15 over ten seconds, read from its
+/// Euler parameters and from its position, and the largest `Phi^T Phi`.
 fn errors(treatment: Option<&dyn Treatment<f64, RodPendulum>>) -> [f64; 3] {
     let rod = RodPendulum::default();
     let mut run = Simulation::new(&rod, StandardLagrange, Rk4::every(0.01));
@@ -54,7 +55,8 @@ fn velocities_alone_keep_the_joint_from_drifting_fast() {
     assert!(velocities[2] < 0.1 * none[2], "{velocities:?} {none:?}");
 }
 
-/// Masses do not weigh, but one body on its hinge has one motion: what a correction chooses is by how much it moves along it.
+/// Masses do not weigh, but one body on its hinge has one motion: what a correction chooses is by
+/// how much it moves along it.
 #[test]
 fn the_direct_correction_is_as_exact_as_that_by_the_mass() {
     let [none, projected, direct] = [
@@ -68,7 +70,8 @@ fn the_direct_correction_is_as_exact_as_that_by_the_mass() {
     assert!(none[1] > 10.0 * direct[1], "{none:?}");
 }
 
-/// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and by how much its bearing, a joint of the tree, was open (m).
+/// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and
+/// by how much its bearing, a joint of the tree, was open (m).
 fn cranked<I: holonom::Integrator<f64>>(
     treatment: &dyn Treatment<f64, SliderCrank>,
     integrator: I,

@@ -1,4 +1,5 @@
-//! Closures that remember something: found and refused, whatever moves; and the loop that is right for a controller.
+//! Closures that remember something: found and refused, whatever moves; and the loop that is right
+//! for a controller.
 
 use core::cell::Cell;
 
@@ -73,7 +74,8 @@ fn a_closure_with_memory_is_refused() {
     }
 }
 
-/// A switch that keeps its position between two thresholds: it begins to differ after some steps only.
+/// A switch that keeps its position between two thresholds: it begins to differ after some steps
+/// only.
 #[test]
 fn hysteresis_and_noise_are_refused() {
     let calls = Cell::new(0_u64);
@@ -118,7 +120,8 @@ fn a_closure_that_counts_is_not() {
     assert!(calls.get() > 100);
 }
 
-/// A PI controller at 1 kHz, called once a period, by a run a period and by a stepper: both settle where it was told.
+/// A PI controller at 1 kHz, called once a period, by a run a period and by a stepper: both settle
+/// where it was told.
 #[test]
 fn a_controller_is_called_once_a_period() {
     const PERIOD: f64 = 1e-3;

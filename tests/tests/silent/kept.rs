@@ -1,10 +1,12 @@
-//! Equations that are kept although they depend on others: a motion that passes a singular configuration is doubted as everywhere.
+//! Equations that are kept although they depend on others: a motion that passes a singular
+//! configuration is doubted as everywhere.
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{Doubt, Formulation};
 
-/// A parallelogram of hinges with links of 1 m, all equations kept, which turns all around: it passes the line twice a turn.
+/// A parallelogram of hinges with links of 1 m, all equations kept, which turns all around: it
+/// passes the line twice a turn.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", redundant = "keep")]
 struct Parallelogram {
@@ -105,7 +107,8 @@ fn what_stays_away_is_not() {
     }
 }
 
-/// A crank that turns all around, and a rocker that does not: never in line. All equations are kept.
+/// A crank that turns all around, and a rocker that does not: never in line. All equations are
+/// kept.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", redundant = "keep")]
 struct CrankRocker {

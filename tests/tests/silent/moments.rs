@@ -1,4 +1,5 @@
-//! What a refusal of measured inertias advises: moments and masses that move across a hinge change no motion.
+//! What a refusal of measured inertias advises: moments and masses that move across a hinge change
+//! no motion.
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
@@ -18,8 +19,9 @@ struct Published {
     elbow: Revolute,
 }
 
-/// The same: 0.02 kg m^2 across the elbow's axis, which is x, moved to the upper arm; 0.5 across the shoulder's, which is z, from the ground; and
-/// 0.5 kg at the point (0.2, 0.5, 0.3) of the elbow's axis moved to the forearm.
+/// The same: 0.02 kg m^2 across the elbow's axis, which is x, moved to the upper arm; 0.5 across
+/// the shoulder's, which is z, from the ground; and 0.5 kg at the point (0.2, 0.5, 0.3) of the
+/// elbow's axis moved to the forearm.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Moved {

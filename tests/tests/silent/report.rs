@@ -1,4 +1,5 @@
-//! What the report says of the elements of a joint state is what access by handle reads, in any state.
+//! What the report says of the elements of a joint state is what access by handle reads, in any
+//! state.
 
 use holonom::forces::{TorsionalActuator, TorsionalSpringDamper};
 use holonom::joints::{Cylindrical, Prismatic, Revolute, Spherical, Universal};
@@ -19,7 +20,8 @@ struct Run {
     pins: [Revolute; 4],
 }
 
-/// Joints that are described from the body that they carry, axes that point the other way, and a run on a slide.
+/// Joints that are described from the body that they carry, axes that point the other way, and a
+/// run on a slide.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Askew {
@@ -41,7 +43,8 @@ struct Askew {
     wrist: Cylindrical,
 }
 
-/// A cart with a pole, whose pin has viscous friction: no auxiliary variable. The spring of the wheel counts turns, the actuator that reads its angle too.
+/// A cart with a pole, whose pin has viscous friction: no auxiliary variable. The spring of the
+/// wheel counts turns, the actuator that reads its angle too.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct CartPole {
@@ -116,7 +119,8 @@ fn any<M: JointCoordinates>(state: &M::JointState<f64>, random: &mut Random) -> 
 /// How a joint is read by handle.
 type Read<'a, M> = &'a dyn Fn(&View<'_, f64, M>) -> [f64; 2];
 
-/// Compares what the report reads of each joint's only motion of a kind with what access by handle does.
+/// Compares what the report reads of each joint's only motion of a kind with what access by handle
+/// does.
 fn agrees<M: JointCoordinates>(mechanism: &M, joints: &[(&'static str, bool, Read<'_, M>)]) {
     let stepper = JointStepper::<f64, _, _, _>::new(mechanism, StandardLagrange, Rk4);
     let stepper = stepper.expect("parameters");

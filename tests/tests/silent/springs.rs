@@ -38,7 +38,8 @@ struct WithLength {
     spring: SpringDamper,
 }
 
-/// `m r'' = -k r + m g`, through the anchor once and again: `x = 0.03 sin 10 t`, `z = -0.0981 (1 - cos 10 t)`.
+/// `m r'' = -k r + m g`, through the anchor once and again: `x = 0.03 sin 10 t`,
+/// `z = -0.0981 (1 - cos 10 t)`.
 #[test]
 fn a_spring_of_free_length_zero_passes_its_anchor() {
     let zero = Zero::default();

@@ -1,4 +1,5 @@
-//! What a run reports between the ends of its steps, and by joints, says what it says at the ends, and by bodies.
+//! What a run reports between the ends of its steps, and by joints, says what it says at the ends,
+//! and by bodies.
 
 use std::f64::consts::TAU;
 

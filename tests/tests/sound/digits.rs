@@ -1,4 +1,5 @@
-//! Steps that the digits of a number type, or a limit of the user's, keep from becoming small enough.
+//! Steps that the digits of a number type, or a limit of the user's, keep from becoming small
+//! enough.
 
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
@@ -13,7 +14,8 @@ struct Far {
     hinge: Revolute,
 }
 
-/// A violation is seen to 6e-5 m, and hard coefficients make accelerations of that, which no step is short enough for.
+/// A violation is seen to 6e-5 m, and hard coefficients make accelerations of that, which no step
+/// is short enough for.
 #[test]
 fn a_tolerance_below_the_digits_of_a_position_is_named() {
     let far = Far::default();
@@ -79,7 +81,8 @@ struct Bead {
     size: f64,
 }
 
-/// The equation of a distance is one of square metres: of a small mechanism it is a small number, and no round-off.
+/// The equation of a distance is one of square metres: of a small mechanism it is a small number,
+/// and no round-off.
 #[test]
 fn velocities_of_small_mechanisms_are_corrected() {
     for exponent in 0..=10 {

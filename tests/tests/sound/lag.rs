@@ -87,7 +87,8 @@ fn oscillations_that_are_off_are_doubted() {
                     _ => None,
                 });
                 let all = doubts.to_string();
-                // The bound of generalized-alpha is three times that of an oscillation, and one that hardly swings is off by less.
+                // The bound of generalized-alpha is three times that of an oscillation, and one
+                // that hardly swings is off by less.
                 let is_coarse = name.ends_with("alpha") || ratio > 0.1;
                 let right = if is_coarse { 2e-3 } else { 8e-3 };
                 println!("{ratio} {step} {name}: {off:.1e} {shift:?}");
@@ -173,7 +174,8 @@ fn doubts_of_exact_motions(integrator: impl Integrator<f64>) -> [Doubts; 5] {
     ]
 }
 
-/// What a method does exactly, or a projection takes back, is no reason to doubt, however long the steps are.
+/// What a method does exactly, or a projection takes back, is no reason to doubt, however long the
+/// steps are.
 #[test]
 fn exact_motions_are_not_doubted() {
     for step in [0.1, 0.03, 0.01] {
@@ -245,7 +247,8 @@ struct Weight {
     load: TorsionalActuator,
 }
 
-/// What is missed across the motion, or of the velocities, is no lag; a bound by the length of the steps tells.
+/// What is missed across the motion, or of the velocities, is no lag; a bound by the length of the
+/// steps tells.
 #[test]
 fn what_is_no_lag_is_doubted() {
     fn with(integrator: impl Integrator<f64>) {

@@ -1,4 +1,5 @@
-//! Results that were once wrong without a word: each is right now, or refused, or doubted by the report.
+//! Results that were once wrong without a word: each is right now, or refused, or doubted by the
+//! report.
 
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,5 @@
-//! Orientations turn at the angular velocity, however long a run lasts and whatever the length of the Euler parameters is.
+//! Orientations turn at the angular velocity, however long a run lasts and whatever the length of
+//! the Euler parameters is.
 
 use std::f64::consts::{PI, TAU};
 

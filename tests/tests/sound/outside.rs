@@ -154,7 +154,8 @@ fn phases_of_a_wheel_are_doubted_at_long_steps() {
     assert!(doubts(&Wheel::default(), Rk4::every(0.01_f32), 100.0).is_empty());
 }
 
-/// The implicit midpoint rule keeps the energy of a pendulum at any step, and its phase is off by the square of it.
+/// The implicit midpoint rule keeps the energy of a pendulum at any step, and its phase is off by
+/// the square of it.
 #[test]
 fn phases_of_a_method_that_keeps_the_energy_are_doubted_at_long_steps() {
     let rod = RodPendulum::default();

@@ -1,10 +1,12 @@
-//! What cannot be read is refused: no zeros for a body that has nothing to do with a joint or a force.
+//! What cannot be read is refused: no zeros for a body that has nothing to do with a joint or a
+//! force.
 
 use holonom::forces::{PointForce, SpringDamper};
 use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
 
-/// Two rods on hinges of their own, a spring at the first; a second motor that says what the first says already.
+/// Two rods on hinges of their own, a spring at the first; a second motor that says what the first
+/// says already.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop")]
 struct Rods {

@@ -15,7 +15,8 @@ struct Rod {
     hinge: Revolute,
 }
 
-/// The same with a motor that turns at 3 rad/s from the first instant on, while the rod is described at rest.
+/// The same with a motor that turns at 3 rad/s from the first instant on, while the rod is
+/// described at rest.
 #[derive(Mechanism)]
 struct Driven {
     #[body(mass = 2.0, inertia = [0.2, 0.01, 0.2], position = [0.0, 0.5, 0.0])]

@@ -1,4 +1,5 @@
-//! Motions through configurations in which an equation vanishes with its gradient: no equation depends on another there, and still more than one way leads on.
+//! Motions through configurations in which an equation vanishes with its gradient: no equation
+//! depends on another there, and still more than one way leads on.
 
 use holonom::joints::{ConstantVelocity, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
@@ -23,7 +24,8 @@ struct Shaft {
 }
 
 holonom::joint! {
-    /// The point of `j` stays on one of two lines through the corner on `i`, perpendicular to two axes and to the axis of both.
+    /// The point of `j` stays on one of two lines through the corner on `i`, perpendicular to two
+    /// axes and to the axis of both.
     pub joint Crossing(i, j; corner: Point, point: Point, axis: Axis, first: Axis, second: Axis) {
         let to = j.point - i.corner;
         dot(i.axis, to);
@@ -48,7 +50,8 @@ struct Wires {
     wires: Crossing,
 }
 
-/// Whether the report of a run doubts that it passed this joint; `None` of a run that ends with an error, which says so as well.
+/// Whether the report of a run doubts that it passed this joint; `None` of a run that ends with an
+/// error, which says so as well.
 fn is_told<M, F, I>(
     model: &M,
     (method, integrator): (F, I),
@@ -167,7 +170,8 @@ fn a_start_near_the_crossing_is_told() {
     }
 }
 
-/// A wheel that turns evenly: nothing is singular, however far a step turns it and whatever it makes of Euler parameters.
+/// A wheel that turns evenly: nothing is singular, however far a step turns it and whatever it
+/// makes of Euler parameters.
 #[derive(Mechanism)]
 #[mechanism(coordinates = "both", gravity = [0.0, 0.0, 0.0])]
 struct Wheel {
@@ -204,7 +208,8 @@ fn steps_of_some_radians_pass_nothing_singular() {
 }
 
 holonom::joint! {
-    /// The point of `j` stays on a circle about the centre on `i`, or on a line through the corner, and that of `k` in its plane: one equation of vectors.
+    /// The point of `j` stays on a circle about the centre on `i`, or on a line through the corner,
+    /// and that of `k` in its plane: one equation of vectors.
     pub joint CircleOrLine(i, j, k; corner: Point, centre: Point, point: Point, other: Point, axis: Axis, first: Axis) {
         [
             (squared(j.point - i.centre) - initial(squared(j.point - i.centre))) * dot(i.first, j.point - i.corner),

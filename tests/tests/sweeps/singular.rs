@@ -1,5 +1,6 @@
-//! Motions through singular configurations, with every formulation, with and without a projection, at every tolerance and step: none ends wrong without
-//! an error or a doubt, and none goes on for ever.
+//! Motions through singular configurations, with every formulation, with and without a projection,
+//! at every tolerance and step: none ends wrong without an error or a doubt, and none goes on for
+//! ever.
 
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
@@ -48,8 +49,8 @@ macro_rules! equal_links {
 }
 
 equal_links! {
-    /// A slider-crank whose crank and rod are of 1 m both: a quarter of a turn on, the slider passes over the crank's axis, where it may stay while the links
-    /// turn on together.
+    /// A slider-crank whose crank and rod are of 1 m both: a quarter of a turn on, the slider
+    /// passes over the crank's axis, where it may stay while the links turn on together.
     #[mechanism(coordinates = "both")]
     EqualLinks(PointOnLine)
 
@@ -58,7 +59,8 @@ equal_links! {
     KeptLinks(Revolute)
 }
 
-/// Four links of 1 m, the ground among them: a parallelogram that passes over the line in little more than the time of a step, by joints.
+/// Four links of 1 m, the ground among them: a parallelogram that passes over the line in little
+/// more than the time of a step, by joints.
 #[derive(Mechanism)]
 #[mechanism(coordinates = "both")]
 struct Rhombus {
@@ -177,7 +179,8 @@ fn rhombus() -> Mark<Rhombus> {
 
 /// What is right to a hundredth is right.
 const RIGHT: f64 = 1e-2;
-/// Evaluations: more than any run takes that ends. One that stalls in a singular configuration says that they are used up.
+/// Evaluations: more than any run takes that ends. One that stalls in a singular configuration says
+/// that they are used up.
 const BUDGET: usize = if IS_EXHAUSTIVE { 500_000 } else { 50_000 };
 /// What a step or a report may take beyond what is left of the budget.
 const OVER: usize = 100;
@@ -293,7 +296,8 @@ sweeps! {
     augmented_lagrangian: AugmentedLagrangian::default();
 }
 
-/// A factor that leaves next to no compliance in a singular configuration, with a tolerance of the formulation and of the integrator.
+/// A factor that leaves next to no compliance in a singular configuration, with a tolerance of the
+/// formulation and of the integrator.
 fn extreme(tolerance: f64, relative: f64) {
     let mut method = AugmentedLagrangian::new(1e11, 10.0, 1.0);
     method.tolerance = tolerance;
@@ -331,7 +335,8 @@ fn an_extreme_penalty_factor_is_doubted_at_tight_tolerances() {
     extreme(1e-11, 1e-11);
 }
 
-/// By its bodies a mechanism that is open by less than a thousandth passes at a distance that is no longer small.
+/// By its bodies a mechanism that is open by less than a thousandth passes at a distance that is no
+/// longer small.
 #[test]
 fn what_is_open_by_a_little_is_doubted_from_further() {
     let (model, mark) = (Rhombus::default(), rhombus());
@@ -406,7 +411,8 @@ flat! {
     AnyRhombus(angle) { #[param] angle: f64, }
 }
 
-/// Where links are in line the only row of the loop acts on no joint coordinate: its pivot is not small beside itself, but beside what it is on free bodies.
+/// Where links are in line the only row of the loop acts on no joint coordinate: its pivot is not
+/// small beside itself, but beside what it is on free bodies.
 #[test]
 fn links_in_line_are_singular_in_both_descriptions() {
     fn is_singular<M: JointCoordinates>(model: &M) -> [bool; 3] {
@@ -453,7 +459,8 @@ fn equations_that_are_kept_hide_nothing_by_joints() {
     }
 }
 
-/// With reports within steps and without, whether a method evaluates for them once a step or for each.
+/// With reports within steps and without, whether a method evaluates for them once a step or for
+/// each.
 #[test]
 fn what_the_watch_looks_at_is_no_part_of_a_run() {
     fn check(integrator: impl Integrator<f64>) {

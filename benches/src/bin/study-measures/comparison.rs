@@ -24,8 +24,8 @@ pub(crate) struct Compare {
     /// Time this mechanism alone; may be given more than once.
     #[arg(long, value_name = "SCENE")]
     only: Vec<String>,
-    /// Write plain.json, which the page of a later run shows beside its own numbers, instead of compare.json: for a build without
-    /// `-C target-cpu=native`.
+    /// Write plain.json, which the page of a later run shows beside its own numbers, instead of
+    /// compare.json: for a build without `-C target-cpu=native`.
     #[arg(long)]
     plain: bool,
     /// Build small crates, too, in the folder `compile` beside the page, and time that.
@@ -52,7 +52,8 @@ pub(crate) fn study(arguments: &Compare) -> Result<(), Box<dyn Error>> {
 
     let rounds = u64::from(arguments.rounds);
     let scenes = entries.len() as u64;
-    // Sixteen kinds of a mechanism, each timed in four ways, and at most six forms of its assembler; the first round is not counted.
+    // Sixteen kinds of a mechanism, each timed in four ways, and at most six forms of its
+    // assembler; the first round is not counted.
     let turns = (16 * 4 + 6) * scenes * (rounds + 1);
     announce(
         &format!("{scenes} mechanisms in {rounds} rounds, by the count of turns"),

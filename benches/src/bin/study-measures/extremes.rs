@@ -22,7 +22,8 @@ pub(crate) struct Extremes {
     /// Sweep this axis alone; may be given more than once.
     #[arg(long, value_name = "AXIS")]
     axis: Vec<String>,
-    /// With the coefficients of chapter 15 for all mechanisms, in the place of those that follow from each.
+    /// With the coefficients of chapter 15 for all mechanisms, in the place of those that follow
+    /// from each.
     #[arg(long)]
     book: bool,
 }

@@ -1,4 +1,5 @@
-//! The studies beside chapter 15, those that this build has: `study compare` and so on build and run it.
+//! The studies beside chapter 15, those that this build has: `study compare` and so on build and
+//! run it.
 
 #![forbid(unsafe_code)]
 
@@ -23,18 +24,21 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Study {
-    /// What an evaluation costs: every mechanism in both descriptions, all formulations and both number types, beside a
-    /// pendulum written by hand and the run-time assembler.
+    /// What an evaluation costs: every mechanism in both descriptions, all formulations and both
+    /// number types, beside a pendulum written by hand and the run-time assembler.
     #[cfg(feature = "compare")]
     Compare(comparison::Compare),
-    /// What accuracy costs: one problem with every description, formulation, treatment after steps, integrator, step or tolerance, and number type. An
-    /// interrupted study goes on with the same command.
+    /// What accuracy costs: one problem with every description, formulation, treatment after steps,
+    /// integrator, step or tolerance, and number type. An interrupted study goes on with the same
+    /// command.
     #[cfg(feature = "trade")]
     Trade(trade::Trade),
-    /// The cheapest setting for an error, or the most exact one for a time, that does so from ten starts nearby as well, and the lines of Rust that run it.
+    /// The cheapest setting for an error, or the most exact one for a time, that does so from ten
+    /// starts nearby as well, and the lines of Rust that run it.
     #[cfg(feature = "trade")]
     Recommend(trade::Recommend),
-    /// Where the numerics stop to hold: motions with closed forms, swept to where they break. An interrupted map goes on with the same command.
+    /// Where the numerics stop to hold: motions with closed forms, swept to where they break. An
+    /// interrupted map goes on with the same command.
     #[cfg(feature = "extremes")]
     Extremes(extremes::Extremes),
 }

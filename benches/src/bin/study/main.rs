@@ -1,6 +1,7 @@
-//! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores (2015), `study compare` shows what an evaluation costs,
-//! `study trade` what accuracy costs, `study recommend` which setting does, and `study extremes` where the numerics stop to hold. The latter are a program of
-//! their own, which is built where it is asked for.
+//! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores
+//! (2015), `study compare` shows what an evaluation costs, `study trade` what accuracy costs,
+//! `study recommend` which setting does, and `study extremes` where the numerics stop to hold. The
+//! latter are a program of their own, which is built where it is asked for.
 
 #![forbid(unsafe_code)]
 
@@ -12,11 +13,12 @@ use clap::{Parser, Subcommand};
 
 use holonom_benches::measures::{self, Arguments as Handed};
 
-/// One pendulum, four formulations: chapter 15 of Flores, Concepts and Formulations for Spatial Multibody Dynamics
-/// (2015), with what it cost and how right it is.
+/// One pendulum, four formulations: chapter 15 of Flores, Concepts and Formulations for Spatial
+/// Multibody Dynamics (2015), with what it cost and how right it is.
 ///
-/// The other studies measure many mechanisms in many kinds, which takes longer to compile: each is built when it is first asked for, and says before how long
-/// that takes. With `--large` they have all mechanisms, without it those that compile soon.
+/// The other studies measure many mechanisms in many kinds, which takes longer to compile: each is
+/// built when it is first asked for, and says before how long that takes. With `--large` they have
+/// all mechanisms, without it those that compile soon.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
 struct Arguments {
@@ -28,7 +30,8 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Study {
-    /// What an evaluation costs: mechanisms in both descriptions, all formulations and both number types.
+    /// What an evaluation costs: mechanisms in both descriptions, all formulations and both number
+    /// types.
     Compare(Handed),
     /// What accuracy costs: a problem with every setting.
     Trade(Handed),

@@ -27,7 +27,8 @@ pub(super) use catalogue::{cart_pole, heavy_top, panda, slider_crank, squeezer, 
 
 use crate::opponents::formulation;
 
-/// What joins two bodies of a scene: a point and an axis where it has one, global at the reference configuration.
+/// What joins two bodies of a scene: a point and an axis where it has one, global at the reference
+/// configuration.
 #[derive(Clone, Copy, Debug)]
 enum Join {
     Hinge([f64; 3], [f64; 3]),
@@ -36,7 +37,8 @@ enum Join {
     OnLine([f64; 3], [f64; 3]),
 }
 
-/// The bodies of a mechanism as it describes them, with joints: what they are between, places among the fields for bodies, `None` for the ground.
+/// The bodies of a mechanism as it describes them, with joints: what they are between, places among
+/// the fields for bodies, `None` for the ground.
 fn scene<M: Mechanism + Default>(
     gravity: [f64; 3],
     joints: impl IntoIterator<Item = ([Option<usize>; 2], Join)>,
@@ -65,7 +67,8 @@ fn join(
     }
 }
 
-/// Adds the bodies of a mechanism, all rigid, in the order of the fields. Mass and moments of inertia are twice the kinetic energies at unit velocities.
+/// Adds the bodies of a mechanism, all rigid, in the order of the fields. Mass and moments of
+/// inertia are twice the kinetic energies at unit velocities.
 fn add_bodies<M: Mechanism + Default>(scene: &mut Assembler) -> Vec<BodyId> {
     let mechanism = M::default();
     let constants = mechanism.constants::<f64>().expect("the data are sound");
@@ -119,7 +122,8 @@ pub(super) fn spherical_chain<M: Mechanism + Default>() -> Assembler {
     scene::<M>([0.0, 0.0, -9.81], in_a_row(M::REPORT.bodies.len(), joint))
 }
 
-/// Rows of windows: the joints of `M` between its bodies, with what follows from others left out: one hinge of every loop keeps its two equations in the plane.
+/// Rows of windows: the joints of `M` between its bodies, with what follows from others left out:
+/// one hinge of every loop keeps its two equations in the plane.
 pub(super) fn windows<M: Mechanism + Default>() -> Assembler {
     let constants = M::default().constants::<f64>().expect("the data are sound");
     let described = M::initial_state(&constants);
@@ -130,7 +134,8 @@ pub(super) fn windows<M: Mechanism + Default>() -> Assembler {
     };
     let joints = M::REPORT.joints.iter().map(|joint| {
         let between = [joint.bodies[0], joint.bodies[1]];
-        // A foot is half a metre below its rod; a pin is where an upright rod ends, beside the middle of the top.
+        // A foot is half a metre below its rod; a pin is where an upright rod ends, beside the
+        // middle of the top.
         let point = match between {
             [None, Some(rod)] | [Some(rod), None] => [centre(rod)[0], 0.0, 0.0],
             [Some(a), Some(b)] => {
@@ -165,7 +170,8 @@ pub(super) fn pendulum() -> Assembler {
     scene::<RodPendulum>([0.0, 0.0, -9.81], in_a_row(1, |_| Join::Hinge([0.0; 3], X)))
 }
 
-/// The forms of an assembler in a formulation, timed at some states; a form that cannot be solved there is left out.
+/// The forms of an assembler in a formulation, timed at some states; a form that cannot be solved
+/// there is left out.
 pub(super) fn opponents(
     (scene, n): (&'static str, usize),
     assembler: &Assembler,
@@ -204,7 +210,8 @@ pub(super) fn opponents(
     opponents
 }
 
-/// States of a mechanism as an assembler takes them: angles that the mechanism counts behind its coordinates are none of it where it has no forces along them.
+/// States of a mechanism as an assembler takes them: angles that the mechanism counts behind its
+/// coordinates are none of it where it has no forces along them.
 fn read_by(assembler: &Assembler, states: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let (coordinates, velocities) = (assembler.coordinates(), assembler.velocities());
     let read = |x: &Vec<f64>| [&x[..coordinates], &x[x.len() - velocities..]].concat();

@@ -21,7 +21,8 @@ pub struct Bob {
     weld: Fixed,
 }
 
-/// A symmetric top on a ball at its centre of mass, without gravity: its axis goes round its angular momentum.
+/// A symmetric top on a ball at its centre of mass, without gravity: its axis goes round its
+/// angular momentum.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(coordinates = "both")]
 pub struct Top {
@@ -67,7 +68,8 @@ pub struct Block {
     spring: SpringDamper,
 }
 
-/// A rod of 1 m and 1 kg on a hinge that is made of a ball in the origin and a point on the line of the axis, `apart` (m) from it: the nearer, the more nearly dependent are their equations.
+/// A rod of 1 m and 1 kg on a hinge that is made of a ball in the origin and a point on the line of
+/// the axis, `apart` (m) from it: the nearer, the more nearly dependent are their equations.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub struct TwoPoints {

@@ -63,7 +63,8 @@ impl ClosedForm for TwoPoints {
 }
 
 impl Top {
-    /// Angular momentum (kg m^2/s, global), of which the axis goes round by its size over [`Top::ACROSS`].
+    /// Angular momentum (kg m^2/s, global), of which the axis goes round by its size over
+    /// [`Top::ACROSS`].
     fn momentum(&self) -> Vector3<f64> {
         Vector3::new(
             Self::ACROSS * 0.01 * self.spin,

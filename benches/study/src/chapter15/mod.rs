@@ -1,8 +1,9 @@
-//! Chapter 15 of Flores, *Concepts and Formulations for Spatial Multibody Dynamics* (2015): one pendulum, four
-//! formulations of its equations of motion.
+//! Chapter 15 of Flores, *Concepts and Formulations for Spatial Multibody Dynamics* (2015): one
+//! pendulum, four formulations of its equations of motion.
 //!
-//! What the chapter prints stands here beside what a mechanism of ours gives: [tables] 15.1 to 15.3 and figure
-//! 15.2, and what the chapter could not show, because the motion has a [closed form](crate::pendulum).
+//! What the chapter prints stands here beside what a mechanism of ours gives: [tables] 15.1 to 15.3
+//! and figure 15.2, and what the chapter could not show, because the motion has a [closed
+//! form](crate::pendulum).
 
 pub mod charts;
 pub mod outcome;
@@ -95,8 +96,8 @@ pub struct Settings {
     pub baumgarte: (f64, f64),
     /// Penalty and augmented Lagrangian: `alpha` (kg, kg m^2), `omega` (1/s), `mu` (1).
     pub penalty: (f64, f64, f64),
-    /// Augmented Lagrangian: the iteration stops when the accelerations change by less than `tolerance (1 + |u'|)`.
-    /// The chapter does not print its criterion.
+    /// Augmented Lagrangian: the iteration stops when the accelerations change by less than
+    /// `tolerance (1 + |u'|)`. The chapter does not print its criterion.
     pub iteration_tolerance: f64,
     /// Augmented Lagrangian: the most iterations of one evaluation.
     pub iteration_cap: usize,

@@ -135,7 +135,8 @@ impl Outcome {
         (errors(|e| e.0), errors(|e| e.1))
     }
 
-    /// The time of an evaluation (ns) through the assembler's cheapest form; NaN where there is none.
+    /// The time of an evaluation (ns) through the assembler's cheapest form; NaN where there is
+    /// none.
     #[must_use]
     pub fn assembler_time(&self) -> f64 {
         self.prices
@@ -186,7 +187,8 @@ pub(crate) mod tests {
     use crate::timing::Timing;
     use holonom::Iterations;
 
-    /// An outcome that follows the closed form but for an angle that runs ahead and a violation that grows.
+    /// An outcome that follows the closed form but for an angle that runs ahead and a violation
+    /// that grows.
     pub(crate) fn made_up(method: Method) -> Outcome {
         let instants = (0..=500).map(|step| {
             let time = 0.02 * f64::from(step);

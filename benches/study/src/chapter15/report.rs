@@ -84,10 +84,12 @@ pub fn document(outcomes: &[Outcome], settings: &Settings, target: &Target) -> D
     }
 }
 
-/// Writes `index.html`, the pictures and `chapter15.json` into a directory; the paths of what was written.
+/// Writes `index.html`, the pictures and `chapter15.json` into a directory; the paths of what was
+/// written.
 ///
 /// # Errors
-/// [`StudyError`] where a number is not finite, a picture has nothing to show or a file cannot be written.
+/// [`StudyError`] where a number is not finite, a picture has nothing to show or a file cannot be
+/// written.
 pub fn write(
     document: &Document,
     outcomes: &[Outcome],

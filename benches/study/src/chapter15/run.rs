@@ -197,7 +197,8 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
         ))
     }
 
-    /// Runs one formulation, Euler parameters read as the chapter's programs do, and reads what the study compares.
+    /// Runs one formulation, Euler parameters read as the chapter's programs do, and reads what the
+    /// study compares.
     ///
     /// # Errors
     /// [`StudyError::Run`] where the run stops.

@@ -150,8 +150,8 @@ impl ValueFormatter<f64> for Range {
     }
 }
 
-/// The smallest round step that is not below `least`: 1, 2 or 5 times a power of ten, whole decades on a logarithmic
-/// axis.
+/// The smallest round step that is not below `least`: 1, 2 or 5 times a power of ten, whole decades
+/// on a logarithmic axis.
 fn step(least: f64, scale: Scale) -> f64 {
     if scale == Scale::Logarithmic {
         return [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 20.0, 50.0, 100.0]

@@ -1,6 +1,7 @@
 //! From chart to SVG, with plotters.
 //!
-//! The back end knows whole pixels only, so everything is drawn [`SCALE`] times too large and the view box scales it back.
+//! The back end knows whole pixels only, so everything is drawn [`SCALE`] times too large and the
+//! view box scales it back.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -16,7 +17,8 @@ const SCALE: u32 = 10;
 const SIZE: (u32, u32) = (920, 380);
 /// Height of one row of the legend (px).
 const ROW: u32 = 24;
-/// Room around the plot (px): left for the labels of the ordinate, above for its caption, below for the abscissa.
+/// Room around the plot (px): left for the labels of the ordinate, above for its caption, below for
+/// the abscissa.
 const MARGIN: Margin = Margin {
     left: 62,
     right: 18,
@@ -148,7 +150,8 @@ impl<'a> Legend<'a> {
         let (mut x, mut row) = (4, 0);
         let mut entries = Vec::new();
         for series in &chart.series {
-            // No font is at hand to measure with: 0.58 em is wide for a letter of a sans-serif text.
+            // No font is at hand to measure with: 0.58 em is wide for a letter of a sans-serif
+            // text.
             let width = 36 + (0.58 * FONT_SIZE * series.name.chars().count() as f64) as u32 + 18;
             if x > 4 && x + width > SIZE.0 {
                 (x, row) = (4, row + 1);
@@ -196,7 +199,8 @@ fn at(x: u32, y: u32) -> (i32, i32) {
     ((x * SCALE).cast_signed(), (y * SCALE).cast_signed())
 }
 
-/// Replaces the head of the document: no fixed size, a name for readers of the screen, a style sheet.
+/// Replaces the head of the document: no fixed size, a name for readers of the screen, a style
+/// sheet.
 fn dressed(svg: &str, chart: &Chart, (width, height): (u32, u32)) -> String {
     let body = svg.split_once('>').map_or(svg, |(_, body)| body);
     let title = escaped(&chart.title);

@@ -1,7 +1,9 @@
-//! Pictures of quantities over time, as SVG that stands alone and follows the reader's light or dark mode.
+//! Pictures of quantities over time, as SVG that stands alone and follows the reader's light or
+//! dark mode.
 //!
-//! A chart never hides a number that it cannot draw: values that are not finite, and values that are not positive on a
-//! logarithmic axis, interrupt the curve and are counted in [`Picture::left_out`].
+//! A chart never hides a number that it cannot draw: values that are not finite, and values that
+//! are not positive on a logarithmic axis, interrupt the curve and are counted in
+//! [`Picture::left_out`].
 
 mod axis;
 mod draw;
@@ -74,7 +76,8 @@ pub enum Mark {
 pub struct Series {
     /// Its name in the legend.
     pub name: String,
-    /// Its colour and dash pattern, below [`SLOTS`]. The same slot means the same thing in all charts of a page.
+    /// Its colour and dash pattern, below [`SLOTS`]. The same slot means the same thing in all
+    /// charts of a page.
     pub slot: usize,
     /// How it is drawn.
     pub mark: Mark,
@@ -138,8 +141,8 @@ impl LeftOut {
     }
 }
 
-/// The places of all abscissae, those of points that cannot be drawn for their ordinate included: a curve that begins late
-/// shows that it does.
+/// The places of all abscissae, those of points that cannot be drawn for their ordinate included: a
+/// curve that begins late shows that it does.
 fn abscissae(chart: &Chart) -> impl Iterator<Item = f64> {
     let points = chart.series.iter().flat_map(|series| &series.points);
     points.filter_map(|&(x, _)| axis::place(x, chart.x.scale))
@@ -154,9 +157,11 @@ impl Chart {
         draw::picture(self)
     }
 
-    /// Draws the chart in letters, `width` wide and `height` lines high, the labels and the legend not counted.
+    /// Draws the chart in letters, `width` wide and `height` lines high, the labels and the legend
+    /// not counted.
     ///
-    /// A letter stands for the largest value in its column; values that cannot be drawn are left out.
+    /// A letter stands for the largest value in its column; values that cannot be drawn are left
+    /// out.
     ///
     /// # Errors
     /// [`StudyError::Picture`] where not a single point can be drawn.

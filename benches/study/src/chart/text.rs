@@ -4,9 +4,11 @@ use super::axis::{Range, place};
 use super::{Axis, Chart, abscissae};
 use crate::error::StudyError;
 
-/// Draws the chart `width` letters wide and `height` lines high, the labels and the legend not counted.
+/// Draws the chart `width` letters wide and `height` lines high, the labels and the legend not
+/// counted.
 ///
-/// Every letter stands for the largest value in its column. Where two series meet, the later one is seen.
+/// Every letter stands for the largest value in its column. Where two series meet, the later one is
+/// seen.
 pub(super) fn text(chart: &Chart, width: usize, height: usize) -> Result<String, StudyError> {
     let (width, height) = (width.max(10), height.max(4));
     let placed = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
@@ -47,7 +49,8 @@ pub(super) fn text(chart: &Chart, width: usize, height: usize) -> Result<String,
     Ok(framed(chart, &canvas, &letters, (&x, &y), row))
 }
 
-/// One letter per series: the first of its name where these differ, capitals in order of the alphabet otherwise.
+/// One letter per series: the first of its name where these differ, capitals in order of the
+/// alphabet otherwise.
 fn letters(chart: &Chart) -> Vec<char> {
     let initials: Vec<_> = chart
         .series

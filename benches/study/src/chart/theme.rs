@@ -1,8 +1,9 @@
 //! Colours for light and dark backgrounds, and the style sheet that switches between them.
 //!
-//! A drawn element carries the colour for light backgrounds as its attribute, which is all that a reader without style
-//! sheets sees; the style sheet selects elements by that attribute and replaces the colour in dark mode. Neighbouring
-//! slots differ in lightness and dash pattern too, so that colour is never the only difference.
+//! A drawn element carries the colour for light backgrounds as its attribute, which is all that a
+//! reader without style sheets sees; the style sheet selects elements by that attribute and
+//! replaces the colour in dark mode. Neighbouring slots differ in lightness and dash pattern too,
+//! so that colour is never the only difference.
 
 use std::fmt::Write as _;
 

@@ -14,7 +14,8 @@ const FAMILIES: [(&str, &str); 4] = [
     ("four-bar", "windows"),
 ];
 
-/// How time grows with the size of a mechanism, one picture for each family of which there are three sizes or more.
+/// How time grows with the size of a mechanism, one picture for each family of which there are
+/// three sizes or more.
 #[must_use]
 pub fn growth(rows: &[Row]) -> Vec<Figure> {
     let figures = FAMILIES.iter().filter_map(|&(scene, unit)| {

@@ -1,4 +1,5 @@
-//! A mechanism in both descriptions, all formulations and both number types, as contestants of a race.
+//! A mechanism in both descriptions, all formulations and both number types, as contestants of a
+//! race.
 
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -25,7 +26,8 @@ const MEMORY: usize = 1 << 14;
 /// How long a contestant works between two looks at the clock (s).
 const UNINTERRUPTED: f64 = 2e-5;
 
-/// A right-hand side as it is called through the public interface, and what runs below it. Times are taken at time zero.
+/// A right-hand side as it is called through the public interface, and what runs below it. Times
+/// are taken at time zero.
 pub trait Subject<S: Real> {
     /// What integrators move.
     type System: System<S>;
@@ -197,7 +199,8 @@ pub struct Case {
     pub method: Method,
     /// The numbers.
     pub precision: Precision,
-    /// The operations of a whole evaluation, multipliers of the remaining equations included; their `depth` is the longest path.
+    /// The operations of a whole evaluation, multipliers of the remaining equations included; their
+    /// `depth` is the longest path.
     pub operations: Operations,
     /// Those of a stage of a step, which asks for no multipliers in joint coordinates.
     pub stage: Operations,
@@ -214,7 +217,8 @@ pub struct Contestants {
     pub dependent: Contestant<'static>,
     /// Steps of Runge-Kutta from states that do not depend on each other.
     pub step: Contestant<'static>,
-    /// The kernel alone, at states that do not depend on each other, where one kernel is the whole right-hand side.
+    /// The kernel alone, at states that do not depend on each other, where one kernel is the whole
+    /// right-hand side.
     pub kernel: Option<Contestant<'static>>,
 }
 
@@ -249,10 +253,12 @@ pub struct Refused {
 }
 
 impl Scene {
-    /// All cases of a mechanism: its name and its `n` as in [`Case`], and the step (s) of Runge-Kutta, which also lies between the states.
+    /// All cases of a mechanism: its name and its `n` as in [`Case`], and the step (s) of
+    /// Runge-Kutta, which also lies between the states.
     ///
     /// # Errors
-    /// A fault of the mechanism by its bodies with standard multipliers: nothing can be said of it then.
+    /// A fault of the mechanism by its bodies with standard multipliers: nothing can be said of it
+    /// then.
     pub fn of<M: JointCoordinates + Default>(
         name: &'static str,
         n: usize,
@@ -346,7 +352,8 @@ impl Scene {
     }
 }
 
-/// What a report says of the evaluation with Euler parameters normalised inside, which runs use by default. Without equations all formulations are one.
+/// What a report says of the evaluation with Euler parameters normalised inside, which runs use by
+/// default. Without equations all formulations are one.
 ///
 /// Nothing of a formulation that iterates: the report knows the pieces only.
 pub(crate) fn reported(kernels: &[Kernel], method: Method) -> Option<Operations> {
@@ -364,7 +371,8 @@ pub(crate) fn reported(kernels: &[Kernel], method: Method) -> Option<Operations>
     found.or(only).map(|kernel| kernel.operations)
 }
 
-/// The operations of an evaluation that iterates, or that is put together from its parts, counted at the last of some states.
+/// The operations of an evaluation that iterates, or that is put together from its parts, counted
+/// at the last of some states.
 fn counted_by_bodies<M: Mechanism + Default>(
     method: Method,
     states: &[Vec<f64>],
@@ -449,7 +457,8 @@ fn advance<S: Real, Y: System<S>>(
     Rk4.step(system, S::zero(), state, step)
 }
 
-/// What can be timed of a right-hand side: along its motion from a start, in steps of Runge-Kutta (s).
+/// What can be timed of a right-hand side: along its motion from a start, in steps of Runge-Kutta
+/// (s).
 ///
 /// # Errors
 /// A fault on this way, or of an evaluation.
@@ -520,7 +529,8 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
     })
 }
 
-/// Work of `count` evaluations, repeated so often that looking at the clock takes no time beside it.
+/// Work of `count` evaluations, repeated so often that looking at the clock takes no time beside
+/// it.
 ///
 /// # Errors
 /// A fault of the work, which is done twice.

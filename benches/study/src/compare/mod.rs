@@ -1,5 +1,5 @@
-//! What an evaluation of the equations of motion costs: every mechanism in both descriptions, all formulations and both number types, beside a yardstick and a
-//! run-time assembler, in one race.
+//! What an evaluation of the equations of motion costs: every mechanism in both descriptions, all
+//! formulations and both number types, beside a yardstick and a run-time assembler, in one race.
 //!
 //! | what | where |
 //! |---|---|

@@ -19,8 +19,9 @@ pub struct Row {
     pub formulation: String,
     /// `f64` or `f32`.
     pub scalar: String,
-    /// Operations of the whole right-hand side as runs call it by default, multipliers of the remaining equations included. Of the augmented Lagrangian, which solves as often as
-    /// the state asks for, those at one state of the motion.
+    /// Operations of the whole right-hand side as runs call it by default, multipliers of the
+    /// remaining equations included. Of the augmented Lagrangian, which solves as often as the
+    /// state asks for, those at one state of the motion.
     pub operations: usize,
     /// The longest chain of dependent operations among them.
     pub path: usize,
@@ -32,9 +33,11 @@ pub struct Row {
     pub nanoseconds_dependent: f64,
     /// A whole step of Runge-Kutta, four evaluations, from states that do not depend on each other.
     pub rk4_step_nanoseconds: f64,
-    /// The run-time assembler of the same mechanism by its bodies in the same formulation, in its cheapest form; `null` where there is none.
+    /// The run-time assembler of the same mechanism by its bodies in the same formulation, in its
+    /// cheapest form; `null` where there is none.
     pub assembler_nanoseconds: Option<f64>,
-    /// The kernel alone, without what calls it; `null` where the right-hand side is made of several.
+    /// The kernel alone, without what calls it; `null` where the right-hand side is made of
+    /// several.
     pub kernel_nanoseconds: Option<f64>,
     /// `nanoseconds_throughput` over that of the yardstick.
     pub yardsticks: f64,
@@ -67,7 +70,8 @@ impl Row {
     }
 }
 
-/// A build of a small crate in `compile.json`: a chain of rods on parallel hinges or a row of four-bar windows, a derive and a loop of steps, its dependencies being there already.
+/// A build of a small crate in `compile.json`: a chain of rods on parallel hinges or a row of
+/// four-bar windows, a derive and a loop of steps, its dependencies being there already.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compiled {
     /// The crate.

@@ -175,10 +175,12 @@ pub fn write_plain(rows: &[Row], directory: &Path) -> Result<PathBuf, StudyError
     Ok(path)
 }
 
-/// Writes `index.html`, the pictures and `compare.json` into a directory; the paths of what was written.
+/// Writes `index.html`, the pictures and `compare.json` into a directory; the paths of what was
+/// written.
 ///
 /// # Errors
-/// [`StudyError`] where a number is not finite, a picture has nothing to show or a file cannot be written.
+/// [`StudyError`] where a number is not finite, a picture has nothing to show or a file cannot be
+/// written.
 pub fn write(
     document: &Document,
     rows: &[Row],

@@ -1,4 +1,5 @@
-//! Where the numerics stop to hold: motions with closed forms, swept along one axis at a time to where they break.
+//! Where the numerics stop to hold: motions with closed forms, swept along one axis at a time to
+//! where they break.
 //!
 //! | what | where |
 //! |---|---|

@@ -12,7 +12,8 @@ use crate::trade::{Observation, Reference, Setting, Subject};
 pub enum Outcome {
     /// The error is within [`HOLDS`] times of what is promised, and below [`WRONG`].
     Holds,
-    /// It is larger, and the run's watch says so; or it is below [`WRONG`], but not what is promised.
+    /// It is larger, and the run's watch says so; or it is below [`WRONG`], but not what is
+    /// promised.
     Drifts,
     /// The run ended with an error that says why.
     Fails,

@@ -66,7 +66,8 @@ pub struct Row {
     pub promised: Option<f64>,
 }
 
-/// Runs all cells, on as many processors as there are; in their order. Every one is written down in `journal` at once, so that an interrupted map goes on where it was.
+/// Runs all cells, on as many processors as there are; in their order. Every one is written down in
+/// `journal` at once, so that an interrupted map goes on where it was.
 ///
 /// `progress` is called with the cells done.
 ///
@@ -111,7 +112,8 @@ pub fn run(
     Ok(rows.into_iter().flatten().collect())
 }
 
-/// Under which conditions entries of a journal are those of this map, in one line: program, target, and what every cell promises.
+/// Under which conditions entries of a journal are those of this map, in one line: program, target,
+/// and what every cell promises.
 fn conditions(axes: &[Axis], cells: &[Cell]) -> Result<String, StudyError> {
     let mut hasher = DefaultHasher::new();
     for number in [HOLDS, WRONG] {

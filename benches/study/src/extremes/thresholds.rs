@@ -1,22 +1,31 @@
-//! What a run promises, stated before anything is run, and where that ends: every number with its reason.
+//! What a run promises, stated before anything is run, and where that ends: every number with its
+//! reason.
 //!
-//! Errors are relative to the scale of the motion: radians for an angle, parts of the largest value for others.
+//! Errors are relative to the scale of the motion: radians for an angle, parts of the largest value
+//! for others.
 
 use holonom::Real as _;
 
 use crate::compare::Precision;
 use crate::trade::{FLOOR, Family, Formulated, Setting};
 
-/// A run holds what it promises within this: the constants below are of linear oscillations, motions are not.
+/// A run holds what it promises within this: the constants below are of linear oscillations,
+/// motions are not.
 pub const HOLDS: f64 = 10.0;
 
 /// An error above this of the motion's scale is wrong where nothing tells of it.
 pub const WRONG: f64 = 1e-2;
 
-/// The error of a step of `x` radians of an oscillation, for every radian of motion: leading terms of the phase, or of the amplitude where that is larger.
+/// The error of a step of `x` radians of an oscillation, for every radian of motion: leading terms
+/// of the phase, or of the amplitude where that is larger.
 ///
-/// Semi-implicit Euler: half a step, `x / 2`, which does not grow with the motion; its phase `x^2 / 24`. Midpoint and Heun: `x^2 / 6`; implicit midpoint: `x^2 / 12`. Generalized-alpha: `(1/12 + 3/8 d^2) x^2`, and an amplitude of `d^3 x^3 / 2`, with `d = (1 - rho) / (1 + rho)`. Runge-Kutta: `x^4 / 120`; Adams, Bashforth and Moulton: `19 x^4 / 720`, and an amplitude of about `x^5 / 8`. Dormand-Prince of order 5: its
-/// amplitude of a linear oscillation goes with `x^6 / 3600`; a motion that is not linear has terms of order 5, for which `x^5 / 360` stands. Of order 8: `x^8 / 360`, likewise.
+/// Semi-implicit Euler: half a step, `x / 2`, which does not grow with the motion; its phase
+/// `x^2 / 24`. Midpoint and Heun: `x^2 / 6`; implicit midpoint: `x^2 / 12`. Generalized-alpha:
+/// `(1/12 + 3/8 d^2) x^2`, and an amplitude of `d^3 x^3 / 2`, with `d = (1 - rho) / (1 + rho)`.
+/// Runge-Kutta: `x^4 / 120`; Adams, Bashforth and Moulton: `19 x^4 / 720`, and an amplitude of
+/// about `x^5 / 8`. Dormand-Prince of order 5: its amplitude of a linear oscillation goes with
+/// `x^6 / 3600`; a motion that is not linear has terms of order 5, for which `x^5 / 360` stands. Of
+/// order 8: `x^8 / 360`, likewise.
 fn of_step(family: Family, x: f64) -> [f64; 2] {
     match family {
         Family::SemiImplicitEuler => [x / 2.0, x * x / 24.0],
@@ -31,7 +40,8 @@ fn of_step(family: Family, x: f64) -> [f64; 2] {
         Family::Rk4 => [0.0, x.powi(4) / 120.0],
         Family::DormandPrinceFixed => [0.0, x.powi(5) / 360.0],
         Family::DormandPrince853Fixed => [0.0, x.powi(8) / 360.0],
-        // Of step control: the tolerance in every step, steps of about a third of a radian at usual tolerances.
+        // Of step control: the tolerance in every step, steps of about a third of a radian at usual
+        // tolerances.
         Family::BogackiShampine
         | Family::DormandPrince
         | Family::DormandPrince853
@@ -49,22 +59,28 @@ pub struct Motion {
     pub frequency: f64,
     /// How long it runs (s).
     pub duration: f64,
-    /// The largest number in the state over the scale of the motion, in the same unit, at least 1: far from the origin, digits are lost.
+    /// The largest number in the state over the scale of the motion, in the same unit, at least 1:
+    /// far from the origin, digits are lost.
     pub reach: f64,
-    /// The scale of the motion in the units of the state, for the absolute tolerance: an element below it is as good as that, not better.
+    /// The scale of the motion in the units of the state, for the absolute tolerance: an element
+    /// below it is as good as that, not better.
     pub size: f64,
     /// The mass (kg) that the constraints carry: a penalty yields by its part of `alpha`.
     pub mass: f64,
-    /// The violation that the run starts with, over the size of the mechanism: it moves as one of other lengths.
+    /// The violation that the run starts with, over the size of the mechanism: it moves as one of
+    /// other lengths.
     pub violation: f64,
 }
 
-/// The relative error that a setting promises for a motion: discretisation, bias of the formulation, round-off of every step to one side, and what the start is off by.
+/// The relative error that a setting promises for a motion: discretisation, bias of the
+/// formulation, round-off of every step to one side, and what the start is off by.
 ///
-/// Round-off: `EPSILON` of the number type, times the reach, in every step, where nothing evens out.
+/// Round-off: `EPSILON` of the number type, times the reach, in every step, where nothing evens
+/// out.
 ///
-/// The bias of a penalty: `m / alpha` of the accelerations, for every radian (what chapter 15's rod shows: 3.4e-5 rad after 32 rad with `m / alpha = 7e-7`). An augmented
-/// Lagrangian has it iterated away, down to `1e-10` (f64) of the accelerations, or what single precision leaves.
+/// The bias of a penalty: `m / alpha` of the accelerations, for every radian (what chapter 15's rod
+/// shows: 3.4e-5 rad after 32 rad with `m / alpha = 7e-7`). An augmented Lagrangian has it iterated
+/// away, down to `1e-10` (f64) of the accelerations, or what single precision leaves.
 #[must_use]
 pub fn promised(setting: &Setting, motion: &Motion) -> f64 {
     let Motion {

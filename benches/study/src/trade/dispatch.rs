@@ -18,7 +18,8 @@ use crate::error::StudyError;
 use crate::run::contestant;
 use crate::timing::Contestant;
 
-/// Something to be done with a mechanism, once it is known with which numbers, which formulation, which treatment and which description.
+/// Something to be done with a mechanism, once it is known with which numbers, which formulation,
+/// which treatment and which description.
 pub(super) trait Task<'a, P: Problem + 'a> {
     type Outcome;
 

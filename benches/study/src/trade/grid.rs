@@ -20,9 +20,12 @@ pub struct Grid {
     pub families: Vec<Family>,
     /// Number types.
     pub scalars: Vec<Precision>,
-    /// Fixed steps begin with a quarter of [`Facts::time_scale`]; two of them make a half, as long as a run has no more steps than this. They have two digits, or three, if reports then come at ends of steps.
+    /// Fixed steps begin with a quarter of [`Facts::time_scale`]; two of them make a half, as long
+    /// as a run has no more steps than this. They have two digits, or three, if reports then come
+    /// at ends of steps.
     pub most_steps: f64,
-    /// Relative tolerances, of two digits, begin with a hundredth; two of them make a tenth, down to this.
+    /// Relative tolerances, of two digits, begin with a hundredth; two of them make a tenth, down
+    /// to this.
     pub least_tolerance: f64,
 }
 
@@ -59,7 +62,8 @@ impl Choice {
         }
     }
 
-    /// The coefficients for a mechanism, its numbers and an integrator, whether they follow from the mechanism, and why not, if they were to.
+    /// The coefficients for a mechanism, its numbers and an integrator, whether they follow from
+    /// the mechanism, and why not, if they were to.
     #[must_use]
     pub fn made(
         self,
@@ -100,10 +104,12 @@ impl Grid {
         Ok(())
     }
 
-    /// The settings for a problem, those that are cheap first where they differ in step or tolerance alone.
+    /// The settings for a problem, those that are cheap first where they differ in step or
+    /// tolerance alone.
     ///
-    /// Where no equations remain in joint coordinates, all formulations are the same and there is nothing to correct: one stands for all. Without joint coordinates there are no settings by joints, and no recovery
-    /// along the tree, which joint coordinates have done anyway.
+    /// Where no equations remain in joint coordinates, all formulations are the same and there is
+    /// nothing to correct: one stands for all. Without joint coordinates there are no settings by
+    /// joints, and no recovery along the tree, which joint coordinates have done anyway.
     #[must_use]
     pub fn settings(&self, subject: &dyn Subject) -> Vec<Planned> {
         let facts = &subject.facts();
@@ -178,7 +184,8 @@ impl Grid {
     }
 }
 
-/// The step of three digits nearest to this one of which a time between reports is a multiple, so that no state within a step is asked for; the same step, if none is near.
+/// The step of three digits nearest to this one of which a time between reports is a multiple, so
+/// that no state within a step is asked for; the same step, if none is near.
 fn dividing(reporting: f64, step: f64) -> f64 {
     /// A quarter of the way to twice as much: half of that from a step of the grid to the next.
     const NEAR: f64 = 1.189_207;
@@ -219,7 +226,8 @@ mod tests {
         assert_eq!(dividing(0.5, 0.24), 0.25);
         assert_eq!(dividing(0.5, 0.12), 0.125);
         assert_eq!(dividing(0.5, 0.0021), 0.002);
-        // Thirds are not written with three digits, and a step may be longer than what is asked for.
+        // Thirds are not written with three digits, and a step may be longer than what is asked
+        // for.
         assert_eq!(dividing(0.5, 0.17), 0.17);
         assert_eq!(dividing(0.1, 0.25), 0.25);
     }

@@ -1,4 +1,5 @@
-//! An integrator that is chosen at run time, as one type: what is compiled for a mechanism does not grow with the number of integrators.
+//! An integrator that is chosen at run time, as one type: what is compiled for a mechanism does not
+//! grow with the number of integrators.
 
 use holonom::{
     AdamsCourse, AdamsFixedCourse, AdaptiveCourse, AlphaEnd, AlphaStep, BdfCourse,
@@ -28,7 +29,8 @@ pub enum Family {
     DormandPrince853Fixed,
     /// The implicit midpoint rule, order 2.
     ImplicitMidpoint,
-    /// Generalized-alpha on rigid constraints with a spectral radius of 0.8, order 2: by bodies with standard multipliers alone.
+    /// Generalized-alpha on rigid constraints with a spectral radius of 0.8, order 2: by bodies
+    /// with standard multipliers alone.
     GeneralizedAlpha,
     /// Adams, Bashforth and Moulton at a fixed step, order 4.
     AdamsBashforthMoulton4,
@@ -108,7 +110,8 @@ impl Family {
         )
     }
 
-    /// Whether it moves what is described and formulated so: all methods do, but those that solve for rigid constraints themselves.
+    /// Whether it moves what is described and formulated so: all methods do, but those that solve
+    /// for rigid constraints themselves.
     #[must_use]
     pub const fn moves(self, coordinates: Coordinates, method: Method) -> bool {
         !matches!(self, Self::GeneralizedAlpha)
@@ -118,7 +121,8 @@ impl Family {
             )
     }
 
-    /// The power of the step that the error of a motion goes with; of a method of many orders, the highest.
+    /// The power of the step that the error of a motion goes with; of a method of many orders, the
+    /// highest.
     #[must_use]
     pub const fn order(self) -> u32 {
         match self {
@@ -133,8 +137,8 @@ impl Family {
     }
 }
 
-/// The absolute tolerance over the relative one, as `ode45` has them by default and chapter 15 uses them: an element of a state below it, in SI units, counts as if it
-/// were so large.
+/// The absolute tolerance over the relative one, as `ode45` has them by default and chapter 15 uses
+/// them: an element of a state below it, in SI units, counts as if it were so large.
 pub const FLOOR: f64 = 1e-3;
 
 /// A method with its step or its tolerance: an [`Integrator`] of any number type.
@@ -142,7 +146,8 @@ pub const FLOOR: f64 = 1e-3;
 pub struct Integration {
     /// The method.
     pub family: Family,
-    /// The step (s), or the relative tolerance of a method that chooses its steps; the absolute one is [`FLOOR`] times that.
+    /// The step (s), or the relative tolerance of a method that chooses its steps; the absolute one
+    /// is [`FLOOR`] times that.
     pub step_or_tolerance: f64,
 }
 
@@ -188,7 +193,8 @@ impl Integration {
     }
 }
 
-/// Calls `$then` with the integrator as its own type; for methods that do much besides evaluations, `$other` instead if it is given.
+/// Calls `$then` with the integrator as its own type; for methods that do much besides evaluations,
+/// `$other` instead if it is given.
 macro_rules! with_own_type {
     ($integration:expr, $integrator:ident => $then:expr) => {
         $crate::trade::integration::with_own_type!(@ $integration, $integrator => $then, {
@@ -436,7 +442,8 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
     }
 }
 
-/// A system behind a pointer: one type for all systems with such states, so that a method is compiled once for all of them.
+/// A system behind a pointer: one type for all systems with such states, so that a method is
+/// compiled once for all of them.
 struct Behind<'a, S: Real, X: Vector<S>> {
     system: &'a mut dyn System<S, State = X>,
 }

@@ -9,7 +9,8 @@ use serde::de::DeserializeOwned;
 
 use crate::error::StudyError;
 
-/// Entries on disk, a line of JSON each behind a line that says under which conditions they were measured.
+/// Entries on disk, a line of JSON each behind a line that says under which conditions they were
+/// measured.
 #[derive(Debug)]
 pub struct Journal<T> {
     path: PathBuf,
@@ -18,7 +19,8 @@ pub struct Journal<T> {
 }
 
 impl<T: Serialize + DeserializeOwned> Journal<T> {
-    /// Opens a journal, with the entries that an interrupted study has left there under the same conditions; those of others are dropped. A line that was not finished counts as not written.
+    /// Opens a journal, with the entries that an interrupted study has left there under the same
+    /// conditions; those of others are dropped. A line that was not finished counts as not written.
     ///
     /// # Errors
     /// [`StudyError::Write`] where the file cannot be written.

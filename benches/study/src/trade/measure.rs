@@ -28,7 +28,8 @@ pub struct Trade {
     pub settings: Vec<Setting>,
     /// The others.
     pub stopped: Vec<Stopped>,
-    /// The time of an evaluation of the yardstick (s), the median of all that were measured beside the runs; `None` without a yardstick.
+    /// The time of an evaluation of the yardstick (s), the median of all that were measured beside
+    /// the runs; `None` without a yardstick.
     pub yardstick: Option<f64>,
 }
 
@@ -37,7 +38,8 @@ pub struct Trade {
 pub struct Timing<'a> {
     /// How often, and for how long.
     pub schedule: Schedule,
-    /// What is timed in turn with every run, so that a machine whose speed changes is no part of the ratio.
+    /// What is timed in turn with every run, so that a machine whose speed changes is no part of
+    /// the ratio.
     pub yardstick: Option<&'a dyn Fn() -> Contestant<'static>>,
 }
 
@@ -54,13 +56,15 @@ impl Default for Timing<'_> {
     }
 }
 
-/// Runs a problem with all settings of a grid. Every run is written down in `journal` at once, so that an interrupted study goes on where it was; the file stays, and
-/// another study takes from it what is there, if program, processor, problem and motion are the same.
+/// Runs a problem with all settings of a grid. Every run is written down in `journal` at once, so
+/// that an interrupted study goes on where it was; the file stays, and another study takes from it
+/// what is there, if program, processor, problem and motion are the same.
 ///
 /// `progress` is called with the runs done and their number.
 ///
 /// # Errors
-/// [`StudyError`] where the reference cannot be computed or the journal cannot be written. A run that stops is no error, see [`Trade::stopped`].
+/// [`StudyError`] where the reference cannot be computed or the journal cannot be written. A run
+/// that stops is no error, see [`Trade::stopped`].
 pub fn measure(
     subject: &dyn Subject,
     grid: &Grid,
@@ -123,7 +127,8 @@ pub fn measure(
     })
 }
 
-/// Under which conditions entries of a journal are those of this study, in one line: program, target, problem, what is read of it, what that should be, and how it moves.
+/// Under which conditions entries of a journal are those of this study, in one line: program,
+/// target, problem, what is read of it, what that should be, and how it moves.
 fn conditions(
     facts: &Facts,
     start: &Start,

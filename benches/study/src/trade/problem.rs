@@ -2,7 +2,8 @@
 
 use holonom::{Fault, JointCoordinates, Mechanism, MechanismExt as _, Real, Span, View};
 
-/// A motion of a mechanism: what is moved, for how long, what is read of it, and what that should be.
+/// A motion of a mechanism: what is moved, for how long, what is read of it, and what that should
+/// be.
 ///
 /// ```
 /// use holonom::joints::Revolute;
@@ -73,7 +74,8 @@ pub trait Problem {
     /// From when to when (s), and the interval between the times at which it is compared.
     fn span(&self) -> Span<f64>;
 
-    /// About the period (s) of the fastest motion that matters: the longest step that is tried is a quarter of it.
+    /// About the period (s) of the fastest motion that matters: the longest step that is tried is a
+    /// quarter of it.
     fn time_scale(&self) -> f64;
 
     /// What an error is of.
@@ -82,8 +84,10 @@ pub trait Problem {
     /// What is compared, at one time: any number of values, in that unit.
     fn read<S: Real>(&self, view: &View<'_, S, Self::Mechanism>) -> Vec<f64>;
 
-    /// What should be read at a time (s): a closed form or a published value; `None` where nothing is known. Where nothing is known at any time of a run, the study integrates the motion
-    /// twice, in ways that have little in common, and takes one for the reference and the other for its error.
+    /// What should be read at a time (s): a closed form or a published value; `None` where nothing
+    /// is known. Where nothing is known at any time of a run, the study integrates the motion
+    /// twice, in ways that have little in common, and takes one for the reference and the other for
+    /// its error.
     fn reference(&self, time: f64) -> Option<Vec<f64>> {
         let _ = time;
         None
@@ -96,8 +100,9 @@ pub trait Problem {
         differences.fold(0.0, |largest, x| if x <= largest { largest } else { x })
     }
 
-    /// Whether every integrator is compiled for this mechanism alone when runs are timed, as in a user's program, and not once for all formulations, which takes some nanoseconds more
-    /// an evaluation. For mechanisms of few operations, where these count.
+    /// Whether every integrator is compiled for this mechanism alone when runs are timed, as in a
+    /// user's program, and not once for all formulations, which takes some nanoseconds more an
+    /// evaluation. For mechanisms of few operations, where these count.
     const IS_INLINED: bool = false;
 }
 

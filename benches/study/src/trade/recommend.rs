@@ -1,4 +1,5 @@
-//! The cheapest setting for an error, or the most exact one for a time, tried where the grid was not.
+//! The cheapest setting for an error, or the most exact one for a time, tried where the grid was
+//! not.
 
 use super::grid::two_digits;
 use super::integration::Integration;
@@ -23,7 +24,8 @@ pub enum Wish {
 pub enum Processor {
     /// The one that the trade was measured on.
     Here,
-    /// A Cortex-M7 with numbers in double precision at 480 MHz, by counts of operations: an estimate.
+    /// A Cortex-M7 with numbers in double precision at 480 MHz, by counts of operations: an
+    /// estimate.
     CortexM7,
 }
 
@@ -40,10 +42,12 @@ impl Processor {
         }
     }
 
-    /// The seconds of a run on it. `None` where nothing is known: of a formulation that iterates as often as the state asks for, and of a run that is corrected after steps.
+    /// The seconds of a run on it. `None` where nothing is known: of a formulation that iterates as
+    /// often as the state asks for, and of a run that is corrected after steps.
     #[must_use]
     pub fn seconds(self, subject: &dyn Subject, setting: &Setting, row: &Row) -> Option<f64> {
-        /// Instructions of an operation, with what it loads and stores, and those of a stage of a step that are there for any mechanism: between 0.7 and 1.5 times what
+        /// Instructions of an operation, with what it loads and stores, and those of a stage of a
+        /// step that are there for any mechanism: between 0.7 and 1.5 times what
         /// `tests/firmware/run` counts, see `benches/tests/cortex_m7.rs`.
         const INSTRUCTIONS: f64 = 2.4;
         const STAGE: f64 = 60.0;
@@ -70,7 +74,8 @@ pub struct Recommendation {
     pub seconds: f64,
     /// The errors from the problem's own start and from starts nearby.
     pub errors: Vec<f64>,
-    /// Cheaper, or more exact, settings of the trade that failed from a start nearby, and by what error, or why.
+    /// Cheaper, or more exact, settings of the trade that failed from a start nearby, and by what
+    /// error, or why.
     pub passed_over: Vec<(Setting, String)>,
 }
 
@@ -82,16 +87,20 @@ impl Recommendation {
     }
 }
 
-/// How many starts nearby are tried, and how far from the problem's own they are, see [`Subject::start_near`].
+/// How many starts nearby are tried, and how far from the problem's own they are, see
+/// [`Subject::start_near`].
 pub const STARTS: u64 = 10;
 /// See [`STARTS`].
 pub const NEARBY: f64 = 0.01;
-/// How much larger than the largest error that was seen the error that is asked for must be: starts nearby differ, and ten of them are not all.
+/// How much larger than the largest error that was seen the error that is asked for must be: starts
+/// nearby differ, and ten of them are not all.
 pub const MARGIN: f64 = 1.5;
 
-/// The best setting of a trade for a wish, of those whose runs are not doubted and do what is asked for from [`STARTS`] starts nearby as well, against integrations with tight tolerances.
+/// The best setting of a trade for a wish, of those whose runs are not doubted and do what is asked
+/// for from [`STARTS`] starts nearby as well, against integrations with tight tolerances.
 ///
-/// `None` where there is none: the error is below what the settings reach, or the time above what they take.
+/// `None` where there is none: the error is below what the settings reach, or the time above what
+/// they take.
 ///
 /// # Errors
 /// [`StudyError`] where a reference cannot be computed, or the wish is not a positive number.
@@ -165,7 +174,8 @@ pub fn recommend(
     Ok(None)
 }
 
-/// The same with the step, or the tolerance, that the error allows beyond that of the grid, where it is cheaper and does what is asked for.
+/// The same with the step, or the tolerance, that the error allows beyond that of the grid, where
+/// it is cheaper and does what is asked for.
 fn refined(
     subject: &dyn Subject,
     trade: &Trade,

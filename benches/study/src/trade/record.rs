@@ -50,7 +50,8 @@ pub struct Row {
     pub error: f64,
     /// The whole run (s), without watch and readings: the median of several.
     pub seconds: f64,
-    /// `seconds` over the time of an evaluation of the yardstick, measured in turn with the run; `null` where there is no yardstick.
+    /// `seconds` over the time of an evaluation of the yardstick, measured in turn with the run;
+    /// `null` where there is no yardstick.
     pub yardsticks: Option<f64>,
     /// Evaluations of the equations of motion.
     pub evaluations: u64,

@@ -12,7 +12,8 @@ use crate::error::StudyError;
 pub struct Reference {
     /// The times (s), growing, and what should be read.
     instants: Vec<(f64, Vec<f64>)>,
-    /// By how much it may be off: of two integrations the one against the other; zero of a closed form and of published values, which say themselves how good they are.
+    /// By how much it may be off: of two integrations the one against the other; zero of a closed
+    /// form and of published values, which say themselves how good they are.
     pub error: f64,
     /// Where it comes from.
     pub source: Source,
@@ -31,8 +32,9 @@ pub enum Source {
 const TIGHT: [f64; 2] = [1e-12, 1e-13];
 
 impl Reference {
-    /// The reference of a problem from a start: its own where it starts as described and something is known, else two integrations with tight tolerances, which differ in description or, where there
-    /// is but one, in formulation and correction.
+    /// The reference of a problem from a start: its own where it starts as described and something
+    /// is known, else two integrations with tight tolerances, which differ in description or, where
+    /// there is but one, in formulation and correction.
     ///
     /// # Errors
     /// [`StudyError::Run`] where an integration stops.
@@ -114,7 +116,8 @@ impl Reference {
         Ok(())
     }
 
-    /// The largest error of a run at the times of the reference. NaN where a reading is, or where none is compared.
+    /// The largest error of a run at the times of the reference. NaN where a reading is, or where
+    /// none is compared.
     #[must_use]
     pub fn error_of(&self, subject: &dyn Subject, run: &Observation) -> f64 {
         let mut largest = f64::NAN;
@@ -134,7 +137,8 @@ impl Reference {
         largest
     }
 
-    /// What should be read at a time of a run, whose numbers may be less exact than those of the reference.
+    /// What should be read at a time of a run, whose numbers may be less exact than those of the
+    /// reference.
     fn at(&self, subject: &dyn Subject, time: f64) -> Option<Vec<f64>> {
         /// Of single precision, with some to spare.
         const SAME: f64 = 1e-6;
@@ -152,7 +156,8 @@ impl Reference {
     }
 }
 
-/// A run by Dormand-Prince with standard multipliers, or with an augmented Lagrangian where equations are kept although they depend on others, which is for formulations with a compliance.
+/// A run by Dormand-Prince with standard multipliers, or with an augmented Lagrangian where
+/// equations are kept although they depend on others, which is for formulations with a compliance.
 pub(super) fn observed(
     subject: &dyn Subject,
     start: &Start,

@@ -20,7 +20,8 @@ use crate::format::scientific;
 use crate::page::write_page;
 use crate::target::Target;
 
-/// Runs that are shown over time: Runge-Kutta with the step of which the time scale has 64, by the bodies, in every formulation, and with a correction.
+/// Runs that are shown over time: Runge-Kutta with the step of which the time scale has 64, by the
+/// bodies, in every formulation, and with a correction.
 ///
 /// A run that stops is left out.
 ///
@@ -160,7 +161,8 @@ pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
     }
 }
 
-/// Several trades in two tables: of each problem the most exact setting, and the cheapest for an error of a millionth.
+/// Several trades in two tables: of each problem the most exact setting, and the cheapest for an
+/// error of a millionth.
 #[must_use]
 pub fn summary(trades: &[Trade], command: &str) -> Document {
     Document {
@@ -276,7 +278,8 @@ pub fn recommendation(
     text
 }
 
-/// Writes `<problem>.json`, `<problem>-stopped.json`, `<problem>.csv`, the page and its pictures into a directory; the paths of what was written.
+/// Writes `<problem>.json`, `<problem>-stopped.json`, `<problem>.csv`, the page and its pictures
+/// into a directory; the paths of what was written.
 ///
 /// # Errors
 /// [`StudyError`] where a picture has nothing to show or a file cannot be written.

@@ -22,14 +22,16 @@ pub enum Formulated {
 /// A formulation, and where its coefficients come from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Choice {
-    /// From the mechanism: those of `of`, such as [`Baumgarte::of`], and `at_step` where the step is fixed.
+    /// From the mechanism: those of `of`, such as [`Baumgarte::of`], and `at_step` where the step
+    /// is fixed.
     Derived(Method),
     /// These.
     Given(Formulated),
 }
 
 impl Formulated {
-    /// A formulation with the coefficients that follow from a mechanism, in the numbers that it is run with, and for the integrator.
+    /// A formulation with the coefficients that follow from a mechanism, in the numbers that it is
+    /// run with, and for the integrator.
     ///
     /// # Errors
     /// Why none follow, see [`holonom::Scales::of`].
@@ -69,7 +71,8 @@ impl Formulated {
         }
     }
 
-    /// The coefficients in SI units: none, `[alpha, beta]`, or `[alpha, omega, mu]` and, where a radian does not count as a metre, the length that it counts as.
+    /// The coefficients in SI units: none, `[alpha, beta]`, or `[alpha, omega, mu]` and, where a
+    /// radian does not count as a metre, the length that it counts as.
     #[must_use]
     pub fn coefficients(&self) -> Vec<f64> {
         match *self {
@@ -240,7 +243,8 @@ pub struct Setting {
     pub coordinates: Coordinates,
     /// The formulation.
     pub formulation: Formulated,
-    /// Whether its coefficients are those that follow from the mechanism, see [`Choice::Derived`]: a user writes no numbers then.
+    /// Whether its coefficients are those that follow from the mechanism, see [`Choice::Derived`]:
+    /// a user writes no numbers then.
     pub is_derived: bool,
     /// What is done after every step.
     pub treatment: Treatment,
@@ -251,7 +255,8 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// The lines of Rust that run it, for a mechanism in a variable of that name; interval, reports and what is read are the reader's.
+    /// The lines of Rust that run it, for a mechanism in a variable of that name; interval, reports
+    /// and what is read are the reader's.
     #[must_use]
     pub fn code(&self, mechanism: &str) -> String {
         let numbers = match self.scalar {

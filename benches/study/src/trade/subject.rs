@@ -117,8 +117,10 @@ pub trait Subject {
     /// Why the mechanism does not stand.
     fn start(&self) -> Result<Start, StudyError>;
 
-    /// A start nearby, corrected onto the constraints: positions are moved by up to `size` times the largest of them, orientations by so many radians, velocities by that part of the largest or
-    /// of what the lengths and the time scale give; by a tenth or a hundredth of that where the mechanism cannot be put together there. The same number gives the same start.
+    /// A start nearby, corrected onto the constraints: positions are moved by up to `size` times
+    /// the largest of them, orientations by so many radians, velocities by that part of the largest
+    /// or of what the lengths and the time scale give; by a tenth or a hundredth of that where the
+    /// mechanism cannot be put together there. The same number gives the same start.
     ///
     /// # Errors
     /// Why the mechanism does not stand there.
@@ -135,7 +137,8 @@ pub trait Subject {
         integration: Integration,
     ) -> Result<Formulated, StudyError>;
 
-    /// Operations of a stage of a step; `None` where they depend on the state, or where states are corrected after steps.
+    /// Operations of a stage of a step; `None` where they depend on the state, or where states are
+    /// corrected after steps.
     fn operations(&self, setting: &Setting) -> Option<usize>;
 
     /// One run with the watch, read at the reporting times.
@@ -144,7 +147,8 @@ pub trait Subject {
     /// [`StudyError::Run`] with what stopped it.
     fn observe(&self, setting: &Setting, start: &Start) -> Result<Observation, StudyError>;
 
-    /// The same run bare, to be timed: without watch and readings, its dense output at the reporting times included.
+    /// The same run bare, to be timed: without watch and readings, its dense output at the
+    /// reporting times included.
     ///
     /// # Errors
     /// [`StudyError::Run`] with why it cannot start.
@@ -264,7 +268,8 @@ pub(super) fn state<S: Real, M: Mechanism>(start: &Start) -> M::State<S> {
 }
 
 fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, Fault> {
-    /// Of what the motion to come may reach: where the mechanism starts in the origin there is no other length.
+    /// Of what the motion to come may reach: where the mechanism starts in the origin there is no
+    /// other length.
     const PART: f64 = 0.01;
     // SplitMix64 (Steele, Lea and Flood 2014).
     let mut random = number;

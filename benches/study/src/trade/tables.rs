@@ -172,7 +172,8 @@ pub fn most_exact(trades: &[Trade]) -> Table {
     }
 }
 
-/// Of each problem the cheapest settings for three errors, of runs that are not doubted where there are any.
+/// Of each problem the cheapest settings for three errors, of runs that are not doubted where there
+/// are any.
 #[must_use]
 pub fn cheapest_of(trades: &[Trade]) -> Table {
     let mut rows = Vec::new();

@@ -1,4 +1,5 @@
-//! The trade on a mechanism of somebody else: an arm of two links, of which nothing is known beforehand.
+//! The trade on a mechanism of somebody else: an arm of two links, of which nothing is known
+//! beforehand.
 
 mod unusual;
 

@@ -1,4 +1,5 @@
-//! Problems that nothing can be made of, that begin in the origin, or whose equations depend on each other.
+//! Problems that nothing can be made of, that begin in the origin, or whose equations depend on
+//! each other.
 
 use super::*;
 

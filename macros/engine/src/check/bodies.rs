@@ -15,7 +15,8 @@ use crate::syntax::{List, ungroup};
 const MASS_MOVES: &str = "; a mass at a point on the axis of a hinge may be counted to either of its bodies: take \
      some from the other one, and no motion changes";
 
-/// The same of moments, which measurements, taken link by link, get wrong by what motions do not tell.
+/// The same of moments, which measurements, taken link by link, get wrong by what motions do not
+/// tell.
 const MOMENTS_MOVE: &str = "; if they were measured, raise both moments across the axis of a hinge by one amount and \
      take it from the other body of the hinge, unless that is the ground: no motion changes";
 

@@ -27,7 +27,8 @@ const STATEMENTS: [&str; 9] = [
 /// Makes a term of two.
 pub(super) type Make = fn(Box<Term>, Box<Term>) -> Term;
 
-/// One or two terms of one shape: the normals of an axis are two vectors, and what is made of them is twofold too.
+/// One or two terms of one shape: the normals of an axis are two vectors, and what is made of them
+/// is twofold too.
 #[derive(Clone, Debug)]
 pub(super) struct Shaped {
     pub(super) vector: bool,

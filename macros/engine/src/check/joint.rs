@@ -41,18 +41,21 @@ pub struct Defined<'a> {
 }
 
 impl Defined<'_> {
-    /// The definition, if the motions that it states are those that its equations leave: how they compare was found by numbers.
+    /// The definition, if the motions that it states are those that its equations leave: how they
+    /// compare was found by numbers.
     pub fn compared(self, found: &Comparison, faults: &mut Faults) -> Option<ElementDef> {
         moves::refuse(self.syntax, &self.joint, &self.places, found, faults).then_some(self.joint)
     }
 }
 
-/// Checks a definition that may have come from elsewhere, where its motions were looked at. `None` if anything is wrong; the faults say what.
+/// Checks a definition that may have come from elsewhere, where its motions were looked at. `None`
+/// if anything is wrong; the faults say what.
 pub fn check(syntax: &JointSyntax, faults: &mut Faults) -> Option<ElementDef> {
     define(syntax, faults).map(|defined| defined.joint)
 }
 
-/// Checks a definition where it stands, but for its motions. `None` if anything is wrong; the faults say what.
+/// Checks a definition where it stands, but for its motions. `None` if anything is wrong; the
+/// faults say what.
 pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Defined<'a>> {
     if !syntax.is_complete {
         return None;
@@ -147,7 +150,8 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
     })
 }
 
-/// The angles over many turns that a definition speaks of outside the reference configuration, where they are zero.
+/// The angles over many turns that a definition speaks of outside the reference configuration,
+/// where they are zero.
 fn turns(joint: &ElementDef) -> Vec<Turn> {
     fn find(term: &Term, turns: &mut Vec<Turn>) {
         match term {

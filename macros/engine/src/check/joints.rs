@@ -23,7 +23,8 @@ use crate::syntax::{Value, ungroup};
 /// The bodies that joints name, by their places.
 pub(super) struct Mentioned {
     pub(super) bodies: Vec<bool>,
-    /// Whether all names could be read; if not, the body that seems to be left alone may be meant by one of the others.
+    /// Whether all names could be read; if not, the body that seems to be left alone may be meant
+    /// by one of the others.
     pub(super) is_certain: bool,
 }
 
@@ -193,7 +194,8 @@ impl JointChecker<'_> {
         })
     }
 
-    /// Whether the joint is to carry no body in joint coordinates: `cut`, unless that is a parameter of its own.
+    /// Whether the joint is to carry no body in joint coordinates: `cut`, unless that is a
+    /// parameter of its own.
     fn cut(&self, joint: &ElementDef, pairs: &mut Pairs<'_>, faults: &mut Faults) -> bool {
         let key = "cut";
         let is_own = joint.parameters.iter().any(|own| own.name == key);
@@ -221,7 +223,8 @@ impl JointChecker<'_> {
         is_cut
     }
 
-    /// Refuses a law of an array with an argument of the index's name: nobody could tell which of them is meant.
+    /// Refuses a law of an array with an argument of the index's name: nobody could tell which of
+    /// them is meant.
     fn refuse_index(&self, arguments: &[Ident], expr: &Expr, faults: &mut Faults) {
         if self.field.name.index().is_some() && arguments.iter().any(is_index) {
             faults.at(

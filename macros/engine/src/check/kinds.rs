@@ -1,5 +1,5 @@
-//! The number of kinds that a mechanism may have: every definition is expanded within the one before, and the compiler expands to a
-//! limit only.
+//! The number of kinds that a mechanism may have: every definition is expanded within the one
+//! before, and the compiler expands to a limit only.
 
 use syn::{Expr, ExprLit, Lit};
 
@@ -36,7 +36,8 @@ fn value(expr: &Expr) -> Option<usize> {
     }
 }
 
-/// The refusal of more kinds than the compiler expands; what the compiler itself says then names neither struct nor cause.
+/// The refusal of more kinds than the compiler expands; what the compiler itself says then names
+/// neither struct nor cause.
 #[must_use]
 pub fn too_many(syntax: &MechanismSyntax, kinds: usize) -> Option<String> {
     let given = syntax.list.pairs.iter().find_map(|pair| match &pair.value {

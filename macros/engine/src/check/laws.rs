@@ -1,4 +1,5 @@
-//! Laws: functions that a mechanism writes, of the time and of the arguments that a definition names.
+//! Laws: functions that a mechanism writes, of the time and of the arguments that a definition
+//! names.
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::ToTokens;

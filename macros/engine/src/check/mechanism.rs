@@ -41,7 +41,8 @@ pub struct Checked<'a> {
 }
 
 impl Checked<'_> {
-    /// The model, whose redundant equations are refused, left out or kept, as was wished: what they are was found by numbers.
+    /// The model, whose redundant equations are refused, left out or kept, as was wished: what they
+    /// are was found by numbers.
     pub fn judged(mut self, found: Independence, faults: &mut Faults) -> Model {
         self.model.independence = found;
         redundant::check(&mut self.model, self.wish, faults);
@@ -49,7 +50,8 @@ impl Checked<'_> {
     }
 }
 
-/// Checks a mechanism, but for its redundant equations. `None` if anything is wrong with its parts; the faults say what.
+/// Checks a mechanism, but for its redundant equations. `None` if anything is wrong with its parts;
+/// the faults say what.
 pub fn check<'a>(
     syntax: &'a MechanismSyntax,
     types: &Definitions,
@@ -245,7 +247,8 @@ pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Defin
         .map(|(_, definition)| definition)
 }
 
-/// Whether two fields have one name: what speaks of it would speak of the first. The compiler reports it.
+/// Whether two fields have one name: what speaks of it would speak of the first. The compiler
+/// reports it.
 #[must_use]
 pub fn is_ambiguous(syntax: &MechanismSyntax) -> bool {
     let mut before = HashSet::new();
@@ -254,7 +257,8 @@ pub fn is_ambiguous(syntax: &MechanismSyntax) -> bool {
     names.any(|name| !before.insert(name.field().unraw()))
 }
 
-/// Refuses a field of the index's name beside an array: in its attributes nobody could tell them apart.
+/// Refuses a field of the index's name beside an array: in its attributes nobody could tell them
+/// apart.
 fn refuse_index(syntax: &MechanismSyntax, faults: &mut Faults) {
     let has_arrays = syntax
         .fields

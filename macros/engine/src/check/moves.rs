@@ -8,7 +8,8 @@ use crate::model::{Comparison, ElementDef, Row};
 use crate::syntax::joint::{JointSyntax, Statement};
 use crate::syntax::motion::MotionSyntax;
 
-/// Says what was found where it is stated. `places` are where the constraints are written. Whether nothing was refused.
+/// Says what was found where it is stated. `places` are where the constraints are written. Whether
+/// nothing was refused.
 pub(super) fn refuse(
     syntax: &JointSyntax,
     joint: &ElementDef,

@@ -89,8 +89,9 @@ impl<'a> Numbers<'a> {
                 } else {
                     Number::Symbol
                 };
-                // A constant of another type, or an unknown one, is refused by the compiler: with one sentence, wherever the
-                // expression is used. The call changes nothing; it tells the type where that of the constant is not known.
+                // A constant of another type, or an unknown one, is refused by the compiler: with
+                // one sentence, wherever the expression is used. The call changes nothing; it tells
+                // the type where that of the constant is not known.
                 let value = local("value");
                 let expression = quote! {
                     ::core::convert::identity::<f64>({ let #value: f64 = #expression; #value })
@@ -140,8 +141,8 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// The symbol of the same expression, so that what is equal in two places cancels. What must be positive keeps a symbol of its
-    /// own, whose place a refusal names.
+    /// The symbol of the same expression, so that what is equal in two places cancels. What must be
+    /// positive keeps a symbol of its own, whose place a refusal names.
     fn known(&self, expression: &TokenStream) -> Option<u32> {
         if must_be_positive(&self.attribute) {
             return None;
@@ -305,7 +306,8 @@ impl<'a> Numbers<'a> {
                     );
                     return None;
                 };
-                // Whether there is such an entry is found by the compiler, and not when the program runs.
+                // Whether there is such an entry is found by the compiler, and not when the program
+                // runs.
                 let at = expr.span();
                 Some(quote_spanned!(at=> const { #array[#index] }))
             }
@@ -316,7 +318,8 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// Refuses a name in small letters, which is no constant, before the compiler does: it cannot say what there is.
+    /// Refuses a name in small letters, which is no constant, before the compiler does: it cannot
+    /// say what there is.
     fn is_unknown(&self, path: &syn::ExprPath, faults: &mut Faults) -> bool {
         let Some(name) = path.path.get_ident().map(ToString::to_string) else {
             return false;
@@ -467,7 +470,7 @@ impl<'a> Numbers<'a> {
 /// A number as it is written.
 ///
 /// # Errors
-/// A sentence at what is no number, and at one with a unit behind it, which would count for nothing.
+/// A sentence at what is no number, and at one with a unit behind it.
 pub fn literal(lit: &Lit) -> syn::Result<f64> {
     let (suffix, value) = match lit {
         Lit::Float(float) => (float.suffix(), float.base10_parse()),

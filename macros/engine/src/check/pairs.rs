@@ -17,8 +17,8 @@ pub struct Pairs<'a> {
 }
 
 impl<'a> Pairs<'a> {
-    /// The pairs of `what`, for messages such as "body `rod` lacks `mass`"; what is missing is reported at `owner`, the
-    /// word of the attribute.
+    /// The pairs of `what`, for messages such as "body `rod` lacks `mass`"; what is missing is
+    /// reported at `owner`, the word of the attribute.
     #[must_use]
     pub fn new(what: String, owner: Span, list: &'a List) -> Self {
         Self {

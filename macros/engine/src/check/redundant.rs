@@ -5,7 +5,8 @@ use syn::Expr;
 use crate::diag::{Faults, list};
 use crate::model::{Binding, Contradiction, Model, Name, Rank, Redundant, RedundantRow};
 
-/// Does with the redundant equations of a model, sound otherwise, what the user wishes, which was written as `expr`.
+/// Does with the redundant equations of a model, sound otherwise, what the user wishes, which was
+/// written as `expr`.
 pub(super) fn check(
     model: &mut Model,
     (wish, expr): (Redundant, Option<&Expr>),
@@ -51,8 +52,8 @@ pub(super) fn check(
     }
 }
 
-/// One fault for each joint with an equation that is violated and cannot be helped. Points and axes that stand in axes of bodies may
-/// be meant for another configuration.
+/// One fault for each joint with an equation that is violated and cannot be helped. Points and axes
+/// that stand in axes of bodies may be meant for another configuration.
 fn stuck(model: &Model, faults: &mut Faults) {
     let is_local = |binding: &Binding| matches!(binding, Binding::Local(_));
     let stuck = model.independence.stuck.iter().copied();
@@ -85,7 +86,8 @@ fn once_a_joint(
     }
 }
 
-/// One fault for each joint with an equation that says nothing where it was looked at, but not everywhere.
+/// One fault for each joint with an equation that says nothing where it was looked at, but not
+/// everywhere.
 fn dormant(model: &Model, faults: &mut Faults) {
     once_a_joint(model, &model.independence.dormant, faults, |name, row| {
         format!(
@@ -96,7 +98,8 @@ fn dormant(model: &Model, faults: &mut Faults) {
     });
 }
 
-/// One fault for each joint with an equation that follows from others where it was looked at, and not elsewhere.
+/// One fault for each joint with an equation that follows from others where it was looked at, and
+/// not elsewhere.
 fn by_chance(model: &Model, faults: &mut Faults) {
     once_a_joint(model, &model.independence.by_chance, faults, |name, row| {
         format!(

@@ -56,7 +56,8 @@ fn point_inertia(arena: &mut Arena, p: Triple) -> Tensor {
     tensor
 }
 
-/// `2 (p . h) I - p h^T - h p^T`: what a first moment `h` adds to the inertia where its origin is seen at `p`.
+/// `2 (p . h) I - p h^T - h p^T`: what a first moment `h` adds to the inertia where its origin is
+/// seen at `p`.
 pub(super) fn cross_inertia(arena: &mut Arena, p: Triple, h: Triple) -> Tensor {
     let products = p.map(|a| h.map(|b| arena.mul(a, b)));
     let mut tensor = NOTHING;

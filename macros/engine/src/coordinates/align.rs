@@ -1,7 +1,9 @@
-//! Where angles are counted from: a link's frame may be turned about the axis of its motion, so that more of what is fixed in it lies on coordinate axes.
+//! Where angles are counted from: a link's frame may be turned about the axis of its motion, so
+//! that more of what is fixed in it lies on coordinate axes.
 //!
-//! What is described at an angle of 0.1 rad has sines and cosines of 0.1 in every vector, and each costs operations at every evaluation. Counted from where the vectors
-//! lie on axes, the angle is 0.1 rad at the start, and they have zeros.
+//! What is described at an angle of 0.1 rad has sines and cosines of 0.1 in every vector, and each
+//! costs operations at every evaluation. Counted from where the vectors lie on axes, the angle is
+//! 0.1 rad at the start, and they have zeros.
 
 use super::algebra::apply;
 use super::links::{Freedom, Links};
@@ -17,7 +19,8 @@ pub(super) type ReferenceAngle = [Expr; 2];
 pub(super) const NOT_TURNED: ReferenceAngle = [Arena::ONE, Arena::ZERO];
 
 impl Links {
-    /// The points of closing joints, each with the link that it is fixed on and in that one's frame.
+    /// The points of closing joints, each with the link that it is fixed on and in that one's
+    /// frame.
     pub(super) fn closing_points(
         &self,
         arena: &mut Arena,
@@ -42,7 +45,8 @@ impl Links {
         points
     }
 
-    /// What is fixed on each link, global axes in the reference configuration: some points, the first moment with what is carried, offsets and axes of what is carried.
+    /// What is fixed on each link, global axes in the reference configuration: some points, the
+    /// first moment with what is carried, offsets and axes of what is carried.
     pub(super) fn fixed_vectors(
         &self,
         arena: &mut Arena,
@@ -52,7 +56,8 @@ impl Links {
         regrouped.regroup(arena, &mut []);
         let mut vectors = Vec::new();
         for place in 0..self.links.len() {
-            // Of equals the first counts: a mass that is handed over takes a component of the first moment with it.
+            // Of equals the first counts: a mass that is handed over takes a component of the first
+            // moment with it.
             let points = points.iter().filter(|(link, _)| *link == place);
             let mut fixed: Vec<Triple> = points.map(|(_, point)| *point).collect();
             fixed.push(regrouped.links[place].inertia.first);
@@ -73,7 +78,8 @@ impl Links {
     }
 }
 
-/// The turn about a coordinate axis by which the most components of vectors vanish; none where no other is better.
+/// The turn about a coordinate axis by which the most components of vectors vanish; none where no
+/// other is better.
 pub(super) fn best_angle(arena: &mut Arena, vectors: &[Triple], axis: usize) -> ReferenceAngle {
     let across = ((axis + 1) % 3, (axis + 2) % 3);
     let mut best = (zeros(arena, vectors, across, NOT_TURNED), NOT_TURNED);
@@ -89,7 +95,8 @@ pub(super) fn best_angle(arena: &mut Arena, vectors: &[Triple], axis: usize) -> 
     best.1
 }
 
-/// The smallest turn of the axes that brings one of them onto a vector; `None` where it is there, or unknown.
+/// The smallest turn of the axes that brings one of them onto a vector; `None` where it is there,
+/// or unknown.
 fn onto_axis(arena: &mut Arena, x: Expr, y: Expr) -> Option<ReferenceAngle> {
     let (x, y) = (arena.literal(x)?, arena.literal(y)?);
     if x == 0.0 || y == 0.0 {

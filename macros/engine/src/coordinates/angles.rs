@@ -1,4 +1,5 @@
-//! Angles between bodies that turn by pairs about one axis: what a force, a driver or a reading asks for is then known without any rotation matrix.
+//! Angles between bodies that turn by pairs about one axis: what a force, a driver or a reading
+//! asks for is then known without any rotation matrix.
 
 use super::frames::FrameId;
 use super::links::{Freedom, Links};
@@ -7,8 +8,9 @@ use crate::symbolic::functions::PairedAngle;
 use crate::symbolic::vector::Triple;
 
 impl Links {
-    /// The angle of the second body against the first about an axis, which is given in the reference configuration by a vector of unit length; `None` where
-    /// anything else turns one against the other.
+    /// The angle of the second body against the first about an axis, which is given in the
+    /// reference configuration by a vector of unit length; `None` where anything else turns one
+    /// against the other.
     pub(super) fn angle(
         &self,
         arena: &mut Arena,
@@ -42,7 +44,8 @@ impl Links {
         Some([arena.add(cc, ss), arena.sub(sc, cs)])
     }
 
-    /// The sense in which a frame turns about an axis against the frame that it is based on, the velocity and the pair; `None` where it turns otherwise.
+    /// The sense in which a frame turns about an axis against the frame that it is based on, the
+    /// velocity and the pair; `None` where it turns otherwise.
     fn turn_about(
         &self,
         arena: &Arena,

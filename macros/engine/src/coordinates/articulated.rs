@@ -1,8 +1,10 @@
-//! Articulated inertias: from the leaves to the ground, what a link and all that it carries is to what moves it, with its own motion solved for.
+//! Articulated inertias: from the leaves to the ground, what a link and all that it carries is to
+//! what moves it, with its own motion solved for.
 //!
-//! A link answers to two accelerations: the angular one of its base, with which its frame turns, and that of its origin. What turns freely against the
-//! ground answers to the second alone, so that a chain of balls hands on a mass of 3 x 3 and a run of parallel axes on the ground one of 2 x 2. Gravity and
-//! velocities are not in here: they act on rigid links, whose wrenches are given.
+//! A link answers to two accelerations: the angular one of its base, with which its frame turns,
+//! and that of its origin. What turns freely against the ground answers to the second alone, so
+//! that a chain of balls hands on a mass of 3 x 3 and a run of parallel axes on the ground one of 2
+//! x 2. Gravity and velocities are not in here: they act on rigid links, whose wrenches are given.
 
 use super::algebra::{add, apply};
 use super::frames::{FrameId, Frames};
@@ -133,7 +135,8 @@ impl Form {
 }
 
 impl Links {
-    /// The axes of the acceleration of a link's origin: those of the ground for a ball on which nothing but balls hangs.
+    /// The axes of the acceleration of a link's origin: those of the ground for a ball on which
+    /// nothing but balls hangs.
     fn origin_axes(&self, link: Option<usize>) -> FrameId {
         let is_ball = |link: usize| matches!(self.links[link].freedom, Freedom::Ball { .. });
         match link {
@@ -231,7 +234,8 @@ impl Links {
                 for k in (0..3).filter(|&k| k != axis) {
                     form.identify(arena, OWN + k, BASE + k);
                 }
-                // Along the axis the angular acceleration of the link itself takes the place of its rate against the base.
+                // Along the axis the angular acceleration of the link itself takes the place of its
+                // rate against the base.
                 form.forces[OWN + axis] = arena.add(form.forces[OWN + axis], efforts[0]);
                 form.forces[BASE + axis] = arena.sub(form.forces[BASE + axis], efforts[0]);
                 vec![form.solve(arena, OWN + axis)]
@@ -273,7 +277,8 @@ impl Links {
         }
     }
 
-    /// Rates of the velocities under wrenches on the links, which hold all that the motion takes without second rates, and efforts along the velocities.
+    /// Rates of the velocities under wrenches on the links, which hold all that the motion takes
+    /// without second rates, and efforts along the velocities.
     pub(super) fn articulated(
         &self,
         arena: &mut Arena,

@@ -1,4 +1,5 @@
-//! What all ways to the equations of motion begin with, found once for a mechanism: a tree, and what numbers tell of the rows that close its loops.
+//! What all ways to the equations of motion begin with, found once for a mechanism: a tree, and
+//! what numbers tell of the rows that close its loops.
 
 use std::cell::OnceCell;
 
@@ -28,7 +29,8 @@ impl<'a> Beginning<'a> {
         }
     }
 
-    /// The equations, by joint and place, of the closing joints that follow from all others and from each other; none where nothing can be told.
+    /// The equations, by joint and place, of the closing joints that follow from all others and
+    /// from each other; none where nothing can be told.
     pub(super) fn following(&self) -> &[(usize, usize)] {
         self.following.get_or_init(|| {
             closing::following(&self.whole(), &self.spanning.closing).unwrap_or_default()

@@ -13,10 +13,11 @@ use crate::symbolic::count::count;
 pub enum Method {
     /// By the mass matrix, with rows that close loops behind it.
     MassMatrix,
-    /// Link by link, by articulated inertias, where no equations remain; else like [`Self::MassMatrix`].
+    /// Link by link, by articulated inertias, where no equations remain; else like
+    /// [`Self::MassMatrix`].
     Articulated,
-    /// By the mass matrix behind the velocities that the rows determine, where these stand out all along a tour of the mechanism and rows have no
-    /// compliance; else like [`Self::MassMatrix`].
+    /// By the mass matrix behind the velocities that the rows determine, where these stand out all
+    /// along a tour of the mechanism and rows have no compliance; else like [`Self::MassMatrix`].
     Dependent,
 }
 

@@ -59,7 +59,8 @@ impl Left {
         best.map(|(_, found)| found)
     }
 
-    /// The largest number of a column, 1 where there is none: lengths and angles have different units.
+    /// The largest number of a column, 1 where there is none: lengths and angles have different
+    /// units.
     fn size(&self, velocity: usize) -> f64 {
         let column = self.rows.iter().flatten().map(|row| row[velocity]);
         let numbers = column.filter_map(|entry| self.arena.literal(entry));

@@ -1,8 +1,11 @@
-//! Which velocities follow from the others where loops are closed: rows of closing joints and velocities that are eliminated together.
+//! Which velocities follow from the others where loops are closed: rows of closing joints and
+//! velocities that are eliminated together.
 //!
-//! A row that determines a velocity leaves no multiplier to solve for. But the velocity must follow from the others wherever the rows are independent, not
-//! here and there: so the mechanism is led on a tour, and where some velocities come near to being undetermined by rows that determine others, the rows stay
-//! behind. Where there is no tour, what rows determine by numbers alone is certain ([`certain`]).
+//! A row that determines a velocity leaves no multiplier to solve for. But the velocity must follow
+//! from the others wherever the rows are independent, not here and there: so the mechanism is led
+//! on a tour, and where some velocities come near to being undetermined by rows that determine
+//! others, the rows stay behind. Where there is no tour, what rows determine by numbers alone is
+//! certain ([`certain`]).
 
 use std::collections::BTreeMap;
 
@@ -16,7 +19,8 @@ use crate::symbolic::evaluate::evaluate;
 
 /// A determinant that falls to this fraction of the volume that its rows span is not relied on.
 pub(super) const STEADY: f64 = 0.1;
-/// Where the volume falls to this fraction of the largest along a tour, the mechanism is near a singular position, and no choice is better than another.
+/// Where the volume falls to this fraction of the largest along a tour, the mechanism is near a
+/// singular position, and no choice is better than another.
 const SINGULAR: f64 = 1e-3;
 /// An entry below this fraction of the largest of its row is round-off.
 const ROUND_OFF: f64 = 1e-12;
@@ -26,7 +30,8 @@ const STOPS: usize = 4;
 /// Rows of `D` at the stops of a tour, stop by stop.
 type Stops = Vec<Vec<Vec<f64>>>;
 
-/// The inputs of some stops of a tour, the first of which is the reference configuration; none where nothing can move or be told.
+/// The inputs of some stops of a tour, the first of which is the reference configuration; none
+/// where nothing can move or be told.
 #[must_use]
 pub(super) fn tour(
     arena: &Arena,
@@ -70,7 +75,8 @@ fn values(arena: &Arena, rows: &[Vec<Expr>], tour: &[(f64, Vec<f64>)]) -> Option
 struct Candidate {
     rows: Vec<usize>,
     velocities: Vec<usize>,
-    /// The least determinant along the tour over the volume that the rows span, in columns of like size.
+    /// The least determinant along the tour over the volume that the rows span, in columns of like
+    /// size.
     steady: f64,
     /// At the first stop, or if this is a singular position, the largest.
     determinant: f64,
@@ -88,8 +94,9 @@ struct Open<'a> {
     candidates: BTreeMap<Vec<usize>, Vec<Candidate>>,
 }
 
-/// What is eliminated before the rest: velocities with the rows that determine them, and the determinants in the reference configuration. Velocities
-/// count from 0, rows from the number of velocities.
+/// What is eliminated before the rest: velocities with the rows that determine them, and the
+/// determinants in the reference configuration. Velocities count from 0, rows from the number of
+/// velocities.
 pub(super) fn dependent(
     arena: &Arena,
     rows: &[Vec<Expr>],
@@ -129,7 +136,8 @@ impl<'a> Open<'a> {
         }
     }
 
-    /// Rows that are taken together: two of one joint meet in a determinant that vanishes less often than their entries.
+    /// Rows that are taken together: two of one joint meet in a determinant that vanishes less
+    /// often than their entries.
     fn groups(&self) -> Vec<Vec<usize>> {
         let joint = |place: usize| self.rows.get(place).map(|&row| self.joints[row]);
         let mut groups = Vec::new();
@@ -304,7 +312,8 @@ fn largest(values: &[f64]) -> f64 {
     largest
 }
 
-/// Whether a share vanishes between two stops. In a singular position all shares change their signs at once, and keep their sizes.
+/// Whether a share vanishes between two stops. In a singular position all shares change their signs
+/// at once, and keep their sizes.
 fn passes_zero(before: f64, behind: f64) -> bool {
     before * behind < 0.0 && before.abs() + behind.abs() < 1.0
 }

@@ -1,4 +1,5 @@
-//! Axes that turn against each other: a tree of frames, and what it takes to bring components from one to another.
+//! Axes that turn against each other: a tree of frames, and what it takes to bring components from
+//! one to another.
 
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::fixed::transpose;

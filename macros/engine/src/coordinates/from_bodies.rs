@@ -1,6 +1,8 @@
-//! Joint coordinates of bodies that stand somewhere: what moves a body against its carrier is read from how the two stand and move.
+//! Joint coordinates of bodies that stand somewhere: what moves a body against its carrier is read
+//! from how the two stand and move.
 //!
-//! What the joints of the tree forbid is not looked at: bodies that do not satisfy them are given the nearest motion that does.
+//! What the joints of the tree forbid is not looked at: bodies that do not satisfy them are given
+//! the nearest motion that does.
 
 use super::algebra::{add, apply, scale, sub};
 use super::frames::identity;
@@ -39,7 +41,8 @@ impl Pose {
     }
 }
 
-/// Joint coordinates, auxiliary variables and velocities from the coordinates, auxiliary variables and velocities of the bodies.
+/// Joint coordinates, auxiliary variables and velocities from the coordinates, auxiliary variables
+/// and velocities of the bodies.
 #[must_use]
 pub fn from_bodies(arena: &mut Arena, model: &Model, links: &Links) -> Vec<Expr> {
     let layout = model.layout();
@@ -49,8 +52,8 @@ pub fn from_bodies(arena: &mut Arena, model: &Model, links: &Links) -> Vec<Expr>
         coordinates: vec![Arena::ZERO; 2 * links.turns + links.rest],
         velocities: vec![Arena::ZERO; links.velocities],
     };
-    // A link stands behind its carrier, and so do the bodies on it; of those welded to each other the one that the joint carries comes first: a ball's Euler
-    // parameters are its own.
+    // A link stands behind its carrier, and so do the bodies on it; of those welded to each other
+    // the one that the joint carries comes first: a ball's Euler parameters are its own.
     let mut bodies: Vec<usize> = (0..model.bodies.len()).collect();
     bodies.sort_by_key(|&body| {
         let link = links.bodies[body].link;

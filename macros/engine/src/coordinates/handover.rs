@@ -1,11 +1,15 @@
 //! Masses handed over closing joints.
 //!
-//! Where rows hold a point of one link on a point of another, both have one acceleration, and a mass there may be counted on either. What becomes simpler by it is a link
-//! that turns: with the right mass at its closing point counted on the other link, its centre of mass lies on its axis, and it no longer couples the motions of
-//! those that carry it. A coupler is two masses at its pins and a moment of inertia.
+//! Where rows hold a point of one link on a point of another, both have one acceleration, and a
+//! mass there may be counted on either. What becomes simpler by it is a link that turns: with the
+//! right mass at its closing point counted on the other link, its centre of mass lies on its axis,
+//! and it no longer couples the motions of those that carry it. A coupler is two masses at its pins
+//! and a moment of inertia.
 //!
-//! With `P` and `Q` for the velocities of the point on both links, `D = P - Q` are the rows, whatever their violation, and `P^T F = Q^T F + D^T F`: so the rates are those
-//! of the mechanism as it is, and its multipliers differ by the force `F = m (a - g)` that the mass takes. Rows with a compliance do not hold the points together.
+//! With `P` and `Q` for the velocities of the point on both links, `D = P - Q` are the rows,
+//! whatever their violation, and `P^T F = Q^T F + D^T F`: so the rates are those of the mechanism
+//! as it is, and its multipliers differ by the force `F = m (a - g)` that the mass takes. Rows with
+//! a compliance do not hold the points together.
 
 use super::algebra::{Inertia, add, apply};
 use super::frames::Frames;
@@ -22,7 +26,8 @@ use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
 /// What vanishes is smaller than this, beside what it is a difference of.
 const ROUND_OFF: f64 = 1e-11;
 
-/// A mass is handed over up to this multiple of the link's own: a pin that is near to the axis would take a large one, and round-off with it.
+/// A mass is handed over up to this multiple of the link's own: a pin that is near to the axis
+/// would take a large one, and round-off with it.
 const MOST: f64 = 10.0;
 
 /// A mass at a point of a closing joint.
@@ -146,7 +151,8 @@ impl Reduced {
         held
     }
 
-    /// Whether some rows say just that a point of one link is a point of another, at any state: along their directions, and across them because nothing moves there.
+    /// Whether some rows say just that a point of one link is a point of another, at any state:
+    /// along their directions, and across them because nothing moves there.
     fn hold_together(&mut self, handover: &Handover, rows: &[Vec<Expr>], right: &[Expr]) -> bool {
         let across = match handover.rows[..] {
             [(_, a), (_, b)] => vec![cross(&mut self.scene.space.arena, a, b)],
@@ -161,7 +167,8 @@ impl Reduced {
             .collect();
         let arena = &mut self.scene.space.arena;
         let motion = Kinematics::new(arena, &self.links, ZERO);
-        // What must vanish beside what it is a difference of: angles between directions, entries of rows, velocity terms.
+        // What must vanish beside what it is a difference of: angles between directions, entries of
+        // rows, velocity terms.
         let mut vanishing: [Vec<Expr>; 3] = Default::default();
         let mut beside: [Vec<Expr>; 3] = [vec![Arena::ONE], Vec::new(), Vec::new()];
         for (place, &e) in directions.iter().enumerate() {
@@ -199,7 +206,8 @@ impl Reduced {
 }
 
 impl Links {
-    /// Counts as much of a link's mass on another one as makes a component of its first moment vanish.
+    /// Counts as much of a link's mass on another one as makes a component of its first moment
+    /// vanish.
     pub(super) fn hand_over(&mut self, arena: &mut Arena, handover: &mut Handover) {
         let Handover {
             giver,
@@ -230,7 +238,8 @@ impl Links {
 }
 
 impl Handover {
-    /// What a direction of global axes is along the velocities, for the point on the giver and that on the receiver.
+    /// What a direction of global axes is along the velocities, for the point on the giver and that
+    /// on the receiver.
     fn along(&self, arena: &mut Arena, links: &Links, direction: Triple) -> [Vec<Expr>; 2] {
         [(Some(self.giver), self.from), (self.receiver, self.onto)].map(|(link, at)| {
             let Some(link) = link else {
@@ -249,7 +258,8 @@ impl Handover {
         })
     }
 
-    /// The acceleration of the point along a direction of global axes, but for the rates of velocities; on the giver and on the receiver.
+    /// The acceleration of the point along a direction of global axes, but for the rates of
+    /// velocities; on the giver and on the receiver.
     fn known(
         &self,
         arena: &mut Arena,
@@ -272,7 +282,8 @@ impl Handover {
         })
     }
 
-    /// What right-hand sides of the rows beyond the motion's own, `extra`, change of the forces along the velocities: there the giver's point has that acceleration besides.
+    /// What right-hand sides of the rows beyond the motion's own, `extra`, change of the forces
+    /// along the velocities: there the giver's point has that acceleration besides.
     pub(super) fn correct(
         &self,
         arena: &mut Arena,
@@ -293,7 +304,8 @@ impl Handover {
         }
     }
 
-    /// Takes the force that the mass takes out of the multipliers. There is no `motion` where right-hand sides are given.
+    /// Takes the force that the mass takes out of the multipliers. There is no `motion` where
+    /// right-hand sides are given.
     pub(super) fn multipliers(
         &self,
         arena: &mut Arena,

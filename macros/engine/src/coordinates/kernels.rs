@@ -10,8 +10,9 @@ use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::equations::{Kernel, euler_rates, turning};
 
-/// An evaluation: outputs are the rates of the pairs' angles, of the further coordinates and auxiliary variables, and of the velocities; multipliers; relative
-/// pivots in the order of `checks`.
+/// An evaluation: outputs are the rates of the pairs' angles, of the further coordinates and
+/// auxiliary variables, and of the velocities; multipliers; relative pivots in the order of
+/// `checks`.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     /// The terms of the formulation.
@@ -22,7 +23,8 @@ pub struct Evaluation {
     pub checks: Vec<PivotCheck>,
 }
 
-/// What forces and moments on the bodies, and right-hand sides of the rows, make of rates and multipliers: factorisation and back-substitution over one arena.
+/// What forces and moments on the bodies, and right-hand sides of the rows, make of rates and
+/// multipliers: factorisation and back-substitution over one arena.
 #[derive(Clone, Debug)]
 pub struct Solver {
     /// The terms of the formulation: plain or compliant.
@@ -51,7 +53,8 @@ pub struct Described {
     pub body: usize,
     /// What it moves by.
     pub meaning: Meaning,
-    /// The place of its first coordinate: among the pairs of a turn, among the further coordinates otherwise.
+    /// The place of its first coordinate: among the pairs of a turn, among the further coordinates
+    /// otherwise.
     pub coordinate: usize,
     /// Its first velocity.
     pub velocity: usize,
@@ -90,9 +93,11 @@ pub struct JointKernels {
     pub evaluations: Vec<Evaluation>,
     /// Without a compliance, and with one where rows remain.
     pub solvers: Vec<Solver>,
-    /// The bodies: position, velocity, and of a rigid one rotation matrix row by row and angular velocity in principal axes; auxiliary variables.
+    /// The bodies: position, velocity, and of a rigid one rotation matrix row by row and angular
+    /// velocity in principal axes; auxiliary variables.
     pub bodies: Kernel,
-    /// Pairs, further coordinates, auxiliary variables and velocities, from the state of the bodies.
+    /// Pairs, further coordinates, auxiliary variables and velocities, from the state of the
+    /// bodies.
     pub joints: Kernel,
 }
 

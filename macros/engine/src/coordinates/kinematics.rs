@@ -45,7 +45,8 @@ fn second(arena: &mut Arena, w: Triple, dw: Triple) -> [Triple; 3] {
 }
 
 impl Kinematics {
-    /// The motion on a ground whose acceleration is given: minus gravity, so that weights need not be summed.
+    /// The motion on a ground whose acceleration is given: minus gravity, so that weights need not
+    /// be summed.
     #[must_use]
     pub(super) fn new(arena: &mut Arena, links: &Links, ground: Triple) -> Self {
         let mut motion = Self {

@@ -1,4 +1,5 @@
-//! Links: what carries what. A joint is one link for each of its motions, the last of which carries the body; those before have no mass.
+//! Links: what carries what. A joint is one link for each of its motions, the last of which carries
+//! the body; those before have no mass.
 
 use super::algebra::{Inertia, add_tensors, apply, scale, sub};
 use super::align::{NOT_TURNED, ReferenceAngle, best_angle, turned_axes};
@@ -12,8 +13,8 @@ use crate::symbolic::vector::{Triple, ZERO};
 /// How a link moves against the one that carries it.
 #[derive(Clone, Copy, Debug)]
 pub enum Freedom {
-    /// It turns about a coordinate axis of its frame, by a pair of cosine and sine. A negative turn of the joint is a positive one here
-    /// where `is_reversed`.
+    /// It turns about a coordinate axis of its frame, by a pair of cosine and sine. A negative turn
+    /// of the joint is a positive one here where `is_reversed`.
     Turn {
         /// The axis.
         axis: usize,
@@ -114,7 +115,8 @@ pub enum Runs {
 }
 
 impl Links {
-    /// The links of a spanning tree, with their origins and the angles that they are counted from where vectors have the most zeros.
+    /// The links of a spanning tree, with their origins and the angles that they are counted from
+    /// where vectors have the most zeros.
     #[must_use]
     pub fn new(arena: &mut Arena, model: &Model, spanning: &Spanning, runs: Runs) -> Self {
         let mut links = Self::about(arena, model, spanning, runs, &[]);
@@ -127,7 +129,8 @@ impl Links {
         links
     }
 
-    /// The links with origins where offsets have the most zeros, and angles counted from where vectors that are fixed on them have.
+    /// The links with origins where offsets have the most zeros, and angles counted from where
+    /// vectors that are fixed on them have.
     fn about(
         arena: &mut Arena,
         model: &Model,
@@ -307,7 +310,8 @@ impl Links {
         self.links[link].inertia = self.links[link].inertia.plus(arena, inertia);
     }
 
-    /// The rotation from global axes in the reference configuration to a frame that is turned about a coordinate axis of another.
+    /// The rotation from global axes in the reference configuration to a frame that is turned about
+    /// a coordinate axis of another.
     fn turned_by(
         &self,
         arena: &mut Arena,
@@ -331,7 +335,8 @@ impl Links {
         clean(arena, turned, scale)
     }
 
-    /// A point of the reference configuration in the frame of the link that a body stands on, from that link's origin; of the ground, as it is.
+    /// A point of the reference configuration in the frame of the link that a body stands on, from
+    /// that link's origin; of the ground, as it is.
     pub(super) fn point_on(
         &self,
         arena: &mut Arena,
@@ -351,7 +356,8 @@ impl Links {
         clean(arena, sum, scale)
     }
 
-    /// A frame at rest in another in which a direction is a coordinate axis; that one itself if it is one there.
+    /// A frame at rest in another in which a direction is a coordinate axis; that one itself if it
+    /// is one there.
     fn along_axis(
         &mut self,
         arena: &mut Arena,
@@ -380,7 +386,8 @@ impl Links {
         (frame, 2, false)
     }
 
-    /// The rotation from a link's frame to that of one further down in the reference configuration, row by row.
+    /// The rotation from a link's frame to that of one further down in the reference configuration,
+    /// row by row.
     pub(super) fn between(
         &self,
         arena: &mut Arena,
@@ -404,7 +411,8 @@ impl Links {
         way
     }
 
-    /// The rotation from a link's frame, were it not turned, to that of one further down, row by row.
+    /// The rotation from a link's frame, were it not turned, to that of one further down, row by
+    /// row.
     pub(super) fn before_turn(
         &self,
         arena: &mut Arena,
@@ -434,7 +442,8 @@ impl Links {
         rows.map(|row| row[axis])
     }
 
-    /// A part of a link's inertia that is the same however the link is turned, about the origin and in the frame of the carrier.
+    /// A part of a link's inertia that is the same however the link is turned, about the origin and
+    /// in the frame of the carrier.
     pub(super) fn part_on_carrier(&self, arena: &mut Arena, link: usize, part: Inertia) -> Inertia {
         let rows = self.between(arena, self.links[link].carrier, link);
         let mut tensor = super::algebra::NOTHING;
@@ -450,7 +459,8 @@ impl Links {
         turned.seen_at(arena, self.links[link].offset)
     }
 
-    /// The frame that a link's angle is measured against: where its carrier turns about the same axis, the one that the carrier's is.
+    /// The frame that a link's angle is measured against: where its carrier turns about the same
+    /// axis, the one that the carrier's is.
     fn base_of_run(&mut self, carrier: usize, base: FrameId, axis: usize) -> FrameId {
         let link = &self.links[carrier];
         match link.freedom {
@@ -461,7 +471,8 @@ impl Links {
         }
     }
 
-    /// The carrier of a turn, where the angles of both are measured against what carries a run of parallel axes.
+    /// The carrier of a turn, where the angles of both are measured against what carries a run of
+    /// parallel axes.
     pub(super) fn measured_with(&self, link: &Link) -> Option<usize> {
         let carrier = link.carrier?;
         let [own, other] = [link, &self.links[carrier]].map(|link| match link.freedom {

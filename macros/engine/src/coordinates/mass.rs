@@ -1,4 +1,5 @@
-//! The mass matrix: composite inertias from the leaves, and the momentum of every velocity handed on to the ground.
+//! The mass matrix: composite inertias from the leaves, and the momentum of every velocity handed
+//! on to the ground.
 
 use super::algebra::{Inertia, add, add_tensors, apply, cross_inertia};
 use super::links::{Freedom, Links};
@@ -14,7 +15,8 @@ struct Composite {
     carried: Expr,
     /// What turns with the link, with the carried masses as points where they are carried.
     turning: Inertia,
-    /// The first moments of the link, and of those that it carries and that turn with the base of its run.
+    /// The first moments of the link, and of those that it carries and that turn with the base of
+    /// its run.
     run: Triple,
 }
 
@@ -29,7 +31,8 @@ impl Links {
         let mut composites = vec![none; self.links.len()];
         for link in self.leaves_first() {
             let own = &self.links[link];
-            // Constant in the link's own frame unless something slides on it: augmented by what it carries, before it is turned.
+            // Constant in the link's own frame unless something slides on it: augmented by what it
+            // carries, before it is turned.
             let mut augmented = own.inertia;
             let mut carried = own.inertia.mass;
             let mut sliding = Inertia::NONE;
@@ -90,7 +93,8 @@ impl Links {
         composites
     }
 
-    /// Whether a link is carried by another one without turning with it, but turns with the same base.
+    /// Whether a link is carried by another one without turning with it, but turns with the same
+    /// base.
     fn is_taken_along(&self, child: usize, link: usize) -> bool {
         self.base(child) != Some(link) && self.base(child) == self.base(link)
     }

@@ -1,4 +1,5 @@
-//! Joint coordinates: bodies move by what the joints of a spanning tree leave free, and only joints that close loops stay as equations.
+//! Joint coordinates: bodies move by what the joints of a spanning tree leave free, and only joints
+//! that close loops stay as equations.
 
 mod algebra;
 mod align;

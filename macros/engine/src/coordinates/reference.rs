@@ -1,8 +1,10 @@
 //! What the recorded pivots of rows are compared with.
 //!
-//! A pivot is small if it is small beside what its row would be without the others. In joint coordinates that vanishes as well where links are in line: the tree has taken what the row could
-//! act on, and the pivot of the only row of a loop would never be small beside itself. So pivots are compared with what their rows would be on free bodies, as those of the bodies are:
-//! with its greatest value along a tour where numbers tell, which costs nothing.
+//! A pivot is small if it is small beside what its row would be without the others. In joint
+//! coordinates that vanishes as well where links are in line: the tree has taken what the row could
+//! act on, and the pivot of the only row of a loop would never be small beside itself. So pivots
+//! are compared with what their rows would be on free bodies, as those of the bodies are: with its
+//! greatest value along a tour where numbers tell, which costs nothing.
 
 use super::beginning::Beginning;
 use super::dependent::tour;
@@ -13,7 +15,8 @@ use crate::symbolic::evaluate::evaluate;
 use crate::symbolic::vector::{Frame, Triple};
 
 impl Reduced {
-    /// Finds out what the rows are on free bodies, along a tour; `None` of those that no number is known of.
+    /// Finds out what the rows are on free bodies, along a tour; `None` of those that no number is
+    /// known of.
     pub fn find_references(&mut self, beginning: &Beginning<'_>) {
         let mut trial = self.clone();
         let mobilities = trial.mobilities();
@@ -36,7 +39,8 @@ impl Reduced {
         self.references = greatest;
     }
 
-    /// The same pivots, compared with what their rows are on free bodies; those that do not change with the state never vanish.
+    /// The same pivots, compared with what their rows are on free bodies; those that do not change
+    /// with the state never vanish.
     #[must_use]
     pub fn referred(&mut self, checks: &[Check]) -> Vec<Check> {
         let mut mobilities = None;

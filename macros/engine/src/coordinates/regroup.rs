@@ -1,4 +1,5 @@
-//! What the motion cannot tell apart: where origins lie on the axes of turns, and which link a part of the inertia belongs to.
+//! What the motion cannot tell apart: where origins lie on the axes of turns, and which link a part
+//! of the inertia belongs to.
 
 use super::algebra::{Inertia, NOTHING, add_tensors, scale, scale_tensor, sub};
 use super::handover::Handover;
@@ -81,11 +82,13 @@ impl Links {
         }
     }
 
-    /// Hands on to the carrier, from the leaves to the ground, what is the same whether it moves with the link or with its carrier: of a link that
-    /// turns, its mass, its first moment along the axis and an equal share of the two transverse moments of inertia; of a ball, its mass; of a slide, its
-    /// inertia, for it turns with the carrier.
+    /// Hands on to the carrier, from the leaves to the ground, what is the same whether it moves
+    /// with the link or with its carrier: of a link that turns, its mass, its first moment along
+    /// the axis and an equal share of the two transverse moments of inertia; of a ball, its mass;
+    /// of a slide, its inertia, for it turns with the carrier.
     ///
-    /// The equations of motion stay what they are; reactions do not. Masses are handed over closing joints on the way.
+    /// The equations of motion stay what they are; reactions do not. Masses are handed over closing
+    /// joints on the way.
     pub(super) fn regroup(&mut self, arena: &mut Arena, handovers: &mut [Handover]) {
         for link in self.leaves_first() {
             for handover in handovers.iter_mut().filter(|given| given.giver == link) {

@@ -1,4 +1,5 @@
-//! A spanning tree of the bodies: which joint carries which body by the motions that it leaves free, and which joints stay as equations.
+//! A spanning tree of the bodies: which joint carries which body by the motions that it leaves
+//! free, and which joints stay as equations.
 
 use crate::model::number::literals;
 use crate::model::{
@@ -18,7 +19,8 @@ pub struct Carried {
     pub joint: Option<usize>,
     /// The motions, from the carrier to the body. Of a free body: parameters are coordinate axes.
     pub motions: Vec<Motion>,
-    /// Whether the joint names the carrier last, so that its motions are those of the carrier against the body.
+    /// Whether the joint names the carrier last, so that its motions are those of the carrier
+    /// against the body.
     pub is_reversed: bool,
 }
 
@@ -35,8 +37,8 @@ pub struct Spanning {
 type Merit<'a> = (usize, usize, &'a Name, &'a Name);
 
 impl Spanning {
-    /// The tree of a mechanism, whatever the order of its fields: the joint with the fewest motions first, then the one nearest to the ground. Those that the user cuts
-    /// stay equations.
+    /// The tree of a mechanism, whatever the order of its fields: the joint with the fewest motions
+    /// first, then the one nearest to the ground. Those that the user cuts stay equations.
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let mut depth: Vec<Option<usize>> = vec![None; model.bodies.len()];
@@ -94,7 +96,8 @@ impl Spanning {
         Self { carried, closing }
     }
 
-    /// How many of the equations that remain are independent, where that is known and not all of them need be.
+    /// How many of the equations that remain are independent, where that is known and not all of
+    /// them need be.
     pub(super) fn independent(&self, model: &Model) -> Option<usize> {
         let Rank::Decided { rank, .. } = model.independence.rank else {
             return None;
@@ -122,7 +125,8 @@ impl Spanning {
     }
 }
 
-/// Which joints move as they say, by their own equations. Numbers that the macro cannot see stand for any: what holds with some holds with all, or by chance.
+/// Which joints move as they say, by their own equations. Numbers that the macro cannot see stand
+/// for any: what holds with some holds with all, or by chance.
 fn able(model: &Model) -> Vec<bool> {
     let mut seen = model.clone();
     let any = |number: &mut Number| {
@@ -174,7 +178,8 @@ fn free(model: &Model, body: usize) -> Carried {
     }
 }
 
-/// The motions by which a joint carries a body, from the carrier on; `None` where it cannot, so that it stays as equations.
+/// The motions by which a joint carries a body, from the carrier on; `None` where it cannot, so
+/// that it stays as equations.
 fn motions(
     model: &Model,
     joint: &Element,

@@ -34,7 +34,8 @@ pub struct Reduced {
     strategy: Strategy,
     /// The links with masses handed over closing joints.
     counted: Option<(Links, Vec<Handover>)>,
-    /// What is eliminated before the rest where rows have no compliance, and the determinants in the reference configuration.
+    /// What is eliminated before the rest where rows have no compliance, and the determinants in
+    /// the reference configuration.
     together: (Vec<Pivot>, Vec<f64>),
     /// What recorded pivots are compared with, row by row, where it is known.
     pub(super) references: Vec<Option<f64>>,
@@ -47,7 +48,8 @@ pub struct Solution {
     pub accelerations: Vec<Expr>,
     /// Multipliers of the rows that remain.
     pub multipliers: Vec<Expr>,
-    /// Pivots that depend on the state and are not safe by themselves, with the row in the place of the unknown.
+    /// Pivots that depend on the state and are not safe by themselves, with the row in the place of
+    /// the unknown.
     pub checks: Vec<Check>,
 }
 
@@ -169,7 +171,8 @@ impl Reduced {
         }
     }
 
-    /// How many masses are counted on another link, where all rows that remain determine velocities.
+    /// How many masses are counted on another link, where all rows that remain determine
+    /// velocities.
     #[must_use]
     pub fn handed_over(&self) -> usize {
         let counted = self.counted.as_ref();
@@ -205,7 +208,8 @@ impl Reduced {
         wrenches
     }
 
-    /// Gravity, forces of the language and what the motion of links takes, as wrenches on the links, and efforts along the velocities.
+    /// Gravity, forces of the language and what the motion of links takes, as wrenches on the
+    /// links, and efforts along the velocities.
     fn forces(&mut self, links: &Links) -> (Vec<Wrench>, Vec<Expr>) {
         let applied = self.scene.applied();
         let wrenches = self.wrenches(&applied);
@@ -320,7 +324,8 @@ impl Reduced {
         solution
     }
 
-    /// What forces and moments on the bodies and right-hand sides of the rows, both given when the system is solved, make of rates and multipliers.
+    /// What forces and moments on the bodies and right-hand sides of the rows, both given when the
+    /// system is solved, make of rates and multipliers.
     pub fn solve_given(&mut self, terms: Terms) -> Solution {
         let (rows, _) = self.rows(terms);
         let elimination = self.elimination(terms, &rows);
@@ -348,7 +353,8 @@ impl Reduced {
         solution
     }
 
-    /// The links as their masses are counted, and the masses that are handed over: where all rows determine velocities.
+    /// The links as their masses are counted, and the masses that are handed over: where all rows
+    /// determine velocities.
     fn counted(&self, elimination: &Elimination) -> (Links, Vec<Handover>) {
         match &self.counted {
             Some((links, handovers)) if elimination.is_determined => {
@@ -369,8 +375,8 @@ impl Reduced {
         wanted
     }
 
-    /// The wrenches on the links of given forces (global axes) and moments about centres of mass (principal axes), which stand as the velocities of the bodies
-    /// do.
+    /// The wrenches on the links of given forces (global axes) and moments about centres of mass
+    /// (principal axes), which stand as the velocities of the bodies do.
     fn given(&mut self) -> Vec<Wrench> {
         let Self { links, scene, .. } = self;
         let mut wrenches = vec![Wrench::NONE; links.links.len()];

@@ -89,7 +89,8 @@ fn gyroscopic(arena: &mut Arena, tensor: [Triple; 3], w: Triple) -> Triple {
 }
 
 impl Links {
-    /// The link with whose frame a link's frame turns: its carrier, or that of its run; `None` for the ground.
+    /// The link with whose frame a link's frame turns: its carrier, or that of its run; `None` for
+    /// the ground.
     #[must_use]
     pub fn base(&self, link: usize) -> Option<usize> {
         let own = &self.links[link];
@@ -110,10 +111,11 @@ impl Links {
         None
     }
 
-    /// What wrenches on the links are along the velocities: their generalised forces, one for each velocity.
+    /// What wrenches on the links are along the velocities: their generalised forces, one for each
+    /// velocity.
     ///
-    /// A turn moves what is fixed in its frame, vectors between origins as well as moments: so forces are summed from link to link, moments from frame
-    /// to frame.
+    /// A turn moves what is fixed in its frame, vectors between origins as well as moments: so
+    /// forces are summed from link to link, moments from frame to frame.
     pub fn project(&self, arena: &mut Arena, mut wrenches: Vec<Wrench>) -> Vec<Expr> {
         let mut generalised = vec![Arena::ZERO; self.velocities];
         for link in self.leaves_first() {
@@ -122,7 +124,8 @@ impl Links {
         generalised
     }
 
-    /// One step of the projection: the generalised forces of a link, then its wrench onto what carries it.
+    /// One step of the projection: the generalised forces of a link, then its wrench onto what
+    /// carries it.
     pub(super) fn step(
         &self,
         arena: &mut Arena,

@@ -321,7 +321,8 @@ impl Writer<'_> {
         }
     }
 
-    /// The rates of the coordinates alone, which a method needs that moves them by velocities of the end of a step.
+    /// The rates of the coordinates alone, which a method needs that moves them by velocities of
+    /// the end of a step.
     fn coordinate_rates(&mut self) -> TokenStream {
         let (name, facade, kernels) = (&self.model.name, self.facade, self.kernels);
         let [constants, time, state] = ["constants", "time", "state"].map(local);

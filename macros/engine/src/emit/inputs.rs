@@ -1,4 +1,5 @@
-//! Inputs over the number type of a run: a struct with their names, and what is computed anew when they are set.
+//! Inputs over the number type of a run: a struct with their names, and what is computed anew when
+//! they are set.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

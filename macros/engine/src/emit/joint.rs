@@ -8,7 +8,8 @@ use crate::model::{BodyKind, Direction, ElementDef, ElementKind, Motion, Term};
 use crate::syntax::joint::{JointSyntax, Statement};
 use crate::wire;
 
-/// Writes a joint. A faulty definition still yields the type, so that its users see one error and not many.
+/// Writes a joint. A faulty definition still yields the type, so that its users see one error and
+/// not many.
 #[must_use]
 pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStream) -> TokenStream {
     let JointSyntax {

@@ -1,4 +1,5 @@
-//! What is told of a mechanism in joint coordinates: its coordinates, what remains of the joints, and what an evaluation costs.
+//! What is told of a mechanism in joint coordinates: its coordinates, what remains of the joints,
+//! and what an evaluation costs.
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,4 +1,5 @@
-//! The numbers that the macro cannot see: checked by the compiler where it can evaluate them, else in `parameters`.
+//! The numbers that the macro cannot see: checked by the compiler where it can evaluate them, else
+//! in `parameters`.
 
 use std::collections::HashSet;
 
@@ -172,7 +173,8 @@ pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
             #[doc = #documentation]
             ///
             /// # Errors
-            /// A number that is not finite, or a mass, inertia, axis or orientation made of it that is not acceptable.
+            /// A number that is not finite, or a mass, inertia, axis or orientation made of it that
+            /// is not acceptable.
             #refused
             pub fn new(#(#arguments),*) -> ::core::result::Result<Self, #facade::ParameterError> {
                 let #mechanism = Self {

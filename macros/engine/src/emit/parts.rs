@@ -1,7 +1,9 @@
-//! Long kernels in parts: functions one after the other over rows of the values that pass between them.
+//! Long kernels in parts: functions one after the other over rows of the values that pass between
+//! them.
 //!
-//! Much of what a compiler does to a function grows faster than its length. A part is short enough for that not to matter, and long enough
-//! that what it loads and stores is little beside what it computes: in one long function, most values wait in memory as well.
+//! Much of what a compiler does to a function grows faster than its length. A part is short enough
+//! for that not to matter, and long enough that what it loads and stores is little beside what it
+//! computes: in one long function, most values wait in memory as well.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +15,8 @@ use super::straight_line::{Environment, Given, Lines, StraightLine, Value, lines
 use crate::symbolic::arena::{Arena, Expr, Stage};
 use crate::syntax::words::local;
 
-/// Kernels of up to so many statements are one function: of some more than a thousand, one that is not divided is a little faster.
+/// Kernels of up to so many statements are one function: of some more than a thousand, one that is
+/// not divided is a little faster.
 const MANY: usize = 1800;
 /// The statements of a part.
 const PART: usize = 160;
@@ -31,8 +34,9 @@ pub(super) struct Frame {
     pub(super) unpack: TokenStream,
 }
 
-/// Writes the nodes that the outputs need, that are known no earlier than `from` and are not given: like
-/// [`write`](super::straight_line::write) where they are few; else in parts, which stand beside the function.
+/// Writes the nodes that the outputs need, that are known no earlier than `from` and are not given:
+/// like [`write`](super::straight_line::write) where they are few; else in parts, which stand
+/// beside the function.
 pub(super) fn write_in_parts(
     (arena, outputs): (&Arena, &[Expr]),
     from: Stage,

@@ -1,7 +1,8 @@
 //! Arrays of rows of values: what long kernels hand on.
 //!
-//! To the type checker an index is dearer than an operation, and a store dearer still; a pattern costs next to nothing while it is short. So values stand in rows,
-//! which are read by patterns and written at once.
+//! To the type checker an index is dearer than an operation, and a store dearer still; a pattern
+//! costs next to nothing while it is short. So values stand in rows, which are read by patterns and
+//! written at once.
 
 use std::collections::BTreeMap;
 

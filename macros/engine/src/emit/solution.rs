@@ -15,9 +15,11 @@ use crate::symbolic::equations::Kernel;
 use crate::symbolic::scene::Normalisation;
 use crate::syntax::words::local;
 
-/// Operations up to which a kernel becomes part of its caller, which saves moving the results twice.
+/// Operations up to which a kernel becomes part of its caller, which saves moving the results
+/// twice.
 const INLINE: usize = 300;
-/// Operations up to which an evaluation is written for each normalisation of Euler parameters: matrices need not pass through memory.
+/// Operations up to which an evaluation is written for each normalisation of Euler parameters:
+/// matrices need not pass through memory.
 const SHARED: usize = 3000;
 /// The entries of a rotation matrix.
 const ENTRIES: usize = 9;
@@ -52,8 +54,8 @@ impl Writer<'_> {
         quote!(#(#names,)*)
     }
 
-    /// The fused evaluations. Where they are long, both normalisations of Euler parameters call one function of the rotation matrices: [`Evaluation::normalised`]
-    /// made the second so.
+    /// The fused evaluations. Where they are long, both normalisations of Euler parameters call one
+    /// function of the rotation matrices: [`Evaluation::normalised`] made the second so.
     pub(super) fn evaluations(&mut self) -> TokenStream {
         if self.kernels.evaluations.is_empty() {
             return TokenStream::new();

@@ -88,7 +88,8 @@ impl Store {
         )
     }
 
-    /// The body of `take_inputs`: what it writes to the constants that depend on inputs, and their places. May ask for further constants.
+    /// The body of `take_inputs`: what it writes to the constants that depend on inputs, and their
+    /// places. May ask for further constants.
     pub fn write_inputs(&mut self, symbols: &[Symbol]) -> (StraightLine, Vec<usize>) {
         let arena = self.arena.clone();
         let constants = self.constants.iter().copied().enumerate();
@@ -201,7 +202,8 @@ fn written(symbols: &[Symbol], input: Input) -> TokenStream {
     }
 }
 
-/// The environment of `take_inputs`: symbols as they were written, what does not depend on inputs from the constants.
+/// The environment of `take_inputs`: symbols as they were written, what does not depend on inputs
+/// from the constants.
 struct Inputs<'a> {
     store: &'a mut Store,
     symbols: &'a [Symbol],

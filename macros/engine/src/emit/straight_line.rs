@@ -1,4 +1,5 @@
-//! An arena to statements: one `let` for every node, named after its origin; what is used once, soon and without a name of its own stands where it is used.
+//! An arena to statements: one `let` for every node, named after its origin; what is used once,
+//! soon and without a name of its own stands where it is used.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -172,8 +173,8 @@ impl Given {
 
 /// The statements of one block of a long kernel.
 ///
-/// Every `let` opens a scope that ends with the block it stands in. The compiler walks scopes by recursion when it writes debug
-/// information and overflows its stack after some thousands of them.
+/// Every `let` opens a scope that ends with the block it stands in. The compiler walks scopes by
+/// recursion when it writes debug information and overflows its stack after some thousands of them.
 const BLOCK: usize = 60;
 /// Kernels of up to so many statements are written without blocks.
 const LONG: usize = 600;
@@ -193,7 +194,8 @@ pub fn write(
     lines.in_one_function(outputs)
 }
 
-/// The statements of the nodes that the outputs need, that are known no earlier than `from` and are not given.
+/// The statements of the nodes that the outputs need, that are known no earlier than `from` and are
+/// not given.
 pub(super) fn lines(
     arena: &Arena,
     outputs: &[Expr],
@@ -281,7 +283,8 @@ impl<'a> Uses<'a> {
         }
     }
 
-    /// Products that one sum alone uses, one for each sum: they are written there, as a fused multiply-add.
+    /// Products that one sum alone uses, one for each sum: they are written there, as a fused
+    /// multiply-add.
     fn fused_products(&self) -> Vec<bool> {
         let arena = self.arena;
         let fusible = |x: Expr| {
@@ -371,7 +374,8 @@ impl<E: Environment> Writer<'_, E> {
         self.bind(place, Value::Expression(value), false);
     }
 
-    /// The outputs. A number, most often 0, or a negative gets a name where it is one more than once: each would be looked up, and called, again.
+    /// The outputs. A number, most often 0, or a negative gets a name where it is one more than
+    /// once: each would be looked up, and called, again.
     fn outputs(&mut self, outputs: &[Expr]) {
         let is_written =
             |output: Expr| output.is_negative() || self.arena.literal(output).is_some();

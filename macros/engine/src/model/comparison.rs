@@ -5,10 +5,12 @@
 pub enum Comparison {
     /// The motions are those that the equations leave.
     Agrees,
-    /// Nothing can be said: the definition states no motions, the equations do not hold in the reference configuration or change with
-    /// time, numbers cannot be seen, or what the motions speak of is not the same on both bodies there.
+    /// Nothing can be said: the definition states no motions, the equations do not hold in the
+    /// reference configuration or change with time, numbers cannot be seen, or what the motions
+    /// speak of is not the same on both bodies there.
     Undecided,
-    /// Motions that equations forbid: the place of the motion, and that of the equation that forbids it most.
+    /// Motions that equations forbid: the place of the motion, and that of the equation that
+    /// forbids it most.
     Forbidden(Vec<(usize, usize)>),
     /// An equation that does not hold after the motions, by its place.
     Violated(usize),

@@ -1,4 +1,5 @@
-//! Which angles of a joint or force count turns: those whose value is read. A rate, or what is done along an angle, asks for no value.
+//! Which angles of a joint or force count turns: those whose value is read. A rate, or what is done
+//! along an angle, asks for no value.
 
 use super::joint::{Action, ElementKind, Term, Turn};
 use super::mechanism::{Binding, Element, LawTerm, Model};

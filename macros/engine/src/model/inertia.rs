@@ -3,7 +3,8 @@
 /// Euler parameters of no rotation.
 pub const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-/// The rotation matrix of unit Euler parameters (Nikravesh 1988, eq. 6.19), entries beyond round-off from 0 and 1 only.
+/// The rotation matrix of unit Euler parameters (Nikravesh 1988, eq. 6.19), entries beyond
+/// round-off from 0 and 1 only.
 #[must_use]
 pub fn rotation(p: [f64; 4]) -> [[f64; 3]; 3] {
     let [e0, e1, e2, e3] = p;
@@ -50,8 +51,9 @@ pub fn compose(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// Principal moments of a symmetric tensor, and the Euler parameters of the rotation that takes components in the given
-/// axes to principal axes. Jacobi's method; a diagonal tensor keeps its axes and their order.
+/// Principal moments of a symmetric tensor, and the Euler parameters of the rotation that takes
+/// components in the given axes to principal axes. Jacobi's method; a diagonal tensor keeps its
+/// axes and their order.
 #[must_use]
 pub fn principal(tensor: [[f64; 3]; 3]) -> ([f64; 3], [f64; 4]) {
     let mut a = tensor;
@@ -90,7 +92,8 @@ pub fn principal(tensor: [[f64; 3]; 3]) -> ([f64; 3], [f64; 4]) {
     ([a[0][0], a[1][1], a[2][2]], euler_parameters(transposed))
 }
 
-/// Euler parameters of a rotation matrix, by the largest of the four (Nikravesh 1988, section 6.2.3).
+/// Euler parameters of a rotation matrix, by the largest of the four (Nikravesh 1988, section
+/// 6.2.3).
 #[must_use]
 pub fn euler_parameters(m: [[f64; 3]; 3]) -> [f64; 4] {
     let trace = m[0][0] + m[1][1] + m[2][2];

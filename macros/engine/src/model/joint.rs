@@ -5,7 +5,8 @@ use proc_macro2::{Ident, Span};
 /// What a parameter of a joint is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
-    /// A point, given once in global axes at the initial configuration, fixed on every body of the joint.
+    /// A point, given once in global axes at the initial configuration, fixed on every body of the
+    /// joint.
     Point,
     /// A direction, given like a point; of unit length.
     Axis,
@@ -17,7 +18,8 @@ pub enum ParameterKind {
     Angle,
     /// A number without unit.
     Number,
-    /// A function, which the mechanism writes as an expression of the time and of the definition's arguments.
+    /// A function, which the mechanism writes as an expression of the time and of the definition's
+    /// arguments.
     Law,
 }
 
@@ -230,7 +232,8 @@ impl Term {
         }
     }
 
-    /// How large it is; `named` says how large a scalar parameter is, or a law with arguments of given extents.
+    /// How large it is; `named` says how large a scalar parameter is, or a law with arguments of
+    /// given extents.
     pub fn extent(&self, named: &impl Fn(usize, &[Extent]) -> Extent) -> Extent {
         let parts: Vec<Extent> = self.parts().iter().map(|part| part.extent(named)).collect();
         match (self, parts.as_slice()) {
@@ -495,10 +498,12 @@ pub struct ElementDef {
     pub angle: Option<Turn>,
     /// The displacement that can be read.
     pub displacement: Option<Term>,
-    /// What is positive on the side that is meant, of the configurations that satisfy its equations.
+    /// What is positive on the side that is meant, of the configurations that satisfy its
+    /// equations.
     pub requirements: Vec<Term>,
-    /// The motions that it leaves free, of its second body against its first: each carries those behind it. `None` where the definition
-    /// does not say; none are left where it says so. What stands in them is fixed on no body by that: they change nothing in the equations.
+    /// The motions that it leaves free, of its second body against its first: each carries those
+    /// behind it. `None` where the definition does not say; none are left where it says so. What
+    /// stands in them is fixed on no body by that: they change nothing in the equations.
     pub motions: Option<Vec<Motion>>,
     /// The place of the row that drives, among its equations.
     pub drive: Option<usize>,

@@ -154,7 +154,8 @@ pub enum Coordinates {
     /// Positions and orientations of the bodies.
     #[default]
     Bodies,
-    /// What the joints of a spanning tree leave free; what asks for the bodies' own equations of motion puts them together from their parts.
+    /// What the joints of a spanning tree leave free; what asks for the bodies' own equations of
+    /// motion puts them together from their parts.
     Joints,
     /// Either, each with evaluations of its own.
     Both,

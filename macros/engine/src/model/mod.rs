@@ -1,4 +1,5 @@
-//! What a description means: bodies, joints and numbers, names bound, shapes known, independent of how it was written.
+//! What a description means: bodies, joints and numbers, names bound, shapes known, independent of
+//! how it was written.
 
 pub mod comparison;
 mod counted;

@@ -1,4 +1,5 @@
-//! The names of bodies, joints, forces and values: a field, or an element of a field that is an array.
+//! The names of bodies, joints, forces and values: a field, or an element of a field that is an
+//! array.
 
 use std::cmp::Ordering;
 use std::fmt::{self, Display};
@@ -6,7 +7,8 @@ use std::fmt::{self, Display};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 
-/// A field, or an element of one. As tokens it is the field's name, where the user wrote it; in words it is `rod` or `links[3]`.
+/// A field, or an element of one. As tokens it is the field's name, where the user wrote it; in
+/// words it is `rod` or `links[3]`.
 #[derive(Clone, Debug)]
 pub struct Name {
     field: Ident,
@@ -93,7 +95,7 @@ impl ToTokens for Name {
     }
 }
 
-/// By the name of the field, then by the number of the element: `links[2]` comes before `links[10]`.
+/// By the name of the field, then by the number of the element: `links[2]` before `links[10]`.
 impl Ord for Name {
     fn cmp(&self, other: &Self) -> Ordering {
         (&self.text, self.index).cmp(&(&other.text, other.index))
@@ -114,7 +116,7 @@ impl PartialEq for Name {
 
 impl Eq for Name {}
 
-/// The fields of some names in order, each once, with the number of elements of those that are arrays.
+/// The fields of some names in order, each once, with the number of elements of arrays.
 pub fn fields<'a>(names: impl IntoIterator<Item = &'a Name>) -> Vec<(&'a Ident, Option<usize>)> {
     let mut fields: Vec<(&Ident, Option<usize>)> = Vec::new();
     for name in names {

@@ -41,20 +41,24 @@ pub fn literals<const N: usize>(numbers: &[Number; N]) -> Option<[f64; N]> {
     Some(values)
 }
 
-/// A number that the macro cannot see, because it names a constant of the user's crate or a run-time value.
+/// A number that the macro cannot see, because it names a constant of the user's crate or a
+/// run-time value.
 #[derive(Clone, Debug)]
 pub struct Symbol {
-    /// An expression of type `f64`; functions are written as paths below `__private`, run-time values as local variables.
+    /// An expression of type `f64`; functions are written as paths below `__private`, run-time
+    /// values as local variables.
     pub expression: TokenStream,
-    /// The same over the scalar `S`, where it depends on run-time values: they stand in the array `parameters`.
+    /// The same over the scalar `S`, where it depends on run-time values: they stand in the array
+    /// `parameters`.
     pub scalar: Option<TokenStream>,
     /// The places of the run-time values that it depends on, in order.
     pub values: Vec<usize>,
     /// What it is at their typical values; `None` where one of them has none, and for a constant by
     /// its path.
     pub like: Option<f64>,
-    /// Where it must be positive and the compiler can evaluate it: a constant of the generated code, and its value. The expression is
-    /// its name then, so that one of a wrong type is refused once.
+    /// Where it must be positive and the compiler can evaluate it: a constant of the generated
+    /// code, and its value. The expression is its name then, so that one of a wrong type is refused
+    /// once.
     pub constant: Option<(Ident, TokenStream)>,
     /// Where it was written.
     pub span: Span,

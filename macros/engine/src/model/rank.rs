@@ -67,22 +67,24 @@ pub struct Independence {
     pub rank: Rank,
     /// The equations that can go so that the others are independent and say the same.
     pub redundant: Vec<RedundantRow>,
-    /// The equations, by joint and place and in order, whose multipliers are not unique, because redundant ones follow from them or are redundant
-    /// themselves.
+    /// The equations, by joint and place and in order, whose multipliers are not unique, because
+    /// redundant ones follow from them or are redundant themselves.
     pub undetermined: Vec<(usize, usize)>,
-    /// The equations that no motion satisfies together with the others. If there are any, redundant ones are not looked for.
+    /// The equations that no motion satisfies together with the others. If there are any, redundant
+    /// ones are not looked for.
     pub contradictions: Vec<Contradiction>,
-    /// The equations, by joint and place, that are violated in the reference configuration where their gradients vanish, if nothing near
-    /// it satisfies all.
+    /// The equations, by joint and place, that are violated in the reference configuration where
+    /// their gradients vanish, if nothing near it satisfies all.
     pub stuck: Vec<(usize, usize)>,
-    /// The equations among the redundant ones, by joint and place, whose gradients vanish wherever the mechanism got to, but not everywhere:
-    /// they follow from nothing, and may say something yet.
+    /// The equations among the redundant ones, by joint and place, whose gradients vanish wherever
+    /// the mechanism got to, but not everywhere: they follow from nothing, and may say something
+    /// yet.
     pub dormant: Vec<(usize, usize)>,
-    /// The equations among the redundant ones, by joint and place, that do not hold where the others lead to: where the mechanism was looked at, they
-    /// follow from these by chance.
+    /// The equations among the redundant ones, by joint and place, that do not hold where the
+    /// others lead to: where the mechanism was looked at, they follow from these by chance.
     pub by_chance: Vec<(usize, usize)>,
-    /// Whether no other configuration was found near the reference one, although the rank leaves motion free: there rows may depend on each
-    /// other by chance.
+    /// Whether no other configuration was found near the reference one, although the rank leaves
+    /// motion free: there rows may depend on each other by chance.
     pub is_alone: bool,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
@@ -91,13 +93,14 @@ pub struct Independence {
     pub likes: Vec<usize>,
     /// Whether they are gone.
     pub dropped: bool,
-    /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from the reference configuration on, where there was a
-    /// choice of equations to be made.
+    /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from
+    /// the reference configuration on, where there was a choice of equations to be made.
     pub tour: Vec<(f64, Vec<f64>)>,
 }
 
 impl Independence {
-    /// Velocities that the constraints leave free: by the rank where it is known, else by the number of equations.
+    /// Velocities that the constraints leave free: by the rank where it is known, else by the
+    /// number of equations.
     #[must_use]
     pub fn degrees_of_freedom(&self, velocities: usize, equations: usize) -> isize {
         let bound = match self.rank {

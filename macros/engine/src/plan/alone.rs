@@ -19,10 +19,11 @@ pub struct Alone {
     pub gamma: Vec<Expr>,
 }
 
-/// The cheapest functions found for a joint, by position, Euler parameters of length 1, velocity and angular velocity of its bodies.
+/// The cheapest functions found for a joint, by position, Euler parameters of length 1, velocity
+/// and angular velocity of its bodies.
 ///
-/// The angular velocity is given in body axes, as [`Input::Velocity`], and in global axes, as [`Input::Upper`] of the same place:
-/// one product `A w` a body serves all its joints.
+/// The angular velocity is given in body axes, as [`Input::Velocity`], and in global axes, as
+/// [`Input::Upper`] of the same place: one product `A w` a body serves all its joints.
 #[must_use]
 pub fn alone(model: &Model, joint: usize) -> Alone {
     let model = model.only(joint);

@@ -1,13 +1,16 @@
 //! Masses that joints hand on: augmented bodies (Roberson and Wittenburg 1966).
 //!
-//! Where a joint's point rows `c (a - G y) = gamma` carry the acceleration `a` of a body's point, with the motion `G y` of a point of another body, the
-//! mass `m` of the one body may stand at the point of the other: `-m a.a + m (G y).(G y)` is added to the quadratic form of the masses, which
-//! changes nothing where the rows hold. With `L = -m/2 c (a + G y)` that is `D^T L + L^T D`, so that the system for `lambda - L x` with forces
-//! `f + L^T gamma` has the same accelerations, whatever the state is. What was the mass of one body at a moving point is a number of the other then,
-//! known before the state is, and the block of `a` is zero.
+//! Where a joint's point rows `c (a - G y) = gamma` carry the acceleration `a` of a body's point,
+//! with the motion `G y` of a point of another body, the mass `m` of the one body may stand at the
+//! point of the other: `-m a.a + m (G y).(G y)` is added to the quadratic form of the masses, which
+//! changes nothing where the rows hold. With `L = -m/2 c (a + G y)` that is `D^T L + L^T D`, so
+//! that the system for `lambda - L x` with forces `f + L^T gamma` has the same accelerations,
+//! whatever the state is. What was the mass of one body at a moving point is a number of the other
+//! then, known before the state is, and the block of `a` is zero.
 //!
-//! Bodies are augmented from the leaves to the ground. The matrix differs from the original one by the same numbers until the rows are eliminated
-//! together with `a`, if nothing of the other body is eliminated before, and not at all behind: so every pivot is what it was.
+//! Bodies are augmented from the leaves to the ground. The matrix differs from the original one by
+//! the same numbers until the rows are eliminated together with `a`, if nothing of the other body
+//! is eliminated before, and not at all behind: so every pivot is what it was.
 
 use super::Pivot;
 use super::Plan;
@@ -23,7 +26,8 @@ pub(super) struct HandedOn {
     pub(super) body: usize,
     /// The first of the rows.
     row: usize,
-    /// The body that they hold it to, and the point there, from the centre of mass; `None` for the ground.
+    /// The body that they hold it to, and the point there, from the centre of mass; `None` for the
+    /// ground.
     onto: Option<(usize, Triple)>,
 }
 
@@ -56,7 +60,8 @@ impl Augmented {
         }
     }
 
-    /// The masses where those of some bodies are handed on, which come from the leaves to the ground; and the masses that were.
+    /// The masses where those of some bodies are handed on, which come from the leaves to the
+    /// ground; and the masses that were.
     pub(super) fn new(scene: &mut Scene, handed_on: &[HandedOn]) -> (Self, Vec<Expr>) {
         let mut augmented = Self::none(scene);
         let mut masses = Vec::new();

@@ -1,7 +1,8 @@
 //! Plans worth counting, and the choice among them.
 //!
-//! Bodies are eliminated from the leaves of a spanning tree towards the ground, rows of a body's joint right behind it, closing joints last: work
-//! grows linearly along a chain. Or rows wait for all bodies, all of them or the point rows between moving bodies. Candidates differ in this, in
+//! Bodies are eliminated from the leaves of a spanning tree towards the ground, rows of a body's
+//! joint right behind it, closing joints last: work grows linearly along a chain. Or rows wait for
+//! all bodies, all of them or the point rows between moving bodies. Candidates differ in this, in
 //! the points whose accelerations are eliminated, and in the axes of rows and of accelerations.
 
 use super::eliminate::Check;
@@ -81,7 +82,8 @@ const COMPLIANT: [Strategy; 5] = {
     ]
 };
 
-/// Mechanisms of more bodies are not searched in full: what wins where there are many is one of two, and every candidate takes time.
+/// Mechanisms of more bodies are not searched in full: what wins where there are many is one of
+/// two, and every candidate takes time.
 const MANY: usize = 12;
 const RIGID_OF_MANY: [Strategy; 2] = [RIGID[0], RIGID[5]];
 const COMPLIANT_OF_MANY: [Strategy; 2] = [COMPLIANT[4], COMPLIANT[3]];
@@ -160,8 +162,9 @@ pub(super) fn cheapest(model: &Model) -> [Factorised; 2] {
     [Terms::Plain, Terms::Compliant].map(|terms| beginning.choose(terms))
 }
 
-/// Plans that cost little to find, for what runs seldom: bodies from the leaves of the tree, rows of a body's joint right behind it; with a compliance all bodies first, which
-/// takes a quarter to a half fewer operations than that.
+/// Plans that cost little to find, for what runs seldom: bodies from the leaves of the tree, rows
+/// of a body's joint right behind it; with a compliance all bodies first, which takes a quarter to
+/// a half fewer operations than that.
 pub(super) fn first(model: &Model) -> [Factorised; 2] {
     let beginning = Beginning::new(model);
     [(Terms::Plain, RIGID[0]), (Terms::Compliant, COMPLIANT[4])].map(|(terms, strategy)| {
@@ -198,11 +201,13 @@ struct Candidate {
     at_least: usize,
 }
 
-/// The factors of a plan take no more nodes than so many times those of another, or the plan is given up.
+/// The factors of a plan take no more nodes than so many times those of another, or the plan is
+/// given up.
 const FILLED: usize = 3;
 
 impl Beginning<'_> {
-    /// The cheapest plan. What a plan costs is found in two steps, of which the second takes longer: the factors and the back-substitution, then the right-hand sides.
+    /// The cheapest plan. What a plan costs is found in two steps, of which the second takes
+    /// longer: the factors and the back-substitution, then the right-hand sides.
     fn choose(&self, terms: Terms) -> Factorised {
         let mut candidates: Vec<Candidate> = Vec::new();
         let mut most = usize::MAX;
@@ -229,7 +234,8 @@ impl Beginning<'_> {
             if best.as_ref().is_some_and(|(least, _)| at_least >= *least) {
                 break;
             }
-            // Right-hand sides of many bodies take as long to work out as the factors, and decide seldom.
+            // Right-hand sides of many bodies take as long to work out as the factors, and decide
+            // seldom.
             let cost = if self.kinds.len() > MANY {
                 at_least
             } else {
@@ -261,8 +267,9 @@ impl Beginning<'_> {
         (all.total(), back.weighted())
     }
 
-    /// What a plan costs: four times the evaluations that go by it, with accelerations, multipliers and relative pivots, and once the
-    /// back-substitution for a given right-hand side, which runs less often.
+    /// What a plan costs: four times the evaluations that go by it, with accelerations, multipliers
+    /// and relative pivots, and once the back-substitution for a given right-hand side, which runs
+    /// less often.
     fn cost(&self, factorised: &Factorised, terms: Terms) -> usize {
         let Factorised { scene, system, .. } = factorised;
         let mut scene = scene.clone();

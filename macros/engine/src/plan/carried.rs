@@ -1,9 +1,11 @@
-//! Two other ways through a factorised system, for rows that are eliminated together with accelerations.
+//! Two other ways through a factorised system, for rows that are eliminated together with
+//! accelerations.
 //!
-//! Such rows determine their accelerations, and the equations of these accelerations determine their multipliers. From the ground to the leaves the
-//! first gives accelerations that satisfy the rows as they are: what is left to the factors has zeros for right-hand sides there. From the leaves to
-//! the ground the second gives multipliers by the balance of forces on the bodies, in the place of back-substitution. Both hold with and
-//! without a compliance of other rows.
+//! Such rows determine their accelerations, and the equations of these accelerations determine
+//! their multipliers. From the ground to the leaves the first gives accelerations that satisfy the
+//! rows as they are: what is left to the factors has zeros for right-hand sides there. From the
+//! leaves to the ground the second gives multipliers by the balance of forces on the bodies, in the
+//! place of back-substitution. Both hold with and without a compliance of other rows.
 
 use super::collect::common;
 use super::eliminate::{Factors, Step, Symmetric};
@@ -86,8 +88,8 @@ impl Factors {
         self.steps.iter().any(|step| step.parts().is_some())
     }
 
-    /// Solves the system `matrix`, of which these are the factors, beginning with accelerations that satisfy the rows that are eliminated together with
-    /// them.
+    /// Solves the system `matrix`, of which these are the factors, beginning with accelerations
+    /// that satisfy the rows that are eliminated together with them.
     pub(super) fn solve_from_known(
         &self,
         arena: &mut Arena,
@@ -136,8 +138,9 @@ impl Factors {
         both.map(|(known, rest)| arena.add(known, rest)).collect()
     }
 
-    /// Puts in the place of multipliers what the equations of the accelerations say that are eliminated together with their rows. The solution `x` is
-    /// that of `matrix`, which may be about other points than the factors.
+    /// Puts in the place of multipliers what the equations of the accelerations say that are
+    /// eliminated together with their rows. The solution `x` is that of `matrix`, which may be
+    /// about other points than the factors.
     pub(super) fn balance(
         &self,
         arena: &mut Arena,

@@ -33,13 +33,15 @@ pub(super) fn sum_of_products(arena: &mut Arena, a: &[Expr], b: &[Expr]) -> Expr
     arena.add(sum, number)
 }
 
-/// `sum_k a_k b_k`. Where all products have the same factor, they are summed before, if that is cheaper.
+/// `sum_k a_k b_k`. Where all products have the same factor, they are summed before, if that is
+/// cheaper.
 pub(super) fn shortest_dot(arena: &mut Arena, a: &[Expr], b: &[Expr]) -> Expr {
     let ones = vec![Arena::ONE; a.len()];
     through(arena, &ones, a, b)
 }
 
-/// `sum_k a_k b_k / m_k` for given `1 / m_k`. Products with the same factor are summed before, where that is cheaper.
+/// `sum_k a_k b_k / m_k` for given `1 / m_k`. Products with the same factor are summed before,
+/// where that is cheaper.
 pub(super) fn through(arena: &mut Arena, inverses: &[Expr], a: &[Expr], b: &[Expr]) -> Expr {
     let plain = |arena: &mut Arena| {
         let scaled = a.iter().zip(inverses);
@@ -121,7 +123,8 @@ fn split(arena: &Arena, expr: Expr) -> (Expr, Expr) {
     (Arena::ZERO, expr)
 }
 
-/// Terms of a sum of products, those with the same factor but for a number made one: `c a x + d a y = (c a) (x + d / c y)`.
+/// Terms of a sum of products, those with the same factor but for a number made one:
+/// `c a x + d a y = (c a) (x + d / c y)`.
 pub(super) fn common(arena: &mut Arena, terms: Vec<(Expr, Expr)>) -> Vec<(Expr, Expr)> {
     let mut sums: Vec<(f64, Expr, Expr, Expr)> = Vec::new();
     for (factor, x) in terms {

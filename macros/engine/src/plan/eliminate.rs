@@ -1,7 +1,9 @@
-//! Symbolic elimination of a symmetric system with pivots of one to four unknowns, or of many that are not coupled, in a given order: `L D L^T`.
+//! Symbolic elimination of a symmetric system with pivots of one to four unknowns, or of many that
+//! are not coupled, in a given order: `L D L^T`.
 //!
-//! Accelerations that follow each other and are not coupled are eliminated together, and so are accelerations that follow each other with the rows that
-//! carry them: what they add to an entry is summed before, so that entries share it.
+//! Accelerations that follow each other and are not coupled are eliminated together, and so are
+//! accelerations that follow each other with the rows that carry them: what they add to an entry is
+//! summed before, so that entries share it.
 
 use super::Pivot;
 use super::augmented::Share;
@@ -15,8 +17,10 @@ use crate::symbolic::arena::{Arena, Expr};
 pub(super) struct Step {
     pub(super) unknowns: Vec<usize>,
     pub(super) inverse: Inverse,
-    /// What an unknown that is coupled to the pivot by a column `(u; v)` needs of it: `P^-1 (u; v)`, or where rows determine their accelerations, `x = C^-1 v`
-    /// and what they leave, `z = u - A x`. That `C^-T z` are multipliers matters at the very end: until then `C^-T z . v' = z . x'`.
+    /// What an unknown that is coupled to the pivot by a column `(u; v)` needs of it:
+    /// `P^-1 (u; v)`, or where rows determine their accelerations, `x = C^-1 v` and what they
+    /// leave, `z = u - A x`. That `C^-T z` are multipliers matters at the very end: until then
+    /// `C^-T z . v' = z . x'`.
     lower: Vec<(usize, Vec<Expr>)>,
 }
 
@@ -27,8 +31,8 @@ pub struct Check {
     pub unknown: usize,
     /// The pivot.
     pub pivot: Expr,
-    /// What it is compared with: for a multiplier its diagonal element of `D M^-1 D^T` over the bodies eliminated so far, for
-    /// a forbidden motion the determinant at the start.
+    /// What it is compared with: for a multiplier its diagonal element of `D M^-1 D^T` over the
+    /// bodies eliminated so far, for a forbidden motion the determinant at the start.
     pub before: Expr,
 }
 
@@ -38,16 +42,19 @@ pub struct Factors {
     pub(super) steps: Vec<Step>,
     /// The pivots that depend on the state and are not safe by themselves.
     pub checks: Vec<Check>,
-    /// Where the matrix is that of augmented bodies: what makes of its solutions those of the original.
+    /// Where the matrix is that of augmented bodies: what makes of its solutions those of the
+    /// original.
     pub(super) shares: Vec<Share>,
 }
 
 /// Factorises a matrix.
 ///
-/// `about_centres` is the same system with accelerations of centres of mass: pivots are compared with what rows would be in it. `determinants` are those of the blocks [`Pivot::Forbidden`] at the start, in order. Whatever the plan says, the result solves the
-/// system: a block that an earlier step has filled, so that it is not what its kind of pivot is safe for, is eliminated
-/// one unknown after the other, and a multiplier waits until its pivot is not zero by structure. What is zero to the end is
-/// zero because rows depend on each other, and is recorded.
+/// `about_centres` is the same system with accelerations of centres of mass: pivots are compared
+/// with what rows would be in it. `determinants` are those of the blocks [`Pivot::Forbidden`] at
+/// the start, in order. Whatever the plan says, the result solves the system: a block that an
+/// earlier step has filled, so that it is not what its kind of pivot is safe for, is eliminated one
+/// unknown after the other, and a multiplier waits until its pivot is not zero by structure. What
+/// is zero to the end is zero because rows depend on each other, and is recorded.
 ///
 /// # Panics
 /// If the plan does not eliminate every unknown once, or lacks a determinant.
@@ -145,8 +152,8 @@ struct Elimination {
     about_centres: Symmetric,
     /// What is left.
     matrix: Symmetric,
-    /// When the plan eliminates each unknown: sums are taken in this order, so that the numbers of the unknowns, and with them the order of the fields,
-    /// have no say.
+    /// When the plan eliminates each unknown: sums are taken in this order, so that the numbers of
+    /// the unknowns, and with them the order of the fields, have no say.
     turn: Vec<usize>,
     /// The step that has eliminated an unknown, and the unknown's place in it.
     step: Vec<Option<(usize, usize)>>,
@@ -200,7 +207,8 @@ impl Elimination {
         together
     }
 
-    /// The first pivots, if they are accelerations with rows that carry one each and know nothing of the others.
+    /// The first pivots, if they are accelerations with rows that carry one each and know nothing
+    /// of the others.
     fn carried(&self, pivots: &[Pivot]) -> Vec<[usize; 2]> {
         let mut carried: Vec<[usize; 2]> = Vec::new();
         for pivot in pivots {
@@ -217,7 +225,8 @@ impl Elimination {
         carried
     }
 
-    /// Eliminates accelerations together with the rows that carry them, and rows that waited for it.
+    /// Eliminates accelerations together with the rows that carry them, and rows that waited for
+    /// it.
     fn take_carried(&mut self, arena: &mut Arena, carried: &[[usize; 2]]) {
         let signs = carried.iter().map(|&[k, l]| self.matrix.get(k, l));
         let accelerations = carried.iter().map(|[k, _]| *k);
@@ -269,7 +278,8 @@ impl Elimination {
 
     /// The check of a multiplier, `None` where its pivot is a number that stands out.
     fn check(&self, arena: &mut Arena, row: usize) -> Option<Check> {
-        /// A number below this, relative to what it was made of, is taken for round-off: left to the kernels to report.
+        /// A number below this, relative to what it was made of, is taken for round-off: left to
+        /// the kernels to report.
         const ROUND_OFF: f64 = 1e-9;
         let pivot = self.matrix.get(row, row);
         let before = self.uncoupled(arena, row);
@@ -284,8 +294,9 @@ impl Elimination {
         })
     }
 
-    /// The pivot of a multiplier if there were no other rows. The terms are summed in the order of elimination, where the elimination may have
-    /// formed the same sum, in the order of the unknowns, or at once, whatever takes fewest operations.
+    /// The pivot of a multiplier if there were no other rows. The terms are summed in the order of
+    /// elimination, where the elimination may have formed the same sum, in the order of the
+    /// unknowns, or at once, whatever takes fewest operations.
     fn uncoupled(&self, arena: &mut Arena, row: usize) -> Expr {
         let mut sorted: Vec<usize> = self.about_centres.neighbours(row).collect();
         sorted.retain(|&k| self.step[k].is_some());

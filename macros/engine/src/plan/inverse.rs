@@ -61,7 +61,8 @@ impl Inverse {
         }
     }
 
-    /// `C^-T y`: the multipliers of the rows of a block from what the accelerations leave of its upper part.
+    /// `C^-T y`: the multipliers of the rows of a block from what the accelerations leave of its
+    /// upper part.
     pub(super) fn multipliers(&self, arena: &mut Arena, y: &[Expr]) -> Vec<Expr> {
         match self {
             Self::Matrix(_) | Self::Diagonal(_) => Vec::new(),
@@ -80,8 +81,8 @@ impl Inverse {
         }
     }
 
-    /// Where rows determine the accelerations, `b` being `(u, v)`: these, `x = C^-1 v`, and what they leave of the upper part, `u - A x`. For
-    /// other blocks nothing.
+    /// Where rows determine the accelerations, `b` being `(u, v)`: these, `x = C^-1 v`, and what
+    /// they leave of the upper part, `u - A x`. For other blocks nothing.
     pub(super) fn determined(&self, arena: &mut Arena, b: &[Expr]) -> [Vec<Expr>; 2] {
         match self {
             Self::Matrix(_) | Self::Diagonal(_) => [Vec::new(), Vec::new()],
@@ -148,8 +149,9 @@ pub(super) fn invert(arena: &mut Arena, matrix: &Symmetric, unknowns: &[usize]) 
     }
 }
 
-/// What accelerations that rows determine add to an entry, from the columns `(u, v)` of two unknowns and what [`Inverse::determined`] makes of them:
-/// `x_i . u_j + (u_i - A x_i) . x_j`, which is symmetric.
+/// What accelerations that rows determine add to an entry, from the columns `(u, v)` of two
+/// unknowns and what [`Inverse::determined`] makes of them: `x_i . u_j + (u_i - A x_i) . x_j`,
+/// which is symmetric.
 pub(super) fn by_determined(
     arena: &mut Arena,
     [one, other]: [(&[Expr], &[Vec<Expr>; 2]); 2],

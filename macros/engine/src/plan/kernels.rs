@@ -91,10 +91,11 @@ pub struct Kernels {
     pub readouts: Readouts,
     /// What each joint costs by itself.
     pub alone: Vec<Count>,
-    /// The fused evaluations for all terms, those that read Euler parameters as they are before those that normalise them. None where the mechanism is
-    /// described by its joints alone.
+    /// The fused evaluations for all terms, those that read Euler parameters as they are before
+    /// those that normalise them. None where the mechanism is described by its joints alone.
     pub evaluations: Vec<Evaluation>,
-    /// The gains of `Phi'` and of `Phi` in `gamma*`, for evaluations that are put together from their parts.
+    /// The gains of `Phi'` and of `Phi` in `gamma*`, for evaluations that are put together from
+    /// their parts.
     pub gains: Option<Kernel>,
     /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
@@ -262,8 +263,8 @@ fn rotations(scene: &Scene) -> Vec<Expr> {
 }
 
 impl Evaluation {
-    /// The same function of the rotation matrices of a scene that reads Euler parameters normalised. What else is made of Euler parameters, their rates, is made of
-    /// them as they are.
+    /// The same function of the rotation matrices of a scene that reads Euler parameters
+    /// normalised. What else is made of Euler parameters, their rates, is made of them as they are.
     pub(crate) fn normalised(&self, scene: &Scene) -> Self {
         let mut arena = scene.space.arena.clone();
         let rotations = rotations(scene);

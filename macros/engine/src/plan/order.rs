@@ -1,15 +1,17 @@
-//! The order of elimination: bodies from the leaves of a spanning tree to the ground, rows of a body's joint behind it as soon as
-//! they are safe, closing joints last; or rows behind all bodies.
+//! The order of elimination: bodies from the leaves of a spanning tree to the ground, rows of a
+//! body's joint behind it as soon as they are safe, closing joints last; or rows behind all bodies.
 //!
-//! A row may follow the bodies that are eliminated already if their accelerations determine its multiplier in every regular
-//! configuration. The bodies that rows have tied together so far make a part of the mechanism, and what is left of the
-//! mechanism is felt through these rows only. Were their gradients on the part dependent, a combination of the rows would act with
-//! no force and no moment on the part; where they hold it against *one* other body, or against the ground, reaction and action
-//! cancel, and it would act on nothing: the rows of `D` would be dependent. With two bodies outside the part this does
-//! not follow, and the row waits.
+//! A row may follow the bodies that are eliminated already if their accelerations determine its
+//! multiplier in every regular configuration. The bodies that rows have tied together so far make a
+//! part of the mechanism, and what is left of the mechanism is felt through these rows only. Were
+//! their gradients on the part dependent, a combination of the rows would act with no force and no
+//! moment on the part; where they hold it against *one* other body, or against the ground, reaction
+//! and action cancel, and it would act on nothing: the rows of `D` would be dependent. With two
+//! bodies outside the part this does not follow, and the row waits.
 //!
-//! Rows may also wait until all bodies are eliminated. Rows that were eliminated before are independent with the bodies that were, the others with all
-//! bodies: `D M^-1 D^T` is positive definite, and so is what is left of it after any of its rows. Their order is free.
+//! Rows may also wait until all bodies are eliminated. Rows that were eliminated before are
+//! independent with the bodies that were, the others with all bodies: `D M^-1 D^T` is positive
+//! definite, and so is what is left of it after any of its rows. Their order is free.
 
 use std::collections::BTreeSet;
 
@@ -61,15 +63,17 @@ struct Part {
 /// The order of elimination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
-    /// Bodies from the leaves, point rows together with the accelerations that they carry, other rows behind them as soon as they are safe.
+    /// Bodies from the leaves, point rows together with the accelerations that they carry, other
+    /// rows behind them as soon as they are safe.
     Leaves {
         /// Two single rows paired with two components of the angular acceleration.
         forbidden: bool,
-        /// Point rows between moving bodies wait until all bodies are eliminated, and begin there then.
+        /// Point rows between moving bodies wait until all bodies are eliminated, and begin there
+        /// then.
         late: Option<Rows>,
     },
-    /// All bodies, then all rows: the diagonal of the bodies does not fill in, and what is left, `-D M^-1 D^T`, couples rows
-    /// of neighbours only.
+    /// All bodies, then all rows: the diagonal of the bodies does not fill in, and what is left,
+    /// `-D M^-1 D^T`, couples rows of neighbours only.
     BodiesFirst(Rows),
 }
 
@@ -124,7 +128,8 @@ impl<'a> Order<'a> {
         }
     }
 
-    /// Rows are independent, so that `D M^-1 D^T` is positive definite, and so is what is left of it: any order of the rows is safe.
+    /// Rows are independent, so that `D M^-1 D^T` is positive definite, and so is what is left of
+    /// it: any order of the rows is safe.
     fn bodies_first(&mut self, tree: &Tree, rows: Rows) -> Vec<Pivot> {
         let mut pivots = Vec::new();
         for &(body, _) in &tree.bodies {
@@ -174,7 +179,8 @@ impl<'a> Order<'a> {
         let mut waiting: Vec<usize> = Vec::new();
         for &(body, joint) in &tree.bodies {
             self.enter(body);
-            // Of a leaf the block is made of numbers, which the rows of its joint carry on as they are.
+            // Of a leaf the block is made of numbers, which the rows of its joint carry on as they
+            // are.
             let is_filled = self.is_filled(body);
             if let Some(joint) = joint {
                 if is_filled {
@@ -255,7 +261,8 @@ impl<'a> Order<'a> {
         Some(determinant)
     }
 
-    /// Whether the point rows of a joint do not act on the angular acceleration of the body that it carries.
+    /// Whether the point rows of a joint do not act on the angular acceleration of the body that it
+    /// carries.
     fn are_about_their_point(&self, joint: usize, body: usize) -> bool {
         let first = self.scene.layout.velocity[body];
         let carried = self.carried_rows(joint, first);
@@ -264,15 +271,16 @@ impl<'a> Order<'a> {
         rows.all(|row| row.iter().all(|(k, _)| !own.contains(k)))
     }
 
-    /// Whether a row that acts on a body is eliminated, so that its block of masses is not made of numbers any more.
+    /// Whether a row that acts on a body is eliminated, so that its block of masses is not made of
+    /// numbers any more.
     fn is_filled(&self, body: usize) -> bool {
         let velocities = self.scene.layout.velocities;
         let mut rows = self.reach.rows.iter().enumerate();
         rows.any(|(row, bodies)| self.done[velocities + row] && bodies.contains(&Some(body)))
     }
 
-    /// The accelerations of a body that no row of the joint acts on which carries it. Before the others they know of their own body only, so that little
-    /// is coupled with them.
+    /// The accelerations of a body that no row of the joint acts on which carries it. Before the
+    /// others they know of their own body only, so that little is coupled with them.
     fn free(&self, joint: usize, body: usize) -> Vec<usize> {
         let first = self.scene.layout.velocity[body];
         let own = first..first + self.kinds[body].velocities();
@@ -351,7 +359,8 @@ impl<'a> Order<'a> {
         true
     }
 
-    /// Whether no body that a row acts on was eliminated before this one, so that the row is as it was assembled.
+    /// Whether no body that a row acts on was eliminated before this one, so that the row is as it
+    /// was assembled.
     fn is_first_on(&self, row: usize, body: usize) -> bool {
         let mut bodies = self.reach.rows[row].iter().flatten();
         bodies.all(|&other| {
@@ -387,10 +396,11 @@ impl<'a> Order<'a> {
         }
     }
 
-    /// The two single rows of a joint that determine two components of a body's angular acceleration.
+    /// The two single rows of a joint that determine two components of a body's angular
+    /// acceleration.
     ///
-    /// The rows must prescribe the scalar products of one vector `h` on the body with two vectors `a`, `b` on another: then
-    /// the determinant is `(a x b) . h`, whose size the constraints fix.
+    /// The rows must prescribe the scalar products of one vector `h` on the body with two vectors
+    /// `a`, `b` on another: then the determinant is `(a x b) . h`, whose size the constraints fix.
     fn forbidden_motion(&self, joint: usize, body: usize) -> Option<([usize; 2], [usize; 2], f64)> {
         if self.kinds[body] != BodyKind::Rigid {
             return None;
@@ -443,7 +453,8 @@ impl<'a> Order<'a> {
     }
 }
 
-/// For a scalar product of a vector on `body` with one on another body, plus constants: that vector, and the other body.
+/// For a scalar product of a vector on `body` with one on another body, plus constants: that
+/// vector, and the other body.
 fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>)> {
     match scalar {
         ScalarExpr::Dot(a, b) => {
@@ -474,7 +485,8 @@ fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>
     }
 }
 
-/// Whether the three rows of a constraint are plus or minus the three accelerations from `first` on.
+/// Whether the three rows of a constraint are plus or minus the three accelerations from `first`
+/// on.
 fn carries(coupling: &[Vec<(usize, Expr)>], row: usize, first: usize) -> bool {
     (0..3).all(|k| {
         let own: Vec<_> = coupling[row + k]

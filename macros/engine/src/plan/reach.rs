@@ -24,8 +24,9 @@ const ROUND_OFF: f64 = 1e-11;
 type Wrench = [Triple; 2];
 
 impl Reach {
-    /// Forces and moments of a row on the bodies cancel unless it speaks of the ground: then, and where it cannot be told, the ground
-    /// is counted. This is tried at one state that has nothing special.
+    /// Forces and moments of a row on the bodies cancel unless it speaks of the ground: then, and
+    /// where it cannot be told, the ground is counted. This is tried at one state that has nothing
+    /// special.
     pub(super) fn new(model: &Model, mut scene: Scene) -> Self {
         let mut wrenches: Vec<Vec<(usize, Wrench)>> = Vec::new();
         let mut slopes: Vec<Triple> = Vec::new();
@@ -95,7 +96,8 @@ impl Reach {
         Self { rows, constraints }
     }
 
-    /// How many rows of a joint act on a body, those of vector constraints counted twice; `None` if none does.
+    /// How many rows of a joint act on a body, those of vector constraints counted twice; `None` if
+    /// none does.
     pub(super) fn weight(&self, joint: usize, body: usize) -> Option<usize> {
         let own = self.constraints.iter().filter(|(of, _)| *of == joint);
         let weight: usize = own
@@ -111,8 +113,8 @@ impl Reach {
     }
 }
 
-/// What turning all bodies together does to the rows of a constraint: nothing to a scalar, `v x e` for the component of a vector `v`
-/// along `e`, which vanishes on the constraints.
+/// What turning all bodies together does to the rows of a constraint: nothing to a scalar, `v x e`
+/// for the component of a vector `v` along `e`, which vanishes on the constraints.
 fn turned(scene: &mut Scene, constraint: usize) -> Vec<Triple> {
     let factors = [Arena::ONE, Arena::ZERO, Arena::ZERO];
     match scene.combination(constraint, Frame::Global, factors)[..] {

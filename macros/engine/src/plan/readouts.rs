@@ -11,7 +11,8 @@ use crate::symbolic::vector::{Frame, VectorId};
 /// Kernels of what can be read, by the place of joint or force.
 #[derive(Clone, Debug)]
 pub struct Readouts {
-    /// Cosine, sine and rate of the angle of each joint that has one, and the auxiliary variable that counts its turns.
+    /// Cosine, sine and rate of the angle of each joint that has one, and the auxiliary variable
+    /// that counts its turns.
     pub angles: Vec<(usize, Kernel)>,
     /// Value and rate of the displacement of each joint that has one.
     pub displacements: Vec<(usize, Kernel)>,
@@ -21,7 +22,8 @@ pub struct Readouts {
     pub points: Vec<(usize, usize, Kernel)>,
     /// The potential energy of each force, and the power of what it does besides.
     pub energies: Vec<Kernel>,
-    /// The force (global axes) and the moment about the centre of mass (principal axes) of each force on each of its bodies.
+    /// The force (global axes) and the moment about the centre of mass (principal axes) of each
+    /// force on each of its bodies.
     pub loads: Vec<(usize, usize, Kernel)>,
 }
 
@@ -42,8 +44,8 @@ impl Readouts {
     }
 }
 
-/// The angle of the second body against the first: with axis `a` and normals `n1`, `n2` on either body,
-/// `cosine = n1(i) . n1(j)`, `sine = n2(i) . n1(j)`, rate `a(i) . (w(j) - w(i))`.
+/// The angle of the second body against the first: with axis `a` and normals `n1`, `n2` on either
+/// body, `cosine = n1(i) . n1(j)`, `sine = n2(i) . n1(j)`, rate `a(i) . (w(j) - w(i))`.
 fn angles(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
     let mut angles = Vec::new();
     for (place, joint) in model.joints.iter().enumerate() {

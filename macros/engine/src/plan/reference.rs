@@ -1,7 +1,9 @@
 //! What recorded pivots are compared with, as a number where that does as well.
 //!
-//! A pivot is small if it is small beside what it would be without the other rows. That is `D M^-1 D^T` of one row: where it depends on orientations only, it stays between bounds, and where these are
-//! near to each other, its greatest value says as much as the value at every state, and costs nothing.
+//! A pivot is small if it is small beside what it would be without the other rows. That is
+//! `D M^-1 D^T` of one row: where it depends on orientations only, it stays between bounds, and
+//! where these are near to each other, its greatest value says as much as the value at every state,
+//! and costs nothing.
 
 use super::eliminate::Check;
 use crate::model::BodyKind;
@@ -28,8 +30,9 @@ pub(super) fn by_numbers(scene: &mut Scene, kinds: &[BodyKind], checks: &mut [Ch
     }
 }
 
-/// The greatest value of an expression, with its sign, among those of [`ORIENTATIONS`] random orientations of the bodies, where it depends on nothing else and does not vary by more than a decade. It is a scale, not a
-/// bound: a few hundredths more would change nothing.
+/// The greatest value of an expression, with its sign, among those of [`ORIENTATIONS`] random
+/// orientations of the bodies, where it depends on nothing else and does not vary by more than a
+/// decade. It is a scale, not a bound: a few hundredths more would change nothing.
 fn greatest(scene: &Scene, kinds: &[BodyKind], expr: Expr) -> Option<f64> {
     let tape = Tape::new(&scene.space.arena, &[expr]);
     let values = (0..ORIENTATIONS).map(|sample| {

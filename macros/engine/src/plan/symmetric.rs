@@ -48,8 +48,8 @@ impl Symmetric {
         self.set(k, l, sum);
     }
 
-    /// `-sum_l a_kl^2 / a_ll` over some unknowns: in the system as assembled, what the diagonal element of a multiplier becomes
-    /// by accelerations that do not know of each other.
+    /// `-sum_l a_kl^2 / a_ll` over some unknowns: in the system as assembled, what the diagonal
+    /// element of a multiplier becomes by accelerations that do not know of each other.
     pub(super) fn schur_diagonal(&self, arena: &mut Arena, k: usize, over: &[Vec<usize>]) -> Expr {
         let mut sum = self.get(k, k);
         for step in over {

@@ -1,4 +1,5 @@
-//! The saddle system of a scene in the axes of a plan, and its solution back in the axes of the state.
+//! The saddle system of a scene in the axes of a plan, and its solution back in the axes of the
+//! state.
 
 use super::augmented::{Augmented, handed_on, shares};
 use super::eliminate::{Check, Factors, Symmetric, factorise_within};
@@ -53,8 +54,8 @@ pub struct RightHandSide {
     values: Vec<Expr>,
     /// The forces and moments on the bodies about their centres of mass, in the same axes.
     about_centres: Vec<Expr>,
-    /// What the present motion adds to the acceleration of each centre of mass, beyond that of the point of reference and the
-    /// angular acceleration.
+    /// What the present motion adds to the acceleration of each centre of mass, beyond that of the
+    /// point of reference and the angular acceleration.
     known: Vec<VectorId>,
 }
 
@@ -148,7 +149,8 @@ fn assembled(
     matrix
 }
 
-/// Where two bodies are held by rows that forbid a motion, the determinant of these is an entry of the rotation between them.
+/// Where two bodies are held by rows that forbid a motion, the determinant of these is an entry of
+/// the rotation between them.
 fn relate(scene: &mut Scene, kinds: &[BodyKind], plan: &Plan, matrix: &Symmetric) {
     let layout = &scene.layout;
     let body_of = |unknown: usize| layout.velocity.iter().rposition(|&first| first <= unknown);
@@ -332,7 +334,8 @@ impl System {
         }
     }
 
-    /// The acceleration of the centre of mass of a body from that of its point of reference, and what is known of the difference.
+    /// The acceleration of the centre of mass of a body from that of its point of reference, and
+    /// what is known of the difference.
     fn of_centre(
         &self,
         scene: &mut Scene,
@@ -349,7 +352,8 @@ impl System {
         space.components(sum, Frame::Global)
     }
 
-    /// What the angular acceleration of a body adds to the acceleration of its centre of mass, beyond that of the point of reference.
+    /// What the angular acceleration of a body adds to the acceleration of its centre of mass,
+    /// beyond that of the point of reference.
     fn turning(&self, scene: &mut Scene, body: usize, accelerations: &[Expr]) -> VectorId {
         let centre = scene.centre(body);
         let first = scene.layout.velocity[body] + 3;
@@ -362,7 +366,8 @@ impl System {
         let (factor, along) = space.direction(centre);
         let along = space.native(frame, along);
         let turning = space.cross(frame, w, along);
-        // In global axes at once, where it is asked for: otherwise plans of nearly equal cost are told apart by the order of the fields.
+        // In global axes at once, where it is asked for: otherwise plans of nearly equal cost are
+        // told apart by the order of the fields.
         space.components(turning, Frame::Global);
         space.scale(factor, turning)
     }
@@ -398,8 +403,8 @@ impl System {
         cheapest.expect("there is a way")
     }
 
-    /// The accelerations of the centres of mass in global axes; and, in the axes of the plan, the solution about centres of mass with multipliers by the
-    /// balance of forces.
+    /// The accelerations of the centres of mass in global axes; and, in the axes of the plan, the
+    /// solution about centres of mass with multipliers by the balance of forces.
     fn about_centres(
         &self,
         scene: &mut Scene,
@@ -485,7 +490,8 @@ impl System {
     }
 }
 
-/// The compliance of every row. The rows of a vector constraint have one, so that it is the same in any axes.
+/// The compliance of every row. The rows of a vector constraint have one, so that it is the same in
+/// any axes.
 fn compliances(scene: &mut Scene, terms: Terms) -> Vec<Expr> {
     let rows = scene.constraints.iter();
     let places = rows.flat_map(|constrained| vec![constrained.row; constrained.equations()]);
@@ -539,13 +545,14 @@ fn about_reference(scene: &mut Scene, body: usize, force: VectorId) -> Triple {
     scene.space.components(moment, frame)
 }
 
-/// `g`: gravity and forces of the language in global axes; moments, the gyroscopic among them, in principal axes.
+/// `g`: gravity and forces of the language in global axes; moments, the gyroscopic among them, in
+/// principal axes.
 pub fn applied_forces(scene: &mut Scene, kinds: &[BodyKind]) -> Vec<Expr> {
     forces(scene, kinds, &vec![Frame::Global; kinds.len()], false)
 }
 
-/// `g` with forces in given axes and moments about the points of reference; if wished, with what the accelerations of centres of mass take that
-/// those of the points of reference do not have.
+/// `g` with forces in given axes and moments about the points of reference; if wished, with what
+/// the accelerations of centres of mass take that those of the points of reference do not have.
 fn forces(scene: &mut Scene, kinds: &[BodyKind], frames: &[Frame], inertial: bool) -> Vec<Expr> {
     let applied = scene.applied();
     let mut forces = Vec::new();

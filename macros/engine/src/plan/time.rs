@@ -1,4 +1,5 @@
-//! Where the time itself stands in the equations, and the instants at which laws of it have a break.
+//! Where the time itself stands in the equations, and the instants at which laws of it have a
+//! break.
 
 use super::kernels::Kernels;
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
@@ -13,7 +14,8 @@ pub struct ExplicitTime {
     pub forces: bool,
     /// In potential energies.
     pub potential: bool,
-    /// The instants (s), in order, at which a smooth step of the time begins or ends, as far as the macro can see them.
+    /// The instants (s), in order, at which a smooth step of the time begins or ends, as far as the
+    /// macro can see them.
     pub breaks: Vec<f64>,
 }
 

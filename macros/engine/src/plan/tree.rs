@@ -5,7 +5,8 @@ use std::cmp::Reverse;
 use super::reach::Reach;
 use crate::model::{Model, Name};
 
-/// Bodies from the leaves to the ground with the joint towards the ground, and the joints left over.
+/// Bodies from the leaves to the ground with the joint towards the ground, and the joints left
+/// over.
 pub(super) struct Tree {
     pub(super) bodies: Vec<(usize, Option<usize>)>,
     pub(super) closing: Vec<usize>,
@@ -22,9 +23,9 @@ type Merit<'a> = (Reverse<usize>, usize, &'a Name, &'a Name);
 
 /// A spanning tree of the bodies, grown from the ground.
 ///
-/// Of all joints that could carry a body, the one with most equations on it does, where those of a vector count twice because they are
-/// eliminated together with accelerations; then the one nearest to the ground, and among equals the names decide. The order of
-/// the fields has no say.
+/// Of all joints that could carry a body, the one with most equations on it does, where those of a
+/// vector count twice because they are eliminated together with accelerations; then the one nearest
+/// to the ground, and among equals the names decide. The order of the fields has no say.
 pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
     let mut parent: Vec<Option<usize>> = vec![None; model.bodies.len()];
     let mut child = vec![None; model.joints.len()];
@@ -44,7 +45,8 @@ pub(super) fn tree(model: &Model, reach: &Reach) -> Tree {
                 let Some(weight) = reach.weight(place, body) else {
                     continue;
                 };
-                // Equations that are left out follow from others: the joint forbids what it was defined to.
+                // Equations that are left out follow from others: the joint forbids what it was
+                // defined to.
                 let weight = Reverse(weight + joint.dropped.len());
                 let merit = (weight, from, &joint.name, &model.bodies[body].name);
                 let is_better = best.as_ref().is_none_or(|(known, ..)| merit < *known);

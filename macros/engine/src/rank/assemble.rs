@@ -7,15 +7,16 @@ use super::sparse::transposed;
 
 /// Violations up to this, over the size of the row's gradient, are round-off.
 pub(super) const ASSEMBLED: f64 = 1e-9;
-/// A violation this small that a step does not make ten times smaller is left as it is: it is round-off, or the constraints
-/// touch each other only, and nearer to the point of contact their rows could not be told apart.
+/// A violation this small that a step does not make ten times smaller is left as it is: it is
+/// round-off, or the constraints touch each other only, and nearer to the point of contact their
+/// rows could not be told apart.
 const FINE: f64 = 1e-12;
 const STEPS: usize = 50;
 const ATTEMPTS: usize = 12;
 
 impl Constraints {
-    /// A configuration near the given one that satisfies the constraints (Levenberg and Marquardt: steps of least length
-    /// where the gradients are independent, and no worse where they are not).
+    /// A configuration near the given one that satisfies the constraints (Levenberg and Marquardt:
+    /// steps of least length where the gradients are independent, and no worse where they are not).
     pub(super) fn assembled(&self, from: &Configuration) -> Option<Configuration> {
         self.assembled_of(from, None)
     }

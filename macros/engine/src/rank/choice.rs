@@ -1,9 +1,11 @@
 //! Which equations to leave out, so that the others stay independent all along a motion.
 //!
-//! With a basis `Y` of the combinations of rows that vanish, `Y^T D = 0`, the rows outside a set `S` are independent where the determinant of
-//! the rows `S` of `Y` is not zero. Its sign counts too: where it changes between two stops of a tour, it is zero between them.
+//! With a basis `Y` of the combinations of rows that vanish, `Y^T D = 0`, the rows outside a set
+//! `S` are independent where the determinant of the rows `S` of `Y` is not zero. Its sign counts
+//! too: where it changes between two stops of a tour, it is zero between them.
 //!
-//! Where the rows that are kept are independent at a stop, the others are combinations of them, which are all that is needed (`Exchanges`). Where they are not, the basis is worked out.
+//! Where the rows that are kept are independent at a stop, the others are combinations of them,
+//! which are all that is needed (`Exchanges`). Where they are not, the basis is worked out.
 
 use super::dense::{Direction, Matrix, determinant, dot, norm, orthonormal, remove_all, transpose};
 use super::normal::Normal;
@@ -13,7 +15,8 @@ use super::sparse::{Row, Rows, width};
 /// A choice whose determinant falls to this fraction of its largest is looked at again.
 const STEADY: f64 = 0.1;
 
-/// The rows to keep of those of `D` along a tour: those given if they do all along, else the best that exchanges lead to.
+/// The rows to keep of those of `D` along a tour: those given if they do all along, else the best
+/// that exchanges lead to.
 pub(super) fn steady(kept: Vec<usize>, tour: &[Rows], tolerance: f64) -> Vec<usize> {
     let count = tour.first().map_or(0, Vec::len);
     let left_out: Vec<usize> = (0..count).filter(|row| !kept.contains(row)).collect();
@@ -45,7 +48,8 @@ struct Stop {
 }
 
 impl Exchanges {
-    /// `None` where the kept rows hardly stand out from each other although others do. Stops of less than the rank are passed over.
+    /// `None` where the kept rows hardly stand out from each other although others do. Stops of
+    /// less than the rank are passed over.
     fn along(tour: &[Rows], kept: &[usize], left_out: &[usize], tolerance: f64) -> Option<Self> {
         let mut stops: Vec<Stop> = Vec::new();
         for rows in tour {
@@ -96,7 +100,8 @@ impl Exchanges {
         Some(self.kept)
     }
 
-    /// The least determinant of the best exchange, with the place of the row that is kept from then on, and of the one that is not.
+    /// The least determinant of the best exchange, with the place of the row that is kept from then
+    /// on, and of the one that is not.
     ///
     /// The determinant is the former one times the share of the one row in the other.
     fn best_exchange(&self) -> Option<(f64, usize, usize)> {
@@ -158,7 +163,8 @@ fn shares(
 }
 
 impl Stop {
-    /// With the shares `T`, the rows of `[-T I]` vanish with those of `D`, and all others that do are sums of them: `det (I + T T^T)` is the square of the volume that they span.
+    /// With the shares `T`, the rows of `[-T I]` vanish with those of `D`, and all others that do
+    /// are sums of them: `det (I + T T^T)` is the square of the volume that they span.
     fn new(shares: Rows, before: Option<&Self>, kept: usize) -> Option<Self> {
         let volume: f64 = Normal::new(&shares, 1.0)?.diagonal().iter().product();
         let sign = before.map_or(1.0, |before| {
@@ -254,7 +260,8 @@ fn best_exchange(
             let mut exchanged = left_out.to_vec();
             exchanged[place] = row;
             let Determinants { least, largest } = determinants(combinations, &exchanged)?;
-            // Rows that depend on each other everywhere are no choice, not even where all others depend on each other somewhere.
+            // Rows that depend on each other everywhere are no choice, not even where all others
+            // depend on each other somewhere.
             if least.abs().max(largest) <= tolerance {
                 continue;
             }
@@ -298,8 +305,8 @@ fn determinants(combinations: &[Matrix], left_out: &[usize]) -> Option<Determina
     }))
 }
 
-/// The combinations of rows that vanish, stop by stop: unit vectors at right angles to each other, turned like those before.
-/// Stops of less than the rank are passed over.
+/// The combinations of rows that vanish, stop by stop: unit vectors at right angles to each other,
+/// turned like those before. Stops of less than the rank are passed over.
 fn combinations(tour: &[Rows], rank: usize, tolerance: f64) -> Vec<Matrix> {
     let mut bases: Vec<Matrix> = Vec::new();
     for rows in tour {
@@ -357,7 +364,8 @@ fn complement(vectors: &[Direction], length: usize) -> Matrix {
 mod tests {
     use super::*;
 
-    /// Three rows in a plane of two dimensions, the third a sum of the others with weights that turn.
+    /// Three rows in a plane of two dimensions, the third a sum of the others with weights that
+    /// turn.
     fn turning(stops: usize) -> Vec<Rows> {
         (0..stops)
             .map(|k| {
@@ -405,7 +413,8 @@ mod tests {
         }
     }
 
-    /// Seven rows in a space of four dimensions, with weights of different speeds; some are sums of two or three others only.
+    /// Seven rows in a space of four dimensions, with weights of different speeds; some are sums of
+    /// two or three others only.
     fn tumbling(seed: usize) -> Vec<Rows> {
         let weight = |stop: usize, row: usize, place: usize| {
             let phase = ((seed + 3) * (7 * row + place) % 17) as f64;

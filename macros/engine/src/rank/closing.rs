@@ -1,4 +1,5 @@
-//! Which equations close loops: those of other joints are not in question, because coordinates satisfy them by themselves.
+//! Which equations close loops: those of other joints are not in question, because coordinates
+//! satisfy them by themselves.
 
 use super::motion::Constraints;
 use super::span::{Span, independent};
@@ -6,8 +7,9 @@ use super::sparse::{Row, Rows};
 use super::{Random, TOLERANCE, choice, place_of, tour, walk};
 use crate::model::Model;
 
-/// The equations, by joint and place, of the given joints that follow from those of all others and of each other. Of a model without dropped equations
-/// that no equation of contradicts another; `None` where nothing can be told, because of numbers that the macro cannot see.
+/// The equations, by joint and place, of the given joints that follow from those of all others and
+/// of each other. Of a model without dropped equations that no equation of contradicts another;
+/// `None` where nothing can be told, because of numbers that the macro cannot see.
 pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, usize)>> {
     let mut random = Random::new();
     let (constraints, described) = Constraints::new(model, |velocities| random.motion(velocities))?;

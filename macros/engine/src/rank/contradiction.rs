@@ -1,8 +1,9 @@
 //! Whether equations whose rows depend on others say the same as those, at all times.
 //!
-//! Where the rows of `D` depend on the kept ones all over the configurations that satisfy these, an equation is constant there: it holds
-//! everywhere, or nowhere. With a time in the equations it must hold at all times, so that the speeds that it asks for must be those
-//! that the kept ones ask for: `Y^T Phi_t = 0` where `Y^T D = 0`.
+//! Where the rows of `D` depend on the kept ones all over the configurations that satisfy these, an
+//! equation is constant there: it holds everywhere, or nowhere. With a time in the equations it
+//! must hold at all times, so that the speeds that it asks for must be those that the kept ones ask
+//! for: `Y^T Phi_t = 0` where `Y^T D = 0`.
 
 use super::motion::{Configuration, Constraints};
 use super::normal::Normal;
@@ -10,9 +11,11 @@ use super::span::independent;
 use super::sparse::Rows;
 use super::{Random, TOLERANCE, walk};
 
-/// To what fraction of themselves laws agree that are given to seven digits, as [`TOLERANCE`] has it for lengths.
+/// To what fraction of themselves laws agree that are given to seven digits, as [`TOLERANCE`] has
+/// it for lengths.
 const AGREEMENT: f64 = 10.0 * TOLERANCE;
-/// Speeds below this fraction of the largest are what configurations leave of none: they are good to [`super::assemble::ASSEMBLED`].
+/// Speeds below this fraction of the largest are what configurations leave of none: they are good
+/// to [`super::assemble::ASSEMBLED`].
 const STILL: f64 = super::assemble::ASSEMBLED;
 /// A short time (s): mechanisms are about where they were.
 const SOON: f64 = 0.01;
@@ -28,7 +31,8 @@ pub(super) struct Contradicted {
     pub(super) by_speed: bool,
 }
 
-/// The largest violation that counts as none: laws over long ways have as many digits as those over short ones.
+/// The largest violation that counts as none: laws over long ways have as many digits as those over
+/// short ones.
 fn bound(constraints: &Constraints, start: &Configuration, time: f64) -> f64 {
     let way = constraints.violations(&start.at(time));
     let way = way
@@ -55,7 +59,8 @@ fn violated(
     )
 }
 
-/// A configuration of the kept rows near another where all others hold as well, to what laws are given to.
+/// A configuration of the kept rows near another where all others hold as well, to what laws are
+/// given to.
 pub(super) fn agreeing(
     constraints: &Constraints,
     start: &Configuration,
@@ -68,8 +73,9 @@ pub(super) fn agreeing(
         .then_some(here)
 }
 
-/// The rows that do not hold where motions lead to that the kept ones leave free, from a configuration where all hold: they depend on the kept ones
-/// there by chance, as constraints do that touch each other.
+/// The rows that do not hold where motions lead to that the kept ones leave free, from a
+/// configuration where all hold: they depend on the kept ones there by chance, as constraints do
+/// that touch each other.
 pub(super) fn by_chance(
     constraints: &Constraints,
     start: &Configuration,
@@ -90,8 +96,9 @@ pub(super) fn by_chance(
     rows
 }
 
-/// The rows that do not hold where the kept ones do, near a configuration, although they depend on them: none where the kept ones do
-/// not hold either; `None` where rows become independent on the way.
+/// The rows that do not hold where the kept ones do, near a configuration, although they depend on
+/// them: none where the kept ones do not hold either; `None` where rows become independent on the
+/// way.
 fn by_place(
     constraints: &Constraints,
     start: &Configuration,
@@ -119,8 +126,9 @@ fn by_place(
     Some(rows.collect())
 }
 
-/// What contradicts near a configuration, where none satisfies all equations: the rows, and those that they depend on. These are the kept
-/// ones, or others where more rows are independent than anywhere before, as those of a law that only begins.
+/// What contradicts near a configuration, where none satisfies all equations: the rows, and those
+/// that they depend on. These are the kept ones, or others where more rows are independent than
+/// anywhere before, as those of a law that only begins.
 pub(super) fn where_missed(
     constraints: &Constraints,
     start: &Configuration,
@@ -139,9 +147,10 @@ pub(super) fn where_missed(
     said.find(|(found, _)| !found.is_empty())
 }
 
-/// What contradicts near a configuration, where none satisfies all equations and nothing is known of the rows: those that do, and those
-/// that they depend on. Which rows are kept is a choice, and one that cannot be satisfied says nothing: so they are taken from the first
-/// on and from the last on. What cannot change is a contradiction by itself.
+/// What contradicts near a configuration, where none satisfies all equations and nothing is known
+/// of the rows: those that do, and those that they depend on. Which rows are kept is a choice, and
+/// one that cannot be satisfied says nothing: so they are taken from the first on and from the last
+/// on. What cannot change is a contradiction by itself.
 pub(super) fn nowhere(
     constraints: &Constraints,
     start: &Configuration,
@@ -166,7 +175,8 @@ pub(super) fn nowhere(
     })
 }
 
-/// As many independent rows as can be found near a configuration, and where they hold; `None` where they do not.
+/// As many independent rows as can be found near a configuration, and where they hold; `None` where
+/// they do not.
 fn satisfied(
     constraints: &Constraints,
     near: &Configuration,
@@ -207,7 +217,8 @@ fn satisfied(
     }
 }
 
-/// The rows that ask for other speeds than the kept ones do, at the first of some configurations where one does.
+/// The rows that ask for other speeds than the kept ones do, at the first of some configurations
+/// where one does.
 pub(super) fn by_speed(
     constraints: &Constraints,
     configurations: &[Configuration],

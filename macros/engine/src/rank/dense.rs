@@ -1,4 +1,5 @@
-//! Linear algebra on vectors that are stored in full; what is subtracted from them knows where it is not zero.
+//! Linear algebra on vectors that are stored in full; what is subtracted from them knows where it
+//! is not zero.
 
 /// The rows of a matrix, zeros and all.
 pub(super) type Matrix = Vec<Vec<f64>>;

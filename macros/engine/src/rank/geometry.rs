@@ -17,8 +17,8 @@ pub(super) fn turned(p: [f64; 4], rotation: [f64; 3]) -> [f64; 4] {
     turned.map(|e| e / length)
 }
 
-/// How far a point gets that is carried along a screw by a rotation about an axis of the body at a constant rate, where it would
-/// get by the translation if it went straight on.
+/// How far a point gets that is carried along a screw by a rotation about an axis of the body at a
+/// constant rate, where it would get by the translation if it went straight on.
 pub(super) fn along_screw(p: [f64; 4], rotation: [f64; 3], translation: [f64; 3]) -> [f64; 3] {
     let angle = norm(&rotation);
     if angle == 0.0 {
@@ -40,7 +40,8 @@ pub(super) fn along_screw(p: [f64; 4], rotation: [f64; 3], translation: [f64; 3]
     [0, 1, 2].map(|k| translation[k] + rest * across[k] + sine * back[k])
 }
 
-/// The largest distance of a body or a joint's point from the mean of all of them; one where there is none.
+/// The largest distance of a body or a joint's point from the mean of all of them; one where there
+/// is none.
 pub(super) fn length(model: &Model) -> f64 {
     let mut points: Vec<[f64; 3]> = model
         .bodies
@@ -95,7 +96,8 @@ mod tests {
 
     #[test]
     fn a_screw_leads_around_its_axis() {
-        // About a body's z axis that is the global x axis, from [0, 2, 0] by three quarters of a turn to [0, 0, -2] and 0.3 along.
+        // About a body's z axis that is the global x axis, from [0, 2, 0] by three quarters of a
+        // turn to [0, 0, -2] and 0.3 along.
         let angle = 1.5 * std::f64::consts::PI;
         let way = along_screw([0.5; 4], [0.0, 0.0, angle], [0.3, 0.0, 2.0 * angle]);
         for (found, expected) in way.into_iter().zip([0.3, -2.0, -2.0]) {

@@ -1,17 +1,20 @@
 //! The rank of the constraints, found by numbers at expansion.
 //!
-//! Equations that follow from others do so in every configuration, whereas in a singular configuration, such as the dead
-//! point of a linkage, rows of `D` depend on each other by chance. So the rank is judged at the reference configuration and at some more that
-//! random motions lead to, each put back onto the constraints, and the largest counts.
+//! Equations that follow from others do so in every configuration, whereas in a singular
+//! configuration, such as the dead point of a linkage, rows of `D` depend on each other by chance.
+//! So the rank is judged at the reference configuration and at some more that random motions lead
+//! to, each put back onto the constraints, and the largest counts.
 //!
-//! Which equations to leave out is a choice, and one that is sound here may be singular after half a turn. So where there is a
-//! choice, the mechanism is led on a tour through its motion, and rows are kept that stand out from each other all along.
+//! Which equations to leave out is a choice, and one that is sound here may be singular after half
+//! a turn. So where there is a choice, the mechanism is led on a tour through its motion, and rows
+//! are kept that stand out from each other all along.
 //!
-//! Where the time stands in an equation, rows may depend on each other at the start only, and equations that agree there may contradict
-//! each other later. So where there is a choice, the mechanism is followed in time, too.
+//! Where the time stands in an equation, rows may depend on each other at the start only, and
+//! equations that agree there may contradict each other later. So where there is a choice, the
+//! mechanism is followed in time, too.
 //!
-//! Columns are made comparable by the size of the mechanism, rows by their own length. A row that stands out from the
-//! others by less than [`TOLERANCE`] of its length depends on them.
+//! Columns are made comparable by the size of the mechanism, rows by their own length. A row that
+//! stands out from the others by less than [`TOLERANCE`] of its length depends on them.
 
 mod assemble;
 mod choice;
@@ -38,8 +41,8 @@ use self::sparse::Rows;
 use crate::model::mechanism::Layout;
 use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
 
-/// Relative to the length of a row. Configurations are good to about 1e-12, and lengths and axes given to six digits
-/// are to count as what they are.
+/// Relative to the length of a row. Configurations are good to about 1e-12, and lengths and axes
+/// given to six digits are to count as what they are.
 pub const TOLERANCE: f64 = 1e-7;
 
 /// Configurations besides the start.
@@ -230,8 +233,8 @@ impl Found {
     }
 }
 
-/// A configuration, and some more that random motions lead to, each from the last: they walk away from the first. All satisfy the
-/// given rows, `None` for all.
+/// A configuration, and some more that random motions lead to, each from the last: they walk away
+/// from the first. All satisfy the given rows, `None` for all.
 fn walk(
     constraints: &Constraints,
     start: Configuration,
@@ -262,8 +265,9 @@ fn dormant(constraints: &Constraints, directions: &[Rows]) -> Vec<usize> {
         .collect()
 }
 
-/// The rows that part from those that they depend on where a mechanism could not be followed in time, which are violated at all configurations that
-/// were aimed at in vain; and the kept rows there.
+/// The rows that part from those that they depend on where a mechanism could not be followed in
+/// time, which are violated at all configurations that were aimed at in vain; and the kept rows
+/// there.
 fn parted(
     constraints: &Constraints,
     start: &Configuration,

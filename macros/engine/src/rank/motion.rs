@@ -1,6 +1,7 @@
 //! A mechanism as numbers: its constraints at a configuration, and motions.
 //!
-//! Motions are measured without dimension: translations by the size of the mechanism, rotations in radians.
+//! Motions are measured without dimension: translations by the size of the mechanism, rotations in
+//! radians.
 
 use super::TOLERANCE;
 use super::displacement::{Twist, apply};
@@ -18,7 +19,8 @@ use crate::symbolic::evaluate::evaluate;
 use crate::symbolic::scene::Scene;
 use crate::symbolic::tape::Tape;
 
-/// A row of which no more than this is left anywhere is round-off, over the size that it should have at least.
+/// A row of which no more than this is left anywhere is round-off, over the size that it should
+/// have at least.
 const VANISHING: f64 = 1e-13;
 /// How often, and how much farther than near the start, a row that vanishes there is looked for.
 const FAR_PLACES: usize = 8;
@@ -54,12 +56,14 @@ pub(super) struct Constraints {
     phi: Tape,
     jacobian: Tape,
     blocks: Vec<Block>,
-    /// `Phi'` without motion, which is how the equations change with time; `None` where they do not.
+    /// `Phi'` without motion, which is how the equations change with time; `None` where they do
+    /// not.
     driven: Option<Tape>,
-    /// The rates of the auxiliary variables, and what they count; `None` where no equation asks for an angle over turns.
+    /// The rates of the auxiliary variables, and what they count; `None` where no equation asks for
+    /// an angle over turns.
     counted: Option<[Tape; 2]>,
-    /// The times after the start at which a smooth step begins, is half done or ends, in order. Those of which the argument is no
-    /// linear function of time are not known.
+    /// The times after the start at which a smooth step begins, is half done or ends, in order.
+    /// Those of which the argument is no linear function of time are not known.
     pub(super) breaks: Vec<f64>,
     /// The size of the mechanism (m).
     pub(super) length: f64,
@@ -74,8 +78,8 @@ pub(super) struct Constraints {
 }
 
 impl Constraints {
-    /// The constraints, and the configuration that the attributes describe, at the typical values of
-    /// parameters; `None` where the macro cannot see a number that they depend on.
+    /// The constraints, and the configuration that the attributes describe, at the typical values
+    /// of parameters; `None` where the macro cannot see a number that they depend on.
     pub(super) fn new(
         model: &Model,
         mut motion: impl FnMut(usize) -> Vec<f64>,
@@ -132,7 +136,8 @@ impl Constraints {
             places.push(constraints.moved(&start, &motion(constraints.layout.velocities)));
         }
         let mut sizes = constraints.largest_gradients(&places)?;
-        // So that a row that vanishes near the start only has a size, too: far away, at a later time, and while smooth steps are under way.
+        // So that a row that vanishes near the start only has a size, too: far away, at a later
+        // time, and while smooth steps are under way.
         if sizes.contains(&None) {
             for _ in 0..FAR_PLACES {
                 let far = motion(constraints.layout.velocities);
@@ -156,7 +161,8 @@ impl Constraints {
         Some((constraints, start))
     }
 
-    /// The largest gradient of each row among some configurations; `None` for a row of which only round-off is left.
+    /// The largest gradient of each row among some configurations; `None` for a row of which only
+    /// round-off is left.
     fn largest_gradients(&self, places: &[Configuration]) -> Option<Vec<Option<f64>>> {
         let mut sizes = vec![0.0_f64; self.layout.rows];
         for at in places {
@@ -232,7 +238,8 @@ impl Constraints {
         Some(rows)
     }
 
-    /// The rows of `D` over motions without dimension, of unit length; those beneath the tolerance are zero.
+    /// The rows of `D` over motions without dimension, of unit length; those beneath the tolerance
+    /// are zero.
     pub(super) fn directions(&self, at: &Configuration, tolerance: f64) -> Option<Rows> {
         let mut rows = self.gradients(at)?;
         for (row, size) in rows.iter_mut().zip(&self.sizes) {
@@ -244,8 +251,8 @@ impl Constraints {
         Some(rows)
     }
 
-    /// How fast the equations change with time (1/s), over the lengths of their gradients: minus the speeds that they ask for, along
-    /// the rows of [`Self::directions`]. Zero where those are.
+    /// How fast the equations change with time (1/s), over the lengths of their gradients: minus
+    /// the speeds that they ask for, along the rows of [`Self::directions`]. Zero where those are.
     pub(super) fn demands(&self, at: &Configuration, tolerance: f64) -> Option<Vec<f64>> {
         let Some(driven) = &self.driven else {
             return Some(vec![0.0; self.layout.rows]);
@@ -288,7 +295,8 @@ impl Constraints {
             .collect()
     }
 
-    /// The violations, over the sizes of the gradients: about the distances to where the constraints hold.
+    /// The violations, over the sizes of the gradients: about the distances to where the
+    /// constraints hold.
     pub(super) fn violations(&self, at: &Configuration) -> Option<Vec<f64>> {
         let mut values = self.evaluate(&self.phi, at)?;
         for (value, size) in values.iter_mut().zip(&self.sizes) {
@@ -299,13 +307,14 @@ impl Constraints {
         Some(values)
     }
 
-    /// Another configuration after a motion without dimension, straight on. Auxiliary variables move along.
+    /// Another configuration after a motion without dimension, straight on. Auxiliary variables
+    /// move along.
     pub(super) fn moved(&self, at: &Configuration, motion: &[f64]) -> Configuration {
         self.moved_along(at, motion, |_, _, translation| translation)
     }
 
-    /// Another configuration after a motion without dimension, each body along a screw: exact for one that turns about an axis at
-    /// rest, however far.
+    /// Another configuration after a motion without dimension, each body along a screw: exact for
+    /// one that turns about an axis at rest, however far.
     pub(super) fn screwed(&self, at: &Configuration, motion: &[f64]) -> Configuration {
         self.moved_along(at, motion, along_screw)
     }

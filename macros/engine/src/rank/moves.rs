@@ -1,7 +1,8 @@
 //! How a joint is said to move, against its equations.
 //!
-//! The bodies are displaced by random amounts of every motion, each carried by those before it, and both together anywhere: then the
-//! equations must hold, no motion may have a part along a gradient, and there must be as many motions as the rank of the gradients leaves.
+//! The bodies are displaced by random amounts of every motion, each carried by those before it, and
+//! both together anywhere: then the equations must hold, no motion may have a part along a
+//! gradient, and there must be as many motions as the rank of the gradients leaves.
 
 use super::TOLERANCE;
 use super::dense::norm;
@@ -20,7 +21,8 @@ const PLACES: usize = 3;
 /// What is left of a motion along a gradient by round-off, both of unit length.
 const ROUND_OFF: f64 = 1e-9;
 
-/// Compares the motions that a joint of two bodies states with its equations, those that a mechanism leaves out among them.
+/// Compares the motions that a joint of two bodies states with its equations, those that a
+/// mechanism leaves out among them.
 #[must_use]
 pub fn compare(model: &Model, joint: usize) -> Comparison {
     let mut model = model.only(joint);
@@ -237,7 +239,8 @@ impl Pair {
         })
     }
 
-    /// The body that the motions displace, and whether it is the first of the joint, which then goes the other way.
+    /// The body that the motions displace, and whether it is the first of the joint, which then
+    /// goes the other way.
     fn moved(&self) -> Option<(usize, bool)> {
         let [first, second] = self.bodies;
         match second {
@@ -246,8 +249,8 @@ impl Pair {
         }
     }
 
-    /// The configuration after a displacement of the second body against the first, where both go anywhere together if they can; and
-    /// where the motions of the first are displaced to.
+    /// The configuration after a displacement of the second body against the first, where both go
+    /// anywhere together if they can; and where the motions of the first are displaced to.
     fn displaced(&mut self, between: &Displacement) -> (Displacement, Configuration) {
         let length = self.constraints.length;
         let random = &mut self.random;

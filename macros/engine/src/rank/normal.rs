@@ -1,4 +1,5 @@
-//! Steps of least length: `(A A^T + damping I) y = b` by Cholesky's method, where almost all entries are zero.
+//! Steps of least length: `(A A^T + damping I) y = b` by Cholesky's method, where almost all
+//! entries are zero.
 
 use super::sparse::Row;
 
@@ -10,7 +11,8 @@ const NOBODY: usize = usize::MAX;
 
 /// A factorised matrix `A A^T + damping I`, to which rows of `A` are added one by one.
 ///
-/// A row of the factor `L` is not zero where the row of the matrix is not, and at everything above these places in the tree of the elimination (Davis 2006, section 4.2).
+/// A row of the factor `L` is not zero where the row of the matrix is not, and at everything above
+/// these places in the tree of the elimination (Davis 2006, section 4.2).
 #[derive(Default)]
 pub(super) struct Normal {
     /// The rows of `A` that are not zero in a column, with their values there.
@@ -74,7 +76,8 @@ impl Normal {
         Reduced { entries, square }
     }
 
-    /// The places of a row of `L`, from the last to be worked out to the first, with the row of the matrix in `known`; and its diagonal element.
+    /// The places of a row of `L`, from the last to be worked out to the first, with the row of the
+    /// matrix in `known`; and its diagonal element.
     fn reach(&mut self, row: &Row) -> (Vec<usize>, f64) {
         let mut order = Vec::new();
         let mut path = Vec::new();

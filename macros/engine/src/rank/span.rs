@@ -4,8 +4,9 @@ use super::dense::{Direction, norm};
 use super::normal::Normal;
 use super::sparse::{Row, Rows, width};
 
-/// How far a row must stand out from those taken before it, pass by pass: what is clearly independent is taken first, so that
-/// the rows taken are well conditioned; within a pass the order of the rows decides.
+/// How far a row must stand out from those taken before it, pass by pass: what is clearly
+/// independent is taken first, so that the rows taken are well conditioned; within a pass the order
+/// of the rows decides.
 const PASSES: [f64; 6] = [0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// What some rows span.
@@ -42,7 +43,8 @@ impl<'a> Span<'a> {
         }
     }
 
-    /// What is left of a row beside those that stand out clearly; `None` where that is no more than a tolerance.
+    /// What is left of a row beside those that stand out clearly; `None` where that is no more than
+    /// a tolerance.
     fn left_of(&self, row: &Row, length: usize, tolerance: f64) -> Option<Vec<f64>> {
         let mut left = row.dense(length);
         // What is short the first time is short: it is the row without a sum of others.
@@ -56,8 +58,8 @@ impl<'a> Span<'a> {
     }
 }
 
-/// A maximal set of rows that are independent in each of some matrices of equal shape, in order. Rows are of unit
-/// length, or shorter.
+/// A maximal set of rows that are independent in each of some matrices of equal shape, in order.
+/// Rows are of unit length, or shorter.
 pub(super) fn independent(matrices: &[Rows], tolerance: f64) -> Vec<usize> {
     let (mut taken, _) = spanned(matrices, tolerance);
     taken.sort_unstable();
@@ -66,8 +68,9 @@ pub(super) fn independent(matrices: &[Rows], tolerance: f64) -> Vec<usize> {
 
 /// The same in the order in which they are taken, and what they span in each matrix.
 ///
-/// The rows of the first pass are known by their scalar products, most of which are zero. What these leave of the others is small, and is
-/// worked on as it is: Gram and Schmidt, modified, and done twice where a row loses most of its length.
+/// The rows of the first pass are known by their scalar products, most of which are zero. What
+/// these leave of the others is small, and is worked on as it is: Gram and Schmidt, modified, and
+/// done twice where a row loses most of its length.
 fn spanned(matrices: &[Rows], tolerance: f64) -> (Vec<usize>, Vec<Span<'_>>) {
     let count = matrices.first().map_or(0, Vec::len);
     let length = matrices.iter().map(|rows| width(rows)).max().unwrap_or(0);

@@ -1,7 +1,8 @@
 //! Rows that are zero almost everywhere, as those of a mechanism are.
 //!
-//! Macros run unoptimised in the crates of users, also in those that are built with optimisation, and an iterator then costs many times what
-//! an index does: hence the plain loops, here and wherever numbers are worked on.
+//! Macros run unoptimised in the crates of users, also in those that are built with optimisation,
+//! and an iterator then costs many times what an index does: hence the plain loops, here and
+//! wherever numbers are worked on.
 
 /// A row of a matrix: the places where it is not zero, in order, and its values there.
 #[derive(Clone, Debug, Default, PartialEq)]

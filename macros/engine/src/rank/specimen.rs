@@ -1,7 +1,7 @@
 //! How a definition says that its joint moves, against its equations, where the definition stands.
 //!
-//! Two free bodies are given the joint, with points, axes and numbers that its equations hold for. Which do is tried; where none of these do,
-//! nothing can be said: only a mechanism can tell.
+//! Two free bodies are given the joint, with points, axes and numbers that its equations hold for.
+//! Which do is tried; where none of these do, nothing can be said: only a mechanism can tell.
 
 use proc_macro2::{Ident, TokenStream};
 
@@ -12,11 +12,13 @@ use crate::model::{
     Model, Number, ParameterKind, Term,
 };
 
-/// The largest definition that is compared: macros run unoptimised, and every choice of parameters is differentiated.
+/// The largest definition that is compared: macros run unoptimised, and every choice of parameters
+/// is differentiated.
 const LARGEST: f64 = 300.0;
 
-/// What all choices of parameters that can be compared agree in. Nothing can be said where there is none, or where with one of them the
-/// motions are those that the equations leave: with the others the joint may be a special case.
+/// What all choices of parameters that can be compared agree in. Nothing can be said where there is
+/// none, or where with one of them the motions are those that the equations leave: with the others
+/// the joint may be a special case.
 #[must_use]
 pub fn compare(joint: &ElementDef) -> Comparison {
     if joint.motions.is_none() {

@@ -8,11 +8,12 @@ use super::sparse::Rows;
 
 /// Configurations on a way that is looked at step by step.
 const STOPS: usize = 60;
-/// The largest motion of a body from stop to stop: in radians, and in fractions of the size of the mechanism.
+/// The largest motion of a body from stop to stop: in radians, and in fractions of the size of the
+/// mechanism.
 const STEP: f64 = 0.3;
 
-/// The rows of `D` at configurations along a motion that the constraints leave free, straight on as far as they let it: a few turns
-/// of what turns fastest. None where nothing can move.
+/// The rows of `D` at configurations along a motion that the constraints leave free, straight on as
+/// far as they let it: a few turns of what turns fastest. None where nothing can move.
 pub(super) fn tour(
     constraints: &Constraints,
     start: &Configuration,
@@ -60,9 +61,11 @@ fn largest(motion: &[f64]) -> f64 {
 pub(super) struct Course {
     /// Configurations that satisfy all equations, in the order of time.
     pub(super) reached: Vec<Configuration>,
-    /// How many of them, from the first, are so near to each other that rows can be followed from one to the next.
+    /// How many of them, from the first, are so near to each other that rows can be followed from
+    /// one to the next.
     pub(super) followed: usize,
-    /// Where it went no further: configurations, nearer and nearer to the last that was reached, that were aimed at in vain.
+    /// Where it went no further: configurations, nearer and nearer to the last that was reached,
+    /// that were aimed at in vain.
     pub(super) missed: Vec<Configuration>,
 }
 
@@ -76,10 +79,11 @@ const TRIALS: usize = 400;
 /// How often a step that does not lead onto the constraints is halved.
 const HALVINGS: usize = 6;
 
-/// Follows a mechanism in time, from a configuration that satisfies all equations. Steps are as long as the velocities that the
-/// equations ask for tell where they lead, so that a motor of constant speed gets far and a late law is met; they end where a
-/// smooth step begins, is half done or ends. Where equations cannot be satisfied to round-off, `agrees` may have a configuration near an
-/// aimed one that will do.
+/// Follows a mechanism in time, from a configuration that satisfies all equations. Steps are as
+/// long as the velocities that the equations ask for tell where they lead, so that a motor of
+/// constant speed gets far and a late law is met; they end where a smooth step begins, is half done
+/// or ends. Where equations cannot be satisfied to round-off, `agrees` may have a configuration
+/// near an aimed one that will do.
 pub(super) fn course(
     constraints: &Constraints,
     start: &Configuration,

@@ -1,11 +1,13 @@
 //! The scalar level: a hash-consed arena of operations.
 //!
-//! Equal expressions are one node, so what is computed twice is computed once. Constants fold when a node is made; signs
-//! stand outside the nodes, so that `a - b` and `b - a` are one node and negation costs nothing. Ids are topological
-//! by construction: operands come before the node, and no pass needs recursion.
+//! Equal expressions are one node, so what is computed twice is computed once. Constants fold when
+//! a node is made; signs stand outside the nodes, so that `a - b` and `b - a` are one node and
+//! negation costs nothing. Ids are topological by construction: operands come before the node, and
+//! no pass needs recursion.
 //!
-//! Only what has a number folds: `1 / 0`, an overflow or an underflow stay operations, and what is made of them is not simplified, so
-//! that the kernels show what it is (`0 / 0` is not 1, `0 * (1 / 0)` is not 0).
+//! Only what has a number folds: `1 / 0`, an overflow or an underflow stay operations, and what is
+//! made of them is not simplified, so that the kernels show what it is (`0 / 0` is not 1,
+//! `0 * (1 / 0)` is not 0).
 
 use std::collections::BTreeMap;
 
@@ -181,7 +183,8 @@ impl Arena {
         see(first);
         see(second);
         match latest {
-            // An operation on literals that did not fold is left to the kernels, whose results show it.
+            // An operation on literals that did not fold is left to the kernels, whose results show
+            // it.
             Stage::Literal => (Stage::State, true),
             stage => (stage, without_number),
         }
@@ -438,7 +441,8 @@ impl Arena {
         }
     }
 
-    /// The nodes that the outputs need and that are known no earlier than `from`, in order of computation.
+    /// The nodes that the outputs need and that are known no earlier than `from`, in order of
+    /// computation.
     #[must_use]
     pub fn live(&self, outputs: &[Expr], from: Stage) -> Vec<usize> {
         self.live_above(outputs, from, [])

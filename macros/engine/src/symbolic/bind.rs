@@ -204,8 +204,8 @@ impl Binder<'_> {
         }
     }
 
-    /// The angle of a body against another: with axis and normals on either, `cosine = n1(i) . n1(j)`,
-    /// `sine = n2(i) . n1(j)`.
+    /// The angle of a body against another: with axis and normals on either,
+    /// `cosine = n1(i) . n1(j)`, `sine = n2(i) . n1(j)`.
     pub(super) fn angle(&self, arena: &mut Arena, turn: Turn) -> AngleExpr {
         let Turn { from, to, axis } = turn;
         let dot = |which| {
@@ -228,7 +228,8 @@ impl Binder<'_> {
             paired,
             sine: dot(1),
             cosine: dot(0),
-            // An angle that stands within `initial` alone has none: it is zero there. Nor has one whose value nobody reads.
+            // An angle that stands within `initial` alone has none: it is zero there. Nor has one
+            // whose value nobody reads.
             near: self
                 .counter(turn)
                 .map_or(Arena::ZERO, |place| arena.input(Input::Coordinate(place))),
@@ -314,7 +315,8 @@ fn product(arena: &mut Arena, a: ScalarExpr, b: ScalarExpr) -> ScalarExpr {
     }
 }
 
-/// What stands under a root, where a product is its square: it has a gradient where it vanishes, and the root has none. So a spring of free length zero passes its anchor.
+/// What stands under a root, where a product is its square: it has a gradient where it vanishes,
+/// and the root has none. So a spring of free length zero passes its anchor.
 fn square(a: &ScalarExpr, b: &ScalarExpr) -> Option<ScalarExpr> {
     let ScalarExpr::Function(Function::SquareRoot, under) = b else {
         return None;

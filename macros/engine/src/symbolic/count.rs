@@ -1,5 +1,5 @@
-//! What expressions cost. One of `+ - * / sqrt` is one operation, and so is a call of a function; signs, comparisons and
-//! rounding are free.
+//! What expressions cost. One of `+ - * / sqrt` is one operation, and so is a call of a function;
+//! signs, comparisons and rounding are free.
 
 use super::arena::{Arena, Expr, Node, Stage};
 
@@ -27,8 +27,9 @@ impl Count {
         self.additions + self.multiplications + self.divisions + self.square_roots + self.functions
     }
 
-    /// What is compared where one way is chosen among several: the operations, those on the longest chain twice. A kernel that is called from step to step of
-    /// an integrator waits for the chain, so that few operations are not worth a chain that is much longer.
+    /// What is compared where one way is chosen among several: the operations, those on the longest
+    /// chain twice. A kernel that is called from step to step of an integrator waits for the chain,
+    /// so that few operations are not worth a chain that is much longer.
     #[must_use]
     pub const fn weighted(&self) -> usize {
         self.total() + self.depth

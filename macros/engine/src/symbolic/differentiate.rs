@@ -1,7 +1,7 @@
 //! Differentiation on vectors.
 //!
-//! Two rules, never a component of `p`: a virtual rotation `dw` (body axes) moves a vector `A s` by `A (dw x s)`, and time
-//! does the same with `w`. Everything else is the product rule.
+//! Two rules, never a component of `p`: a virtual rotation `dw` (body axes) moves a vector `A s` by
+//! `A (dw x s)`, and time does the same with `w`. Everything else is the product rule.
 
 use std::collections::BTreeMap;
 
@@ -58,8 +58,9 @@ pub struct Motion {
     pub spin: Vec<VectorId>,
     /// The components of `w` in body axes.
     pub spin_components: Vec<Triple>,
-    /// The point of every body whose acceleration is an unknown and about which moments are taken, from the centre of mass in body axes: the centre of
-    /// mass itself unless a plan says otherwise. Positions and velocities are always those of centres of mass.
+    /// The point of every body whose acceleration is an unknown and about which moments are taken,
+    /// from the centre of mass in body axes: the centre of mass itself unless a plan says
+    /// otherwise. Positions and velocities are always those of centres of mass.
     pub reference: Vec<Triple>,
     /// The time.
     pub time: Expr,
@@ -73,7 +74,8 @@ impl Motion {
     }
 }
 
-/// The gradient of a scalar: the force and the moment on every body by which a virtual motion `(dr, dw)` is multiplied.
+/// The gradient of a scalar: the force and the moment on every body by which a virtual motion
+/// `(dr, dw)` is multiplied.
 #[derive(Clone, Debug, Default)]
 pub struct Gradient {
     force: BTreeMap<usize, Vec<(Expr, VectorId)>>,

@@ -1,4 +1,5 @@
-//! What is said of a mechanism before anything is solved: `Phi`, `Phi'`, `D`, `gamma`, masses, energies, rates of coordinates, the described state.
+//! What is said of a mechanism before anything is solved: `Phi`, `Phi'`, `D`, `gamma`, masses,
+//! energies, rates of coordinates, the described state.
 
 use super::arena::{Arena, Expr};
 use super::fixed::{initial_orientation, triple};
@@ -31,7 +32,8 @@ pub(crate) fn kinds(model: &Model) -> Vec<BodyKind> {
     model.bodies.iter().map(|body| body.kind).collect()
 }
 
-/// A kernel over a scene of its own, so that no other has a say in what is at hand and in the order of operands.
+/// A kernel over a scene of its own, so that no other has a say in what is at hand and in the order
+/// of operands.
 pub(crate) fn with_scene(scene: &Scene, outputs: impl FnOnce(&mut Scene) -> Vec<Expr>) -> Kernel {
     let mut scene = scene.clone();
     let outputs = outputs(&mut scene);
@@ -157,9 +159,11 @@ pub(crate) fn potential_energy(scene: &Scene) -> Kernel {
     })
 }
 
-/// `r' = v`, `p' = 1/2 L(p)^T w` with `p` as stored (Nikravesh 1988, eq. 6.111, body axes), and the rates of auxiliary variables.
+/// `r' = v`, `p' = 1/2 L(p)^T w` with `p` as stored (Nikravesh 1988, eq. 6.111, body axes), and the
+/// rates of auxiliary variables.
 ///
-/// Of whatever length `p` is, `p / |p|` then turns at `w`: with `p / |p|` in these rates it would turn at `w / |p|`.
+/// Of whatever length `p` is, `p / |p|` then turns at `w`: with `p / |p|` in these rates it would
+/// turn at `w / |p|`.
 pub(crate) fn coordinate_rates(scene: &mut Scene, model: &Model) -> Vec<Expr> {
     let mut rates = Vec::new();
     for body in 0..model.bodies.len() {

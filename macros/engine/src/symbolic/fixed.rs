@@ -1,6 +1,8 @@
-//! Points and vectors that are fixed on bodies: from the attributes to components in principal body axes.
+//! Points and vectors that are fixed on bodies: from the attributes to components in principal body
+//! axes.
 //!
-//! What the macro can see becomes a literal; what is a symbol becomes an expression that `prepare` computes once.
+//! What the macro can see becomes a literal; what is a symbol becomes an expression that `prepare`
+//! computes once.
 
 use super::arena::{Arena, Expr, Input};
 use super::vector::{Triple, cross, dot};
@@ -69,7 +71,8 @@ pub(super) fn apply(arena: &mut Arena, m: [Triple; 3], v: Triple) -> Triple {
     m.map(|row| dot(arena, row, v))
 }
 
-/// Takes components that are round-off beside `size` as zero, and those that are `size` but for round-off as `size`, so that they fold.
+/// Takes components that are round-off beside `size` as zero, and those that are `size` but for
+/// round-off as `size`, so that they fold.
 pub(crate) fn clean(arena: &mut Arena, v: Triple, size: f64) -> Triple {
     let round_off = 8.0 * f64::EPSILON * size;
     v.map(|component| match arena.literal(component) {
@@ -95,12 +98,13 @@ fn normalise(arena: &mut Arena, v: Triple) -> Triple {
     clean(arena, unit, 1.0)
 }
 
-/// Components of a unit axis that differ by less are equal: round-off must not decide which of them is the smallest.
+/// Components of a unit axis that differ by less are equal: round-off must not decide which of them
+/// is the smallest.
 const EQUAL: f64 = 1e-12;
 
-/// The first of two unit vectors perpendicular to a unit axis `a`: `e_k x a`, normalised, where component `k` of `a` is the
-/// smallest in absolute value, the first of equals. For an axis that the macro cannot see, a formula without
-/// cases (Duff et al. 2017, J. Comput. Graph. Tech. 6).
+/// The first of two unit vectors perpendicular to a unit axis `a`: `e_k x a`, normalised, where
+/// component `k` of `a` is the smallest in absolute value, the first of equals. For an axis that
+/// the macro cannot see, a formula without cases (Duff et al. 2017, J. Comput. Graph. Tech. 6).
 fn normal(arena: &mut Arena, a: Triple) -> Triple {
     if let [Some(x), Some(y), Some(z)] = a.map(|component| arena.literal(component)) {
         let mut k = 0;
@@ -172,8 +176,8 @@ pub(crate) fn placement(arena: &mut Arena, model: &Model, body: Option<usize>) -
     }
 }
 
-/// A vector parameter of a joint on each of its bodies: the components in principal axes of the point (from the centre of
-/// mass), vector or axis, and for an axis the two normals.
+/// A vector parameter of a joint on each of its bodies: the components in principal axes of the
+/// point (from the centre of mass), vector or axis, and for an axis the two normals.
 #[derive(Clone, Debug)]
 pub struct Copies {
     /// The point, vector or axis.
@@ -184,9 +188,10 @@ pub struct Copies {
 
 /// The copies of a vector parameter on the bodies of a joint.
 ///
-/// All bodies have the same normals in the reference configuration where their axes are the same, and so angles are zero there. Axes that
-/// are given by body need not be parallel: then the normals are those of the first body that the definition speaks of, taken along by
-/// the least rotation that makes the axes parallel, so that every body has a right-handed frame with its own axis.
+/// All bodies have the same normals in the reference configuration where their axes are the same,
+/// and so angles are zero there. Axes that are given by body need not be parallel: then the normals
+/// are those of the first body that the definition speaks of, taken along by the least rotation
+/// that makes the axes parallel, so that every body has a right-handed frame with its own axis.
 pub fn copies(arena: &mut Arena, model: &Model, joint: &Element, parameter: usize) -> Copies {
     let definition = model.definition(joint);
     let kind = definition.parameters[parameter].kind;
@@ -280,12 +285,14 @@ fn copy(
     }
 }
 
-/// Two normals of an axis `a`, taken along by the least rotation that makes `a` parallel to another axis, in its direction or
-/// against it: `n - (n . b) (a + b) / (1 + a . b)` with `b` the other axis or its opposite, whichever is nearer. The second is turned where `b` is the
-/// opposite, so that both are right-handed with the other axis.
+/// Two normals of an axis `a`, taken along by the least rotation that makes `a` parallel to another
+/// axis, in its direction or against it: `n - (n . b) (a + b) / (1 + a . b)` with `b` the other
+/// axis or its opposite, whichever is nearer. The second is turned where `b` is the opposite, so
+/// that both are right-handed with the other axis.
 fn taken_along(arena: &mut Arena, normals: [Triple; 2], a: Triple, axis: Triple) -> [Triple; 2] {
     let cosine = dot(arena, a, axis);
-    // Round-off must not decide what is nearer of a direction and its opposite where the axes are perpendicular.
+    // Round-off must not decide what is nearer of a direction and its opposite where the axes are
+    // perpendicular.
     let cosine = match arena.literal(cosine) {
         Some(value) if value.abs() <= 8.0 * f64::EPSILON => Arena::ZERO,
         _ => cosine,

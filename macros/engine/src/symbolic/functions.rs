@@ -121,8 +121,8 @@ pub struct PairedAngle {
     along: Vec<(usize, Expr)>,
 }
 
-/// What knows an angle by the coordinates: that of the second body against the first about an axis, which is given in the reference configuration by
-/// a vector of unit length.
+/// What knows an angle by the coordinates: that of the second body against the first about an axis,
+/// which is given in the reference configuration by a vector of unit length.
 pub(crate) type PairedAngles<'a> =
     dyn Fn(&mut Arena, [Option<usize>; 2], Triple) -> Option<PairedAngle> + 'a;
 

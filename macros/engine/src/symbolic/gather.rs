@@ -1,14 +1,16 @@
 //! Numbers out of sums: `c a x + c b y` is `c (a x + b y)`.
 //!
-//! Which products meet in a sum is known at the end only, when an entry with a factor, such as an arm of half a metre along an axis, has not been used by anything else. So this is done to what a kernel
-//! computes, not while it is put together.
+//! Which products meet in a sum is known at the end only, when an entry with a factor, such as an
+//! arm of half a metre along an axis, has not been used by anything else. So this is done to what a
+//! kernel computes, not while it is put together.
 
 use super::arena::{Arena, Expr, Node, Stage};
 use super::count::count;
 use super::equations::Kernel;
 
 impl Kernel {
-    /// Takes common numbers out of sums, if that leaves fewer operations, with those on the longest path counted twice.
+    /// Takes common numbers out of sums, if that leaves fewer operations, with those on the longest
+    /// path counted twice.
     pub(crate) fn gather(&mut self) {
         let gathered = gathered(&mut self.arena, &self.outputs);
         let cost = |outputs: &[Expr]| count(&self.arena, outputs, Stage::State).weighted();

@@ -1,4 +1,5 @@
-//! What holds of vectors that turn without change of length, and saves operations where `p` is of length 1.
+//! What holds of vectors that turn without change of length, and saves operations where `p` is of
+//! length 1.
 
 use super::arena::{Arena, Expr};
 use super::differentiate::{Motion, ScalarExpr, VectorExpr, body_frame};
@@ -22,7 +23,8 @@ impl TwoVectors {
         }
     }
 
-    /// `(a . b)''` without accelerations: with `w = w_i - w_j`, `(w . a) (w_i . b) - (w . b) (w_j . a) - (w . w) (a . b)`.
+    /// `(a . b)''` without accelerations: with `w = w_i - w_j`,
+    /// `(w . a) (w_i . b) - (w . b) (w_j . a) - (w . w) (a . b)`.
     pub(super) fn bias(&self, space: &mut Space, motion: &Motion) -> Expr {
         let spins = self.bodies.map(|body| match body {
             Some(body) => motion.spin[body],
@@ -44,8 +46,9 @@ impl TwoVectors {
     }
 }
 
-/// The same constraint, every vector of a body multiplied by points of others alone: `n . (p - q) = n . (p - r) - n . s`, where `n` and
-/// the point `q = r + A s` are fixed on one body and the last term is a constant.
+/// The same constraint, every vector of a body multiplied by points of others alone:
+/// `n . (p - q) = n . (p - r) - n . s`, where `n` and the point `q = r + A s` are fixed on one body
+/// and the last term is a constant.
 pub(super) fn from_centres(arena: &mut Arena, constraint: Constraint) -> Constraint {
     let Constraint::Scalar(ScalarExpr::Dot(a, b)) = constraint else {
         return constraint;

@@ -1,5 +1,5 @@
-//! Where each node of an arena stands. Every operation is looked up here, by a macro that is compiled without optimisation in the crates of users: loops over
-//! places, and nothing generic.
+//! Where each node of an arena stands. Every operation is looked up here, by a macro that is
+//! compiled without optimisation in the crates of users: loops over places, and nothing generic.
 
 use super::node::Node;
 
@@ -30,7 +30,8 @@ impl Key {
 
 /// Keys by number, in the order in which they were added, and the way back by linear probing.
 ///
-/// Only the last keys can be removed. What was added before them does not stand behind them in a sequence of probes, so that a place can be cleared.
+/// Only the last keys can be removed. What was added before them does not stand behind them in a
+/// sequence of probes, so that a place can be cleared.
 #[derive(Clone, Debug)]
 pub(super) struct Index {
     keys: Vec<Key>,

@@ -5,8 +5,9 @@ use super::differentiate::{ScalarExpr, VectorExpr};
 use super::scene::Constraint;
 use super::vector::ZERO;
 
-/// What is left of a constraint whose first equation stands at `first` among those of its joint's definition. Of three
-/// equations the remaining ones become scalar products with global unit vectors.
+/// What is left of a constraint whose first equation stands at `first` among those of its joint's
+/// definition. Of three equations the remaining ones become scalar products with global unit
+/// vectors.
 pub(super) fn kept(constraint: Constraint, first: usize, dropped: &[usize]) -> Vec<Constraint> {
     let is_kept = |k: &usize| !dropped.contains(&(first + k));
     match constraint {

@@ -1,4 +1,5 @@
-//! From a model to expressions: vectors that know their frame above, a hash-consed arena of scalars below.
+//! From a model to expressions: vectors that know their frame above, a hash-consed arena of scalars
+//! below.
 
 pub mod arena;
 pub mod bind;

@@ -98,7 +98,8 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// When what is made of two values is known. What depends on inputs and on coefficients is left to the evaluation, so that either can change by itself.
+    /// When what is made of two values is known. What depends on inputs and on coefficients is left
+    /// to the evaluation, so that either can change by itself.
     #[inline(always)]
     pub(super) const fn with(self, other: Self) -> Self {
         match (self, other) {
@@ -139,7 +140,8 @@ impl Input {
     }
 }
 
-/// An operation. Constants are positive; the first operand of a sum and both factors of a product are unsigned.
+/// An operation. Constants are positive; the first operand of a sum and both factors of a product
+/// are unsigned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
     /// A positive number (or zero), as bits.

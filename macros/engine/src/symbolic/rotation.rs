@@ -3,7 +3,8 @@
 use super::arena::{Arena, Expr};
 use super::vector::{Space, Triple, dot};
 
-/// `(e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, row by row: `|p|^2` times a rotation (Nikravesh 1988, eq. 6.18). 26 operations.
+/// `(e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, row by row: `|p|^2` times a rotation (Nikravesh 1988, eq.
+/// 6.18). 26 operations.
 pub fn homogeneous_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     let doubled = [1, 2, 3].map(|k| arena.add(p[k], p[k]));
     let [ww, xx, yy, zz] = p.map(|e| arena.square(e));
@@ -17,8 +18,8 @@ pub fn homogeneous_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     with_diagonal(arena, p, doubled, diagonal)
 }
 
-/// The rotation of `p / |p|`, row by row. The vector part is doubled and divided by `p.p` at once, so that
-/// no square root stands in the way. 33 operations.
+/// The rotation of `p / |p|`, row by row. The vector part is doubled and divided by `p.p` at once,
+/// so that no square root stands in the way. 33 operations.
 pub fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     let squares = p.map(|e| arena.square(e));
     let (first, second) = (
@@ -87,7 +88,8 @@ pub(super) fn own_cofactors(arena: &mut Arena, a: &[Triple; 3]) {
     }
 }
 
-/// The columns of a rotation matrix `a` complete each other: declares that `a1 a1^T + a2 a2^T` is `I - a3 a3^T`.
+/// The columns of a rotation matrix `a` complete each other: declares that `a1 a1^T + a2 a2^T` is
+/// `I - a3 a3^T`.
 pub(super) fn complete(arena: &mut Arena, a: &[Triple; 3]) {
     for i in 0..3 {
         for j in 0..=i {
@@ -125,7 +127,8 @@ fn cofactor_places(k: usize, l: usize) -> [(usize, usize); 4] {
     [(k1, l1), (k2, l2), (k1, l2), (k2, l1)]
 }
 
-/// Declares that the entries of the rotation between two bodies are their own cofactors, as far as they are known, and that vectors may be turned by it.
+/// Declares that the entries of the rotation between two bodies are their own cofactors, as far as
+/// they are known, and that vectors may be turned by it.
 pub fn relate(space: &mut Space, one: usize, other: usize) {
     let (Some(a), Some(b)) = (space.rotation(one).copied(), space.rotation(other).copied()) else {
         return;
@@ -146,7 +149,8 @@ pub fn relate(space: &mut Space, one: usize, other: usize) {
     space.know_relation(one, other);
 }
 
-/// Components in the axes of a body, in those of another one: by the rotation between them, whose entries are known, cofactors of known ones, or scalar products.
+/// Components in the axes of a body, in those of another one: by the rotation between them, whose
+/// entries are known, cofactors of known ones, or scalar products.
 pub(super) fn turn_between(
     arena: &mut Arena,
     components: Triple,

@@ -1,4 +1,5 @@
-//! A mechanism in symbols: bodies with their motion, joints with their constraints bound to the bodies.
+//! A mechanism in symbols: bodies with their motion, joints with their constraints bound to the
+//! bodies.
 
 use super::arena::{Arena, Expr, Input};
 use super::bind::{Binder, Effect, all_copies};
@@ -204,8 +205,8 @@ impl Scene {
         )
     }
 
-    /// The scene of a model whose bodies move as some charts say; `first_counter` is the coordinate of the first auxiliary variable, and `paired` knows
-    /// angles by the pairs of the coordinates.
+    /// The scene of a model whose bodies move as some charts say; `first_counter` is the coordinate
+    /// of the first auxiliary variable, and `paired` knows angles by the pairs of the coordinates.
     pub(crate) fn on(
         model: &Model,
         mut arena: Arena,
@@ -322,7 +323,8 @@ impl Scene {
         }
     }
 
-    /// What is positive on the side of a joint that is meant. Bound where it is asked for: no other kernel has a part of it.
+    /// What is positive on the side of a joint that is meant. Bound where it is asked for: no other
+    /// kernel has a part of it.
     pub(crate) fn sides(&mut self, model: &Model, joint: usize) -> Vec<ScalarExpr> {
         let element = &model.joints[joint];
         let binder = Binder {
@@ -338,10 +340,11 @@ impl Scene {
         terms.map(|term| binder.scalar(arena, term)).collect()
     }
 
-    /// The scene of a model for a solution of its equations: vectors are computed in whatever axes are cheapest, and every
-    /// entry of a rotation matrix is its own cofactor.
+    /// The scene of a model for a solution of its equations: vectors are computed in whatever axes
+    /// are cheapest, and every entry of a rotation matrix is its own cofactor.
     ///
-    /// Exact for `p` of length 1; elsewhere, where `A` is read raw, it differs by the drift of `|p|`, as `A^T A = I` does.
+    /// Exact for `p` of length 1; elsewhere, where `A` is read raw, it differs by the drift of
+    /// `|p|`, as `A^T A = I` does.
     #[must_use]
     pub fn for_solution(model: &Model, normalisation: Normalisation) -> Self {
         let mut scene = Self::build(model, normalisation.into(), false);
@@ -357,8 +360,9 @@ impl Scene {
         scene
     }
 
-    /// The scene of a model for a joint by itself: `p` is of length 1, and vectors turn by the identities of rotations wherever that
-    /// is cheaper; if wished, lines between points start at centres of mass.
+    /// The scene of a model for a joint by itself: `p` is of length 1, and vectors turn by the
+    /// identities of rotations wherever that is cheaper; if wished, lines between points start at
+    /// centres of mass.
     #[must_use]
     pub fn for_one_joint(model: &Model, with_centres: bool) -> Self {
         let mut scene = Self::build(model, Rotation::Unit, false);
@@ -411,7 +415,8 @@ impl Scene {
         }
     }
 
-    /// `value * Phi + rate * Phi' + bias * (Phi'' without accelerations)` of a constraint, in the given axes.
+    /// `value * Phi + rate * Phi' + bias * (Phi'' without accelerations)` of a constraint, in the
+    /// given axes.
     pub fn combination(
         &mut self,
         constraint: usize,
@@ -482,8 +487,8 @@ impl Scene {
         self.motion.reference[body].map(|component| -component)
     }
 
-    /// What a constraint between vectors holds a point of a body to, if it is one point of another body or of the ground: the other body and the point there, from
-    /// its centre of mass.
+    /// What a constraint between vectors holds a point of a body to, if it is one point of another
+    /// body or of the ground: the other body and the point there, from its centre of mass.
     #[must_use]
     pub fn joins(&self, constraint: usize, body: usize) -> Option<Option<(usize, Triple)>> {
         let Constraint::Vector(VectorExpr::Sum(terms)) = &self.constraints[constraint].constraint
@@ -510,8 +515,8 @@ impl Scene {
         }
     }
 
-    /// The first moment of mass and the tensor of inertia of a body about the point of reference, principal axes, with masses on points of
-    /// it, from the centre of mass.
+    /// The first moment of mass and the tensor of inertia of a body about the point of reference,
+    /// principal axes, with masses on points of it, from the centre of mass.
     pub fn moments_about_reference(
         &mut self,
         body: usize,
@@ -535,7 +540,8 @@ impl Scene {
         (moment, inertia)
     }
 
-    /// The tensor of inertia of a body about the point of reference, principal axes: `J + m (c.c I - c c^T)` (Huygens, Steiner).
+    /// The tensor of inertia of a body about the point of reference, principal axes:
+    /// `J + m (c.c I - c c^T)` (Huygens, Steiner).
     pub fn inertia_about_reference(&mut self, body: usize) -> [Triple; 3] {
         let (c, m, j) = (self.centre(body), self.mass[body], self.inertia[body]);
         let arena = &mut self.space.arena;
@@ -546,7 +552,8 @@ impl Scene {
         tensor
     }
 
-    /// The gyroscopic moment `-w x J w` of a body about the point of reference, principal axes (Euler's equations).
+    /// The gyroscopic moment `-w x J w` of a body about the point of reference, principal axes
+    /// (Euler's equations).
     pub fn gyroscopic_moment(&mut self, body: usize) -> Triple {
         let w = self.motion.spin_components[body];
         let j = self.inertia_about_reference(body);

@@ -1,9 +1,11 @@
-//! Tables of what is interned: looked up at every operation, so that hashing decides how long an expansion takes.
+//! Tables of what is interned: looked up at every operation, so that hashing decides how long an
+//! expansion takes.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// A hash table whose keys nobody chooses to collide. Its order must not matter to anyone, as for any hash table.
+/// A hash table whose keys nobody chooses to collide. Its order must not matter to anyone, as for
+/// any hash table.
 pub(crate) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Multiplier>>;
 
 /// Hashes word by word: by a sum and a multiplication with an odd number without a pattern.

@@ -1,11 +1,13 @@
 //! The vector level: vectors that know their frame, above the scalar level.
 //!
-//! A vector is one thing whatever axes it is written in; its components are computed on demand, once per frame, from where
-//! they are cheapest. A vector given in body axes and asked for in body axes never passes through `A A^T`: this is how
-//! `A^T A = I` holds without ever being written down.
+//! A vector is one thing whatever axes it is written in; its components are computed on demand,
+//! once per frame, from where they are cheapest. A vector given in body axes and asked for in body
+//! axes never passes through `A A^T`: this is how `A^T A = I` holds without ever being written
+//! down.
 //!
-//! That is true where `A` is a rotation. A space that has to be exact for `A` of any scale ([`Space::exact`]) computes every
-//! vector in its home, the frame in which it is defined, and turns it from there.
+//! That is true where `A` is a rotation. A space that has to be exact for `A` of any scale
+//! ([`Space::exact`]) computes every vector in its home, the frame in which it is defined, and
+//! turns it from there.
 
 use std::collections::VecDeque;
 
@@ -74,7 +76,8 @@ pub struct Space {
     index: Table<Vector, VectorId>,
     components: Table<(VectorId, Frame), Triple>,
     history: Vec<(VectorId, Frame)>,
-    /// `A` of every body, from body to global axes, row by row; `None` for a body without orientation.
+    /// `A` of every body, from body to global axes, row by row; `None` for a body without
+    /// orientation.
     rotations: Vec<Option<[Triple; 3]>>,
     /// Bodies whose vectors may be turned from the one to the other without global axes.
     related: Vec<[usize; 2]>,
@@ -90,8 +93,8 @@ pub struct Space {
     known_choices: VecDeque<usize>,
 }
 
-/// Trials within trials; deeper down, the first candidate is taken. Without a bound, their number is exponential in the
-/// depth of a vector.
+/// Trials within trials; deeper down, the first candidate is taken. Without a bound, their number
+/// is exponential in the depth of a vector.
 const MOST_TRIALS: usize = 4;
 
 impl Space {
@@ -105,7 +108,8 @@ impl Space {
         }
     }
 
-    /// The same space, exact where `A` is a multiple of a rotation. To be called before anything is computed.
+    /// The same space, exact where `A` is a multiple of a rotation. To be called before anything is
+    /// computed.
     #[must_use]
     pub fn exact(mut self) -> Self {
         self.exact = true;
@@ -331,7 +335,8 @@ impl Space {
         }
     }
 
-    /// The components of a vector in a frame, computed in the frame where that is cheapest and turned from there.
+    /// The components of a vector in a frame, computed in the frame where that is cheapest and
+    /// turned from there.
     pub fn components(&mut self, vector: VectorId, frame: Frame) -> Triple {
         if let Some(&known) = self.components.get(&(vector, frame)) {
             return known;
@@ -362,8 +367,9 @@ impl Space {
         components
     }
 
-    /// A vector as it is to be multiplied with what turns with a body. Where `A` may have any scale, a vector of the body itself is
-    /// known by its global components then: `A a . A (d x s)` is `d . (s x A^T A a)`, and not `d . (s x a)`.
+    /// A vector as it is to be multiplied with what turns with a body. Where `A` may have any
+    /// scale, a vector of the body itself is known by its global components then: `A a . A (d x s)`
+    /// is `d . (s x A^T A a)`, and not `d . (s x a)`.
     pub fn outside(&mut self, vector: VectorId, body: usize) -> VectorId {
         if !self.exact || self.home(vector) != Frame::Body(body) {
             return vector;
@@ -372,8 +378,9 @@ impl Space {
         self.native(Frame::Global, components)
     }
 
-    /// A vector as the factor of what turns with a body. Where `A` may have any scale, it is known by its components `A^T a` in the axes of the
-    /// body: a sum with the moments of forces, which are given there, would be turned out and back otherwise.
+    /// A vector as the factor of what turns with a body. Where `A` may have any scale, it is known
+    /// by its components `A^T a` in the axes of the body: a sum with the moments of forces, which
+    /// are given there, would be turned out and back otherwise.
     pub fn moment_on(&mut self, vector: VectorId, body: usize) -> VectorId {
         if !self.exact {
             return vector;
@@ -422,7 +429,8 @@ impl Space {
         }
     }
 
-    /// From the products `w_k w_l` in body axes; by Lagrange's identity `(w . a) w - (w . w) a` elsewhere.
+    /// From the products `w_k w_l` in body axes; by Lagrange's identity `(w . a) w - (w . w) a`
+    /// elsewhere.
     fn spun_within(&mut self, spun: Spun, frame: Frame) -> Triple {
         let own = Frame::Body(spun.body);
         if frame == own || !self.identities {

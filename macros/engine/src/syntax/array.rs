@@ -1,7 +1,9 @@
-//! Fields that are arrays, `links: [Body; 16]`: each element becomes a field of its own, with its number in the place of `k`.
+//! Fields that are arrays, `links: [Body; 16]`: each element becomes a field of its own, with its
+//! number in the place of `k`.
 //!
-//! Behind this there are bodies, joints, forces and values with names such as `links[3]`, and nothing else. `if` is decided here, and so
-//! is `%`; what names an element of another array, `links[k - 1]`, keeps its place until all names are known.
+//! Behind this there are bodies, joints, forces and values with names such as `links[3]`, and
+//! nothing else. `if` is decided here, and so is `%`; what names an element of another array,
+//! `links[k - 1]`, keeps its place until all names are known.
 
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{ToTokens, quote_spanned};
@@ -36,7 +38,8 @@ pub fn element_type(ty: &Type) -> &Type {
     array(ty).map_or(ty, |array| element_type(&array.elem))
 }
 
-/// The elements of a field as fields, and whether their number is known; where it was refused, the first stands for all.
+/// The elements of a field as fields, and whether their number is known; where it was refused, the
+/// first stands for all.
 pub(super) fn elements(field: Field, faults: &mut Faults) -> (Vec<Field>, bool) {
     let Some(written) = array(&field.written) else {
         return (vec![field], true);
@@ -111,7 +114,8 @@ fn placed_list(list: &List, index: usize, faults: &mut Faults) -> List {
     }
 }
 
-/// An expression for one element. What is no expression of the language is left as it is; it is refused where it is read.
+/// An expression for one element. What is no expression of the language is left as it is; it is
+/// refused where it is read.
 fn placed(expr: &Expr, index: usize, faults: &mut Faults) -> Option<Expr> {
     let mut result = expr.clone();
     let mut inner = |expr: &mut Expr| -> Option<()> {

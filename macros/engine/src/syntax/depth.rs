@@ -1,5 +1,5 @@
-//! How deep tokens are nested, found without recursion: what parses and differentiates them calls itself for every level, and the stack
-//! of the compiler is finite.
+//! How deep tokens are nested, found without recursion: what parses and differentiates them calls
+//! itself for every level, and the stack of the compiler is finite.
 
 use proc_macro2::{Literal, Span, TokenStream, TokenTree, token_stream};
 

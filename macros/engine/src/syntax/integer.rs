@@ -1,4 +1,5 @@
-//! Integers and conditions that the macro can see: what names an element of an array, and what tells elements apart.
+//! Integers and conditions that the macro can see: what names an element of an array, and what
+//! tells elements apart.
 
 use syn::{BinOp, Expr, ExprLit, Lit, UnOp};
 

@@ -166,7 +166,8 @@ pub fn parse(tokens: TokenStream, kind: ElementKind, faults: &mut Faults) -> Opt
     Some(joint)
 }
 
-/// Parses what stands behind the word `joint` or `force`; of a faulty one at least the name is kept.
+/// Parses what stands behind the word `joint` or `force`; of a faulty one at least the name is
+/// kept.
 pub fn parse_transported(
     body: TokenStream,
     kind: ElementKind,
@@ -355,8 +356,9 @@ pub(super) fn around(piece: &Piece, word: &str) -> Option<(Piece, Ident, Piece)>
     None
 }
 
-/// The word at the start of a piece, where an operand and no operator stands behind it, and the rest. A parenthesis or a sign may open
-/// the operand of a word that is no name, or of one that another word follows; else it is a call, or a difference.
+/// The word at the start of a piece, where an operand and no operator stands behind it, and the
+/// rest. A parenthesis or a sign may open the operand of a word that is no name, or of one that
+/// another word follows; else it is a call, or a difference.
 fn keyword(piece: &Piece) -> Option<(Ident, Piece)> {
     let mut tokens = piece.tokens.clone().into_iter();
     let Some(TokenTree::Ident(keyword)) = tokens.next() else {

@@ -65,7 +65,8 @@ pub struct MechanismSyntax {
     pub list: List,
     /// Its fields, and the elements of those that are arrays.
     pub fields: Vec<Field>,
-    /// Arrays of a length that was refused: only the first element is there, and nobody knows which others are meant.
+    /// Arrays of a length that was refused: only the first element is there, and nobody knows which
+    /// others are meant.
     pub unmeasured: Vec<Ident>,
     /// Whether it is a struct with named fields and without parameters; if not, that was reported.
     pub is_plain: bool,
@@ -211,11 +212,11 @@ fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
     result
 }
 
-/// The distinct types of described fields, as paths without generic arguments: bodies first, then joints, then forces,
-/// each in the order of the fields.
+/// The distinct types of described fields, as paths without generic arguments: bodies first, then
+/// joints, then forces, each in the order of the fields.
 ///
-/// The derive calls each of them as a macro. A carrier asks of the next whether it is a body or a joint, so that
-/// what is surely one comes first.
+/// The derive calls each of them as a macro. A carrier asks of the next whether it is a body or a
+/// joint, so that what is surely one comes first.
 #[must_use]
 pub fn carrier_paths(input: &DeriveInput) -> Vec<TokenStream> {
     let mut paths: Vec<TokenStream> = Vec::new();
@@ -248,7 +249,8 @@ fn is_parameter(ty: &Type, input: &DeriveInput) -> bool {
         .any(|parameter| path.path.is_ident(&parameter.ident))
 }
 
-/// The path by which a type's carrier is called; `None` for a type that cannot be that of a joint or body.
+/// The path by which a type's carrier is called; `None` for a type that cannot be that of a joint
+/// or body.
 #[must_use]
 pub fn carrier_path(ty: &Type) -> Option<TokenStream> {
     // What is surely neither: calling it as a macro would only hide our own sentence.

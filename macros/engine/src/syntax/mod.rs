@@ -24,7 +24,8 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Parses the whole piece, unless it is too deep. What is missing at its end is reported at its last token.
+    /// Parses the whole piece, unless it is too deep. What is missing at its end is reported at its
+    /// last token.
     pub fn parse<T>(
         &self,
         parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>,
@@ -34,7 +35,8 @@ impl Piece {
         self.parse_outline(parser, faults)
     }
 
-    /// Parses the whole piece, however deep, with a parser that leaves what stands in brackets alone.
+    /// Parses the whole piece, however deep, with a parser that leaves what stands in brackets
+    /// alone.
     fn parse_outline<T>(
         &self,
         parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>,
@@ -70,7 +72,8 @@ impl Piece {
     }
 }
 
-/// Splits tokens at a separator, so that one faulty piece does not hide the others. An empty last piece is left out.
+/// Splits tokens at a separator, so that one faulty piece does not hide the others. An empty last
+/// piece is left out.
 #[must_use]
 pub fn split(tokens: TokenStream, separator: char) -> Vec<Piece> {
     let mut pieces = Vec::new();

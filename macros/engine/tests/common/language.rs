@@ -1,4 +1,5 @@
-//! A second reader of the language: evaluates a definition over dual numbers, without any derivative of its own.
+//! A second reader of the language: evaluates a definition over dual numbers, without any
+//! derivative of its own.
 #![allow(dead_code, reason = "every test uses a part of it")]
 
 use std::cell::Cell;
@@ -53,7 +54,8 @@ impl Pose {
         }
     }
 
-    /// `A(p) s` by the formula for one vector: `(e0^2 - e.e) s + 2 e (e.s) + 2 e0 (e x s)`; backwards with `-e`.
+    /// `A(p) s` by the formula for one vector: `(e0^2 - e.e) s + 2 e (e.s) + 2 e0 (e x s)`;
+    /// backwards with `-e`.
     fn turned(&self, s: Vector, sign: f64) -> Vector {
         let [e0, x, y, z] = self.euler;
         let e = [x * sign, y * sign, z * sign];
@@ -84,8 +86,9 @@ impl Pose {
     }
 }
 
-/// The two unit vectors perpendicular to an axis, as the documentation has it: the first is `e_k x a`, normalised, where component
-/// `k` of `a` is the smallest; axis, first and second are right-handed.
+/// The two unit vectors perpendicular to an axis, as the documentation has it: the first is
+/// `e_k x a`, normalised, where component `k` of `a` is the smallest; axis, first and second are
+/// right-handed.
 pub(crate) fn normals(axis: Numbers) -> [Numbers; 2] {
     // Round-off must not decide between equals.
     let size = axis.map(f64::abs);
@@ -142,7 +145,8 @@ enum When {
     Described,
 }
 
-/// What names mean, besides the words of the language: those of the definition, or the arguments of a law.
+/// What names mean, besides the words of the language: those of the definition, or the arguments of
+/// a law.
 type Arguments<'a> = Option<&'a [(String, Dual2_64)]>;
 
 impl<'a> Interpreter<'a> {
@@ -491,7 +495,8 @@ impl<'a> Interpreter<'a> {
     }
 }
 
-/// The angle of a point. The quotient is at most 1: that of the library has no derivatives where the cosine vanishes.
+/// The angle of a point. The quotient is at most 1: that of the library has no derivatives where
+/// the cosine vanishes.
 fn arc(sine: Dual2_64, cosine: Dual2_64) -> Dual2_64 {
     let mut angle = if sine.re.abs() > cosine.re.abs() {
         -(cosine / sine).atan()

@@ -8,7 +8,8 @@ use holonom_engine::{check, passes, syntax};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// Definitions by the names of their types: built-in ones, and ones that use the rest of the language.
+/// Definitions by the names of their types: built-in ones, and ones that use the rest of the
+/// language.
 const DEFINITIONS: [(&str, &str); 6] = [
     (
         "Revolute",

@@ -1,6 +1,7 @@
 //! A second reader of annotated structs and of definitions: text in, numbers and expressions out.
 //!
-//! It knows nothing of the engine. What is wrong with a text is the engine's to say; here it panics.
+//! It knows nothing of the engine. What is wrong with a text is the engine's to say; here it
+//! panics.
 #![allow(dead_code, reason = "every test uses a part of it")]
 
 use std::f64::consts::{PI, TAU};
@@ -54,10 +55,12 @@ pub(crate) struct Carried {
 }
 
 impl Carried {
-    /// Lets the normals be those of the axis on one of the bodies, and those that they become on the others by the least rotation that makes the
-    /// axes parallel: no rotation where they are, so that angles start at zero.
+    /// Lets the normals be those of the axis on one of the bodies, and those that they become on
+    /// the others by the least rotation that makes the axes parallel: no rotation where they are,
+    /// so that angles start at zero.
     ///
-    /// Which body that is, is nobody's business but the engine's, as are the directions: only that they belong together can be judged.
+    /// Which body that is, is nobody's business but the engine's, as are the directions: only that
+    /// they belong together can be judged.
     pub(crate) fn take_normals_from(&mut self, first: usize, poses: &[Pose]) {
         let Some(&from) = self.global.get(first) else {
             return;
@@ -324,7 +327,8 @@ pub(crate) fn number(expr: &Expr, values: &Values) -> f64 {
                 ("sin", angle) => of(angle).sin(),
                 ("cos", angle) => of(angle).cos(),
                 ("exp", number) => of(number).exp(),
-                // What the engine makes of a number that it cannot see: `identity({ let value: f64 = number; value })`.
+                // What the engine makes of a number that it cannot see:
+                // `identity({ let value: f64 = number; value })`.
                 ("identity", Expr::Block(block)) => match block.block.stmts.first() {
                     Some(syn::Stmt::Local(local)) => {
                         of(&local.init.as_ref().expect("a value").expr)

@@ -172,7 +172,8 @@ pub(crate) fn law(dice: &mut Dice) -> String {
     }
 }
 
-/// Motions that need not be those that the equations leave: a mechanism is the same with them and without.
+/// Motions that need not be those that the equations leave: a mechanism is the same with them and
+/// without.
 fn motions(dice: &mut Dice) -> String {
     let count = dice.below(4);
     let motions = (0..count).map(|_| {

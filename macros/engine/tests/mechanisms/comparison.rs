@@ -1,4 +1,5 @@
-//! A mechanism through the engine's passes, evaluated by numbers, against a dense solution of the same equations.
+//! A mechanism through the engine's passes, evaluated by numbers, against a dense solution of the
+//! same equations.
 
 use holonom_engine::coordinates::candidates::Strategy;
 use holonom_engine::model::Model;
@@ -326,7 +327,8 @@ impl<'a> Comparison<'a> {
         rows.map(|row| in_axes(model, row, false)).collect()
     }
 
-    /// `r' = v`, `p' = 1/2 L(p)^T w`, rates of counted angles; of the Euler parameters of principal axes.
+    /// `r' = v`, `p' = 1/2 L(p)^T w`, rates of counted angles; of the Euler parameters of principal
+    /// axes.
     pub(crate) fn coordinate_rates(&self, state: &State, equations: &Equations) -> Vec<f64> {
         let mut rates = Vec::new();
         for (place, body) in self.model.bodies.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Joints and forces of the library between given bodies, such that the reference configuration satisfies them.
+//! Joints and forces of the library between given bodies, such that the reference configuration
+//! satisfies them.
 
 use crate::generator::Generator;
 
@@ -311,7 +312,8 @@ impl Generator {
             "TorsionalSpringDamper" | "TorsionalActuator" => {
                 let mut direction = self.direction();
                 if !self.hinges.is_empty() && self.dice.below(4) > 0 {
-                    // At a hinge, as joints are moved; either body may come first, and the axis may be turned.
+                    // At a hinge, as joints are moved; either body may come first, and the axis may
+                    // be turned.
                     let chosen = self.dice.below(self.hinges.len());
                     (pair, direction) = self.hinges[chosen];
                     if self.dice.below(2) == 0 {

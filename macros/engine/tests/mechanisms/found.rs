@@ -5,8 +5,8 @@ use holonom_engine::model::ElementKind;
 use crate::comparison::Extent;
 use crate::text::{Outcome, Text};
 
-/// A given moment and a spring on one body: their sum was turned out of the body and back, which multiplied the moment of the spring by
-/// `|p|^4`.
+/// A given moment and a spring on one body: their sum was turned out of the body and back, which
+/// multiplied the moment of the spring by `|p|^4`.
 const MOMENT_AND_SPRING: &str = "
     pub struct Random {
         #[body(mass = 0.7, inertia = [1.9, 1.3, 1.1], free)]
@@ -19,8 +19,8 @@ const MOMENT_AND_SPRING: &str = "
         spring: SpringDamper,
     }";
 
-/// An axis by `local(..)` on a body with a full tensor: round-off of the principal axes decided which of the equal components of the axis was
-/// the smallest, and so where its normals were.
+/// An axis by `local(..)` on a body with a full tensor: round-off of the principal axes decided
+/// which of the equal components of the axis was the smallest, and so where its normals were.
 const NORMALS: &str = "
     #[mechanism(redundant = \"keep\")]
     pub struct Random {
@@ -36,7 +36,8 @@ const NORMALS: &str = "
         joint: Own,
     }";
 
-/// Axes by `local(..)` that are not parallel, the first with components that are equal but for round-off: these decided on the normals.
+/// Axes by `local(..)` that are not parallel, the first with components that are equal but for
+/// round-off: these decided on the normals.
 const EQUAL_COMPONENTS: &str = "
     pub struct Random {
         #[joint(between = [a, b], head = [1.0, 0.0, 1.0], tail = [0.25, -0.5, 0.5], axis = local([0.49999999999999983, -0.5, -0.7500000000000001], [-0.75, -0.5, -0.5]))]
@@ -51,7 +52,8 @@ const EQUAL_COMPONENTS: &str = "
         a: Body,
     }";
 
-/// Rows that depend on each other on one body, off the constraints only: the pivot that vanishes there is told.
+/// Rows that depend on each other on one body, off the constraints only: the pivot that vanishes
+/// there is told.
 const OFF_THE_CONSTRAINTS: &str = "
     #[mechanism(redundant = \"keep\")]
     pub struct Random {
@@ -63,7 +65,8 @@ const OFF_THE_CONSTRAINTS: &str = "
         joint: Twice,
     }";
 
-/// Bodies with axes of their own: entries of rows that are round-off are constants in joint coordinates, and one that was alone in its column was taken for a pivot.
+/// Bodies with axes of their own: entries of rows that are round-off are constants in joint
+/// coordinates, and one that was alone in its column was taken for a pivot.
 const ROUND_OFF: &str = "
     pub struct Random {
         #[body(mass = 0.6401213484139585, inertia = [
@@ -109,7 +112,8 @@ fn mechanisms_that_failed_once() {
     }
 }
 
-/// A bar along the axis of a link, as long as the link's offset: it touches, and there its equation follows from those of the link.
+/// A bar along the axis of a link, as long as the link's offset: it touches, and there its equation
+/// follows from those of the link.
 const TOUCHING: &str = "
     #[mechanism(redundant = \"drop\")]
     pub struct Random {
@@ -139,8 +143,8 @@ fn a_singular_start_without_neighbours_leaves_nothing_out() {
     assert!(why.contains("may depend on each other by chance"), "{why}");
 }
 
-/// A bar along the axes of a hinge and a slide, which a turn shortens by the second order only: of three equations for the displacement two follow from
-/// the third at the start, and nowhere else.
+/// A bar along the axes of a hinge and a slide, which a turn shortens by the second order only: of
+/// three equations for the displacement two follow from the third at the start, and nowhere else.
 const SHORTENED: &str = "
     #[mechanism(redundant = \"drop\")]
     pub struct Random {

@@ -379,7 +379,8 @@ impl Generator {
 
     /// An axis or a vector as it is written.
     pub(crate) fn written_vector(&mut self, vector: [f64; 3], bodies: &[Option<usize>]) -> String {
-        // Of an axis that only the run time knows, the sign of z picks the normals: round-off must not pick it.
+        // Of an axis that only the run time knows, the sign of z picks the normals: round-off must
+        // not pick it.
         let is_picked = self.run_time > 0 && vector[2].abs() < 1e-6;
         if self.dice.below(4) > 0 || is_picked {
             return self.vector(vector);

@@ -1,4 +1,5 @@
-//! Linkages whose masses are handed over closing joints: whatever link they are counted on, accelerations and multipliers are those of the bodies.
+//! Linkages whose masses are handed over closing joints: whatever link they are counted on,
+//! accelerations and multipliers are those of the bodies.
 
 use holonom_engine::coordinates::candidates::{Method, Strategy};
 use holonom_engine::coordinates::system::Reduced;
@@ -8,7 +9,8 @@ use crate::comparison::Extent;
 use crate::library;
 use crate::text::{Outcome, Text};
 
-/// A crank that turns all round, a coupler and a rocker, tilted, with centres of mass off their middles, gravity out of their plane.
+/// A crank that turns all round, a coupler and a rocker, tilted, with centres of mass off their
+/// middles, gravity out of their plane.
 const FOUR_BAR: &str = "
     #[mechanism(gravity = [0.3, -9.7, 1.1], redundant = \"drop\")]
     pub struct Linkage {

@@ -1,11 +1,14 @@
-//! Random mechanisms through all passes of the engine: whatever is generated for them agrees with a dense solution of the same equations.
+//! Random mechanisms through all passes of the engine: whatever is generated for them agrees with a
+//! dense solution of the same equations.
 //!
-//! A mechanism is text. The engine reads it as in a compiler session; its kernels, in all formulations, both readings of Euler parameters
-//! and by every plan, are evaluated by numbers. A second reader ([`reading`], [`language`]) interprets the same text over dual numbers, and
-//! knows neither symbols nor derivatives ([`reference`]); masses are put in by hand, in the user's axes, and the saddle system is solved by Gaussian
-//! elimination with complete pivoting ([`dense`]).
+//! A mechanism is text. The engine reads it as in a compiler session; its kernels, in all
+//! formulations, both readings of Euler parameters and by every plan, are evaluated by numbers. A
+//! second reader ([`reading`], [`language`]) interprets the same text over dual numbers, and knows
+//! neither symbols nor derivatives ([`reference`]); masses are put in by hand, in the user's axes,
+//! and the saddle system is solved by Gaussian elimination with complete pivoting ([`dense`]).
 //!
-//! `HOLONOM_MECHANISMS=100000 cargo test --release -p holonom-engine --test mechanisms` compares more of them, `HOLONOM_SEED=..` begins elsewhere.
+//! `HOLONOM_MECHANISMS=100000 cargo test --release -p holonom-engine --test mechanisms` compares
+//! more of them, `HOLONOM_SEED=..` begins elsewhere.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,5 @@
-//! The same mechanism in joint coordinates: the accelerations of its bodies against a dense solution over all equations.
+//! The same mechanism in joint coordinates: the accelerations of its bodies against a dense
+//! solution over all equations.
 
 use holonom_engine::coordinates::beginning::Beginning;
 use holonom_engine::coordinates::candidates::Strategy;
@@ -79,7 +80,8 @@ fn rates(
     outputs.iter().map(signed).collect()
 }
 
-/// From joint coordinates to bodies and back, relative to the largest number: two axes of a universal joint may be nearly parallel.
+/// From joint coordinates to bodies and back, relative to the largest number: two axes of a
+/// universal joint may be nearly parallel.
 const THERE_AND_BACK: f64 = 1e-9;
 
 /// Joint coordinates whose Euler parameters have the signs of others: either is the same rotation.
@@ -236,7 +238,8 @@ impl Comparison<'_> {
         // A pivot that is not a number comes behind one that vanishes.
         let smallest = pivots.fold(1.0_f64, f64::min);
         if smallest < SMALL {
-            // The kernel says so. Off the constraints velocities may be undetermined that follow from the others on them.
+            // The kernel says so. Off the constraints velocities may be undetermined that follow
+            // from the others on them.
             if equations.hold() && system.condition() < SOUND {
                 return Err(format!(
                     "joint coordinates, {strategy:?}, {terms:?}: a pivot of {smallest:e} in a system that is not singular\nin {coordinates:?}"

@@ -1,4 +1,5 @@
-//! What is left out of redundant equations follows from the rest: in position, in velocity, in acceleration.
+//! What is left out of redundant equations follows from the rest: in position, in velocity, in
+//! acceleration.
 
 use holonom_engine::rank::TOLERANCE as RESOLVED;
 
@@ -18,8 +19,8 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 impl Comparison<'_> {
-    /// Where the reference configuration satisfies the equations: with velocities that satisfy the rest of them, those that are left out are
-    /// satisfied by velocities and accelerations too.
+    /// Where the reference configuration satisfies the equations: with velocities that satisfy the
+    /// rest of them, those that are left out are satisfied by velocities and accelerations too.
     pub(crate) fn left_out(&self, state: &State) -> Result<(), String> {
         if !self.dropped.contains(&true) {
             return Ok(());
@@ -41,7 +42,8 @@ impl Comparison<'_> {
         right.extend(&kept.gamma);
         let (solution, _) = system.solve(&right);
         let accelerations = &solution[..kept.forces.len()];
-        // The engine takes rows for dependent that stand out from each other by less than it resolves, so that numbers of six digits may be given.
+        // The engine takes rows for dependent that stand out from each other by less than it
+        // resolves, so that numbers of six digits may be given.
         let tolerance = (TOLERANCE * condition).max(10.0 * RESOLVED);
         let bound = tolerance * (all.scale + largest(accelerations));
         for (row, gradient) in all.gradients.iter().enumerate() {
@@ -60,7 +62,8 @@ impl Comparison<'_> {
         Ok(())
     }
 
-    /// The state with velocities that satisfy the equations that are kept, and the condition of the system.
+    /// The state with velocities that satisfy the equations that are kept, and the condition of the
+    /// system.
     fn satisfying(&self, state: &State) -> Option<(State, f64)> {
         let all = Equations::new(self.described, state)?;
         if largest(&all.phi) > HOLDS {

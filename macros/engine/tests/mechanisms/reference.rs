@@ -1,6 +1,8 @@
-//! What a mechanism's equations are at a state, by numbers: masses by hand, everything else by dual numbers over the definitions.
+//! What a mechanism's equations are at a state, by numbers: masses by hand, everything else by dual
+//! numbers over the definitions.
 //!
-//! Bodies are taken in the user's axes, with their full tensors. Along curves `q(h)` ([`crate::language`]):
+//! Bodies are taken in the user's axes, with their full tensors. Along curves `q(h)`
+//! ([`crate::language`]):
 //!
 //! * a column of `D`: `r + h`, or `p + h/2 L(p)^T d` with `d` a unit vector of the body;
 //! * `Phi'` and `-gamma`: `q + q' h + 1/2 q'' h^2` without accelerations, at the time `t + h`;
@@ -234,7 +236,8 @@ impl Equations {
     fn force(&mut self, motion: &mut Motion<'_>, element: (&Element, &[f64])) -> Option<()> {
         let (moving, standing) = (motion.moving.clone(), motion.standing.clone());
         let now = motion.read(element, &moving, 1.0, |i| i.actions())?;
-        // What every action does along a curve, whose angular velocities are given in the axes of the bodies.
+        // What every action does along a curve, whose angular velocities are given in the axes of
+        // the bodies.
         let along =
             |now: &Acting, curve: &Acting, turn: &dyn Fn(usize) -> Numbers| match (now, curve) {
                 (Acting::Potential(_), Acting::Potential(energy)) => -energy.v1,

@@ -80,7 +80,8 @@ fn slack(terms: Terms, equations: &Equations, coefficients: Coefficients) -> f64
 }
 
 impl Comparison<'_> {
-    /// Compares a solution. Off the constraints a pivot may be round-off but for the compliance, and `slack` is what that loses.
+    /// Compares a solution. Off the constraints a pivot may be round-off but for the compliance,
+    /// and `slack` is what that loses.
     fn solution(
         &mut self,
         what: &str,
@@ -200,8 +201,8 @@ impl Comparison<'_> {
                     .as_ref()
                     .is_some_and(|system| system.condition() < SOUND);
                 if sound && pivot < SMALL {
-                    // Of a combination of rows that acts on one of two bodies only, or turns with none of them, which no joint has: it vanishes
-                    // with the violations.
+                    // Of a combination of rows that acts on one of two bodies only, or turns with
+                    // none of them, which no joint has: it vanishes with the violations.
                     if !is_off {
                         return Err(format!(
                             "{what}: a pivot of {pivot:e} in a system that is not singular"

@@ -47,7 +47,8 @@ pub(crate) struct Statistics {
     pub(crate) dropped: usize,
     /// States on the constraints.
     pub(crate) satisfied: usize,
-    /// States off the constraints where a pivot vanishes, and the kernel says so, although the system is regular.
+    /// States off the constraints where a pivot vanishes, and the kernel says so, although the
+    /// system is regular.
     pub(crate) told: usize,
     /// States near a point where something has no derivative, and systems that are nearly singular.
     pub(crate) singular: usize,
@@ -148,7 +149,8 @@ impl Text {
         Ok(model.independence.rank)
     }
 
-    /// Compares everything, also with the same fields in another order; the error says what differs.
+    /// Compares everything, also with the same fields in another order; the error says what
+    /// differs.
     pub(crate) fn check(
         &self,
         shuffled: &Self,
@@ -166,7 +168,8 @@ impl Text {
         }
         let (other_model, other) = match shuffled.read() {
             Ok(read) => read,
-            // Whether equations that nothing satisfies are seen to contradict each other depends on where a search for such a configuration ends.
+            // Whether equations that nothing satisfies are seen to contradict each other depends on
+            // where a search for such a configuration ends.
             Err(faults) if faults.contains("contradicts") => {
                 return Ok(Outcome::RefusedOtherwise(faults));
             }
@@ -193,8 +196,8 @@ impl Text {
     }
 }
 
-/// Accelerations by bodies and multipliers by joints in the described state, and what their round-off is compared with; `None` where the system is
-/// nearly singular.
+/// Accelerations by bodies and multipliers by joints in the described state, and what their
+/// round-off is compared with; `None` where the system is nearly singular.
 fn by_name(model: &Model, described: &Described) -> Option<(BTreeMap<String, Vec<f64>>, f64)> {
     let state = State::start(described, model.counters().len());
     let equations = Equations::new(described, &state)?;

@@ -1,5 +1,6 @@
 //! Twins: mechanisms of the catalogue and of the tests whose literals are parameters of the same
-//! values. A plan may depend on the numbers that the macro sees, so it is judged where it sees none.
+//! values. A plan may depend on the numbers that the macro sees, so it is judged where it sees
+//! none.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -104,7 +105,8 @@ fn is_ours(attribute: &Attribute) -> bool {
         .any(|word| attribute.path().is_ident(word))
 }
 
-/// A struct without what does not matter, its literals replaced; parameters may tell what they are like.
+/// A struct without what does not matter, its literals replaced; parameters may tell what they are
+/// like.
 fn twin(item: &ItemStruct, which: Which, is_told: bool) -> String {
     let mut parameters = Parameters {
         which,

@@ -94,7 +94,8 @@ fn equations_see_the_axis_of_the_second_body() {
 
 #[test]
 fn an_angle_is_zero_where_the_least_rotation_makes_the_axes_parallel() {
-    // The second axis is tilted about x by -0.3 rad: turned back by the least rotation, the angle is zero.
+    // The second axis is tilted about x by -0.3 rad: turned back by the least rotation, the angle
+    // is zero.
     let axes = [[0.0, 0.0, 1.0], [0.0, 0.3_f64.sin(), 0.3_f64.cos()]];
     let model = delivered(&tokens(&scene("Back", axes)), find);
     let kernels = Kernels::new(&model);

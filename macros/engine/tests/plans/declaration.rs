@@ -124,8 +124,8 @@ fn a_motor_before_its_hinge() {
     assert_eq!(counts[0], ("evaluate standard".into(), MOTORED));
 }
 
-/// Sums are taken in the order of the fields, so that other terms are shared. (Where equations are left out, which ones depends on the order: such
-/// mechanisms are not here.)
+/// Sums are taken in the order of the fields, so that other terms are shared. (Where equations are
+/// left out, which ones depends on the order: such mechanisms are not here.)
 #[test]
 fn mechanisms_of_the_catalogue() {
     for (file, name) in [

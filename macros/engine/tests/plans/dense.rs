@@ -1,4 +1,5 @@
-//! The kernels of a mechanism by numbers, and a dense solution of the same saddle system to judge them.
+//! The kernels of a mechanism by numbers, and a dense solution of the same saddle system to judge
+//! them.
 
 use holonom_engine::model::{BodyKind, Model};
 use holonom_engine::plan::Plan;
@@ -150,8 +151,9 @@ pub(crate) fn evaluated(
     Evaluated { solution, pivots }
 }
 
-/// The same by `D`, `gamma`, the masses and the forces, by elimination with the largest pivot; and how far from singular the
-/// system is: the smallest pivot over the largest entry of the scaled matrix.
+/// The same by `D`, `gamma`, the masses and the forces, by elimination with the largest pivot; and
+/// how far from singular the system is: the smallest pivot over the largest entry of the scaled
+/// matrix.
 pub(crate) fn dense(
     model: &Model,
     kernels: &Kernels,

@@ -1,4 +1,5 @@
-//! Plans: what they say is correct, whatever it is, and does not depend on the order of declaration.
+//! Plans: what they say is correct, whatever it is, and does not depend on the order of
+//! declaration.
 
 mod axes;
 #[path = "../common/mod.rs"]

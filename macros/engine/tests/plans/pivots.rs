@@ -235,7 +235,8 @@ const FOUR_BAR: &str = "#[mechanism(redundant = \"drop\")] struct FourBar {
     #[joint(between = [right, top], point = [0.0, 1.2, 1.2], axis = [1.0, 0.0, 0.0])] fourth: Revolute,
 }";
 
-/// What the pivots of the closing rows would be without the other rows depends on orientations alone and varies little: a number stands for it, which no pivot exceeds.
+/// What the pivots of the closing rows would be without the other rows depends on orientations
+/// alone and varies little: a number stands for it, which no pivot exceeds.
 #[test]
 fn pivots_that_are_compared_with_numbers() {
     let model = delivered(&tokens(FOUR_BAR), find);

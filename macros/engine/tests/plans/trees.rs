@@ -1,4 +1,5 @@
-//! Every plan of a tree and of a loop, at states that violate the constraints: masses that joints hand on, and rows in whatever order.
+//! Every plan of a tree and of a loop, at states that violate the constraints: masses that joints
+//! hand on, and rows in whatever order.
 
 use holonom_engine::plan::candidates::all;
 use holonom_engine::plan::kernels::{Kernels, solver};
@@ -10,7 +11,8 @@ use crate::common::{delivered, tokens};
 use crate::dense::{Dice, SYMBOL, State, dense, deviation};
 use crate::library;
 
-/// A base with two branches, of which one has a body more; axes along principal axes and not, masses that the macro cannot see.
+/// A base with two branches, of which one has a body more; axes along principal axes and not,
+/// masses that the macro cannot see.
 const TREE: &str = "#[mechanism(gravity = [0.3, 0.0, -9.81])] struct Tree {
     #[body(mass = 3.0, inertia = [0.5, 0.3, 0.4], position = [0.1, 0.4, 0.0])] base: Body,
     #[body(mass = 1.5, inertia = [0.2, 0.1, 0.2], position = [0.1, 1.2, 0.1])] arm: Body,

@@ -12,8 +12,8 @@ use crate::{STATES, State, TOLERANCE, deviation, model, pose, values};
 
 const FORCES: usize = 40;
 
-/// The generalised forces on the six velocities of every body, then energy and power, and the scale of numbers; `None` near a
-/// singularity.
+/// The generalised forces on the six velocities of every body, then energy and power, and the scale
+/// of numbers; `None` near a singularity.
 fn judged(force: &Joint, state: &State) -> Option<(Vec<f64>, f64)> {
     let still = [0.0; 3];
     let mut scale = 1.0_f64;
@@ -28,7 +28,8 @@ fn judged(force: &Joint, state: &State) -> Option<(Vec<f64>, f64)> {
     let standing = || state.poses.iter().map(|at| pose(at, still, still));
     let bodies = state.poses.iter().zip(&state.rates);
     let moving = read(bodies.map(|(at, (v, w))| pose(at, *v, *w)).collect(), 1.0)?;
-    // What every action does along a curve, whose angular velocities are given in the axes of the bodies.
+    // What every action does along a curve, whose angular velocities are given in the axes of the
+    // bodies.
     let along = |now: &Acting, curve: &Acting, turn: &dyn Fn(usize) -> [f64; 3]| match (now, curve)
     {
         (Acting::Potential(_), Acting::Potential(energy)) => -energy.v1,

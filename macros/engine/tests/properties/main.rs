@@ -1,8 +1,9 @@
-//! Random joints and forces: what the engine derives from their text equals what dual numbers say of the same text.
+//! Random joints and forces: what the engine derives from their text equals what dual numbers say
+//! of the same text.
 //!
-//! `D`, `Phi'`, `gamma` and `Phi_t` of the symbols are evaluated by numbers at random states. The text is read a second time by an
-//! interpreter of its own ([`language`]), which knows no derivative: it runs over num-dual's dual numbers of second order, along curves
-//! `q(h)`:
+//! `D`, `Phi'`, `gamma` and `Phi_t` of the symbols are evaluated by numbers at random states. The
+//! text is read a second time by an interpreter of its own ([`language`]), which knows no
+//! derivative: it runs over num-dual's dual numbers of second order, along curves `q(h)`:
 //!
 //! * a column of `D`: `r + h`, or `p + h/2 L(p)^T d` with `d` a unit vector of the body;
 //! * `Phi'` and `-gamma`: `q + q' h + 1/2 q'' h^2` without accelerations, at the time `t + h`;
@@ -173,7 +174,8 @@ impl Derived {
     }
 }
 
-/// The values of expressions at a state, at rest if not `moving`; `angles` are those that are counted.
+/// The values of expressions at a state, at rest if not `moving`; `angles` are those that are
+/// counted.
 fn values(
     arena: &Arena,
     outputs: &[Expr],

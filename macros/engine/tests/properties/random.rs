@@ -97,7 +97,8 @@ impl Joint {
         )
     }
 
-    /// What the second reader makes of it: the joint, with all its angles counted, and where the bodies stand at the start.
+    /// What the second reader makes of it: the joint, with all its angles counted, and where the
+    /// bodies stand at the start.
     pub(crate) fn read(&self) -> (Element, Vec<Pose>) {
         let mut described =
             Described::read(&tokens(&self.mechanism()), |_| Some(self.definition()));

@@ -1,4 +1,5 @@
-//! What the rows of `Phi` and `Phi'` are measured by, so that metres, square metres and radians mean the same.
+//! What the rows of `Phi` and `Phi'` are measured by, so that metres, square metres and radians
+//! mean the same.
 
 mod sizes;
 
@@ -12,15 +13,17 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::{Block, BodyKind};
 use crate::state::vector::{Array, StateParts};
 
-/// The rows of `D` at one time and configuration, and what they are about. All sizes are the same wherever the mechanism stands, but for
-/// those of round-off.
+/// The rows of `D` at one time and configuration, and what they are about. All sizes are the same
+/// wherever the mechanism stands, but for those of round-off.
 pub(crate) struct Rows<S: Scalar, M: Mechanism> {
-    /// The largest part of a row that belongs to the translation of one body, and to the rotation of one.
+    /// The largest part of a row that belongs to the translation of one body, and to the rotation
+    /// of one.
     translation: M::Multipliers<S>,
     rotation: M::Multipliers<S>,
     /// The length (m) of a row: see [`Rows::at`].
     length: M::Multipliers<S>,
-    /// The largest distance (m) from the origin among centres of mass and points on the ground of the row's joint.
+    /// The largest distance (m) from the origin among centres of mass and points on the ground of
+    /// the row's joint.
     distance: M::Multipliers<S>,
     /// What counted turns add to the terms of a row.
     counted: M::Multipliers<S>,
@@ -28,7 +31,8 @@ pub(crate) struct Rows<S: Scalar, M: Mechanism> {
     drift: M::Multipliers<S>,
     /// The diagonal of `D M^-1 D^T`, the same for the rows of a vector equation.
     pub(crate) stiffness: M::Multipliers<S>,
-    /// The largest distance (m) of a centre of mass, or of a joint's point on the ground, from the first centre of mass.
+    /// The largest distance (m) of a centre of mass, or of a joint's point on the ground, from the
+    /// first centre of mass.
     extent: S,
     pub(crate) time: S,
 }
@@ -50,7 +54,8 @@ struct Size<S> {
     whole: S,
 }
 
-/// The largest speed (m/s) and angular speed (rad/s) of the bodies of a mechanism, each with the other over its extent.
+/// The largest speed (m/s) and angular speed (rad/s) of the bodies of a mechanism, each with the
+/// other over its extent.
 #[derive(Clone, Copy)]
 pub(crate) struct Speeds<S> {
     translation: S,
@@ -58,25 +63,28 @@ pub(crate) struct Speeds<S> {
 }
 
 impl<S: Real> Speeds<S> {
-    /// How long a motion of a part of the extent of the mechanism, or of so many radians, takes; `None` at rest.
+    /// How long a motion of a part of the extent of the mechanism, or of so many radians, takes;
+    /// `None` at rest.
     pub(crate) fn time_for(self, part: S) -> Option<S> {
         (self.rotation > S::zero()).then(|| part.quotient(self.rotation))
     }
 }
 
-/// How many times what its terms resolve a row can be brought to: the terms of a row are some dozens, and each comes from a few
-/// operations that round by half an `EPSILON`.
+/// How many times what its terms resolve a row can be brought to: the terms of a row are some
+/// dozens, and each comes from a few operations that round by half an `EPSILON`.
 const REACHED: f64 = 4.0;
 
-/// A movement of less than this part of the shortest length, or of so many radians, changes sizes and compliances by about as much: no more than it matters to either.
+/// A movement of less than this part of the shortest length, or of so many radians, changes sizes
+/// and compliances by about as much: no more than it matters to either.
 const LITTLE: f64 = 1e-4;
 
 impl<S: Real, M: Mechanism> Rows<S, M> {
     /// The rows at a time and configuration.
     ///
-    /// The length of a row is the longest arm of its joint, from a centre of mass to the point of the joint there; where all
-    /// vanish, the extent of the mechanism. A row that is not linear in the positions has a radius of curvature, which takes
-    /// the place of a longer arm: for the distance of two points this distance.
+    /// The length of a row is the longest arm of its joint, from a centre of mass to the point of
+    /// the joint there; where all vanish, the extent of the mechanism. A row that is not linear in
+    /// the positions has a radius of curvature, which takes the place of a longer arm: for the
+    /// distance of two points this distance.
     pub(crate) fn at(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
         let zeros = M::Multipliers::<S>::zeros;
         let mut rows = Self {
@@ -120,7 +128,8 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         );
     }
 
-    /// Whether a movement is so small that the rows are as good as those of the state that is reached.
+    /// Whether a movement is so small that the rows are as good as those of the state that is
+    /// reached.
     pub(crate) fn are_kept_by(&self, step: &M::Velocities<S>) -> bool {
         let angle = S::constant(LITTLE);
         let lengths = self.length.as_slice().iter().copied();
@@ -200,7 +209,8 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         })
     }
 
-    /// The sizes of `Phi'`. The speeds are those of the bodies of a row; round-off comes from all that stand in one system with it.
+    /// The sizes of `Phi'`. The speeds are those of the bodies of a row; round-off comes from all
+    /// that stand in one system with it.
     pub(crate) fn velocities(&self, state: &M::State<S>, before: Speeds<S>) -> Sizes<S, M> {
         let own = self.own_speeds(state);
         let all = self.speeds(state);
@@ -289,8 +299,9 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         }
     }
 
-    /// The norm of a violation in the metric of the mass, row by row: what a correction lessens, also where it cannot take the whole
-    /// violation away. What the terms of a row do not resolve does not count.
+    /// The norm of a violation in the metric of the mass, row by row: what a correction lessens,
+    /// also where it cannot take the whole violation away. What the terms of a row do not resolve
+    /// does not count.
     pub(crate) fn norm(&self, sizes: &Sizes<S, M>, violation: &M::Multipliers<S>) -> S {
         let rows = sizes.rows(violation).zip(self.stiffness.as_slice());
         let sum = rows.fold(
@@ -324,7 +335,8 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         own
     }
 
-    /// Multipliers in proportion to those that a correction leaves with a violation: its compliances are as the stiffnesses.
+    /// Multipliers in proportion to those that a correction leaves with a violation: its
+    /// compliances are as the stiffnesses.
     pub(crate) fn multipliers(&self, violation: &M::Multipliers<S>) -> M::Multipliers<S> {
         let mut multipliers = *violation;
         let rows = multipliers.as_mut_slice().iter_mut();
@@ -333,8 +345,10 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         multipliers
     }
 
-    /// The square of what one metre is in the unit of each row, by the largest part of its gradient: 1 for most, `(2 l)^2` for the difference of squares of a
-    /// length `l`, and `1 / radian^2` for a row of rotations alone, whose radian counts as so many metres. A row that vanishes counts as it is.
+    /// The square of what one metre is in the unit of each row, by the largest part of its
+    /// gradient: 1 for most, `(2 l)^2` for the difference of squares of a length `l`, and
+    /// `1 / radian^2` for a row of rotations alone, whose radian counts as so many metres. A row
+    /// that vanishes counts as it is.
     pub(crate) fn units(&self, radian: S) -> M::Multipliers<S> {
         let mut units = M::Multipliers::<S>::zeros();
         let elements = units.as_mut_slice().iter_mut().zip(self.meanings());
@@ -350,7 +364,8 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         units
     }
 
-    /// What one metre or one radian is in the unit of each row, and whether it is metres that the row speaks of.
+    /// What one metre or one radian is in the unit of each row, and whether it is metres that the
+    /// row speaks of.
     pub(crate) fn meanings(&self) -> impl Iterator<Item = (S, bool)> + '_ {
         let parts = self.translation.as_slice().iter();
         let parts = parts
@@ -376,7 +391,8 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         lengths.filter(|&length| length > S::zero()).reduce(S::min)
     }
 
-    /// The least mass (kg) that a row feels, where a radian counts as so many metres; `None` without rows.
+    /// The least mass (kg) that a row feels, where a radian counts as so many metres; `None`
+    /// without rows.
     pub(crate) fn lightest(&self, radian: S) -> Option<S> {
         let units = self.units(radian);
         let rows = units.as_slice().iter().zip(self.stiffness.as_slice());
@@ -398,7 +414,8 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         rates.fold(S::zero(), S::max)
     }
 
-    /// Compliances of the rows: a part of what each yields to a unit load; any positive number for a row that vanishes.
+    /// Compliances of the rows: a part of what each yields to a unit load; any positive number for
+    /// a row that vanishes.
     pub(crate) fn compliances(&self, part: S) -> M::Multipliers<S> {
         let mut compliances = self.stiffness;
         for element in compliances.as_mut_slice() {
@@ -417,7 +434,8 @@ fn felt<S: Real>(stiffness: S) -> S {
     }
 }
 
-/// The norms of the rows of `D` by translation and by rotation, of the body where they are largest, and their stiffness.
+/// The norms of the rows of `D` by translation and by rotation, of the body where they are largest,
+/// and their stiffness.
 fn add_blocks<S: Real>(
     blocks: &[Block],
     jacobian: &[S],
@@ -468,7 +486,8 @@ pub(crate) fn evened<S: Real, M: Mechanism>(values: &mut M::Multipliers<S>) {
     }
 }
 
-/// What counted turns add to the terms of the rows that they stand in: found by one more turn of each counter that is beyond a radian.
+/// What counted turns add to the terms of the rows that they stand in: found by one more turn of
+/// each counter that is beyond a radian.
 fn counted<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,
@@ -515,7 +534,8 @@ fn moving<S: Real, M: Mechanism>(state: &M::State<S>, speed: impl Fn(usize) -> S
     moving
 }
 
-/// Components that no mechanism is made of, from -1/2 to 1/2: the fractions of multiples of the golden section.
+/// Components that no mechanism is made of, from -1/2 to 1/2: the fractions of multiples of the
+/// golden section.
 pub(crate) fn fraction<S: Real>(place: usize) -> S {
     S::constant((place + 1) as f64 * 0.618_033_988_749_895 % 1.0 - 0.5)
 }

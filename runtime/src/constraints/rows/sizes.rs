@@ -13,8 +13,9 @@ pub(crate) struct Sizes<S: Scalar, M: Mechanism> {
     pub(super) resolution: M::Multipliers<S>,
     /// What that is compared with: where it is no small part, nothing is resolved.
     pub(super) whole: M::Multipliers<S>,
-    /// What counts as zero in a row: of velocities, those whose squares have lost digits to the end of the range of numbers, in the unit of the row. A mechanism that a law
-    /// brings to rest gets there.
+    /// What counts as zero in a row: of velocities, those whose squares have lost digits to the end
+    /// of the range of numbers, in the unit of the row. A mechanism that a law brings to rest gets
+    /// there.
     pub(super) vanishing: M::Multipliers<S>,
 }
 
@@ -26,15 +27,16 @@ impl<S: Scalar, M: Mechanism> Clone for Sizes<S, M> {
 
 impl<S: Scalar, M: Mechanism> Copy for Sizes<S, M> {}
 
-/// Up to which multiple it counts as brought to: where the round-off of a solution comes on top, which a further iteration need not lessen.
+/// Up to which multiple it counts as brought to: where the round-off of a solution comes on top,
+/// which a further iteration need not lessen.
 const RESOLVED: f64 = 32.0;
 
 /// Of what is resolved to less than two digits nothing can be said.
 const COARSEST: f64 = 1e-2;
 
 impl<S: Real, M: Mechanism> Sizes<S, M> {
-    /// The Euclidean norm of all violations, in sizes of their rows: what the terms of a row do not resolve at a tolerance adds
-    /// to its size.
+    /// The Euclidean norm of all violations, in sizes of their rows: what the terms of a row do not
+    /// resolve at a tolerance adds to its size.
     pub(crate) fn measure(&self, violation: &M::Multipliers<S>, tolerance: S) -> S {
         let relative = self.relative(violation, tolerance);
         relative
@@ -80,7 +82,8 @@ impl<S: Real, M: Mechanism> Sizes<S, M> {
         })
     }
 
-    /// Whether every row is violated by no more than a part of its size, or than what its terms resolve.
+    /// Whether every row is violated by no more than a part of its size, or than what its terms
+    /// resolve.
     pub(crate) fn within(&self, violation: &M::Multipliers<S>, part: S) -> bool {
         let mut rows = self.rows(violation).zip(self.vanishing.as_slice());
         rows.all(|((violation, natural, resolution, whole), &vanishing)| {

@@ -18,15 +18,18 @@ where
     F: Formulation<S>,
     A: AppliedForces<S, M>,
 {
-    /// Shows the end of a step to the watch, which wants to know of all joints: pivots and multipliers of one evaluation of the bodies. Where that has none,
-    /// its pivot says why. What the velocities that rows determine lose counts as well: there, and not where a method evaluated last.
+    /// Shows the end of a step to the watch, which wants to know of all joints: pivots and
+    /// multipliers of one evaluation of the bodies. Where that has none, its pivot says why. What
+    /// the velocities that rows determine lose counts as well: there, and not where a method
+    /// evaluated last.
     pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
         let _ = self.bodies.rates(time, bodies);
         let pivot = self.pivot(time, bodies).map(|pivot| pivot.relative);
         self.bodies.watch(watch, (time, bodies), pivot);
     }
 
-    /// The smallest relative pivot by joints, where bodies stand so, as the square of a distance; `None` where none is recorded.
+    /// The smallest relative pivot by joints, where bodies stand so, as the square of a distance;
+    /// `None` where none is recorded.
     fn pivot(&self, time: S, bodies: &M::State<S>) -> Option<Pivot<S>> {
         if M::JOINT_REPORT.rows.is_empty() || F::Terms::COMPLIANT {
             return None;

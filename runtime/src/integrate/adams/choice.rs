@@ -3,7 +3,8 @@
 use super::coefficients::HIGHEST;
 use crate::math::scalar::Real;
 
-/// The coefficients of the errors at orders 1 to 13, of Moulton's formulas: Shampine and Gordon, subroutine STEP, to the digits given there.
+/// The coefficients of the errors at orders 1 to 13, of Moulton's formulas: Shampine and Gordon,
+/// subroutine STEP, to the digits given there.
 const ERRORS: [f64; 13] = [
     0.5, 0.0833, 0.0417, 0.0264, 0.0188, 0.0143, 0.0114, 0.009_36, 0.007_89, 0.006_79, 0.005_92,
     0.005_24, 0.004_68,
@@ -25,7 +26,8 @@ pub(super) struct Errors<S> {
     pub(super) lowers: bool,
 }
 
-/// Order and step after an accepted step of that order and size: block 4 of STEP, without its beginning. `above` is the error at one order more, where steps are equal so that it is known.
+/// Order and step after an accepted step of that order and size: block 4 of STEP, without its
+/// beginning. `above` is the error at one order more, where steps are equal so that it is known.
 pub(super) fn chosen<S: Real>(
     (order, step): (usize, S),
     allowed: S,

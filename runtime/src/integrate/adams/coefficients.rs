@@ -1,5 +1,6 @@
-//! The coefficients of the formulas of Adams on times that are not equally spaced, with the letters of Shampine and Gordon, *Computer Solution of Ordinary Differential
-//! Equations* (1975), chapter 5 and subroutines STEP and INTRP.
+//! The coefficients of the formulas of Adams on times that are not equally spaced, with the letters
+//! of Shampine and Gordon, *Computer Solution of Ordinary Differential Equations* (1975), chapter 5
+//! and subroutines STEP and INTRP.
 
 use core::ops::{Index, IndexMut};
 
@@ -83,7 +84,8 @@ impl<S: Real> Coefficients<S> {
         }
     }
 
-    /// Makes the coefficients of a step of this size and order: block 1 of STEP. Nothing changes while equal steps outnumber the order.
+    /// Makes the coefficients of a step of this size and order: block 1 of STEP. Nothing changes
+    /// while equal steps outnumber the order.
     pub(super) fn prepare(&mut self, step: S, order: usize) {
         if step != self.last_step {
             self.equal = 0;
@@ -148,7 +150,8 @@ impl<S: Real> Coefficients<S> {
         }
     }
 
-    /// The weights of the differences at a time from the end of the last step, negative within it: INTRP.
+    /// The weights of the differences at a time from the end of the last step, negative within it:
+    /// INTRP.
     pub(super) fn within(&self, time: S) -> Row<S> {
         let terms = self.last_order + 1;
         let mut w = Row::of(&S::zero());
@@ -178,7 +181,8 @@ fn whole<S: Real>(number: usize) -> S {
 mod tests {
     use super::*;
 
-    /// Of equal steps, the weights are those of Bashforth: Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, table III.1.1.
+    /// Of equal steps, the weights are those of Bashforth: Hairer, Norsett and Wanner, *Solving
+    /// Ordinary Differential Equations I*, table III.1.1.
     #[test]
     fn equal_steps_have_the_weights_of_bashforth() {
         let mut coefficients = Coefficients::new();

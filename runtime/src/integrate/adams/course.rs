@@ -11,7 +11,8 @@ use crate::integrate::{Counted, Counts, Course, Span, System, named};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// What the first step takes of the change that the tolerance allows, and the power of the step that the error at order 1 goes with.
+/// What the first step takes of the change that the tolerance allows, and the power of the step
+/// that the error at order 1 goes with.
 const FIRST_SHARE: f64 = 0.25;
 const FIRST_POWER: f64 = 2.0;
 
@@ -23,7 +24,8 @@ pub struct AdamsCourse<S: Real, X: Vector<S>> {
     /// The size and the order of the next step.
     next_step: S,
     order: usize,
-    /// While no error has forbidden it yet, every step is twice as long as that before, and of an order more.
+    /// While no error has forbidden it yet, every step is twice as long as that before, and of an
+    /// order more.
     is_starting: bool,
     counts: Counts,
     time: S,
@@ -76,7 +78,8 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         })
     }
 
-    /// Puts the slope at a state that was corrected in the place of that at the state before, in all differences that it is part of.
+    /// Puts the slope at a state that was corrected in the place of that at the state before, in
+    /// all differences that it is part of.
     fn renew<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
         let mut counted = Counted {
             system,
@@ -124,7 +127,8 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         self.coefficients.take_back(step, order);
     }
 
-    /// The errors of a trial: blocks 2 and 3 of STEP. `surprise` is the slope at the predicted state less that which was predicted.
+    /// The errors of a trial: blocks 2 and 3 of STEP. `surprise` is the slope at the predicted
+    /// state less that which was predicted.
     fn errors(&self, step: S, predicted: &X, surprise: &X) -> (S, Errors<S>) {
         let (k, phi, c) = (self.order, &self.differences, &self.coefficients);
         let floor = self.controller.floor;
@@ -198,7 +202,8 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         Ok(Trial::Accepted { state, errors })
     }
 
-    /// Takes the slope at the end of an accepted step into the differences, and chooses order and size of the next one: block 4 of STEP.
+    /// Takes the slope at the end of an accepted step into the differences, and chooses order and
+    /// size of the next one: block 4 of STEP.
     fn go_on(&mut self, step: S, from: &X, errors: Errors<S>) {
         let (k, phi) = (self.order, &mut self.differences);
         phi[k + 1] = difference(&self.slope, &phi[1]);

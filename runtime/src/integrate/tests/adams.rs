@@ -50,7 +50,8 @@ fn ellipse<I: Integrator<f64>>(method: I) -> (f64, Counts) {
     (distance([x, y], [0.5, 0.0]), counts)
 }
 
-/// The closed orbit of Arenstorf, once round: Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, (II.0.1).
+/// The closed orbit of Arenstorf, once round: Hairer, Norsett and Wanner, *Solving Ordinary
+/// Differential Equations I*, (II.0.1).
 fn arenstorf<I: Integrator<f64>>(method: I) -> (f64, Counts) {
     let rates = |_: f64, &[x, y, u, v]: &[f64; 4]| {
         let moon = 0.012_277_471;

@@ -73,7 +73,8 @@ fn pairs_turn_as_angles_do() {
     assert!((order - 4.0).abs() < 0.3, "{order} {errors:?}");
 }
 
-/// Half the step at half the evaluations: with as many it is about as exact as the classical method.
+/// Half the step at half the evaluations: with as many it is about as exact as the classical
+/// method.
 #[test]
 fn it_is_as_exact_as_the_classical_method_for_as_many_evaluations() {
     let exact = [10.0_f64.cos(), -(10.0_f64.sin())];
@@ -111,7 +112,8 @@ fn it_is_as_exact_as_the_classical_method_for_as_many_evaluations() {
     );
 }
 
-/// A correction of the size of the error after every step does not cost the order, nor an evaluation.
+/// A correction of the size of the error after every step does not cost the order, nor an
+/// evaluation.
 #[test]
 fn a_corrected_state_keeps_the_slopes_before() {
     let run = |is_corrected: bool| {
@@ -140,7 +142,8 @@ fn a_corrected_state_keeps_the_slopes_before() {
     );
 }
 
-/// What a run takes from [`crate::Integrator::turning_error`]: with `z` half the angle of a step, an angle is off by less than `|p|`.
+/// What a run takes from [`crate::Integrator::turning_error`]: with `z` half the angle of a step,
+/// an angle is off by less than `|p|`.
 #[test]
 fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
     let mut system = equation(|_, &[a, b]: &[f64; 2]| [-b, a]);

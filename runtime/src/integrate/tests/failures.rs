@@ -80,7 +80,8 @@ fn rates_of_nan_leave_the_last_good_state() {
     assert_eq!(state, [1.0]);
 }
 
-/// `y' = -y`; at one stage of a step, and there alone, the rate is not finite, or there is none. Only [`System::rates`] says why.
+/// `y' = -y`; at one stage of a step, and there alone, the rate is not finite, or there is none.
+/// Only [`System::rates`] says why.
 struct Hole {
     /// Beyond this time.
     time: f64,
@@ -125,7 +126,8 @@ fn the_stage_that_is_not_finite_is_asked_why() {
         Some(-f64::INFINITY),
         None,
     ];
-    // Stages of a step of 1 from 0: all of Dormand and Prince's, both of the classical method's, and the start.
+    // Stages of a step of 1 from 0: all of Dormand and Prince's, both of the classical method's,
+    // and the start.
     for (left, time) in left
         .into_iter()
         .flat_map(|left| [-0.1, 0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 0.95].map(|time| (left, time)))

@@ -93,7 +93,8 @@ fn dormand_prince_has_order_five_and_an_interpolant_of_order_four() {
     // The leading coefficients of the error are small: the next order shows.
     let order_at_ends = order((coarse.0, fine.0));
     assert!((4.8..5.4).contains(&order_at_ends), "{coarse:?} {fine:?}");
-    // The error of the free interpolant within a step is of order h^5, as that of the steps together.
+    // The error of the free interpolant within a step is of order h^5, as that of the steps
+    // together.
     assert!(order((coarse.1, fine.1)) > 4.5, "{coarse:?} {fine:?}");
 }
 
@@ -249,7 +250,8 @@ fn a_replaced_state_is_evaluated_anew() {
     assert!((course.state()[0] - 2.0 * (start - course.time()).exp()).abs() < 1e-6);
 }
 
-/// Problem C03: a step of RK4 at a constant angular velocity multiplies `|p|^2` by `1 - z^6/72 + z^8/576`.
+/// Problem C03: a step of RK4 at a constant angular velocity multiplies `|p|^2` by
+/// `1 - z^6/72 + z^8/576`.
 #[test]
 fn euler_parameters_lose_length_at_the_known_rate() {
     for (speed, drift) in [
@@ -318,7 +320,8 @@ fn midpoint_and_heun_have_order_two_at_and_within_steps() {
     }
 }
 
-/// With `z` half the angle of a step, both multiply `|p|^2` by `1 + z^4 / 4`, and semi-implicit Euler, where velocities stay, by `1 + z^2`.
+/// With `z` half the angle of a step, both multiply `|p|^2` by `1 + z^4 / 4`, and semi-implicit
+/// Euler, where velocities stay, by `1 + z^2`.
 #[test]
 fn euler_parameters_gain_length_by_methods_of_low_order() {
     let half = 5.0;
@@ -356,7 +359,8 @@ impl System<f64> for Spring {
     }
 }
 
-/// `q^2 + u^2 - h q u` stays what it is: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, IX.3.
+/// `q^2 + u^2 - h q u` stays what it is: Hairer, Lubich and Wanner, *Geometric Numerical
+/// Integration*, IX.3.
 #[test]
 fn semi_implicit_euler_keeps_its_energy_and_has_order_one() {
     let at = |step: f64, steps: u32| {

@@ -131,7 +131,8 @@ fn tight() -> DormandPrince<f64> {
     })
 }
 
-/// Errors (rad) of the angles after a time: of the pairs, of the numbers, with the worst length of the pairs.
+/// Errors (rad) of the angles after a time: of the pairs, of the numbers, with the worst length of
+/// the pairs.
 pub(super) fn compared<I: Integrator<f64>, L: Law<f64, N> + Copy, const N: usize>(
     method: I,
     law: L,
@@ -198,7 +199,8 @@ fn the_adaptive_method_keeps_its_tolerance_on_pairs() {
     }
 }
 
-/// Nothing accelerates: every method is exact at any step, and the adaptive one makes it as long as it may.
+/// Nothing accelerates: every method is exact at any step, and the adaptive one makes it as long as
+/// it may.
 #[test]
 fn a_wheel_turns_by_many_turns_in_a_step() {
     struct Wheel;
@@ -228,7 +230,8 @@ fn a_wheel_turns_by_many_turns_in_a_step() {
     check(DormandPrince::<f64>::default());
 }
 
-/// The worst difference (rad) between angles from pairs and from numbers, at ends of steps and within; the worst error of pairs at ends, and within.
+/// The worst difference (rad) between angles from pairs and from numbers, at ends of steps and
+/// within; the worst error of pairs at ends, and within.
 fn within<K: Scheme<f64>>(method: FixedStep<f64, K>, speed: f64) -> [f64; 3] {
     let (mut of_pairs, mut of_angles) = (pairs(Spinning), angles(Spinning));
     let (turned, plain) = starts([speed]);

@@ -103,7 +103,8 @@ fn evaluations_are_counted_those_of_a_jacobian_with_them() {
     evaluations_are_counted(bdf(1e-6));
 }
 
-/// `y'' = ((1 - y^2) y' - y) / eps`, and the values at 1 and 2 of the test set of Hairer and Wanner.
+/// `y'' = ((1 - y^2) y' - y) / eps`, and the values at 1 and 2 of the test set of Hairer and
+/// Wanner.
 fn van_der_pol(time: f64, &[y, rate]: &[f64; 2]) -> [f64; 2] {
     let _ = time;
     [rate, ((1.0 - y * y) * rate - y) * 1e6]
@@ -193,7 +194,8 @@ fn slow_reactions_are_not_held_up_by_fast_ones() {
     slow_reactions(Bdf::new(fine), 400);
 }
 
-/// A pendulum `angle'' = -sin(angle)` whose angle is held by a stiff, heavily damped spring to a second one on its circle.
+/// A pendulum `angle'' = -sin(angle)` whose angle is held by a stiff, heavily damped spring to a
+/// second one on its circle.
 struct Pair;
 
 impl System<f64> for Pair {

@@ -15,22 +15,27 @@ use crate::mechanism::kernels::{Evaluation, Mechanism, Normalised, Pivot, Terms}
 use crate::state::vector::{Array, StateParts};
 use crate::watch::Passage;
 
-/// The largest turn (rad), or movement in lengths of the mechanism, of a stride: velocities and accelerations predict one to about a thousandth.
+/// The largest turn (rad), or movement in lengths of the mechanism, of a stride: velocities and
+/// accelerations predict one to about a thousandth.
 const TURN: f64 = 0.2;
 
-/// The same near a singular configuration, where branches are near to each other: a stride is half as long as the way there, but no shorter than this.
+/// The same near a singular configuration, where branches are near to each other: a stride is half
+/// as long as the way there, but no shorter than this.
 const TURN_NEAR_SINGULAR: f64 = 0.02;
 
-/// How far the pose of a stride may be from the prediction: a part of its turn, and what a motion that begins from rest may do (rad).
+/// How far the pose of a stride may be from the prediction: a part of its turn, and what a motion
+/// that begins from rest may do (rad).
 const OFF: [f64; 2] = [0.1, 0.01];
 
 /// The same of its velocities, over the time of the stride.
 const OFF_BY_VELOCITY: [f64; 2] = [0.25, 0.02];
 
-/// How often strides are halved below the longest: a pose that is not found from there is beyond a limit of the motion.
+/// How often strides are halved below the longest: a pose that is not found from there is beyond a
+/// limit of the motion.
 const HALVINGS: i32 = 30;
 
-/// A rest of the way of up to this many strides is gone in one, so that round-off leaves no sliver of it; halfway between one and two.
+/// A rest of the way of up to this many strides is gone in one, so that round-off leaves no sliver
+/// of it; halfway between one and two.
 const LAST_STRIDE: f64 = 1.5;
 
 /// A pose that was found, with velocities, accelerations and multipliers.
@@ -130,7 +135,8 @@ where
             .step(self.dynamics.constants(), at, pivot, motion);
     }
 
-    /// The smallest pivot without a compliance; `None` where equations are kept that depend on others.
+    /// The smallest pivot without a compliance; `None` where equations are kept that depend on
+    /// others.
     fn pivot(&self, found: &Found<S, M>) -> Option<Pivot<S>> {
         if M::REPORT.equations == 0 || M::REPORT.keeps_redundant() {
             None
@@ -141,7 +147,8 @@ where
         }
     }
 
-    /// The pose at a later time. Strides follow the motion: by how far it leads, and by how well it is predicted.
+    /// The pose at a later time. Strides follow the motion: by how far it leads, and by how well it
+    /// is predicted.
     pub(super) fn follow(
         &mut self,
         from: Found<S, M>,

@@ -47,7 +47,8 @@ fn million<S: Real>(increment: f64) -> (f64, f64) {
     (length, angle)
 }
 
-/// Numbers of at most twelve binary digits, below and above the bound of the series, up to ten turns.
+/// Numbers of at most twelve binary digits, below and above the bound of the series, up to ten
+/// turns.
 const INCREMENTS: [f64; 14] = [
     0.0,
     1.0 / 1_048_576.0,
@@ -150,7 +151,8 @@ fn a_turn_does_not_depend_on_its_neighbours() {
     assert!(!lost.is_finite());
 }
 
-/// The errors of angle and length of a sum beside a known one, where the known one turns by `near` and the sum by `more` beyond.
+/// The errors of angle and length of a sum beside a known one, where the known one turns by `near`
+/// and the sum by `more` beyond.
 fn beside<S: Real>(start: f64, near: f64, more: f64) -> [f64; 2] {
     let number = S::constant;
     let slope = |rate: f64| JointState::from_parts([[number(rate), S::zero()]], [number(3.0)], []);
@@ -211,7 +213,8 @@ fn little_turns_beside_do_not_depend_on_their_neighbours() {
     assert!(to(f64::INFINITY)[2].iter().all(|element| element.is_nan()));
 }
 
-/// The worst errors of angle and length of the sum of one slope, once and twice, of a pair and what stands beside it.
+/// The worst errors of angle and length of the sum of one slope, once and twice, of a pair and what
+/// stands beside it.
 fn once_and_twice<S: Real, const T: usize>(start: f64, angle: f64) -> [f64; 2] {
     let number = S::constant;
     let (mut from, mut slope) = ([pair(0.4); T], [[number(0.003), S::zero()]; T]);

@@ -9,7 +9,8 @@ use crate::assembler::Assembler;
 use crate::bodies::{Body, BodyId, GROUND};
 use crate::joints::Joint;
 
-/// A rigid body with a random mass (kg), inertia (kg m^2), position (up to 0.5 m per axis) and orientation, at rest.
+/// A rigid body with a random mass (kg), inertia (kg m^2), position (up to 0.5 m per axis) and
+/// orientation, at rest.
 #[must_use]
 pub fn random_body(rng: &mut ChaCha8Rng) -> Body {
     // Sums of two of three positive numbers: the moments of a body that can exist.

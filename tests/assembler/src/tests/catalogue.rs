@@ -1,4 +1,5 @@
-//! Every joint and driver of the library with random data, and its definition in global axes, written down once more.
+//! Every joint and driver of the library with random data, and its definition in global axes,
+//! written down once more.
 
 use core::f64::consts::TAU;
 
@@ -214,7 +215,8 @@ pub(super) fn catalogue() -> Vec<Entry> {
     ]
 }
 
-/// Joints that hold in the reference configuration for any data; the others have to be corrected onto their rows.
+/// Joints that hold in the reference configuration for any data; the others have to be corrected
+/// onto their rows.
 pub(super) fn holds_as_described(name: &str) -> bool {
     const OTHERS: [&str; 6] = [
         "Universal",

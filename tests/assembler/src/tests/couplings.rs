@@ -1,4 +1,5 @@
-//! Joints that transmit rotation, with the transmission that is known for them, and the count of turns.
+//! Joints that transmit rotation, with the transmission that is known for them, and the count of
+//! turns.
 
 use core::f64::consts::TAU;
 
@@ -77,7 +78,8 @@ fn a_bent_universal_joint_has_the_published_ratio() {
         let at = scene.kinematics(x.as_slice());
         let turn = scene.angle([GROUND, shafts[0]], axes[0]).principal(&at);
         let [first, second] = rates(&scene, shafts, axes, x.as_slice());
-        // From f_1 = (cos, sin, 0) perpendicular to f_2: tan of the second angle = cos bend tan of the first.
+        // From f_1 = (cos, sin, 0) perpendicular to f_2: tan of the second angle = cos bend tan of
+        // the first.
         let ratio = bend.cos() / (1.0 - (bend.sin() * turn.sin()).powi(2));
         assert_close("rates", &[second], &[first * ratio], 1e-10);
     }

@@ -93,7 +93,8 @@ fn joints_hold_as_described_and_their_rows_are_independent() {
         let x = scene.initial_state();
         if holds_as_described(entry.name) {
             let phi = scene.constraints(x.as_slice());
-            // A difference of squares of some metres: 20 m^2 have a round-off of 4e-15 m^2, several times.
+            // A difference of squares of some metres: 20 m^2 have a round-off of 4e-15 m^2, several
+            // times.
             assert_close(entry.name, phi.as_slice(), &vec![0.0; phi.len()], 1e-13);
         }
         let (joint, _) = scene.joint(scene.joint_ids().next().expect("a joint"));
@@ -243,7 +244,8 @@ fn reactions_are_in_balance() {
         if !holds_as_described(entry.name) {
             return;
         }
-        // On the constraints: the three rows of two points pull them together along no line in common elsewhere.
+        // On the constraints: the three rows of two points pull them together along no line in
+        // common elsewhere.
         let x = random_consistent_state(&scene, 0.0, Spread::default(), rng);
         let x = x.as_slice();
         let joint = scene.joint_ids().next().expect("a joint");

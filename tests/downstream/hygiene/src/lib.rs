@@ -1,5 +1,6 @@
-//! Mechanisms among names that generated code must not meet: constants in lower case, which a pattern of the same name would mean;
-//! types and traits named like those of the language; fields named like words of later editions.
+//! Mechanisms among names that generated code must not meet: constants in lower case, which a
+//! pattern of the same name would mean; types and traits named like those of the language; fields
+//! named like words of later editions.
 #![forbid(unsafe_code)]
 #![allow(
     dead_code,
@@ -53,7 +54,8 @@ pub mod constants {
 
     const LENGTH: f64 = 1.0;
 
-    /// With constants, a parameter, an input, an angle over turns, and every check of numbers that are known at run time.
+    /// With constants, a parameter, an input, an angle over turns, and every check of numbers that
+    /// are known at run time.
     #[derive(Mechanism)]
     #[mechanism(gravity = [0.0, 0.0, -9.81])]
     pub struct Driven {

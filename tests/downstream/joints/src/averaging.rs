@@ -1,7 +1,8 @@
 //! Joints between three bodies.
 
 kinematics::joint! {
-    /// A point of the third body stays in the middle between a point of the first and a point of the second.
+    /// A point of the third body stays in the middle between a point of the first and a point of
+    /// the second.
     pub joint Midpoint(i, j, k; left: Point, right: Point, middle: Point) {
         k.middle - 0.5 * (i.left + j.right);
     }

@@ -8,8 +8,8 @@ const TOLERANCE: f64 = 1e-7;
 /// A step for differences of fourth order.
 const STEP: f64 = 4e-3;
 
-/// The described state, away from its configuration and moving: every body displaced, turned and given velocities that
-/// depend on its place alone.
+/// The described state, away from its configuration and moving: every body displaced, turned and
+/// given velocities that depend on its place alone.
 ///
 /// # Panics
 /// If the mechanism has a parameter that is not acceptable.
@@ -42,8 +42,8 @@ pub fn constraints<M: Mechanism>(mechanism: &M, state: &M::State<f64>) -> M::Mul
 
 /// Asserts that `D`, `Phi'` and `gamma` are the derivatives of `Phi` at a state.
 ///
-/// `D` along displacements and rotations about body axes; `Phi' = D u`; `gamma` from the second derivative along the motion
-/// with constant `u`, where `0 = D u' = Phi'' + gamma`.
+/// `D` along displacements and rotations about body axes; `Phi' = D u`; `gamma` from the second
+/// derivative along the motion with constant `u`, where `0 = D u' = Phi'' + gamma`.
 ///
 /// # Panics
 /// If they are not.
@@ -134,7 +134,8 @@ fn stencil<M: Mechanism>(
     sum
 }
 
-/// The state after a time with constant `u`: exact, because a constant rate about body axes turns about a fixed axis.
+/// The state after a time with constant `u`: exact, because a constant rate about body axes turns
+/// about a fixed axis.
 fn moved<M: Mechanism>(state: &M::State<f64>, time: f64) -> M::State<f64> {
     let mut result = *state;
     let velocities = state.velocities().as_slice();

@@ -1,6 +1,7 @@
 //! Joints that a user defines in a crate of their own, where `holonom` bears another name.
 //!
-//! Each is a type like those of `holonom::joints`; two bear the name of a built-in joint and are something else.
+//! Each is a type like those of `holonom::joints`; two bear the name of a built-in joint and are
+//! something else.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -32,8 +33,8 @@ kinematics::joint! {
 }
 
 kinematics::joint! {
-    /// A ball that keeps a distance from its socket, given by a vector on the socket: not the built-in joint of this
-    /// name.
+    /// A ball that keeps a distance from its socket, given by a vector on the socket: not the
+    /// built-in joint of this name.
     pub joint Spherical(i, j; point: Point, seat: Vector, play: Number) {
         j.point - i.point - play * i.seat;
     }

@@ -54,8 +54,8 @@ fn phi_is_what_the_formulas_say() {
     let state = disturbed(&mechanism);
     let vector = |[x, y, z]: [f64; 3]| Vector3::new(x, y, z);
     let (crank, rocker, bead) = (M::HANDLES.crank, M::HANDLES.rocker, M::HANDLES.bead);
-    // Points and directions in body axes, by hand: the crank's axes are global at the start, those of the rocker turned by
-    // a right angle, so that a global (x, y, z) is (y, -x, z) along them.
+    // Points and directions in body axes, by hand: the crank's axes are global at the start, those
+    // of the rocker turned by a right angle, so that a global (x, y, z) is (y, -x, z) along them.
     let on_crank = |p| M::point(&state, crank, vector(p));
     let on_rocker = |p| M::point(&state, rocker, vector(p));
     let centres = [crank, rocker, bead].map(|body| M::pose(&state, body).position);

@@ -14,7 +14,8 @@ pub struct Crane {
     spare: crate::ropes::spare::Rope,
 }
 
-/// The acceleration (m/s^2) of a hook of 100 kg that hangs beside its trolley by a tenth of the rope's length.
+/// The acceleration (m/s^2) of a hook of 100 kg that hangs beside its trolley by a tenth of the
+/// rope's length.
 ///
 /// # Errors
 /// The description has no parameter that could be refused.

@@ -1,4 +1,5 @@
-//! Mechanisms over joints of other crates, beside built-in ones of the same names, where `holonom` bears a third name.
+//! Mechanisms over joints of other crates, beside built-in ones of the same names, where `holonom`
+//! bears a third name.
 //!
 //! What the derive and `joint!` write must not disturb a crate that refuses every warning.
 #![no_std]

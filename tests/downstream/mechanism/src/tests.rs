@@ -83,13 +83,15 @@ fn a_field_that_is_configured_out_leaves_no_trace() {
 
 #[test]
 fn a_mechanism_in_a_function_moves() {
-    // Hanging at rest at the angle a from the vertical: g sin(a) along the tangent, whose x component is -cos(a) of it.
+    // Hanging at rest at the angle a from the vertical: g sin(a) along the tangent, whose x
+    // component is -cos(a) of it.
     let sine: f64 = 0.1;
     let expected = -10.0 * sine * (1.0 - sine * sine).sqrt();
     assert_near("u'", [0, 0], sway().unwrap(), expected);
 }
 
-/// Everything that a built-in driver and joint have, a joint of another crate has: handle, readings, efforts, report, parameters.
+/// Everything that a built-in driver and joint have, a joint of another crate has: handle,
+/// readings, efforts, report, parameters.
 #[test]
 fn a_driven_joint_of_another_crate_reads_like_a_built_in_one() {
     let probe = Probe::new(0.3, 0.25).unwrap();
@@ -131,7 +133,8 @@ fn a_driven_joint_of_another_crate_reads_like_a_built_in_one() {
     assert_eq!(times, 31);
 }
 
-/// A number that is not acceptable, and rows that depend on each other, are reported under the name of the field.
+/// A number that is not acceptable, and rows that depend on each other, are reported under the name
+/// of the field.
 #[test]
 fn errors_at_run_time_name_a_joint_of_another_crate() {
     let error = Probe::new(f64::NAN, 0.25).unwrap_err();
@@ -142,7 +145,8 @@ fn errors_at_run_time_name_a_joint_of_another_crate() {
         std::format!("{crossed}"),
         "`axis` of `arm` must not be the zero vector"
     );
-    // Two of them along one line hold the same five motions twice. What moves against them at the start is beside the point.
+    // Two of them along one line hold the same five motions twice. What moves against them at the
+    // start is beside the point.
     let twice = Crossed::new(0.0, 0.0, 1.0).unwrap();
     let error = Simulation::new(&twice, StandardLagrange, Rk4::every(0.1))
         .inconsistent_start()

@@ -1,4 +1,5 @@
-//! Hands the joints of another crate on: under other names, as a module, and by a glob. Knows nothing of `holonom`.
+//! Hands the joints of another crate on: under other names, as a module, and by a glob. Knows
+//! nothing of `holonom`.
 #![no_std]
 #![forbid(unsafe_code)]
 

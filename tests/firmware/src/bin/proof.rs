@@ -1,4 +1,5 @@
-//! Everything that a loop of a controller calls, in all formulations, by all methods of a fixed step. It links only if nothing of it can panic.
+//! Everything that a loop of a controller calls, in all formulations, by all methods of a fixed
+//! step. It links only if nothing of it can panic.
 
 #![no_std]
 #![no_main]

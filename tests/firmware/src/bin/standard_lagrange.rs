@@ -1,4 +1,5 @@
-//! Mechanisms with equations left, in the standard formulation with Lagrange multipliers, without any stabilisation.
+//! Mechanisms with equations left, in the standard formulation with Lagrange multipliers, without
+//! any stabilisation.
 
 #![no_std]
 #![no_main]

@@ -7,7 +7,8 @@ pub(crate) use cortex_m_stack::{current_stack_in_use, repaint_stack, stack_paint
 
 pub use cortex_m_rt::entry;
 
-/// Instructions of a tick of the timer, with `-icount shift=0`: an instruction takes 1 ns there, and the boards' clock 40.
+/// Instructions of a tick of the timer, with `-icount shift=0`: an instruction takes 1 ns there,
+/// and the boards' clock 40.
 const INSTRUCTIONS_PER_TICK: u32 = 40;
 
 /// Does some work while the timer runs.

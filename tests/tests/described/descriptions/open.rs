@@ -14,7 +14,8 @@ fn refused<M: JointCoordinates>(
         .expect_err("inconsistent")
 }
 
-/// Whatever is asked for: a joint of the tree cannot be open, and of one that closes a loop nobody would know.
+/// Whatever is asked for: a joint of the tree cannot be open, and of one that closes a loop nobody
+/// would know.
 #[test]
 fn open_joints_are_refused() {
     let crane = Crane::driven().expect("acceptable");

@@ -8,8 +8,9 @@ use holonom_assembler::bodies::{self, GROUND};
 use super::{add_revolute, turned};
 use crate::scene::Scene;
 
-/// A four-bar in the yz plane at the start: crank and rocker on hinges, the coupler between two balls. The coupler may turn
-/// about its own line and the hinges are not quite parallel, so that no equation is redundant: 2 degrees of freedom.
+/// A four-bar in the yz plane at the start: crank and rocker on hinges, the coupler between two
+/// balls. The coupler may turn about its own line and the hinges are not quite parallel, so that no
+/// equation is redundant: 2 degrees of freedom.
 #[derive(Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
 pub(crate) struct FourBar {

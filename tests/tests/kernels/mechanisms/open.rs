@@ -57,7 +57,8 @@ impl Scene for DoublePendulum {
     }
 }
 
-/// Three hinges in a row: no axis along a principal axis, every body turned against the global axes.
+/// Three hinges in a row: no axis along a principal axis, every body turned against the global
+/// axes.
 #[derive(Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
 pub(crate) struct ObliqueChain {

@@ -8,7 +8,8 @@ use holonom_assembler::bodies::{self, GROUND};
 use super::{add_revolute, turned};
 use crate::scene::Scene;
 
-/// A door of 0.8 m x 2 m and 20 kg on two hinges: 10 equations, 5 of them independent. The edge leans 10 degrees.
+/// A door of 0.8 m x 2 m and 20 kg on two hinges: 10 equations, 5 of them independent. The edge
+/// leans 10 degrees.
 #[derive(Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81 * cos(deg(10.0)), -9.81 * sin(deg(10.0))], redundant = "keep")]
 pub(crate) struct Door {

@@ -17,8 +17,9 @@ pub(crate) const TILTED: [[f64; 3]; 3] =
 /// The tensor of `upright` in its own axes (kg m^2).
 pub(crate) const UPRIGHT: [[f64; 3]; 3] = [[0.05, 0.0, 0.01], [0.0, 0.06, 0.0], [0.01, 0.0, 0.04]];
 
-/// Two bodies with full tensors, one of them turned; the second joint is given by points on the bodies, in the axes in which
-/// the bodies are described, and is violated by some centimetres at the start.
+/// Two bodies with full tensors, one of them turned; the second joint is given by points on the
+/// bodies, in the axes in which the bodies are described, and is violated by some centimetres at
+/// the start.
 #[derive(Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
 pub(crate) struct FullTensors {
@@ -43,8 +44,9 @@ pub(crate) struct FullTensors {
     ball: Spherical,
 }
 
-/// Euler parameters of the principal axes of a body, and its principal moments, from the user's axes and tensor and the
-/// rotation that the mechanism says is between them. The rotation must make the tensor diagonal.
+/// Euler parameters of the principal axes of a body, and its principal moments, from the user's
+/// axes and tensor and the rotation that the mechanism says is between them. The rotation must make
+/// the tensor diagonal.
 fn principal<M: Mechanism>(
     body: usize,
     tensor: [[f64; 3]; 3],

@@ -24,7 +24,8 @@ holonom::joint! {
     }
 }
 
-/// A body on a ball, kept square to a second one that a rod holds; a bead hangs from it on another rod.
+/// A body on a ball, kept square to a second one that a rod holds; a bead hangs from it on another
+/// rod.
 #[derive(Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -1.0, -9.81])]
 pub(crate) struct Tethered {

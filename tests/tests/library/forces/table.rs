@@ -71,7 +71,8 @@ holonom::force! {
 }
 
 holonom::force! {
-    /// A dipole of `j` in a field fixed on `i`, which fades along it; and a magnetic detent about the axis.
+    /// A dipole of `j` in a field fixed on `i`, which fades along it; and a magnetic detent about
+    /// the axis.
     force Dipole(i, j; point: Point, axis: Axis, field: Vector) {
         let height = dot(i.axis, j.point - i.point);
         potential -dot(i.field, j.axis) * exp(-0.3 * height) + 0.2 * cos(3.0 * angle(i, j, axis));

@@ -1,4 +1,5 @@
-//! Numbers of the arms: forward dynamics and free motion by Pinocchio (`aba`), from the URDF files of example-robot-data.
+//! Numbers of the arms: forward dynamics and free motion by Pinocchio (`aba`), from the URDF files
+//! of example-robot-data.
 
 use super::{Reference, State};
 

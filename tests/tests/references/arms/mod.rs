@@ -1,4 +1,5 @@
-//! UR5 and Panda against Pinocchio: accelerations, reactions and energies at given states, and a free motion.
+//! UR5 and Panda against Pinocchio: accelerations, reactions and energies at given states, and a
+//! free motion.
 
 mod data;
 
@@ -13,7 +14,8 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use super::{difference, tight};
 
-/// What is known of an arm of `N` joints: the configuration of zero angles, global axes, from the ground outwards; and how it moves.
+/// What is known of an arm of `N` joints: the configuration of zero angles, global axes, from the
+/// ground outwards; and how it moves.
 struct Reference<const N: usize> {
     /// Points on the axes (m).
     points: [[f64; 3]; N],
@@ -21,7 +23,8 @@ struct Reference<const N: usize> {
     /// Centres of mass (m).
     centres: [[f64; 3]; N],
     states: [State<N>; 5],
-    /// Angles (rad) and rates (rad/s) half a second after a start at rest with 0.3 rad in every joint, without torques.
+    /// Angles (rad) and rates (rad/s) half a second after a start at rest with 0.3 rad in every
+    /// joint, without torques.
     later: [[f64; N]; 2],
 }
 
@@ -125,7 +128,8 @@ fn state<M: Arm<N>, const N: usize>(arm: &M, angles: [f64; N], rates: [f64; N]) 
         ..
     } = M::REFERENCE;
     let mut state = arm.described_state().expect("sound");
-    // Of the link before: how it is turned, where the origin of the zero configuration is on it, and how these move.
+    // Of the link before: how it is turned, where the origin of the zero configuration is on it,
+    // and how these move.
     let mut turned = UnitQuaternion::identity();
     let mut origin = Vector3::zeros();
     let (mut spin, mut velocity) = (Vector3::zeros(), Vector3::zeros());
@@ -219,7 +223,8 @@ fn by_joints<M: Arm<N>, const N: usize>(arm: &M, state: &M::State<f64>) -> [f64;
     let dynamics = JointDynamics::new(arm, StandardLagrange).expect("sound");
     let state = dynamics.joints(state).expect("closed");
     let evaluation = dynamics.evaluate(0.0, &state).expect("regular");
-    // The rates of angles are linear in the velocities of the joints, whatever these are counted against.
+    // The rates of angles are linear in the velocities of the joints, whatever these are counted
+    // against.
     let mut rates = state;
     let accelerations = evaluation.rates.rates_slice();
     rates.rates_slice_mut().copy_from_slice(accelerations);

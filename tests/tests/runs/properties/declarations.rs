@@ -6,7 +6,8 @@ use super::*;
 /// s.
 const STEP: f64 = 1.0 / 512.0;
 
-/// Position (m), two directions, velocity (m/s) and angular velocity (rad/s, global) of three bodies.
+/// Position (m), two directions, velocity (m/s) and angular velocity (rad/s, global) of three
+/// bodies.
 type Numbers = Vec<f64>;
 
 /// A displacement of the start (m/s) that is far above round-off.
@@ -53,7 +54,8 @@ fn linkage(data: &Data, by_joints: bool) -> Numbers {
     )
 }
 
-/// The largest difference that round-off leaves: some ten operations deep a step and entry, carried on as a displacement of the start is.
+/// The largest difference that round-off leaves: some ten operations deep a step and entry, carried
+/// on as a displacement of the start is.
 fn round_off(growth: f64) -> f64 {
     64.0 * f64::EPSILON / STEP * growth.max(1.0)
 }

@@ -5,13 +5,15 @@ use holonom::{FixedStep, View};
 use super::mechanisms::{Floating, Linkage};
 use super::*;
 
-/// The largest changes over a run, of the energy (J), the linear (N s) and the angular momentum about the origin (N m s), and the largest `|Phi|`.
+/// The largest changes over a run, of the energy (J), the linear (N s) and the angular momentum
+/// about the origin (N m s), and the largest `|Phi|`.
 type Changes = [f64; 4];
 
 /// Energies are some ten joules, momenta some units; a thousand steps round, now up and now down.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Linear momentum and angular momentum about the origin of bodies of these masses and moments of inertia, summed by hand.
+/// Linear momentum and angular momentum about the origin of bodies of these masses and moments of
+/// inertia, summed by hand.
 fn momenta<M: Mechanism>(
     view: &View<'_, f64, M>,
     bodies: &[(BodyHandle<M>, f64, [f64; 3])],
@@ -88,7 +90,8 @@ const TREE_BY_JOINTS: Exact = [false, false, false, true];
 /// Nothing is read of momenta where there is none.
 const LINKAGE: Exact = [false, true, true, false];
 
-/// What is exact stays at round-off; all else falls by this factor at least, where it is not round-off.
+/// What is exact stays at round-off; all else falls by this factor at least, where it is not
+/// round-off.
 fn falls([coarse, fine]: [Changes; 2], exact: Exact, factor: f64) {
     println!("{coarse:?} {fine:?}");
     assert!(coarse[0] > ROUND_OFF, "nothing moves");
@@ -104,7 +107,8 @@ fn halved(of: impl Fn(FixedStep<f64, Rk4>) -> Changes, exact: Exact) {
     falls(steps.map(of), exact, 2.0_f64.powf(3.5));
 }
 
-/// Errors are proportional to the tolerance for an error of order 5 controlled step by step; within a factor of ten, because steps are not all the same part of it.
+/// Errors are proportional to the tolerance for an error of order 5 controlled step by step; within
+/// a factor of ten, because steps are not all the same part of it.
 fn controlled(of: impl Fn(DormandPrince<f64>) -> Changes, exact: Exact) {
     let tolerances = [1e-6, 1e-10].map(|tolerance| {
         DormandPrince::new(Tolerance {

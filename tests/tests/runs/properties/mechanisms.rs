@@ -1,10 +1,12 @@
-//! Mechanisms whose masses, lengths, axes and stiffness are random, and one of them declared in three ways.
+//! Mechanisms whose masses, lengths, axes and stiffness are random, and one of them declared in
+//! three ways.
 
 use holonom::forces::SpringDamper;
 use holonom::joints::{Distance, Revolute, Spherical, Universal};
 use holonom::prelude::*;
 
-/// An arm, a ball, a hinge and a stay that closes the loop, under gravity and on a spring: four degrees of freedom.
+/// An arm, a ball, a hinge and a stay that closes the loop, under gravity and on a spring: four
+/// degrees of freedom.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub(super) struct Linkage {
@@ -64,8 +66,10 @@ pub(super) struct Backwards {
     heavy: f64,
 }
 
-/// The same mixed, with other names, which decide among equals in the order of elimination, and with the bodies of the ball and the stay the other way round, which
-/// changes no more than a sign. (Not those of a hinge: its equations stand on other normals then, and runs differ by what they drift.)
+/// The same mixed, with other names, which decide among equals in the order of elimination, and
+/// with the bodies of the ball and the stay the other way round, which changes no more than a sign.
+/// (Not those of a hinge: its equations stand on other normals then, and runs differ by what they
+/// drift.)
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 pub(super) struct Renamed {
@@ -95,7 +99,8 @@ pub(super) struct Renamed {
     w: Revolute,
 }
 
-/// Nothing holds it and nothing acts from outside: a hub with a wheel, an arm on a ball, and a tail on a cross.
+/// Nothing holds it and nothing acts from outside: a hub with a wheel, an arm on a ball, and a tail
+/// on a cross.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(coordinates = "joints")]
 pub(super) struct Floating {

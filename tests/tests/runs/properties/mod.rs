@@ -1,5 +1,5 @@
-//! What holds for any mechanism: random ones keep their energy and momentum and stay on their constraints as well as the order of the method says, and how they are declared
-//! does not matter.
+//! What holds for any mechanism: random ones keep their energy and momentum and stay on their
+//! constraints as well as the order of the method says, and how they are declared does not matter.
 
 mod declarations;
 mod invariants;
@@ -33,7 +33,8 @@ struct Data {
     lean: f64,
     /// N/m.
     stiffness: f64,
-    /// Velocities (m/s) and angular velocities (rad/s) of four bodies, before they are corrected onto the constraints.
+    /// Velocities (m/s) and angular velocities (rad/s) of four bodies, before they are corrected
+    /// onto the constraints.
     motion: [[f64; 6]; 4],
 }
 

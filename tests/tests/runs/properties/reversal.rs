@@ -24,7 +24,8 @@ fn there_and_back<Y: System<f64>>(
     }
 }
 
-/// How far a motion there and back ends from where it began, by bodies and by joints: places (m) and velocities (m/s, rad/s).
+/// How far a motion there and back ends from where it began, by bodies and by joints: places (m)
+/// and velocities (m/s, rad/s).
 fn return_errors<M: JointCoordinates>(
     mechanism: &M,
     bodies: &[BodyHandle<M>],
@@ -73,7 +74,8 @@ fn returns<M: JointCoordinates>(mechanism: &M, bodies: &[BodyHandle<M>], start: 
     let symmetric = return_errors(mechanism, bodies, start, ImplicitMidpoint);
     let explicit = return_errors(mechanism, bodies, start, Heun);
     println!("{symmetric:?} {explicit:?}");
-    // Five hundred steps, whose round-off a motion like this spreads by some hundred; an iteration ends at round-off.
+    // Five hundred steps, whose round-off a motion like this spreads by some hundred; an iteration
+    // ends at round-off.
     assert!(
         symmetric.iter().all(|&error| error < 1e-10),
         "{symmetric:?}"

@@ -1,7 +1,7 @@
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 
-/// Two links of a Puma 560 as published (Armstrong, Khatib and Burdick 1986): the first without a mass, the third with moments that violate the triangle inequality.
+/// Two links of a Puma 560 as published (Armstrong, Khatib and Burdick 1986): a mass, moments.
 #[derive(Mechanism)]
 struct Puma {
     #[body(mass = 0.0, inertia = [0.0, 0.35, 0.0])]

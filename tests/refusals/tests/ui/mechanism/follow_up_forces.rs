@@ -1,4 +1,4 @@
-//! A wrong definition is reported where it stands: its users, joints with laws and forces alike, add nothing.
+//! A wrong definition is reported where it stands: its users add nothing.
 #![deny(warnings)]
 
 use holonom::prelude::*;

@@ -1,4 +1,4 @@
-//! A fault in a definition is reported there, whatever names the joint travels under; a fault in its use is reported at the use,
+//! A fault in a definition is reported there, whatever the joint is called; one in its use,
 //! whatever crate defines it.
 
 use holonom::prelude::*;

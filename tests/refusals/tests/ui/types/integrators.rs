@@ -1,4 +1,4 @@
-//! A run takes a method with its steps, a stepper one without; joint coordinates are asked for at the mechanism.
+//! A run takes a method with its steps, a stepper one without; joints are asked for.
 
 use holonom::DormandPrince5;
 use holonom::prelude::*;

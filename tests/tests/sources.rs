@@ -1,4 +1,7 @@
-//! No test looks at a clock: what a machine does beside it would decide. Bounds are counts; speed is measured by the benches.
+//! What every source keeps to.
+//!
+//! No test looks at a clock: what a machine does beside it would decide. Bounds are counts; speed
+//! is measured by the benches. No comment is wider than 100 columns: the formatter does not see it.
 
 #![forbid(unsafe_code)]
 
@@ -62,4 +65,29 @@ fn a_clock_is_recognised() {
     let text = ["let start = std::time::Instant", "::now();"].concat();
     assert_eq!(asks(&text).count(), 1);
     assert_eq!(asks("an instant").count(), 0);
+}
+
+/// Characters of a line.
+const COLUMNS: usize = 100;
+
+#[test]
+fn no_comment_is_wider_than_a_hundred_columns() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    let root = root.expect("the workspace");
+    let mut all = Vec::new();
+    sources(root, &mut all);
+    let mut wide = Vec::new();
+    for path in all {
+        let text = fs::read_to_string(&path).expect("readable");
+        for (place, line) in text.lines().enumerate() {
+            let comment = line.trim_start().strip_prefix("//");
+            // A row of a table is one line.
+            let is_row =
+                |comment: &str| comment.trim_start_matches(['/', '!', ' ']).starts_with('|');
+            if line.chars().count() > COLUMNS && comment.is_some_and(|comment| !is_row(comment)) {
+                wide.push(format!("{}:{}", path.display(), place + 1));
+            }
+        }
+    }
+    assert!(wide.is_empty(), "wider than {COLUMNS} columns: {wide:#?}");
 }
