@@ -9,7 +9,11 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use holonom::prelude::*;
-use holonom::{Dynamics, JointCoordinates, JointDynamics, Scheme, System};
+use holonom::{
+    JointCoordinates,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::{Scheme, System},
+};
 use holonom_models::{Bricard, CartPole, FourBar, HeavyTop, Panda, RodPendulum, SliderCrank, Ur5};
 
 /// States in every bench.

@@ -8,7 +8,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use holonom::{Dynamics, Mechanism, StandardLagrange, System, Vector};
+use holonom::{Mechanism, StandardLagrange, dynamics::Dynamics, integrate::System, state::Vector};
 use holonom_benches::opponents::{START, Schur, StaticElimination, StaticSchur, Textbook};
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::{Method, Settings};

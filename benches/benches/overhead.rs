@@ -12,8 +12,11 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{
-    Array, Dynamics, Formulation, Mechanism, Normalised, Plain, Rk4, Scheme, StandardLagrange,
-    StateParts, System,
+    Formulation, Mechanism, Rk4, StandardLagrange, StateParts,
+    dynamics::Dynamics,
+    integrate::{Scheme, System},
+    mechanism::{Normalised, Plain},
+    state::Array,
 };
 use holonom_models::{FourBar, RodPendulum};
 
@@ -107,7 +110,7 @@ fn overhead<M: Mechanism + Default>(criterion: &mut Criterion, name: &str) {
     });
     group.bench_function("evaluation", |bencher| {
         bencher.iter(|| {
-            let mut place = holonom::Evaluation::zeros();
+            let mut place = holonom::mechanism::Evaluation::zeros();
             for state in &states {
                 let _ = black_box(dynamics.evaluate_into(0.0, black_box(state), &mut place));
                 black_box(&place);

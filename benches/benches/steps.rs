@@ -19,7 +19,11 @@ use std::hint::black_box;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use holonom::prelude::*;
-use holonom::{Array, Formulation, JointCoordinates, JointState, JointStepper, Plain, Rk4, Vector};
+use holonom::{
+    Formulation, JointCoordinates, JointStepper, Rk4,
+    mechanism::Plain,
+    state::{Array, JointState, Vector},
+};
 use holonom_models::{
     Bricard, CartPole, FourBar, HeavyTop, Panda, RodPendulum, SliderCrank, SqueezingMechanism, Ur5,
 };

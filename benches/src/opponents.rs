@@ -4,7 +4,7 @@
 //! computed from it, the rates of the Euler parameters included: that is what gives the published
 //! counts of evaluations.
 
-use holonom::{Fault, NotFinite, System};
+use holonom::{Fault, error::NotFinite, integrate::System};
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::formulation::{Evaluator, Formulation, SolveError};
 use holonom_assembler::scenes;
@@ -247,7 +247,7 @@ fn fault(error: SolveError, iterations: usize) -> Fault {
 #[cfg(test)]
 mod tests {
     use super::{START, Schur, State, StaticElimination, StaticSchur, Textbook};
-    use holonom::System;
+    use holonom::integrate::System;
     use holonom_assembler::formulation::Formulation;
     use holonom_study::chapter15::{Method, Settings};
     use holonom_study::run::integrate;

@@ -10,7 +10,7 @@
 
 use std::hint::black_box;
 
-use holonom::{Fault, NotFinite, Real, Scalar, System, Vector as _};
+use holonom::{Fault, Real, Scalar, error::NotFinite, integrate::System, state::Vector as _};
 use holonom_study::compare::measure::Subject;
 
 /// `x = (r, p, v, w)` of the rod: position (m, global), Euler parameters, velocity (m/s, global),

@@ -1,6 +1,6 @@
 //! The pendulum written by hand against the generated one, and its operations.
 
-use holonom::{Dynamics, Mechanism, Scalar as _, StandardLagrange, StateParts as _};
+use holonom::{Mechanism, Scalar as _, StandardLagrange, StateParts as _, dynamics::Dynamics};
 use holonom_benches::opponents::START;
 use holonom_benches::yardstick::{State, evaluate};
 use holonom_models::RodPendulum;

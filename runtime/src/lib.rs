@@ -38,18 +38,18 @@ compile_error!(
 );
 
 mod assembly;
-mod constraints;
-mod dynamics;
-mod error;
-mod formulation;
+pub mod constraints;
+pub mod dynamics;
+pub mod error;
+pub mod formulation;
 mod forward;
-mod integrate;
+pub mod integrate;
 mod math;
-mod measure;
-mod mechanism;
-mod run;
-mod state;
-mod watch;
+pub mod measure;
+pub mod mechanism;
+pub mod run;
+pub mod state;
+pub mod watch;
 
 #[cfg(test)]
 mod tests;
@@ -161,65 +161,52 @@ pub mod joints;
 /// names, the plan of the solution and the operations of every kernel, which the documentation of
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
-pub use mechanism::body::{Body, Particle};
 
-pub use constraints::projection::{Correction, Moved, Projection};
+pub use constraints::projection::{Correction, Projection};
 pub use constraints::scales::Scales;
-pub use dynamics::joint_dynamics::JointDynamics;
-pub use dynamics::moving::{Bodies, Description, Joints, Moving};
-pub use dynamics::{Dynamics, Iterations};
-pub use error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
-pub use formulation::{
-    AugmentedLagrangian, Baumgarte, Formulation, JointSaddle, JointSolution, Penalty, Saddle,
-    Solution, StandardLagrange,
-};
+pub use error::{Fault, ParameterError, SimulationError};
+pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, StandardLagrange};
 pub use forward::Forward;
 pub use integrate::{
-    Adams, AdamsBashforthMoulton4, AdamsCourse, AdamsFixedCourse, Adaptive, AdaptiveCourse,
-    AlphaEnd, AlphaStep, AlphaWeights, Bdf, BdfCourse, BogackiShampine, BogackiShampine3,
-    BogackiShampineStages, Counts, Course, DormandPrince, DormandPrince5, DormandPrince8,
-    DormandPrince8Stages, DormandPrince853, DormandPrinceStages, EmbeddedPair, Ends, FixedCourse,
-    FixedStep, GeneralizedAlpha, GeneralizedAlphaCourse, Heun, ImplicitMidpoint, Integrator,
-    Midpoint, NoStages, RadauCourse, RadauIIA, Rk4, Scheme, SemiImplicitEuler, Span, Start,
-    StepLimits, Stride, System, Tolerance,
+    Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince, DormandPrince853,
+    GeneralizedAlpha, Heun, ImplicitMidpoint, Midpoint, RadauIIA, Rk4, SemiImplicitEuler,
+    StepLimits, Tolerance,
 };
 pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
-pub use measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+pub use measure::load::Loads;
 pub use measure::reaction::Wrench;
 pub use measure::view::View;
-pub use mechanism::handle::{
-    BodyHandle, CountsTurns, Driven, Force, ForceHandle, HasAngle, HasDisplacement, Joint,
-    JointHandle,
-};
-pub use mechanism::joint_kernels::{
-    Freedom, JointCoordinates, JointCounter, JointEvaluation, JointMotion, JointParts, JointReport,
-};
-pub use mechanism::kernels::{
-    Chapter15, Compliant, Evaluation, Mechanism, Normalised, Orientation, Pivot, Plain, Raw,
-    Stabilisation, Stabilised, Terms,
-};
-pub use mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
-pub use mechanism::report::{
-    Block, BodyInfo, BodyKind, Carrier, ExplicitTime, ForceInfo, JointInfo, Kernel, Operations,
-    Rank, RedundantRow, Report,
-};
+pub use mechanism::body::{Body, Particle};
+pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};
+pub use mechanism::joint_kernels::JointCoordinates;
+pub use mechanism::kernels::Mechanism;
+pub use mechanism::report::Report;
 pub use nalgebra;
-pub use run::direct::DirectCorrection;
 pub use run::joint_stepper::JointStepper;
 pub use run::kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use run::output::{Reporting, every, every_step};
-pub use run::post_step::{Treatment, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use run::recorder::{RecordError, Recorder};
 pub use run::report::{RunReport, RunResult};
 pub use run::sample::Sample;
 pub use run::simulation::Simulation;
 pub use run::stepper::Stepper;
-pub use state::each::{EachOfJoints, EachOfState};
-pub use state::joint_state::JointState;
-pub use state::vector::{Array, State, StateParts, Vector};
-pub use watch::{Doubt, Doubts, Excused, ShortestGradient, SmallestPivot, Violation, Watch};
+pub use state::vector::StateParts;
+pub use watch::{Doubt, Doubts, Watch};
+
+/// What generated code names.
+#[doc(hidden)]
+pub use crate::{
+    error::ParameterFault,
+    mechanism::{
+        AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts, Driven,
+        Evaluation, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle, HasDisplacement,
+        Joint, JointCounter, JointEvaluation, JointInfo, JointMotion, JointParts, JointReport,
+        Kernel, Operations, Orientation, Pivot, Rank, RedundantRow, Stabilisation, Terms,
+    },
+    state::{Array, JointState, State},
+};
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in
 /// `holonom::joints`, by name.
@@ -228,9 +215,10 @@ pub mod prelude {
 
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, KinematicAnalysis,
-        Loads, Mechanism, MechanismExt, Normalised, ParameterError, Particle, Penalty, Projection,
-        Raw, Rk4, RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange,
-        StateParts, Stepper, Tolerance, every, every_step,
+        Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty, Projection, Rk4,
+        RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange, StateParts,
+        Stepper, Tolerance, every, every_step,
+        mechanism::{Normalised, Raw},
     };
 }
 

@@ -239,18 +239,18 @@ pub const fn part<T: Part>() {}
 #[derive(Clone, Copy, Debug)]
 pub struct AnyJoint;
 
-impl crate::Joint for AnyJoint {
+impl crate::mechanism::Joint for AnyJoint {
     const NAME: &'static str = "";
     const EQUATIONS: usize = 0;
     const BODIES: usize = 0;
     const FINGERPRINT: u64 = 0;
 }
 
-impl crate::HasAngle for AnyJoint {}
+impl crate::mechanism::HasAngle for AnyJoint {}
 
-impl crate::HasDisplacement for AnyJoint {}
+impl crate::mechanism::HasDisplacement for AnyJoint {}
 
-impl crate::Driven for AnyJoint {
+impl crate::mechanism::Driven for AnyJoint {
     const ROW: usize = 0;
 }
 
@@ -291,7 +291,7 @@ macro_rules! __stub_mechanism {
                 $mechanism: 'static,
                 $($bounds)*
             {
-                type State<__S: $crate::Scalar> = $crate::State<__S, 0, 0>;
+                type State<__S: $crate::Scalar> = $crate::state::State<__S, 0, 0>;
                 type Velocities<__S: $crate::Scalar> = [__S; 0];
                 type Multipliers<__S: $crate::Scalar> = [__S; 0];
                 type Jacobian<__S: $crate::Scalar> = [__S; 0];
@@ -316,10 +316,10 @@ macro_rules! __stub_mechanism {
                     auxiliaries: 0,
                     velocities: 0,
                     equations: 0,
-                    rank: $crate::Rank::NotDecided,
+                    rank: $crate::mechanism::Rank::NotDecided,
                     redundant: &[],
                     degrees_of_freedom: 0,
-                    time: $crate::ExplicitTime::NONE,
+                    time: $crate::mechanism::ExplicitTime::NONE,
                     curved: false,
                     kernels: &[],
                     plan: "",
@@ -327,7 +327,7 @@ macro_rules! __stub_mechanism {
                 fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<(), $crate::ParameterError> { loop {} }
                 fn inputs<__S: $crate::Scalar>(&self) -> Self::Inputs<__S> { loop {} }
                 fn prepare<__S: $crate::Scalar>(_: &()) -> [__S; 0] { [] }
-                fn coefficients_by_row<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
+                fn coefficients_by_row<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::mechanism::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
                 fn initial_state<__S: $crate::Scalar>(_: &[__S; 0]) -> Self::State<__S> { loop {} }
                 fn constraints<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> [__S; 0] { [] }
                 fn constraint_rates<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> [__S; 0] { [] }
@@ -338,16 +338,16 @@ macro_rules! __stub_mechanism {
                 fn kinetic_energy<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> __S { loop {} }
                 fn potential_energy<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> __S { loop {} }
                 fn coordinate_rates<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> [__S; 0] { [] }
-                fn evaluate_into<__S: $crate::Scalar, __T: $crate::Terms, __P: $crate::Orientation>(
+                fn evaluate_into<__S: $crate::Scalar, __T: $crate::mechanism::Terms, __P: $crate::mechanism::Orientation>(
                     _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::State<__S>, _: &mut Self::State<__S>, _: &mut [__S; 0],
-                ) -> $crate::Pivot<__S> { loop {} }
-                fn factor<__S: $crate::Scalar, __T: $crate::Terms>(
+                ) -> $crate::mechanism::Pivot<__S> { loop {} }
+                fn factor<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(
                     _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::State<__S>,
-                ) -> ([__S; 0], $crate::Pivot<__S>) { loop {} }
-                fn solve<__S: $crate::Scalar, __T: $crate::Terms>(
+                ) -> ([__S; 0], $crate::mechanism::Pivot<__S>) { loop {} }
+                fn solve<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(
                     _: &[__S; 0], _: &[__S; 0], _: &[__S; 0], _: &[__S; 0], _: &[__S; 0],
                 ) -> ([__S; 0], [__S; 0]) { ([], []) }
-                fn joint_angle<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>, _: usize) -> $crate::AngleParts<__S> { loop {} }
+                fn joint_angle<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>, _: usize) -> $crate::mechanism::AngleParts<__S> { loop {} }
                 fn joint_point<__S: $crate::Scalar>(_: &[__S; 0], _: usize, _: usize) -> [__S; 3] { loop {} }
                 fn user_axes(_: usize) -> [f64; 4] { [1.0, 0.0, 0.0, 0.0] }
             }

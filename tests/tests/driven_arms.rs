@@ -3,7 +3,7 @@
 
 use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
-use holonom::{Array, JointCoordinates, JointDynamics, JointHandle};
+use holonom::{JointCoordinates, JointHandle, dynamics::JointDynamics, state::Array};
 
 #[path = "references/arms/data.rs"]
 mod data;

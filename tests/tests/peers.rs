@@ -10,8 +10,8 @@ use differential_equations::methods::{
 use differential_equations::prelude::{IVP, ODE};
 use holonom::prelude::*;
 use holonom::{
-    Adams, AdamsBashforthMoulton4, Bdf, Course as _, DormandPrince853, Integrator, RadauIIA, Span,
-    System,
+    Adams, AdamsBashforthMoulton4, Bdf, DormandPrince853, RadauIIA,
+    integrate::{Course as _, Integrator, Span, System},
 };
 use holonom_study::pendulum::RigidPendulum;
 

@@ -5,7 +5,8 @@ use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
-    Formulation, ImplicitMidpoint, Integrator, JointCoordinates, Midpoint, RadauIIA, Real,
+    Formulation, ImplicitMidpoint, JointCoordinates, Midpoint, RadauIIA, Real,
+    integrate::Integrator,
 };
 
 /// A rod that hangs still, from a hinge whose axis is not a coordinate axis.

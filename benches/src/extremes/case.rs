@@ -1,7 +1,8 @@
 //! Motions in closed form as problems.
 
 use holonom::{
-    Array as _, Fault, JointCoordinates, MechanismExt as _, Real, Span, StateParts as _, View,
+    Fault, JointCoordinates, MechanismExt as _, Real, StateParts as _, View, integrate::Span,
+    state::Array as _,
 };
 use holonom_study::pendulum::wrapped;
 use holonom_study::trade::{Problem, Quantity};

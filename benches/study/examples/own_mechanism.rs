@@ -11,7 +11,7 @@ use std::path::Path;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Real, Span, View};
+use holonom::{Real, View, integrate::Span};
 use holonom_study::trade::{
     Both, Grid, Problem, Processor, Quantity, Timing, Wish, measure, recommend, report,
 };

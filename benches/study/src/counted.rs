@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
-use holonom::{Operations, Real, Scalar};
+use holonom::{Real, Scalar, mechanism::Operations};
 
 thread_local! {
     static OPERATIONS: Cell<Operations> = const { Cell::new(Operations::NONE) };

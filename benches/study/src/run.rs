@@ -4,8 +4,11 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use holonom::{
-    Counts, Course as _, Fault, Formulation, Integrator, Iterations, Mechanism, Orientation, Real,
-    Sample, Simulation, Span, System, every,
+    Fault, Formulation, Mechanism, Real, Sample, Simulation,
+    dynamics::Iterations,
+    every,
+    integrate::{Counts, Course as _, Integrator, Span, System},
+    mechanism::Orientation,
 };
 
 use crate::error::StudyError;
@@ -161,7 +164,10 @@ fn reporting_time<S: Real>(span: &Span<S>, number: u32) -> Option<S> {
 #[cfg(test)]
 mod tests {
     use super::integrate;
-    use holonom::{DormandPrince, Fault, Rk4, Span, System, Tolerance};
+    use holonom::{
+        DormandPrince, Fault, Rk4, Tolerance,
+        integrate::{Span, System},
+    };
 
     /// `y' = -y`
     struct Decay;

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use holonom::joints::Revolute;
 use holonom::{
-    AugmentedLagrangian, Baumgarte, DormandPrince, Formulation, Mechanism, Penalty, Span,
-    StandardLagrange, Tolerance,
+    AugmentedLagrangian, Baumgarte, DormandPrince, Formulation, Mechanism, Penalty,
+    StandardLagrange, Tolerance, integrate::Span,
 };
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::outcome::{Instant, Outcome};

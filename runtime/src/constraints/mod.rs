@@ -12,3 +12,5 @@ pub(crate) mod rows;
 pub(crate) mod scales;
 pub(crate) mod self_stress;
 pub(crate) mod side;
+
+pub use projection::Moved;

@@ -30,7 +30,7 @@ use crate::mechanism::report::BodyKind;
 /// ```
 /// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
-/// use holonom::{JointDynamics, Scheme};
+/// use holonom::{dynamics::JointDynamics, integrate::Scheme};
 ///
 /// #[derive(Mechanism)]
 /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]

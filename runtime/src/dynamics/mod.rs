@@ -13,6 +13,9 @@ mod secants;
 mod trial;
 mod watched;
 
+pub use joint_dynamics::JointDynamics;
+pub use moving::{Bodies, Description, Joints, Moving};
+
 use core::marker::PhantomData;
 
 pub(crate) use faults::singular;

@@ -81,7 +81,7 @@ pub enum Fault {
         joint: usize,
         /// The joint's field.
         name: &'static str,
-        /// The relative pivot, see [`crate::Pivot`].
+        /// The relative pivot, see [`crate::mechanism::Pivot`].
         relative_pivot: f64,
     },
     /// The iteration of the augmented Lagrangian, or of a correction, did not converge.
@@ -104,7 +104,7 @@ pub enum Fault {
         /// Whether it was the least one that the run may take, and not what the time resolves.
         is_least: bool,
         /// The joint whose pivot has nearly vanished, where that is the cause, see
-        /// [`crate::Pivot`].
+        /// [`crate::mechanism::Pivot`].
         joint: Option<&'static str>,
         /// What the digits of the number type resolve of the largest position (m), where that is
         /// coarser than the absolute tolerance.
@@ -155,7 +155,7 @@ pub enum Fault {
         /// The iterations done.
         iterations: usize,
         /// The joint whose pivot has nearly vanished, where the configuration is the cause, see
-        /// [`crate::Pivot`].
+        /// [`crate::mechanism::Pivot`].
         joint: Option<&'static str>,
     },
     /// The factor of a penalty is so large that its compliance is lost in round-off, while
@@ -172,7 +172,7 @@ pub enum Fault {
         /// How many it has taken.
         evaluations: usize,
         /// The joint whose pivot has nearly vanished, where the configuration is the cause, see
-        /// [`crate::Pivot`].
+        /// [`crate::mechanism::Pivot`].
         joint: Option<&'static str>,
     },
     /// A run was to begin where a joint is open, or where its bodies move against it.
@@ -222,7 +222,7 @@ pub enum Fault {
         /// By how much (rad, or lengths of the mechanism).
         size: f64,
         /// The joint whose pivot has nearly vanished, where a singular configuration is the cause,
-        /// see [`crate::Pivot`].
+        /// see [`crate::mechanism::Pivot`].
         joint: Option<&'static str>,
     },
     /// A tolerance, a step or a coefficient that is not finite and positive.

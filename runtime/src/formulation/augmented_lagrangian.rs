@@ -31,7 +31,7 @@ use crate::state::vector::Array;
 /// equation to a hundredth of the terms of the equation: in these directions the formulation is a
 /// penalty with the compliance `e / max_iterations`. Where equations stay nearly dependent as the
 /// mechanism moves, the iteration goes on by conjugate gradients, which take about one solution for
-/// each such `s`, up to `max_iterations` more. [`Iterations::excused`](crate::Iterations::excused)
+/// each such `s`, up to `max_iterations` more. [`Iterations::excused`](crate::dynamics::Iterations::excused)
 /// counts evaluations that end before their tolerance. Where the loads do not cancel, slow
 /// convergence is [`Fault::NotConverged`]: `alpha` is too small for the masses.
 ///
@@ -90,7 +90,7 @@ impl<S: Real> AugmentedLagrangian<S> {
     /// known in advance; at least 2.
     ///
     /// The tolerance is not looked at then: a part `(e / (e + s))^(solutions - 1)` of the bias of
-    /// the penalty is left, see above. [`Dynamics::inconsistency`](crate::Dynamics::inconsistency)
+    /// the penalty is left, see above. [`Dynamics::inconsistency`](crate::dynamics::Dynamics::inconsistency)
     /// says how much that is at a state. Where the last solution still changes the accelerations by
     /// more than a hundredth, the evaluation is refused, [`Fault::NotConverged`]: `alpha` is too
     /// small for the masses.

@@ -28,7 +28,7 @@ controlled! {
     /// state and eight states.
     ///
     /// ```
-    /// use holonom::{Bdf, Course, Fault, Integrator, Span, System};
+    /// use holonom::{Bdf, Fault, integrate::{Course, Integrator, Span, System}};
     ///
     /// /// Follows the cosine, and comes back to it within microseconds.
     /// struct Stiff;

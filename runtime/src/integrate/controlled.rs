@@ -113,13 +113,13 @@ macro_rules! controlled {
             }
         }
 
-        impl<S: $crate::Real> $crate::Integrator<S> for $method<S> {
-            type Course<X: $crate::Vector<S>> = $course<S, X>;
+        impl<S: $crate::Real> $crate::integrate::Integrator<S> for $method<S> {
+            type Course<X: $crate::state::Vector<S>> = $course<S, X>;
 
-            fn start<Y: $crate::System<S>>(
+            fn start<Y: $crate::integrate::System<S>>(
                 &self,
                 system: &mut Y,
-                span: $crate::Span<S>,
+                span: $crate::integrate::Span<S>,
                 state: Y::State,
             ) -> Result<$course<S, Y::State>, $crate::Fault> {
                 $course::start(self, system, span, state)

@@ -85,7 +85,7 @@ use crate::state::vector::Vector;
 /// A system of ordinary differential equations of first order: `y' = f(t, y)`.
 ///
 /// ```
-/// use holonom::{Fault, Rk4, Scheme, System};
+/// use holonom::{Fault, Rk4, integrate::{Scheme, System}};
 ///
 /// /// y' = -y
 /// struct Decay;

@@ -4,3 +4,5 @@ pub(crate) mod access;
 pub(crate) mod load;
 pub(crate) mod reaction;
 pub(crate) mod view;
+
+pub use load::{AppliedForces, ForceLaw, NoForces};

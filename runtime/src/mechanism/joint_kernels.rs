@@ -149,7 +149,7 @@ pub struct JointEvaluation<S: Scalar, M: JointCoordinates> {
 
 impl<S: Scalar, M: JointCoordinates> JointEvaluation<S, M> {
     /// A place for results, see
-    /// [`JointDynamics::evaluate_into`](crate::JointDynamics::evaluate_into).
+    /// [`JointDynamics::evaluate_into`](crate::dynamics::JointDynamics::evaluate_into).
     #[inline(always)]
     #[must_use]
     pub fn zeros() -> Self {

@@ -9,3 +9,17 @@ pub(crate) mod kernels;
 pub(crate) mod orientations;
 pub(crate) mod readout;
 pub(crate) mod report;
+
+pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint};
+pub use joint_kernels::{
+    Freedom, JointCounter, JointEvaluation, JointMotion, JointParts, JointReport,
+};
+pub use kernels::{
+    Chapter15, Compliant, Evaluation, Normalised, Orientation, Pivot, Plain, Raw, Stabilisation,
+    Stabilised, Terms,
+};
+pub use readout::{AngleParts, DisplacementParts, ForceParts};
+pub use report::{
+    Block, BodyInfo, BodyKind, Carrier, ExplicitTime, ForceInfo, JointInfo, Kernel, Operations,
+    Rank, RedundantRow,
+};

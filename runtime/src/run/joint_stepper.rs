@@ -170,7 +170,7 @@ where
     /// bodies, which costs more than a step.
     ///
     /// # Errors
-    /// As [`Dynamics::evaluate`](crate::Dynamics::evaluate).
+    /// As [`Dynamics::evaluate`](crate::dynamics::Dynamics::evaluate).
     pub fn multipliers(&self, bodies: &M::State<S>) -> Result<M::Multipliers<S>, Fault>
     where
         A: AppliedForces<S, M>,

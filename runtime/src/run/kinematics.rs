@@ -189,7 +189,7 @@ where
         last_good: &mut (S, M::State<S>),
     ) -> Result<KinematicReport<S, M::State<S>>, Fault> {
         let dynamics = Dynamics::new(self.mechanism, self.formulation)?
-            .exchange::<crate::Normalised, &A>(|_| &self.forces);
+            .exchange::<crate::mechanism::Normalised, &A>(|_| &self.forces);
         let state = self
             .initial
             .unwrap_or_else(|| M::initial_state(dynamics.constants()));

@@ -13,3 +13,6 @@ pub(crate) mod segments;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
 pub(crate) mod within;
+
+pub use direct::DirectCorrection;
+pub use post_step::{Treatment, TreeRecovery, VelocityProjection};

@@ -26,7 +26,7 @@ use crate::watch::Watch;
 
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
-/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::Raw)), `A` which forces
+/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::mechanism::Raw)), `A` which forces
 /// come on top of those of the description.
 pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoForces, C = Bodies> {
     mechanism: &'a M,
@@ -116,7 +116,7 @@ where
     /// Begins the integration anew at these instants (s), in any order: where a law or a closure
     /// jumps or has a short pulse, which a step would pass over otherwise. Those of a `smooth_step`
     /// of the time with literal numbers are known without
-    /// ([`ExplicitTime::breaks`](crate::ExplicitTime::breaks)).
+    /// ([`ExplicitTime::breaks`](crate::mechanism::ExplicitTime::breaks)).
     #[must_use]
     pub fn breaks(mut self, instants: &'a [S]) -> Self {
         self.breaks = instants;

@@ -16,7 +16,7 @@ use crate::mechanism::orientations::check_state;
 /// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
 ///
 /// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
-/// [`DormandPrince5`](crate::DormandPrince5) 6), allocates nothing and does not panic.
+/// [`DormandPrince5`](crate::integrate::DormandPrince5) 6), allocates nothing and does not panic.
 pub struct Stepper<S: Real, M: Mechanism, F: Formulation<S>, K, P = Normalised, A = NoForces> {
     dynamics: Dynamics<S, M, F, P, A>,
     scheme: K,

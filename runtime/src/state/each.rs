@@ -3,7 +3,7 @@
 use core::array::from_fn;
 use core::ops::{Index, IndexMut};
 
-/// One thing for every element of a [`crate::State`].
+/// One thing for every element of a [`crate::state::State`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EachOfState<T, const Q: usize, const U: usize> {
     coordinates: [T; Q],
@@ -43,7 +43,7 @@ impl<T, const Q: usize, const U: usize> IndexMut<usize> for EachOfState<T, Q, U>
     }
 }
 
-/// One thing for every element of a [`crate::JointState`], the two of every pair among them.
+/// One thing for every element of a [`crate::state::JointState`], the two of every pair among them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EachOfJoints<T, const TURNS: usize, const REST: usize, const RATES: usize> {
     pairs: [[T; 2]; TURNS],

@@ -42,7 +42,7 @@ impl<S: Scalar, const N: usize> Array<S> for [S; N] {
 ///
 /// The derivative of a state has the same type. What explicit integrators need has a default body,
 /// so that a vector of another kind (on the heap, say) has three functions to write. A state that
-/// is no vector throughout, such as [`crate::JointState`], replaces what adds to it and what
+/// is no vector throughout, such as [`crate::state::JointState`], replaces what adds to it and what
 /// measures an increment.
 pub trait Vector<S: Scalar>: Clone {
     /// One thing for every element: an implicit method keeps the columns of a matrix in it.

@@ -2,6 +2,7 @@
 
 extern crate std;
 
+use crate::error::Quantity;
 use core::ops::ControlFlow;
 use std::boxed::Box;
 use std::error::Error;

@@ -1,5 +1,7 @@
 //! Samples as lines of a CSV file, read back.
 
+use crate::dynamics::Dynamics;
+use crate::mechanism::Raw;
 use core::ops::ControlFlow;
 use std::io::{self, Write};
 use std::string::String;

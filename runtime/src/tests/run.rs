@@ -1,5 +1,8 @@
 //! Runs: chapter 15 of Flores, reports, failures.
 
+use crate::dynamics::Iterations;
+use crate::error::NotFinite;
+use crate::mechanism::{Chapter15, Normalised, Raw};
 use core::ops::ControlFlow;
 
 use super::rod::{PIVOT, ROD, Rod, rod};

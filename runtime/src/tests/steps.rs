@@ -2,6 +2,8 @@
 
 use super::crank::crank;
 use super::rod::{PIVOT, ROD, Rod, rod};
+use crate::error::NotFinite;
+use crate::integrate::DormandPrince5;
 use crate::*;
 
 #[test]

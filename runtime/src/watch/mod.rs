@@ -111,7 +111,7 @@ pub struct Watch<S: Scalar, M: Mechanism> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excused<S> {
     /// Corrections of a [`Projection`](crate::Projection), or of a
-    /// [`DirectCorrection`](crate::DirectCorrection), which also counts where one application left
+    /// [`DirectCorrection`](crate::run::DirectCorrection), which also counts where one application left
     /// more than its tolerance.
     pub corrections: usize,
     /// Evaluations of the augmented Lagrangian.
@@ -132,7 +132,7 @@ pub struct Violation<S> {
     pub time: S,
 }
 
-/// The smallest relative pivot of a run, see [`Pivot`](crate::Pivot).
+/// The smallest relative pivot of a run, see [`Pivot`](crate::mechanism::Pivot).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmallestPivot<S> {
     /// The pivot, met or found between two steps.

@@ -5,7 +5,11 @@ use holonom::forces::{Actuator, TorsionalActuator};
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    AugmentedLagrangian, Chapter15, Dynamics, JointDynamics, Orientation, System, Vector,
+    AugmentedLagrangian,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::System,
+    mechanism::{Chapter15, Orientation},
+    state::Vector,
 };
 use nalgebra::DMatrix;
 

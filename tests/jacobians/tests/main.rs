@@ -9,8 +9,11 @@ mod dual;
 mod laws;
 
 use holonom::{
-    Array, Baumgarte, Dynamics, Formulation, JointCoordinates, JointDynamics, JointParts,
-    Mechanism, Normalised, Orientation, Penalty, StandardLagrange, StateParts, System, Vector,
+    Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, StandardLagrange, StateParts,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::System,
+    mechanism::{JointParts, Normalised, Orientation},
+    state::{Array, Vector},
 };
 use holonom_models as models;
 use nalgebra::DMatrix;
@@ -106,13 +109,13 @@ fn derivatives(numbers: &[Dual]) -> impl Iterator<Item = f64> {
 }
 
 /// The coefficients of a formulation over dual numbers.
-fn stabilisation<F: Formulation<f64>>(formulation: &F) -> holonom::Stabilisation<Dual> {
-    let holonom::Stabilisation {
+fn stabilisation<F: Formulation<f64>>(formulation: &F) -> holonom::mechanism::Stabilisation<Dual> {
+    let holonom::mechanism::Stabilisation {
         rate,
         position,
         compliance,
     } = formulation.stabilisation().expect("sound");
-    holonom::Stabilisation {
+    holonom::mechanism::Stabilisation {
         rate: Dual::new(rate, 0.0),
         position: Dual::new(position, 0.0),
         compliance: Dual::new(compliance, 0.0),

@@ -8,8 +8,8 @@ use holonom::joints::{
 };
 use holonom::prelude::*;
 use holonom::{
-    Array, JointCoordinates, JointDynamics, ParameterError, Quantity, Scheme, SimulationError,
-    StateParts,
+    JointCoordinates, ParameterError, SimulationError, StateParts, dynamics::JointDynamics,
+    error::Quantity, integrate::Scheme, state::Array,
 };
 use nalgebra::Vector3;
 
@@ -197,7 +197,7 @@ fn compare<M: Mechanism>(left: &M::State<f64>, right: &M::State<f64>) -> f64 {
             .iter()
             .zip(&s)
             .fold(worst, |worst, (r, s)| worst.max((r - s).abs()));
-        if body.kind == holonom::BodyKind::Rigid {
+        if body.kind == holonom::mechanism::BodyKind::Rigid {
             let [p, q] = [a, b].map(|of| range(of, place + 3..place + 7).expect("an orientation"));
             let same: f64 = p.iter().zip(&q).map(|(p, q)| p * q).sum();
             let differences = p.iter().zip(&q).map(|(p, q)| (p - same.signum() * q).abs());
@@ -459,7 +459,7 @@ fn single_precision_in_both_descriptions() {
 
 /// What a stage takes is what an evaluation gives, which has the multipliers besides.
 fn stages<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulation: F, step: f64) {
-    use holonom::System;
+    use holonom::integrate::System;
     let mut dynamics = JointDynamics::<f64, _, _>::new(mechanism, formulation).expect("acceptable");
     let mut state = dynamics.initial_state().expect("consistent");
     for number in 0..50 {
@@ -492,8 +492,8 @@ fn descriptions_take_turns() {
     let loose = Loose::default();
     let start = loose.start();
     let mut joints = JointDynamics::<f64, _, _>::new(&loose, StandardLagrange).expect("acceptable");
-    let mut bodies =
-        holonom::Dynamics::<f64, _, _>::new(&loose, StandardLagrange).expect("acceptable");
+    let mut bodies = holonom::dynamics::Dynamics::<f64, _, _>::new(&loose, StandardLagrange)
+        .expect("acceptable");
     let mut alone = joints.joints(&start).expect("consistent");
     let mut state = start;
     let step = 1e-3;

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 
 use holonom::joints::{Cylindrical, Prismatic, Revolute, Spherical};
 use holonom::prelude::*;
-use holonom::{Array, BodyHandle, View};
+use holonom::{BodyHandle, View, state::Array};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::descriptions::{Crane, FourBar, Loose};

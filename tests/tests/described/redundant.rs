@@ -5,7 +5,11 @@ use core::f64::consts::FRAC_PI_2;
 
 use holonom::joints::{Fixed, OrientationDriver, Revolute};
 use holonom::prelude::*;
-use holonom::{JointDynamics, Rank, RedundantRow, Report, Sample};
+use holonom::{
+    Report, Sample,
+    dynamics::JointDynamics,
+    mechanism::{Rank, RedundantRow},
+};
 use nalgebra::{UnitQuaternion, Vector3};
 
 fn tight() -> DormandPrince<f64> {

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use holonom::joints::{AngleDriver, Distance, PointOnPlane, Revolute, Spherical};
 use holonom::prelude::*;
-use holonom::{Array, Dynamics, Fault, Mechanism, Real, Sample, StateParts};
+use holonom::{Fault, Mechanism, Real, Sample, StateParts, dynamics::Dynamics, state::Array};
 
 /// A thin rod on a hinge at the distance `place` from the origin, along x and z.
 #[derive(Mechanism)]
@@ -141,7 +141,7 @@ fn disturbed<S: Real, M: Mechanism>(mechanism: &M, length: f64, part: f64) -> M:
     let mut state = mechanism.described_state::<S>().expect("described");
     let sign = |place: usize| (place as f64 * 0.618_033_988_749_895 % 1.0 - 0.5) * part;
     for (body, info) in M::REPORT.bodies.iter().enumerate() {
-        let rigid = info.kind == holonom::BodyKind::Rigid;
+        let rigid = info.kind == holonom::mechanism::BodyKind::Rigid;
         for k in 0..if rigid { 7 } else { 3 } {
             let size = if k < 3 { length } else { 1.0 };
             let place = &mut state.coordinates_mut().as_mut_slice()[info.coordinate + k];

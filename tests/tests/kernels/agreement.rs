@@ -1,6 +1,6 @@
 //! The public kernels equal those of the assembler, on the constraints and off them.
 
-use holonom::{Array, Real};
+use holonom::{Real, state::Array};
 use holonom_assembler::bodies::Kind;
 use nalgebra::{DMatrix, Vector3};
 

@@ -3,7 +3,7 @@
 use holonom::forces::{Actuator, ConstantMoment};
 use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
-use holonom::{ParameterFault, Rk4, Stepper};
+use holonom::{Rk4, Stepper, error::ParameterFault};
 
 /// Lengths of links (m), as a table that the macro cannot see.
 const LENGTHS: [f64; 3] = [0.5, 0.75, 1.25];

@@ -1,8 +1,11 @@
 //! A scalar that counts confirms the report, operation by operation.
 
 use holonom::{
-    Compliant, Mechanism, Normalised, Operations, Orientation, Plain, Raw, Scalar, Stabilisation,
-    Stabilised, Terms,
+    Mechanism, Scalar,
+    mechanism::{
+        Compliant, Normalised, Operations, Orientation, Plain, Raw, Stabilisation, Stabilised,
+        Terms,
+    },
 };
 use holonom_models::RodPendulum;
 

@@ -2,7 +2,7 @@
 //! themselves over dual numbers, by the assembler's `Phi` over dual numbers, and by finite
 //! differences.
 
-use holonom::{Array, Mechanism, Scalar, StateParts};
+use holonom::{Mechanism, Scalar, StateParts, state::Array};
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::dual;
 use holonom_assembler::states::{Spread, displace};

@@ -1,6 +1,9 @@
 //! Euler parameters off the unit sphere, in both modes.
 
-use holonom::{Array, Compliant, Normalised, Plain, Raw, Stabilised, Terms};
+use holonom::{
+    mechanism::{Compliant, Normalised, Plain, Raw, Stabilised, Terms},
+    state::Array,
+};
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::saddle::Coefficients;
 use holonom_assembler::states::Spread;

@@ -5,8 +5,11 @@ use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::{PointOnLine, Revolute, Screw, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    Array, BodyKind, Compliant, Mechanism, Normalised, Orientation, Plain, Raw, Stabilisation,
-    Stabilised, StateParts, Terms,
+    Mechanism, StateParts,
+    mechanism::{
+        BodyKind, Compliant, Normalised, Orientation, Plain, Raw, Stabilisation, Stabilised, Terms,
+    },
+    state::Array,
 };
 use holonom_assembler::accuracy::assert_close;
 

@@ -1,6 +1,6 @@
 //! A mechanism beside its assembler, and states for both.
 
-use holonom::{Array, Mechanism, MechanismExt, Real, Scalar, StateParts};
+use holonom::{Mechanism, MechanismExt, Real, Scalar, StateParts, state::Array};
 use holonom_assembler::assembler::Assembler;
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::states::{Spread, generator, make_consistent, moved};

@@ -10,8 +10,10 @@
 //! of a vector.
 
 use holonom::{
-    Array, AugmentedLagrangian, Compliant, Dynamics, Normalised, Orientation, Plain, Raw, Real,
-    Stabilisation, Stabilised, StateParts, Terms,
+    AugmentedLagrangian, Real, StateParts,
+    dynamics::Dynamics,
+    mechanism::{Compliant, Normalised, Orientation, Plain, Raw, Stabilisation, Stabilised, Terms},
+    state::Array,
 };
 use holonom_assembler::assembler::Assembler;
 use holonom_assembler::bodies;

@@ -2,7 +2,7 @@
 
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
-use holonom::{Dynamics, ParameterFault, StateParts};
+use holonom::{StateParts, dynamics::Dynamics, error::ParameterFault};
 use nalgebra::DVector;
 
 use crate::comparison::distance;

@@ -1,7 +1,9 @@
 //! Penalty and augmented Lagrangian equal their textbook forms, `(M + alpha D^T D) u' = ..`, which
 //! lose digits as alpha grows: how many is printed.
 
-use holonom::{Array, AugmentedLagrangian, Dynamics, Formulation, Penalty, StateParts};
+use holonom::{
+    AugmentedLagrangian, Formulation, Penalty, StateParts, dynamics::Dynamics, state::Array,
+};
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::formulation::{self, Evaluator};
 

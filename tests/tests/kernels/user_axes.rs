@@ -95,9 +95,10 @@ fn a_moment_in_body_axes_turns_the_body_as_its_tensor_says() {
     // With a huge compliance the joints let go, and J w' = moment - w x J w in the axes as written.
     let moment = Vector3::new(0.3, -0.2, 0.5);
     let weak = Penalty::new(1e-9, 1e-3, 1.0);
-    let dynamics = holonom::Dynamics::<f64, FullTensors, _>::new(&FullTensors::default(), weak)
-        .expect("acceptable")
-        .forces(|_, _, loads| loads.moment_in_body_axes(HANDLES.tilted, moment.into()));
+    let dynamics =
+        holonom::dynamics::Dynamics::<f64, FullTensors, _>::new(&FullTensors::default(), weak)
+            .expect("acceptable")
+            .forces(|_, _, loads| loads.moment_in_body_axes(HANDLES.tilted, moment.into()));
     let state = FullTensors::default()
         .described_state::<f64>()
         .expect("described");

@@ -2,7 +2,7 @@
 //! random times, on the constraints and off them, for random placements of the bodies; and every
 //! joint has its number of equations.
 
-use holonom::Rank;
+use holonom::mechanism::Rank;
 use holonom_assembler::assembler::Assembler;
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::dual;

@@ -3,8 +3,10 @@
 use core::ops::ControlFlow;
 
 use holonom::{
-    Course, DormandPrince, Fault, Integrator, NotFinite, Span, State, StateParts, System,
-    Tolerance, Vector,
+    DormandPrince, Fault, StateParts, Tolerance,
+    error::NotFinite,
+    integrate::{Course, Integrator, Span, System},
+    state::{State, Vector},
 };
 
 use crate::kernels::Kernels;

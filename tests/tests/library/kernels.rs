@@ -2,8 +2,9 @@
 //! compiled once.
 
 use holonom::{
-    Array, ForceHandle, JointHandle, Mechanism, MechanismExt, Normalised, Plain, Report,
-    Stabilisation, StateParts, View, Wrench,
+    ForceHandle, JointHandle, Mechanism, MechanismExt, Report, StateParts, View, Wrench,
+    mechanism::{Normalised, Plain, Stabilisation},
+    state::Array,
 };
 use nalgebra::DMatrix;
 

@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::{Gear, Prismatic, RackAndPinion, Revolute, Screw};
 use holonom::prelude::*;
-use holonom::{Array, StateParts};
+use holonom::{StateParts, state::Array};
 use holonom_assembler::accuracy::assert_close;
 use nalgebra::Vector3;
 

@@ -2,7 +2,7 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{JointCoordinates, JointDynamics, Rank};
+use holonom::{JointCoordinates, dynamics::JointDynamics, mechanism::Rank};
 
 use super::twins::{difference, move_alike, runs};
 

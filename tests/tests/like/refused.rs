@@ -2,7 +2,7 @@
 
 use holonom::joints::{AngleDriver, Distance, PointOnPlane, Revolute};
 use holonom::prelude::*;
-use holonom::{ParameterError, ParameterFault, Stepper};
+use holonom::{ParameterError, Stepper, error::ParameterFault};
 
 /// A four-bar whose last hinge may lean and whose coupler may stand out of the plane.
 #[derive(Mechanism)]

@@ -94,7 +94,7 @@ fn what_cannot_reach_is_refused() {
     assert!(
         matches!(
             error.fault,
-            holonom::ParameterFault::NotAssembled { joint } if !joint.is_empty()
+            holonom::error::ParameterFault::NotAssembled { joint } if !joint.is_empty()
         ),
         "{error}"
     );

@@ -2,7 +2,12 @@
 //! written.
 
 use holonom::prelude::*;
-use holonom::{Array, Dynamics, JointCoordinates, JointDynamics, Scheme, StateParts};
+use holonom::{
+    JointCoordinates, StateParts,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::Scheme,
+    state::Array,
+};
 
 /// Positions and velocities of rigid bodies after some steps from the assembled start, by bodies
 /// and by joints.

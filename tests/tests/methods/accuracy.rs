@@ -5,7 +5,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{JointCoordinates, JointState, JointStepper, Scheme, System};
+use holonom::{
+    JointCoordinates, JointStepper,
+    integrate::{Scheme, System},
+    state::JointState,
+};
 use holonom_models::RodPendulum;
 
 /// Two rods of 1 m and 1 kg on parallel hinges, stretched out at rest.

@@ -3,8 +3,10 @@
 
 use holonom::prelude::*;
 use holonom::{
-    Adams, AdamsBashforthMoulton4, Array, Bdf, BogackiShampine, DormandPrince853, ImplicitMidpoint,
-    Integrator, JointCoordinates, RadauIIA, StateParts, Vector,
+    Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince853, ImplicitMidpoint,
+    JointCoordinates, RadauIIA, StateParts,
+    integrate::Integrator,
+    state::{Array, Vector},
 };
 use holonom_models::{
     Bricard, CartPole, DrivenSliderCrank, FlyballGovernor, FourBar, HeavyTop, RodPendulum,

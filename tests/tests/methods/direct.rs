@@ -3,7 +3,7 @@
 
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
-use holonom::{Array, BodyKind, DirectCorrection, Real};
+use holonom::{Real, mechanism::BodyKind, run::DirectCorrection, state::Array};
 use holonom_models::{Bricard, FlyballGovernor, FourBar, HeavyTop, SliderCrank};
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};

@@ -4,7 +4,9 @@ use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
 use holonom::{
-    Array, Course, DormandPrince853, GeneralizedAlpha, Integrator, RadauIIA, Span, System, Vector,
+    DormandPrince853, GeneralizedAlpha, RadauIIA,
+    integrate::{Course, Integrator, Span, System},
+    state::{Array, Vector},
 };
 use holonom_models::{
     DrivenSliderCrank, FlyballGovernor, FourBar, HeavyTop, RodPendulum, SliderCrank,

@@ -3,8 +3,11 @@
 
 use holonom::prelude::*;
 use holonom::{
-    Array, Dynamics, Heun, JointCoordinates, JointDynamics, JointParts, JointStepper, Midpoint,
-    Scheme, SemiImplicitEuler, StateParts, System, Vector,
+    Heun, JointCoordinates, JointStepper, Midpoint, SemiImplicitEuler, StateParts,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::{Scheme, System},
+    mechanism::JointParts,
+    state::{Array, Vector},
 };
 use holonom_models::{
     Bricard, CartPole, DrivenSliderCrank, FlyballGovernor, FourBar, HeavyTop, RodPendulum,

@@ -3,7 +3,7 @@
 use holonom::prelude::*;
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince853, Heun, ImplicitMidpoint,
-    Integrator, Midpoint, Orientation, RadauIIA, SemiImplicitEuler,
+    Midpoint, RadauIIA, SemiImplicitEuler, integrate::Integrator, mechanism::Orientation,
 };
 use holonom_models::HeavyTop;
 use nalgebra::Vector4;

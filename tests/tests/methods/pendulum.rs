@@ -3,7 +3,11 @@
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use holonom::prelude::*;
-use holonom::{HasAngle, Integrator, JointHandle, Orientation, Real, View};
+use holonom::{
+    JointHandle, Real, View,
+    integrate::Integrator,
+    mechanism::{HasAngle, Orientation},
+};
 use holonom_models::RodPendulum;
 
 /// Motion at an instant: `phi` (rad) is counted from the downward vertical.

@@ -1,7 +1,7 @@
 //! Long runs: right to a hundredth, or doubted.
 
 use holonom::prelude::*;
-use holonom::{Doubt, Integrator};
+use holonom::{Doubt, integrate::Integrator};
 use holonom_models::{RodPendulum, SimplePendulum};
 
 use holonom_tests::IS_EXHAUSTIVE;

@@ -1,7 +1,7 @@
 //! The cart-pole against its equations of motion in closed form.
 
 use holonom::prelude::*;
-use holonom::{Dynamics, Pose, StateParts};
+use holonom::{Pose, StateParts, dynamics::Dynamics};
 use holonom_models::CartPole;
 use nalgebra::{UnitQuaternion, Vector3};
 

@@ -6,8 +6,9 @@
 
 use holonom::prelude::*;
 use holonom::{
-    BogackiShampine3, DormandPrince5, Heun, JointStepper, Midpoint, Orientation, Raw, Scheme,
-    SemiImplicitEuler, StateParts, Stepper, System,
+    Heun, JointStepper, Midpoint, SemiImplicitEuler, StateParts, Stepper,
+    integrate::{BogackiShampine3, DormandPrince5, Scheme, System},
+    mechanism::{Orientation, Raw},
 };
 
 use super::difference;

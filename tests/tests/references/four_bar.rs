@@ -1,7 +1,7 @@
 //! A02: the four-bar and the double four-bar against the motion of a parallelogram.
 
 use holonom::prelude::*;
-use holonom::{BodyHandle, Integrator, JointCoordinates};
+use holonom::{BodyHandle, JointCoordinates, integrate::Integrator};
 use holonom_models::{DoubleFourBar, FourBar};
 use holonom_tests::IS_EXHAUSTIVE;
 use nalgebra::Vector3;

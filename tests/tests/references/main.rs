@@ -25,7 +25,7 @@ mod variable_length_pendulum;
 use core::f64::consts::{PI, TAU};
 
 use holonom::prelude::*;
-use holonom::{Array, BodyHandle, JointCoordinates, StateParts, View};
+use holonom::{BodyHandle, JointCoordinates, StateParts, View, state::Array};
 
 /// Steps so small that the integration does not count.
 fn tight() -> DormandPrince<f64> {

@@ -1,7 +1,7 @@
 //! A02 with five windows: ten times through a singular configuration with six ways to go on, in
 //! both descriptions.
 
-use holonom::Integrator;
+use holonom::integrate::Integrator;
 use holonom::prelude::*;
 use holonom_models::QuintupleFourBar;
 use holonom_models::problems::QuintupleParallelogram;

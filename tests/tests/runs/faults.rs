@@ -2,7 +2,7 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Dynamics, Fault, NotFinite, StateParts};
+use holonom::{Fault, StateParts, dynamics::Dynamics, error::NotFinite};
 use holonom_models::RodPendulum;
 
 use crate::flat::flat;
@@ -94,7 +94,7 @@ fn an_orientation_without_length_names_its_body() {
             orientation: nalgebra::Quaternion::new(0.0, size, size, 0.0),
         };
         RodPendulum::set_pose(&mut state, RodPendulum::HANDLES.rod, pose);
-        let state: holonom::State<f64, 7, 6> = state;
+        let state: holonom::state::State<f64, 7, 6> = state;
         assert!(state.coordinates().iter().all(|q| q.is_finite()));
         let refused = Fault::ZeroOrientation { body: "rod" };
         let error = Simulation::new(&rod, Penalty::default(), DormandPrince::default())

@@ -1,7 +1,7 @@
 //! States as lists of numbers.
 
 use holonom::prelude::*;
-use holonom::{Array, Real, StateParts};
+use holonom::{Real, StateParts, state::Array};
 
 /// A state as `(q, u)`.
 pub(crate) fn flat<S: Real, M: Mechanism>(state: &M::State<S>) -> Vec<f64> {

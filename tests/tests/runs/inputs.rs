@@ -4,7 +4,7 @@
 use holonom::forces::{PointForce, TorsionalActuator};
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
-use holonom::{JointStepper, ParameterFault, Real};
+use holonom::{JointStepper, Real, error::ParameterFault};
 
 /// Two rods and a bar between ground and their end: motors with a gain, a thrust of three numbers,
 /// a weight that changes.

@@ -2,7 +2,7 @@
 
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
-use holonom::{Dynamics, StateParts, Wrench};
+use holonom::{StateParts, Wrench, dynamics::Dynamics};
 use nalgebra::Vector3;
 
 /// Two rods: a hinge, then a ball; the axis along no coordinate.

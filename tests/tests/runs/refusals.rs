@@ -1,7 +1,7 @@
 //! Settings that make no sense are refused before anything happens, by name.
 
 use holonom::prelude::*;
-use holonom::{Dynamics, Fault};
+use holonom::{Fault, dynamics::Dynamics};
 use holonom_models::RodPendulum;
 
 /// Not finite and positive.
@@ -72,7 +72,7 @@ fn a_coefficient_must_be_positive() {
     names(&refused(method), "max_iterations", 0.0);
 }
 
-fn run<I: holonom::Integrator<f64>>(
+fn run<I: holonom::integrate::Integrator<f64>>(
     integrator: I,
     interval: core::ops::RangeInclusive<f64>,
     reporting: holonom::Reporting<f64>,

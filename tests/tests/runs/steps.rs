@@ -1,7 +1,10 @@
 //! Single steps, for a loop of one's own, do what a run with a fixed step does.
 
 use holonom::prelude::*;
-use holonom::{DormandPrince5, Fault, FixedStep, Scheme};
+use holonom::{
+    Fault,
+    integrate::{DormandPrince5, FixedStep, Scheme},
+};
 use holonom_assembler::accuracy::assert_close;
 use holonom_models::{DrivenSliderCrank, RodPendulum};
 

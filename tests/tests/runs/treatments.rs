@@ -3,7 +3,10 @@
 use core::f64::consts::FRAC_PI_2;
 
 use holonom::prelude::*;
-use holonom::{DirectCorrection, JointCoordinates, Treatment, TreeRecovery, VelocityProjection};
+use holonom::{
+    JointCoordinates,
+    run::{DirectCorrection, Treatment, TreeRecovery, VelocityProjection},
+};
 use holonom_models::{FourBar, RodPendulum, SliderCrank, VariableLengthPendulum};
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
 
@@ -72,7 +75,7 @@ fn the_direct_correction_is_as_exact_as_that_by_the_mass() {
 
 /// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and
 /// by how much its bearing, a joint of the tree, was open (m).
-fn cranked<I: holonom::Integrator<f64>>(
+fn cranked<I: holonom::integrate::Integrator<f64>>(
     treatment: &dyn Treatment<f64, SliderCrank>,
     integrator: I,
 ) -> [f64; 3] {
@@ -160,7 +163,7 @@ fn recovery_leaves_what_stands_as_it_stands() {
         assert_eq!(tree.treat(&constants, 0.0, &mut state), Ok(0.0));
         let pairs = holonom::StateParts::coordinates(&before);
         let after = holonom::StateParts::coordinates(&state);
-        let slices = [pairs, after].map(holonom::Array::as_slice);
+        let slices = [pairs, after].map(holonom::state::Array::as_slice);
         for (a, b) in slices[0].iter().zip(slices[1]) {
             assert!((a - b).abs() < 1e-14, "{a} {b}");
         }

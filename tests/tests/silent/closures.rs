@@ -5,7 +5,7 @@ use core::cell::Cell;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Integrator, Loads, Stepper};
+use holonom::{Loads, Stepper, integrate::Integrator};
 
 /// An arm of 1 m about x, whose motor takes an input.
 #[derive(Mechanism)]

@@ -43,7 +43,7 @@ struct Moved {
 }
 
 /// Angles of both hinges after two seconds from a start in motion.
-fn angles<M: JointCoordinates, J: holonom::HasAngle>(
+fn angles<M: JointCoordinates, J: holonom::mechanism::HasAngle>(
     mechanism: &M,
     hinges: [holonom::JointHandle<M, J>; 2],
 ) -> [f64; 2] {

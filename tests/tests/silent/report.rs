@@ -4,8 +4,11 @@
 use holonom::forces::{TorsionalActuator, TorsionalSpringDamper};
 use holonom::joints::{Cylindrical, Prismatic, Revolute, Spherical, Universal};
 use holonom::prelude::*;
-use holonom::{HasAngle, HasDisplacement, JointCoordinates, JointHandle, JointParts, JointStepper};
-use holonom::{JointReport, View};
+use holonom::{
+    JointCoordinates, JointHandle, JointStepper,
+    mechanism::{HasAngle, HasDisplacement, JointParts},
+};
+use holonom::{View, mechanism::JointReport};
 
 /// Four links about parallel axes: angles and rates are sums along the run.
 #[derive(Mechanism)]
@@ -108,12 +111,15 @@ fn any<M: JointCoordinates>(state: &M::JointState<f64>, random: &mut Random) -> 
     let mut angles = M::JointState::<f64>::zeros();
     for k in 0..report.motions.len() {
         let place = report.motions[k].coordinate;
-        if matches!(report.motions[k].freedom, holonom::Freedom::Turn { .. }) {
+        if matches!(
+            report.motions[k].freedom,
+            holonom::mechanism::Freedom::Turn { .. }
+        ) {
             // A slope has the rate of an angle in the place of the cosine.
-            holonom::Vector::set_element(&mut angles, 2 * place, 3.0 * random.next());
+            holonom::state::Vector::set_element(&mut angles, 2 * place, 3.0 * random.next());
         }
     }
-    holonom::Vector::plus(&moved, [(1.0, &angles)])
+    holonom::state::Vector::plus(&moved, [(1.0, &angles)])
 }
 
 /// How a joint is read by handle.
@@ -135,7 +141,7 @@ fn agrees<M: JointCoordinates>(mechanism: &M, joints: &[(&'static str, bool, Rea
             let [coordinate, rate] = read(&view);
             let is_it = |&place: &usize| {
                 let freedom = M::JOINT_REPORT.motions[place].freedom;
-                (freedom == holonom::Freedom::Slide) == *is_slide
+                (freedom == holonom::mechanism::Freedom::Slide) == *is_slide
             };
             let place = M::JOINT_REPORT.motions_of(joint).find(is_it);
             let place = place.unwrap_or_else(|| panic!("{joint} moves"));
@@ -207,7 +213,7 @@ trait Against {
     fn map_against(&self) -> Vec<Option<usize>>;
 }
 
-impl Against for [holonom::JointMotion] {
+impl Against for [holonom::mechanism::JointMotion] {
     fn map_against(&self) -> Vec<Option<usize>> {
         self.iter().map(|motion| motion.against).collect()
     }
@@ -224,9 +230,11 @@ fn every_element_is_described() {
         let mut rates = vec![0; state.rates_slice().len()];
         for motion in report.motions {
             let (coordinates, velocities) = match motion.freedom {
-                holonom::Freedom::Turn { .. } => (&mut pairs[motion.coordinate..][..1], 1),
-                holonom::Freedom::Slide => (&mut rest[motion.coordinate..][..1], 1),
-                holonom::Freedom::Ball => (&mut rest[motion.coordinate..][..4], 3),
+                holonom::mechanism::Freedom::Turn { .. } => {
+                    (&mut pairs[motion.coordinate..][..1], 1)
+                }
+                holonom::mechanism::Freedom::Slide => (&mut rest[motion.coordinate..][..1], 1),
+                holonom::mechanism::Freedom::Ball => (&mut rest[motion.coordinate..][..4], 3),
             };
             coordinates.iter_mut().for_each(|x| *x += 1);
             rates[motion.velocity..]

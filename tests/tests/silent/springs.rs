@@ -1,6 +1,6 @@
 //! A spring whose points meet, and steps that are too long for a damper or a spin.
 
-use holonom::NotFinite;
+use holonom::error::NotFinite;
 use holonom::forces::{SpringDamper, TorsionalActuator};
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use holonom::joints::{AngleDriver, Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    Adams, AdamsBashforthMoulton4, DormandPrince853, Doubt, Heun, Integrator, Midpoint, RadauIIA,
-    Sample,
+    Adams, AdamsBashforthMoulton4, DormandPrince853, Doubt, Heun, Midpoint, RadauIIA, Sample,
+    integrate::Integrator,
 };
 
 /// An arm that is swung to and fro.

@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use holonom::forces::{Actuator, ConstantMoment, SpringDamper, TorsionalActuator};
 use holonom::joints::{AngleDriver, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, Doubts, GeneralizedAlpha, Heun, ImplicitMidpoint, Integrator, Midpoint};
+use holonom::{
+    Doubt, Doubts, GeneralizedAlpha, Heun, ImplicitMidpoint, Midpoint, integrate::Integrator,
+};
 
 /// A cart on a spring and a damper, 1 rad/s, drawn out by a metre.
 #[derive(Mechanism)]

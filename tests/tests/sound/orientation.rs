@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Array, Integrator};
+use holonom::{integrate::Integrator, state::Array};
 
 /// A body that nothing holds, at 20 rad/s about a principal axis.
 #[derive(Mechanism)]

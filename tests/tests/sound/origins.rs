@@ -3,7 +3,7 @@
 use holonom::forces::SpringDamper;
 use holonom::joints::{AngleDriver, PointOnLine, Revolute};
 use holonom::prelude::*;
-use holonom::{Integrator, NotFinite};
+use holonom::{error::NotFinite, integrate::Integrator};
 
 /// A bead on a wire, and a spring that has no length where the bead passes its end.
 #[derive(Mechanism)]

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use holonom::forces::{Actuator, ConstantMoment, PointForce};
 use holonom::joints::{AngleDriver, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, ImplicitMidpoint, Integrator, Real, SemiImplicitEuler};
+use holonom::{Doubt, ImplicitMidpoint, Real, SemiImplicitEuler, integrate::Integrator};
 use holonom_models::RodPendulum;
 
 holonom::force! {

@@ -1,6 +1,6 @@
 //! A run begins on its constraints, or is told to begin elsewhere.
 
-use holonom::Quantity;
+use holonom::error::Quantity;
 use holonom::joints::{AngleDriver, Distance, Revolute};
 use holonom::prelude::*;
 use nalgebra::Vector3;

@@ -3,7 +3,7 @@
 
 use holonom::joints::{ConstantVelocity, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, Heun, Integrator, JointCoordinates, Rk4, Sample};
+use holonom::{Doubt, Heun, JointCoordinates, Rk4, Sample, integrate::Integrator};
 
 use holonom_tests::IS_EXHAUSTIVE;
 

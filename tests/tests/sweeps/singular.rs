@@ -5,8 +5,10 @@
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
-    Adams, Bdf, BodyHandle, BogackiShampine, DormandPrince853, Doubt, Dynamics, Heun, Integrator,
-    JointCoordinates, JointDynamics, JointStepper, RadauIIA, Rk4, Sample, SemiImplicitEuler,
+    Adams, Bdf, BodyHandle, BogackiShampine, DormandPrince853, Doubt, Heun, JointCoordinates,
+    JointStepper, RadauIIA, Rk4, Sample, SemiImplicitEuler,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::Integrator,
 };
 use holonom_models::FourBar;
 use nalgebra::Vector3;

@@ -10,7 +10,9 @@ mod catalogue;
 
 use std::hint::black_box;
 
-use holonom::{Array as _, Fault, Mechanism, MechanismExt as _, NotFinite, StateParts as _};
+use holonom::{
+    Fault, Mechanism, MechanismExt as _, StateParts as _, error::NotFinite, state::Array as _,
+};
 use holonom_assembler::assembler::Assembler;
 use holonom_assembler::bodies::{Body, BodyId, GROUND};
 use holonom_assembler::formulation::{Evaluator, SolveError};
@@ -73,7 +75,7 @@ fn add_bodies<M: Mechanism + Default>(scene: &mut Assembler) -> Vec<BodyId> {
     let mechanism = M::default();
     let constants = mechanism.constants::<f64>().expect("the data are sound");
     let described = M::initial_state(&constants);
-    let body = |body: &holonom::BodyInfo| {
+    let body = |body: &holonom::mechanism::BodyInfo| {
         let moment = |place: usize| {
             let mut state = described;
             let velocities = state.velocities_mut().as_mut_slice();
@@ -246,7 +248,7 @@ fn timed(
 
 #[cfg(test)]
 mod tests {
-    use holonom::{Dynamics, StandardLagrange, System as _};
+    use holonom::{StandardLagrange, dynamics::Dynamics, integrate::System as _};
     use holonom_models::Ur5;
 
     use super::catalogue::ur5;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use holonom::Iterations;
+use holonom::dynamics::Iterations;
 
 use super::Method;
 use crate::pendulum::{RigidPendulum, Swing, polar_parts, wrapped};
@@ -185,7 +185,7 @@ pub(crate) mod tests {
     use crate::pendulum::RigidPendulum;
     use crate::statistics::Quartiles;
     use crate::timing::Timing;
-    use holonom::Iterations;
+    use holonom::dynamics::Iterations;
 
     /// An outcome that follows the closed form but for an angle that runs ahead and a violation
     /// that grows.

@@ -1,9 +1,11 @@
 //! The four runs, and the race that times them.
 
 use holonom::{
-    AugmentedLagrangian, Baumgarte, BodyHandle, Chapter15, DormandPrince, Dynamics, Fault,
-    Formulation, HasAngle, Integrator, JointHandle, Mechanism, Penalty, Sample, Span,
-    StandardLagrange, Tolerance,
+    AugmentedLagrangian, Baumgarte, BodyHandle, DormandPrince, Fault, Formulation, JointHandle,
+    Mechanism, Penalty, Sample, StandardLagrange, Tolerance,
+    dynamics::Dynamics,
+    integrate::{Integrator, Span},
+    mechanism::{Chapter15, HasAngle},
 };
 
 use super::outcome::{Instant, Outcome, Prices};

@@ -7,10 +7,12 @@ use std::rc::Rc;
 use std::time::Instant;
 
 use holonom::{
-    Array as _, AugmentedLagrangian, Baumgarte, Dynamics, Evaluation, Fault, Formulation,
-    JointCoordinates, JointDynamics, JointEvaluation, Kernel, Mechanism, Normalised, Operations,
-    Penalty, Real, Rk4, Scalar as _, Scheme as _, StandardLagrange, StateParts as _, System,
-    Vector as _,
+    AugmentedLagrangian, Baumgarte, Fault, Formulation, JointCoordinates, Mechanism, Penalty, Real,
+    Rk4, Scalar as _, StandardLagrange, StateParts as _,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::{Scheme as _, System},
+    mechanism::{Evaluation, JointEvaluation, Kernel, Normalised, Operations},
+    state::{Array as _, Vector as _},
 };
 
 use super::{Coordinates, Precision};
@@ -73,7 +75,7 @@ impl<S: Real, M: Mechanism + Default, F: Formulation<S>> Bodies<S, M, F> {
         Ok(Self {
             coefficients: M::coefficients(dynamics.constants(), &formulation.stabilisation()?),
             dynamics,
-            multipliers: holonom::Array::zeros(),
+            multipliers: holonom::state::Array::zeros(),
         })
     }
 }
@@ -132,13 +134,13 @@ impl<S: Real, M: JointCoordinates + Default, F: Formulation<S>> Joints<S, M, F> 
         let dynamics = JointDynamics::new(&mechanism, formulation)?;
         let constants = M::prepare_joints(&mechanism.parameters()?);
         let stabilisation = formulation.stabilisation()?;
-        let mut compliances: M::ClosingMultipliers<S> = holonom::Array::zeros();
+        let mut compliances: M::ClosingMultipliers<S> = holonom::state::Array::zeros();
         compliances.as_mut_slice().fill(stabilisation.compliance);
         Ok(Self {
             coefficients: M::joint_coefficients(&constants, &stabilisation, &compliances),
             dynamics,
             constants,
-            multipliers: holonom::Array::zeros(),
+            multipliers: holonom::state::Array::zeros(),
         })
     }
 }

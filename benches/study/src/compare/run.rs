@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use holonom::Operations;
+use holonom::mechanism::Operations;
 
 use super::measure::{Case, Contestants, Scene};
 use super::record::Row;

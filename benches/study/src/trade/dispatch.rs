@@ -3,10 +3,14 @@
 use std::ops::ControlFlow;
 
 use holonom::{
-    AugmentedLagrangian, Baumgarte, Description, DirectCorrection, Dynamics, Formulation,
-    JointCoordinates, JointDynamics, Kernel, Mechanism, NoForces, Normalised, Penalty, Projection,
-    Real, Sample, Simulation, Span, StandardLagrange, System, TreeRecovery, VelocityProjection,
+    AugmentedLagrangian, Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, Projection,
+    Real, Sample, Simulation, StandardLagrange,
+    dynamics::{Description, Dynamics, JointDynamics},
     every,
+    integrate::{Span, System},
+    measure::NoForces,
+    mechanism::{Kernel, Normalised},
+    run::{DirectCorrection, TreeRecovery, VelocityProjection},
 };
 
 use super::integration::{Integration, with_own_type};
@@ -39,7 +43,7 @@ pub(super) trait Task<'a, P: Problem + 'a> {
 }
 
 /// What is done to states after steps.
-pub(super) type Treated<'a, S, M> = Option<Box<dyn holonom::Treatment<S, M> + 'a>>;
+pub(super) type Treated<'a, S, M> = Option<Box<dyn holonom::run::Treatment<S, M> + 'a>>;
 
 /// Whether a problem can be run by its joints.
 pub(super) trait JointsOf<P: Problem> {

@@ -2,10 +2,13 @@
 //! grow with the number of integrators.
 
 use holonom::{
-    AdamsCourse, AdamsFixedCourse, AdaptiveCourse, AlphaEnd, AlphaStep, BdfCourse,
-    BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, Fault, FixedCourse,
-    GeneralizedAlphaCourse, Heun, ImplicitMidpoint, Integrator, Midpoint, RadauCourse, Real, Rk4,
-    SemiImplicitEuler, Span, System, Tolerance, Vector,
+    Fault, Heun, ImplicitMidpoint, Midpoint, Real, Rk4, SemiImplicitEuler, Tolerance,
+    integrate::{
+        AdamsCourse, AdamsFixedCourse, AdaptiveCourse, AlphaEnd, AlphaStep, BdfCourse,
+        BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, FixedCourse,
+        GeneralizedAlphaCourse, Integrator, RadauCourse, Span, System,
+    },
+    state::Vector,
 };
 
 use super::grid::two_digits;

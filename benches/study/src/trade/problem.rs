@@ -1,6 +1,6 @@
 //! A motion to measure a trade on.
 
-use holonom::{Fault, JointCoordinates, Mechanism, MechanismExt as _, Real, Span, View};
+use holonom::{Fault, JointCoordinates, Mechanism, MechanismExt as _, Real, View, integrate::Span};
 
 /// A motion of a mechanism: what is moved, for how long, what is read of it, and what that should
 /// be.
@@ -8,7 +8,7 @@ use holonom::{Fault, JointCoordinates, Mechanism, MechanismExt as _, Real, Span,
 /// ```
 /// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
-/// use holonom::{Real, Span, View};
+/// use holonom::{Real, View, integrate::Span};
 /// use holonom_study::trade::{Both, Problem, Quantity, Subject};
 ///
 /// #[derive(Mechanism)]

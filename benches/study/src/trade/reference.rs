@@ -191,7 +191,7 @@ pub(super) fn observed(
 }
 
 /// The reporting times of a span.
-fn times(span: &holonom::Span<f64>) -> impl Iterator<Item = f64> + use<> {
+fn times(span: &holonom::integrate::Span<f64>) -> impl Iterator<Item = f64> + use<> {
     let span = *span;
     let whole = ((span.end - span.start) / span.first_output - 1e-9).floor() as u32;
     let multiples = (0..=whole).map(move |k| span.start + f64::from(k) * span.first_output);

@@ -197,11 +197,11 @@ pub enum Treatment {
     None,
     /// Positions and velocities are corrected onto the constraints, see [`holonom::Projection`].
     Projection,
-    /// The same by the pseudo-inverse of the Jacobian, once, see [`holonom::DirectCorrection`].
+    /// The same by the pseudo-inverse of the Jacobian, once, see [`holonom::run::DirectCorrection`].
     DirectCorrection,
-    /// Velocities alone are, see [`holonom::VelocityProjection`].
+    /// Velocities alone are, see [`holonom::run::VelocityProjection`].
     VelocityProjection,
-    /// Positions of bodies follow from the joints of a tree, see [`holonom::TreeRecovery`].
+    /// Positions of bodies follow from the joints of a tree, see [`holonom::run::TreeRecovery`].
     TreeRecovery,
 }
 

@@ -1,8 +1,11 @@
 //! A problem without its mechanism in the type: what all the rest of the study is about.
 
 use holonom::{
-    Array as _, AugmentedLagrangian, BodyInfo, BodyKind, Dynamics, Fault, Mechanism, Projection,
-    Real, Span, StateParts,
+    AugmentedLagrangian, Fault, Mechanism, Projection, Real, StateParts,
+    dynamics::Dynamics,
+    integrate::Span,
+    mechanism::{BodyInfo, BodyKind},
+    state::Array as _,
 };
 
 use super::dispatch::{JointsOf, Observe, Time, WithJoints, WithoutJoints, with_formulation};
@@ -256,7 +259,10 @@ fn flat<M: Mechanism>(state: &M::State<f64>) -> Start {
 }
 
 pub(super) fn state<S: Real, M: Mechanism>(start: &Start) -> M::State<S> {
-    let mut state = M::State::<S>::from_parts(holonom::Array::zeros(), holonom::Array::zeros());
+    let mut state = M::State::<S>::from_parts(
+        holonom::state::Array::zeros(),
+        holonom::state::Array::zeros(),
+    );
     let mut numbers = start.0.iter();
     for place in state.coordinates_mut().as_mut_slice() {
         *place = S::constant(numbers.next().copied().unwrap_or(f64::NAN));

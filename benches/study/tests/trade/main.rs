@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Real, Span, View};
+use holonom::{Real, View, integrate::Span};
 use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::timing::Schedule;

@@ -1,7 +1,7 @@
 //! What integrators do when they cannot go on.
 
 use super::*;
-use crate::NotFinite;
+use crate::error::NotFinite;
 
 /// How an integration from 1 towards two seconds ends: the fault, and the last good time and state.
 fn ended<I: Integrator<f64>, Y: System<f64, State = [f64; 1]>>(

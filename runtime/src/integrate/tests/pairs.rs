@@ -1,7 +1,7 @@
 //! Angles as pairs on a circle against the same angles as numbers.
 
 use super::*;
-use crate::JointState;
+use crate::state::JointState;
 use crate::state::vector::{State, StateParts};
 
 pub(super) type Turned<S, const N: usize> = JointState<S, N, 0, N>;

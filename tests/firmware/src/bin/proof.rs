@@ -8,7 +8,7 @@
 use core::hint::black_box;
 
 use holonom::prelude::*;
-use holonom::{DormandPrince5, Heun, JointStepper, Midpoint, Scalar, Scheme, SemiImplicitEuler};
+use holonom::{Heun, JointStepper, Midpoint, Scalar, SemiImplicitEuler, integrate::{DormandPrince5, Scheme}};
 use holonom_firmware::Number;
 use holonom_firmware::trials::{
     PendulumByBodies, PendulumByJoints, Swing, SwingByBodies, SwingByJoints, Ur5ByJoints, run,

@@ -2,7 +2,7 @@
 
 use holonom::forces::{Actuator, ConstantMoment, FollowerForce, FollowerMoment, PointForce};
 use holonom::prelude::*;
-use holonom::{Dynamics, StateParts};
+use holonom::{StateParts, dynamics::Dynamics};
 use nalgebra::Vector3;
 
 use crate::comparison::{ROUND_OFF, distance};

@@ -6,8 +6,9 @@ mod data;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{
-    BodyHandle, Dynamics, JointCoordinates, JointDynamics, JointHandle, JointParts, Pose,
-    StateParts,
+    BodyHandle, JointCoordinates, JointHandle, Pose, StateParts,
+    dynamics::{Dynamics, JointDynamics},
+    mechanism::JointParts,
 };
 use holonom_models::{Panda, Ur5};
 use nalgebra::{Unit, UnitQuaternion, Vector3};

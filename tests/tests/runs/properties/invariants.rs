@@ -1,6 +1,6 @@
 //! Energy, momentum and constraints of random mechanisms.
 
-use holonom::{FixedStep, View};
+use holonom::{View, integrate::FixedStep};
 
 use super::mechanisms::{Floating, Linkage};
 use super::*;

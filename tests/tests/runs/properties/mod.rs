@@ -7,7 +7,7 @@ mod mechanisms;
 mod reversal;
 
 use holonom::prelude::*;
-use holonom::{BodyHandle, Integrator, JointCoordinates};
+use holonom::{BodyHandle, JointCoordinates, integrate::Integrator};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -1,7 +1,13 @@
 //! A motion that is run backwards comes to where it began, by a method that is symmetric.
 
-use holonom::{Array, Dynamics, Heun, ImplicitMidpoint, JointDynamics, JointParts, Scheme};
-use holonom::{StateParts, System};
+use holonom::{
+    Heun, ImplicitMidpoint,
+    dynamics::{Dynamics, JointDynamics},
+    integrate::Scheme,
+    mechanism::JointParts,
+    state::Array,
+};
+use holonom::{StateParts, integrate::System};
 
 use super::mechanisms::{Floating, Linkage};
 use super::*;

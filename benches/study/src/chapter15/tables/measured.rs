@@ -1,6 +1,6 @@
 //! The tables that the chapter could not have.
 
-use holonom::Iterations;
+use holonom::dynamics::Iterations;
 
 use super::by_method;
 use crate::chapter15::Settings;

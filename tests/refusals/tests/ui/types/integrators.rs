@@ -1,6 +1,6 @@
 //! A run takes a method with its steps, a stepper one without; joints are asked for.
 
-use holonom::DormandPrince5;
+use holonom::integrate::DormandPrince5;
 use holonom::prelude::*;
 
 #[derive(Mechanism)]
