@@ -1,4 +1,15 @@
 //! The constraints as equations at a state: their rows, units and sizes, and corrections onto them.
+//!
+//! Violations (`rows`). Every row is measured by the length of its joint (arms, or the row's
+//! radius of curvature) or by one radian, and by the resolution of its terms. `D`, `gamma` and the
+//! joints' points give all of this.
+//!
+//! Corrections. `newton.rs` iterates with compliances that are a part of each row's own
+//! `D M^-1 D^T`. `projection.rs` and the kinematic analysis use it. `side.rs` turns over what
+//! `require` excludes, by the gradient of the requirement, before an assembly begins. Requirements
+//! are readings, bound on demand.
+//!
+//! Scales: `docs/decisions/013-scales-of-a-scene.md`.
 
 pub(crate) mod apart;
 pub(crate) mod compliance;
