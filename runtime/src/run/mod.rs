@@ -2,8 +2,8 @@
 //!
 //! `segments.rs` is a run under way: integration from break to break, corrections, reports,
 //! budget. A post-step treatment is a trait object (`post_step.rs`): a corrected step costs far
-//! more than a call, and runs need no type for each. `TreeRecovery` goes from bodies to joint
-//! coordinates and back by the kernels of starts.
+//! more than a call, and runs need no type for each. The treatment `TreeRecovery` goes from bodies
+//! to joint coordinates and back by the kernels of starts.
 //!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`. The generated factors, of the
 //! matrix with the masses, precondition its conjugate gradients, so no kernel is generated for it.

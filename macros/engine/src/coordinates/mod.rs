@@ -6,10 +6,10 @@
 //! right-hand sides (`private::evaluate_in_parts`), because reactions and the watch need them once
 //! a step. `"both"` has them fused.
 //!
-//! Tree and links. `spanning.rs` grows a tree of joints that declare `motion ..`. `links.rs` makes
-//! one link of every motion: a turn about a coordinate axis of its frame, a slide, or a ball.
-//! Links on the way to a body have no mass. A free body is three slides and a ball about its
-//! centre of mass.
+//! Tree and links. The joints that declare `motion ..` form a tree (`spanning.rs`). Module `links`
+//! makes one link of every motion: a turn about a coordinate axis, a slide, or a ball. Links on
+//! the way to a body have no mass. A free body is three slides and a ball about its centre of
+//! mass.
 //!
 //! Frames (`frames.rs`) are a tree of axes that turn against each other. In a run of parallel
 //! axes, all frames may be based on the frame that carries the run. A ball's frame is based on the
@@ -18,9 +18,9 @@
 //! moments. A link that is carried without being turned hands on its force and the moment of that
 //! force.
 //!
-//! Equations. The mass matrix (`mass.rs`) projects momenta of unit velocities; for relative angles
-//! it is the composite-rigid-body algorithm. `kinematics.rs` has velocity terms and gravity in one
-//! recursion from a ground that accelerates by minus gravity.
+//! Equations. The mass matrix (`mass.rs`) projects momenta of unit velocities. For relative angles
+//! this is the composite-rigid-body algorithm. Module `kinematics` has velocity terms and gravity
+//! in one recursion from a ground that accelerates by minus gravity.
 //!
 //! Constants. `align.rs` turns frames so that fixed vectors lie on coordinate axes. `regroup.rs`
 //! moves origins along axes and hands inertia that motion cannot distinguish to the carrier. From

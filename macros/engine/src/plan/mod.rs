@@ -41,9 +41,9 @@
 //! closing joints last. Sums follow the order of elimination, which shortens the path. Choice:
 //! `docs/decisions/005-choice-of-a-plan.md`.
 //!
-//! Other kernels. `readouts.rs` has kernels of readings: angles, displacements, points of
-//! reactions, energy, power, loads, sides. `alone.rs` counts `Phi`, `D` and `gamma` of each joint
-//! alone, for comparison with derivations by hand. They are not emitted.
+//! Other kernels. Readings have kernels in `readouts.rs`: angles, displacements, points of
+//! reactions, energy, power, loads, sides. Module `alone` counts `Phi`, `D` and `gamma` of each
+//! joint alone, for comparison with derivations by hand. They are not emitted.
 
 pub mod alone;
 mod augmented;

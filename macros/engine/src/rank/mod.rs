@@ -30,7 +30,8 @@
 //!   (`contradiction::by_chance`). Constraints that touch, such as a bar that a turn shortens by
 //!   second order only, leave no other configuration and depend on each other at the start.
 //! - A row that vanishes at all configurations, but not far away or within a smooth step of time,
-//!   is dormant. It follows from nothing and is not dropped.
+//!   is dormant. It follows from nothing and is not dropped. Nor is any row where the walk finds
+//!   only a start that leaves motion free.
 //!
 //! Time (`tour.rs`). The walk has up to 100 steps. They end where a smooth step of time begins, is
 //! half done or ends. The first 60 have motions of up to 0.3 rad; the choice of rows is judged
@@ -38,18 +39,21 @@
 //! day. Angles over turns are counted along all ways.
 //!
 //! Contradictions (`contradiction.rs`). A dropped row must follow in position, velocity and time:
-//! `Y^T Phi_t = 0` where `Y^T D = 0`. A contradiction is refused in every mode, because a
-//! compliance would make a compromise. It must depend on rows that can be satisfied: an arm drawn
-//! beyond its reach says nothing. A start that cannot be assembled is refused with `"drop"` only,
-//! because every run reports it. An equation that is violated where its own gradient vanishes is
-//! refused, unless its points and axes are given by `local(..)`. Where no configuration satisfies
-//! all equations, rows are kept from the first on, then from the last on.
+//! `Y^T Phi_t = 0` where `Y^T D = 0`. Where no configuration satisfies all equations, those that
+//! are violated while the kept ones hold, and depend on them all around, are a contradiction. It
+//! is refused in every mode, because a compliance would make a compromise. It must depend on rows
+//! that can be satisfied: an arm drawn beyond its reach says nothing. A start that cannot be
+//! assembled is refused with `"drop"` only, because every run reports it. An equation that is
+//! violated where its own gradient vanishes (a universal joint with parallel arms) is refused,
+//! unless its points and axes are given by `local(..)`. Where no configuration satisfies all
+//! equations, rows are kept from the first on, then from the last on.
 //!
 //! Motions of a joint (`specimen.rs`, `moves.rs`). Two free bodies get the joint and are displaced
 //! by random amounts of every motion. The equations must hold, no motion may have a part along a
 //! gradient, and the rank must leave as many motions. If the equations hold for no trial
-//! parameters, or the motions agree for one kind of them, the definition is accepted. A mechanism
-//! repeats the test by the same function.
+//! parameters, or the motions agree for one kind of them, the definition is accepted. Then only a
+//! mechanism can tell, by the same function. A definition that arrives from another crate is not
+//! compared again.
 //!
 //! Typical values (`#[param(like = ..)]`) are read by `motion.rs` alone. `Independence::likes`
 //! names the parameters that the constraints depend on. `closing.rs` finds dependent rows among
