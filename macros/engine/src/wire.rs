@@ -9,6 +9,21 @@
 //!
 //! The word behind `@` names the version of this protocol; it changes with every incompatible
 //! change.
+//!
+//! The derive asserts that type and definition have one fingerprint, in case one of the two names
+//! was shadowed. A definition of another protocol version lands in an arm of its own, with one
+//! sentence.
+//!
+//! Names in generated code. Local names have the hygiene of the macro and begin with two
+//! underscores, because hygiene does not separate a pattern from a constant of its name. Types of
+//! the language are imported into an anonymous constant. Words of later editions are written raw
+//! (`syntax/words.rs`). Handles are in a struct inside that constant, under the names of the
+//! user's fields: nothing can collide. One case is left. `new` names its arguments after the
+//! parameters, so the compiler refuses a lower-case constant of a parameter's name beside the
+//! struct.
+//!
+//! A field whose type is no carrier ends the chain:
+//! `docs/decisions/002-no-stub-for-missing-types.md`.
 
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote, quote_spanned};

@@ -3,6 +3,16 @@
 //! A correction by Newton's method goes to some solution near by. Where what was set is far from
 //! the solution, that may be one of another branch. So the way there is followed in short strides,
 //! from the reference configuration, in which the branch is known, to what was set.
+//!
+//! What was set is read from the state itself, as motions of bodies against their carriers in the
+//! spanning tree (`set.rs`). The way is a homotopy (`way.rs`). Each of its steps is the compliant
+//! correction of `constraints/newton.rs`, then least squares of what is left of the set motions.
+//! Conjugate gradients solve these over what the constraints leave free, without a matrix. A
+//! motion that the constraints forbid has no gradient there and stays.
+//!
+//! `set_joint.rs` sets angles and displacements in the state of the bodies and needs no generated
+//! code. The tree is the table `REPORT.carriers`. Axes are gradients of the joint's own readings,
+//! which are linear in the velocities.
 
 pub(crate) mod consistent_start;
 mod set;

@@ -1,4 +1,18 @@
 //! A mechanism as a system of differential equations.
+//!
+//! A run in joint coordinates moves a `JointState`, and shows, watches, projects and reports the
+//! bodies made of it (`moving.rs`). `jacobian.rs` has the exact Jacobian:
+//! `docs/decisions/009-jacobian-by-forward-numbers.md`.
+//!
+//! Faults. The smallest pivot leaves a kernel with its result, and `faults.rs` makes an error with
+//! the joint's name. `origin.rs` finds where a non-finite rate began, after a fault only:
+//! `docs/decisions/007-checks-after-a-step.md`. Where joint coordinates give no rates, their own
+//! numbers name the body.
+//!
+//! `likes.rs` judges the values of parameters with `like`: it assembles, from the described state
+//! or by continuation from the typical values. Then it looks at the pivots. For each omitted
+//! equation it compares value and gradient with the others, at the start and at a few
+//! configurations and times.
 
 pub(crate) mod evaluate;
 mod faults;

@@ -1,4 +1,7 @@
 //! What can go wrong, and how it is said.
+//!
+//! Texts are in `message.rs`. `Debug` of an error says the same as `Display`, because a `main`
+//! that returns an error prints `Debug`.
 
 mod kinds;
 pub(crate) mod message;

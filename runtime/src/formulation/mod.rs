@@ -24,6 +24,10 @@
 //! the form of a saddle system: eliminating `lambda` gives the textbook's
 //! `(M + alpha D^T D) u' = g + alpha D^T gamma*`, which loses digits as `alpha` grows; this form
 //! does not.
+//!
+//! The augmented Lagrangian starts from zero multipliers at every evaluation. In joint coordinates
+//! it needs `S z` with `S = D M^-1 D^T`, which follows from two solutions (`joints.rs`), so
+//! neither `M` nor `D` leaves the kernels.
 
 mod augmented_lagrangian;
 mod baumgarte;

@@ -1,4 +1,6 @@
 //! Numbers that carry derivatives along.
+//!
+//! Kernels over them give the Jacobian of the rates, four columns by each evaluation.
 
 mod columns;
 

@@ -20,6 +20,19 @@
 //! [`Scheme::step`] takes one step at a time, for loops that somebody else owns;
 //! [`Integrator::start`] begins a [`Course`] over an interval, with output at any time within the
 //! last step.
+//!
+//! Structure. An embedded pair (`embedded.rs`) is a scheme with error weights, their power of the
+//! step and an interpolant. The control knows no more. `Scheme::prepare` evaluates what an
+//! interpolant needs besides, only for steps that are looked into: three evaluations of
+//! Dormand-Prince 8(5,3).
+//!
+//! Multistep methods (`adams`, `bdf.rs`) keep differences of slopes or increments. A correction
+//! after a step must not change the sign of Euler parameters, which a one-step method does not
+//! notice (`Moving::of_near`).
+//!
+//! After a step `System::settle` normalises the state and scales the slope, so nothing is
+//! evaluated again. Choices: `docs/decisions` 006 (turns), 007 (checks), 009 and 010 (Jacobians
+//! and matrices), 011 (generalized-alpha), 012 (phase of order 2).
 
 mod adams;
 mod adams_fixed;

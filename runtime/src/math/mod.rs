@@ -1,4 +1,8 @@
 //! Scalars, vectors and Euler parameters: nothing here knows a mechanism.
+//!
+//! `Scalar` has what kernels need, and no comparison but `select`. `Real` adds what integrators
+//! need. The time of a stepper is a sum of two numbers (`clock.rs`): one holds what the last
+//! digits of the other leave over. `versine.rs` turns pairs by increments.
 
 pub(crate) mod clock;
 pub(crate) mod quaternion;

@@ -49,8 +49,8 @@ pub(crate) const THREE: [[f64; 3]; 2] = [
 
 /// Where loops over so many pairs are cut in two: of what is left over when many have been done
 /// side by side, compilers make gathers and scatters, or one after the other, which takes up to
-/// four times as long. Eight and up to seven where lanes are wide, else one alone. Measured, see
-/// ARCHITECTURE.
+/// four times as long. Eight and up to seven where lanes are wide, else one alone. Measured: see
+/// `docs/decisions/006-turns-in-a-step.md`.
 pub(crate) const fn cut(pairs: usize) -> usize {
     match pairs {
         9..16 if cfg!(target_feature = "avx") => 8,

@@ -1,4 +1,7 @@
 //! What is read from a state, and what acts on it, by handle.
+//!
+//! Readings take the state of the bodies, in either coordinates. A state stores orientations and
+//! rates in principal axes; access by handle converts to the axes of the user.
 
 pub(crate) mod access;
 pub(crate) mod load;

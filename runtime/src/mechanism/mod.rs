@@ -1,4 +1,8 @@
 //! What a generated mechanism is: its kernels, its report, its handles.
+//!
+//! `Mechanism` (`kernels.rs`) is the interface of generated code in absolute coordinates,
+//! `JointCoordinates` (`joint_kernels.rs`) in joint coordinates. Compliances are one per row; the
+//! three rows of a vector equation share one, so that the axes of a plan do not matter.
 
 pub(crate) mod blocks;
 pub(crate) mod body;

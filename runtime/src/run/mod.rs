@@ -1,4 +1,21 @@
 //! Runs over an interval of time, single steps, and what follows a step.
+//!
+//! `segments.rs` is a run under way: integration from break to break, corrections, reports,
+//! budget. A post-step treatment is a trait object (`post_step.rs`): a corrected step costs far
+//! more than a call, and runs need no type for each. The treatment `TreeRecovery` goes from bodies
+//! to joint coordinates and back by the kernels of starts.
+//!
+//! `direct.rs` is the correction by the pseudo-inverse of `D`. The generated factors, of the
+//! matrix with the masses, precondition its conjugate gradients, so no kernel is generated for it.
+//!
+//! `kinematics/motion.rs` goes in strides that the motion bounds. It accepts a pose whose position
+//! and velocity are near the prediction: near a branch, another one has other velocities.
+//! Gruebler's count says little where equations are redundant. So at every pose a trial motion is
+//! projected four times onto `D u = 0`. What is left of its energy separates a missing driver or a
+//! singular configuration (`Fault::Undetermined`) from a stiff one.
+//!
+//! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
+//! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
 pub(crate) mod direct;
 pub(crate) mod joint_stepper;

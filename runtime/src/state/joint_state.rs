@@ -367,7 +367,7 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
         terms: [(S, &Self); K],
     ) -> Self {
         // Of many the operations count: the turns of a stage do not wait for each other. Measured,
-        // see ARCHITECTURE.
+        // see docs/decisions/006-turns-in-a-step.md.
         let few = if S::SEVEN_DIGITS { 12 } else { 5 };
         if TURNS > few {
             return self.plus(terms);

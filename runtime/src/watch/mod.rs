@@ -4,6 +4,31 @@
 //! the balance of energy and the length of the Euler parameters; at the end [`Doubts`] says what is
 //! to be doubted. It costs some kernels a step: `Phi`, `Phi'`, the energies, and, for a formulation
 //! with a compliance, a factorisation without it.
+//!
+//! `verdict.rs` makes warnings of it, with the limits of `limits.rs`.
+//!
+//! Singular configurations. A step may pass over one. So three pivots around a least one are
+//! judged by their parabola and by the sign of their root (`singular.rs`). The fall of a pivot
+//! counts, because unequal masses make it small all along. Its joint is found at the end, from a
+//! kept state. Where motion and two ends do not exclude a singular configuration, the step is
+//! divided by its interpolant until no root can have changed its sign (`run/within.rs`).
+//!
+//! Gradients (`gradients.rs`). A pivot is compared with its own row, so it does not tell where the
+//! row itself vanishes. Lengths of gradients are followed for that. Translational and rotational
+//! parts must vanish together, since arms may grow; of a vector equation, what its rows span
+//! counts. Such looks are not part of a run's count.
+//!
+//! Branches. A mechanism that is open by `d` keeps a pivot of about `2 d` where an equation
+//! becomes a product of two distances, and goes on along either branch. So the limit grows with
+//! the largest violation.
+//!
+//! Energy. The work of forces is summed by a parabola through three steps. Its difference from the
+//! trapezoid counts as unknown; a smaller change of energy counts as none. Motion is measured body
+//! by body (`pace.rs`), so that something far away makes nothing slow. Phase errors:
+//! `docs/decisions/012-phase-of-order-2.md`. A formulation with a compliance has no pivots, so its
+//! system is factorised once more per step, without the compliance.
+//!
+//! `passage.rs` follows pivots and gradients along assemblies and kinematic analyses.
 
 mod doubt;
 mod energy;

@@ -1,4 +1,24 @@
 //! Refusals: from what was written to what it means. The only pass that says no.
+//!
+//! Order of work. A definition is checked where it is written, before any mechanism uses it.
+//! `joint!` and `force!` have one grammar and one reader (`syntax/joint.rs`).
+//!
+//! - `joint.rs`: the statements of a definition.
+//! - `expression.rs`: the shape of every expression, scalar or vector, single or twofold. The two
+//!   normals of an axis are twofold, and so is what is made of them.
+//! - `functions.rs`: the functions, and where they may be used. `initial` and `fixed` refer to the
+//!   reference configuration, where there is no time and no rate.
+//! - `number.rs`: numbers the macro can see. A path or a run-time value becomes a symbol with two
+//!   expressions: one in `f64` for checks, one over the scalar type for kernels.
+//! - `laws.rs`: laws that a mechanism writes for a force or a driver.
+//! - `values.rs`: parameters and inputs. A reader that meets an input where none may be is given
+//!   the reason.
+//! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
+//!   all names are known (`syntax/integer.rs`). See `docs/decisions/003-arrays-of-fields.md`.
+//! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
+//!
+//! Bounds. `syntax/depth.rs` limits nesting before anything recurses. `model::Extent` limits what
+//! is differentiated. Both refuse.
 
 pub mod bodies;
 mod elements;

@@ -1,4 +1,20 @@
 //! Kernels to Rust. Nothing here can fail: what could be wrong was refused before.
+//!
+//! A kernel neither branches on data nor returns a `Result`. Sizes are associated types, plain
+//! arrays. The fused evaluation exists for three sets of terms (plain, stabilised, compliant) and
+//! two normalisations of `p`. Forces of closures, the augmented Lagrangian and projections use
+//! `factor` and `solve`, which keeps the fused kernels free of them.
+//!
+//! Long kernels: `docs/decisions/008-long-kernels.md`.
+//!
+//! Values. `parameters.rs` writes the checks of run-time values in `f64`. So `prepare`, which
+//! computes with them in any scalar, cannot fail; `update` runs both again. An input is a
+//! parameter that may not change what a mechanism is. `inputs.rs` writes a struct of inputs over
+//! any scalar, and `take_inputs` computes what depends on them (`Store::write_inputs`). A
+//! controller's loop touches no `f64`.
+//!
+//! `likes.rs` writes the omitted equations as a kernel. `joint.rs` writes type, traits, carrier
+//! and documentation of a definition.
 
 mod coordinates;
 pub mod documentation;

@@ -2,6 +2,48 @@
 //!
 //! Candidates are worked out in full and counted; the cheapest is taken. Fill-in alone would not
 //! tell, because most of what is saved is saved by constants that fold.
+//!
+//! One saddle system serves the four formulations. `eliminate.rs` factorises it symbolically, with
+//! pivots of these kinds (`Pivot`, `inverse.rs`):
+//!
+//! | pivot | when it is safe |
+//! |---|---|
+//! | an acceleration | always: the matrix is quasi-definite, and the block of accelerations stays positive definite |
+//! | `[m c; c -e]` of an acceleration and a row | while `c` is 1 or -1, whatever was added to `m` and `e`: no other body of the row is eliminated |
+//! | `[A C^T; C 0]` of two components of `w'` and the two rows that forbid them | while no other body of the rows is eliminated; on the constraints, where `det C` keeps its value of the start. The ratio to it is recorded |
+//! | a multiplier | where rows are independent and the eliminated bodies determine it. The ratio to its value without the other rows is recorded |
+//!
+//! The reference of the last ratio is the greatest value, if that depends on orientations alone
+//! and varies by less than a decade (`reference.rs`). With a compliance every pivot is safe and
+//! none is recorded. A plan proposes and `factorise` looks. A block that an earlier step has
+//! filled is taken apart. A multiplier whose pivot is zero by structure waits until it is not. Why
+//! rows may go early: `docs/decisions/015-early-rows.md`.
+//!
+//! Reductions of cost:
+//!
+//! - An acceleration may be that of a point (`Motion::reference`). The matrix is congruent body by
+//!   body, so pivots keep their kind. A joint's rows lose their moments on the body it carries,
+//!   whose parallel-axis inertia is constant. Ratios of pivots still compare with centres of mass.
+//! - A mass may move to the other body's point (`augmented.rs`), only without a compliance and if
+//!   nothing of the other body is eliminated before.
+//! - Accelerations that no row of the joint acts on go first. The forbidden motion goes before the
+//!   point rows, unless the body is a leaf.
+//! - Rows eliminated with accelerations act on what is left by these accelerations. With
+//!   `x = C^-1 l` and `z = u - A x`, two columns take `x . u' + z . x'` from an entry.
+//! - A determinant is an entry of a rotation, which is its own cofactor (`rotation::relate`).
+//! - Uncoupled accelerations are eliminated together, and their sums collected (`collect.rs`),
+//!   with `a1 a1^T + a2 a2^T = I - a3 a3^T` for bodies with an axis of symmetry.
+//! - Factors can be used in three ways (`carried.rs`), and accelerations of centres of mass return
+//!   by `(F - D^T lambda) / m` or a rotation. `System::solve` takes the cheapest.
+//!
+//! Order. `tree.rs` gives each body the joint with most equations, then the one nearest to the
+//! ground, then names decide. So the order of fields has no say. Bodies go from leaves to ground,
+//! closing joints last. Sums follow the order of elimination, which shortens the path. Choice:
+//! `docs/decisions/005-choice-of-a-plan.md`.
+//!
+//! Other kernels. Readings have kernels in `readouts.rs`: angles, displacements, points of
+//! reactions, energy, power, loads, sides. Module `alone` counts `Phi`, `D` and `gamma` of each
+//! joint alone, for comparison with derivations by hand. They are not emitted.
 
 pub mod alone;
 mod augmented;

@@ -15,6 +15,49 @@
 //!
 //! Columns are made comparable by the size of the mechanism, rows by their own length. A row that
 //! stands out from the others by less than [`TOLERANCE`] of its length depends on them.
+//!
+//! Macros run unoptimised in users' crates. So rows are stored without zeros (`sparse.rs`), and
+//! steps use a sparse factorisation of `D D^T` (`normal.rs`). Rows that stand out clearly are
+//! taken by it. Only what they leave of the others is treated in full (`span.rs`). Corrections are
+//! those of Levenberg and Marquardt, which need no independent rows.
+//!
+//! What is done with a row:
+//!
+//! - A row that depends on others at all configurations is redundant: refused, dropped or kept
+//!   (`check/redundant.rs`). Which rows stay: `docs/decisions/004-choice-of-rows.md`.
+//! - A vector equation that loses a component becomes scalar products with global unit vectors.
+//! - A dropped row must hold wherever the kept rows let the mechanism move
+//!   (`contradiction::by_chance`). Constraints that touch, such as a bar that a turn shortens by
+//!   second order only, leave no other configuration and depend on each other at the start.
+//! - A row that vanishes at all configurations, but not far away or within a smooth step of time,
+//!   is dormant. It follows from nothing and is not dropped. Nor is any row where the walk finds
+//!   only a start that leaves motion free.
+//!
+//! Time (`tour.rs`). The walk has up to 100 steps. They end where a smooth step of time begins, is
+//! half done or ends. The first 60 have motions of up to 0.3 rad; the choice of rows is judged
+//! along them. The others go on as long as the demanded velocities tell where they lead, up to a
+//! day. Angles over turns are counted along all ways.
+//!
+//! Contradictions (`contradiction.rs`). A dropped row must follow in position, velocity and time:
+//! `Y^T Phi_t = 0` where `Y^T D = 0`. Where no configuration satisfies all equations, those that
+//! are violated while the kept ones hold, and depend on them all around, are a contradiction. It
+//! is refused in every mode, because a compliance would make a compromise. It must depend on rows
+//! that can be satisfied: an arm drawn beyond its reach says nothing. A start that cannot be
+//! assembled is refused with `"drop"` only, because every run reports it. An equation that is
+//! violated where its own gradient vanishes (a universal joint with parallel arms) is refused,
+//! unless its points and axes are given by `local(..)`. Where no configuration satisfies all
+//! equations, rows are kept from the first on, then from the last on.
+//!
+//! Motions of a joint (`specimen.rs`, `moves.rs`). Two free bodies get the joint and are displaced
+//! by random amounts of every motion. The equations must hold, no motion may have a part along a
+//! gradient, and the rank must leave as many motions. If the equations hold for no trial
+//! parameters, or the motions agree for one kind of them, the definition is accepted. Then only a
+//! mechanism can tell, by the same function. A definition that arrives from another crate is not
+//! compared again.
+//!
+//! Typical values (`#[param(like = ..)]`) are read by `motion.rs` alone. `Independence::likes`
+//! names the parameters that the constraints depend on. `closing.rs` finds dependent rows among
+//! closing joints, without what the tree forbids.
 
 mod assemble;
 mod choice;
