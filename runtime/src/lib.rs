@@ -20,7 +20,7 @@
 //! | samples as lines of a CSV file | `Recorder`, with the feature `recorder` |
 //! | correction onto the constraints | [`Projection`] |
 //! | the kernels themselves, sizes and operation counts | [`trait@Mechanism`], [`Report`] |
-//! | states of an integrator's [`System`] | arrays, [`State`], [`JointState`] |
+//! | states of an integrator's [`System`](integrate::System) | arrays, [`State`], [`JointState`] |
 //! | numbers, and numbers that carry derivatives along | [`Scalar`], [`Real`], [`Forward`] |
 //!
 //! Units are SI, angles are in radians. The crate needs no heap and no standard library: with
