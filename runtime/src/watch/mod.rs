@@ -42,6 +42,7 @@ mod seen;
 mod singular;
 mod verdict;
 mod within;
+mod worst;
 
 use crate::constraints::row_units::{Meanings, characteristic_length};
 pub use doubt::{Doubt, Doubts};
@@ -56,6 +57,7 @@ use self::lag::Lag;
 use self::pace::Pace;
 use self::rest::Rest;
 use self::singular::Approach;
+use self::worst::Worst;
 use crate::constraints::extent::resolution;
 use crate::constraints::side::wrong;
 use crate::integrate::Integrator;
@@ -64,7 +66,7 @@ use crate::math::vec3::read;
 use crate::math::vec3::square;
 use crate::mechanism::handle::JointHandle;
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::report::{BodyKind, JointInfo};
+use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
 /// What the watch over a run saw: violations by joint, pivots, energy.
@@ -136,8 +138,8 @@ pub struct Watch<S: Scalar, M: Mechanism> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excused<S> {
     /// Corrections of a [`Projection`](crate::Projection), or of a
-    /// [`DirectCorrection`](crate::run::DirectCorrection), which also counts where one application left
-    /// more than its tolerance.
+    /// [`DirectCorrection`](crate::run::DirectCorrection), which also counts where one application
+    /// left more than its tolerance.
     pub corrections: usize,
     /// Evaluations of the augmented Lagrangian.
     pub evaluations: usize,
@@ -178,66 +180,6 @@ pub struct ShortestGradient<S> {
     pub joint: &'static str,
     /// When (s).
     pub time: S,
-}
-
-/// The largest size of every row, as a length or an angle, and when.
-struct Worst<S: Scalar, M: Mechanism> {
-    size: M::Multipliers<S>,
-    time: M::Multipliers<S>,
-}
-
-impl<S: Scalar, M: Mechanism> Clone for Worst<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Worst<S, M> {}
-
-impl<S: Real, M: Mechanism> Worst<S, M> {
-    fn none(start: S) -> Self {
-        let mut time = M::Multipliers::<S>::zeros();
-        time.as_mut_slice().fill(start);
-        Self {
-            size: M::Multipliers::<S>::zeros(),
-            time,
-        }
-    }
-
-    #[inline]
-    fn take(&mut self, rows: &[S], factors: &[S], now: S) {
-        let places = self.size.as_mut_slice().iter_mut();
-        let places = places.zip(self.time.as_mut_slice());
-        for ((size, time), (&row, &factor)) in places.zip(rows.iter().zip(factors)) {
-            let here = row.abs() * factor;
-            if exceeds(here, *size) {
-                (*size, *time) = (here, now);
-            }
-        }
-    }
-
-    fn of(&self, rows: &Meanings<S, M>, joint: &JointInfo) -> Violation<S> {
-        let mut violation = Violation {
-            length: S::zero(),
-            angle: S::zero(),
-            time: S::zero(),
-        };
-        let mut largest = -S::one();
-        let sizes = self.size.as_slice().iter().zip(self.time.as_slice());
-        let own = sizes.enumerate().skip(joint.row).take(joint.rows);
-        for (row, (&size, &time)) in own {
-            let kind = if rows.is_length(row) {
-                &mut violation.length
-            } else {
-                &mut violation.angle
-            };
-            *kind = kind.max(size);
-            if size > largest {
-                (largest, violation.time) = (size, time);
-            }
-        }
-        violation
-    }
 }
 
 /// The largest speed (m/s) and angular velocity (rad/s) of a body.

@@ -4,8 +4,8 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array;
 
-/// Kept by [`Dynamics`](crate::dynamics::Dynamics) at every evaluation, for the watch to read at the end of a
-/// step.
+/// Kept by [`Dynamics`](crate::dynamics::Dynamics) at every evaluation, for the watch to read at
+/// the end of a step.
 pub struct Seen<S: Scalar, M: Mechanism> {
     /// The smallest relative pivot of the last evaluation, without its joint: to find that costs
     /// more than to look again at the end of a run.

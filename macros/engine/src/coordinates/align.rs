@@ -6,7 +6,8 @@
 //! 0.1 rad at the start, and they have zeros.
 
 use super::algebra::apply;
-use super::links::{Freedom, Links};
+use super::freedom::Freedom;
+use super::links::Links;
 use crate::model::{Binding, Model, ParameterKind};
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::fixed::{clean, size, transpose};

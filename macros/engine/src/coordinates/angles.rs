@@ -2,7 +2,8 @@
 //! asks for is then known without any rotation matrix.
 
 use super::frames::FrameId;
-use super::links::{Freedom, Links};
+use super::freedom::Freedom;
+use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::functions::PairedAngle;
 use crate::symbolic::vector::Triple;

@@ -8,7 +8,8 @@
 
 use super::algebra::{add, apply};
 use super::frames::{FrameId, Frames};
-use super::links::{Freedom, Links};
+use super::freedom::Freedom;
+use super::links::Links;
 use super::wrenches::Wrench;
 use crate::plan::eliminate::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};

@@ -6,7 +6,8 @@
 
 use super::algebra::{add, apply, scale, sub};
 use super::frames::identity;
-use super::links::{Freedom, Links};
+use super::freedom::Freedom;
+use super::links::Links;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::transpose;

@@ -13,8 +13,9 @@
 
 use super::algebra::{Inertia, add, apply};
 use super::frames::Frames;
+use super::freedom::Freedom;
 use super::kinematics::Kinematics;
-use super::links::{Freedom, Links};
+use super::links::Links;
 use super::system::{Reduced, Solution};
 use super::wrenches::Wrench;
 use crate::model::{Binding, Model, ParameterKind};

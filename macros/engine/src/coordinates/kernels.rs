@@ -1,8 +1,8 @@
 //! The kernels of a mechanism in joint coordinates.
 
 use super::candidates::{Strategy, choose};
+use super::freedom::Freedom;
 use super::from_bodies::from_bodies;
-use super::links::Freedom;
 use super::system::Reduced;
 use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{PivotCheck, relative};

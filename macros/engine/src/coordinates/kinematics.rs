@@ -1,7 +1,8 @@
 //! How links move: from the ground to the leaves, every link in the axes of its motion.
 
 use super::algebra::{add, apply};
-use super::links::{Freedom, Links};
+use super::freedom::Freedom;
+use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::vector::{Triple, ZERO, cross};
 

@@ -4,49 +4,12 @@
 use super::algebra::{Inertia, add_tensors, apply, scale, sub};
 use super::align::{NOT_TURNED, ReferenceAngle, best_angle, turned_axes};
 use super::frames::{FrameId, Frames, identity};
+use super::freedom::Freedom;
 use super::spanning::{Carried, Spanning};
 use crate::model::{Binding, BodyKind, Direction, Model, Motion, Number};
 use crate::symbolic::arena::{Arena, Input};
 use crate::symbolic::fixed::{axis_and_normals, clean, placement, size, transpose, triple};
 use crate::symbolic::vector::{Triple, ZERO};
-
-/// How a link moves against the one that carries it.
-#[derive(Clone, Copy, Debug)]
-pub enum Freedom {
-    /// It turns about a coordinate axis of its frame, by a pair of cosine and sine. A negative turn
-    /// of the joint is a positive one here where `is_reversed`.
-    Turn {
-        /// The axis.
-        axis: usize,
-        /// The place among the pairs.
-        pair: usize,
-        /// Whether the joint counts the angle the other way round.
-        is_reversed: bool,
-    },
-    /// It slides along a direction of its frame, which is that of its carrier.
-    Slide {
-        /// The direction, of unit length.
-        along: Triple,
-        /// The place among the further coordinates.
-        rest: usize,
-    },
-    /// It turns freely against the ground, by Euler parameters.
-    Ball {
-        /// The place of the first among the further coordinates.
-        rest: usize,
-    },
-}
-
-impl Freedom {
-    /// How many velocities it has.
-    #[must_use]
-    pub const fn velocities(self) -> usize {
-        match self {
-            Self::Turn { .. } | Self::Slide { .. } => 1,
-            Self::Ball { .. } => 3,
-        }
-    }
-}
 
 /// A link.
 #[derive(Clone, Debug)]

@@ -2,7 +2,8 @@
 //! on to the ground.
 
 use super::algebra::{Inertia, add, add_tensors, apply, cross_inertia};
-use super::links::{Freedom, Links};
+use super::freedom::Freedom;
+use super::links::Links;
 use super::wrenches::Wrench;
 use crate::plan::eliminate::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};

@@ -55,6 +55,7 @@ pub mod candidates;
 mod certain;
 mod dependent;
 pub mod frames;
+pub mod freedom;
 pub mod from_bodies;
 mod handover;
 pub mod kernels;

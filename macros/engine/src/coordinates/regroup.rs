@@ -2,8 +2,9 @@
 //! of the inertia belongs to.
 
 use super::algebra::{Inertia, NOTHING, add_tensors, scale, scale_tensor, sub};
+use super::freedom::Freedom;
 use super::handover::Handover;
-use super::links::{Freedom, Links};
+use super::links::Links;
 use crate::symbolic::arena::Arena;
 use crate::symbolic::vector::{Triple, ZERO};
 

@@ -1,8 +1,9 @@
 //! Forces and moments on links, and what they are along the velocities.
 
 use super::algebra::{Inertia, add, apply, scale};
+use super::freedom::Freedom;
 use super::kinematics::Kinematics;
-use super::links::{Freedom, Links};
+use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::vector::{Triple, ZERO, cross, dot};
 

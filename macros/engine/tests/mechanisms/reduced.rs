@@ -3,8 +3,9 @@
 
 use holonom_engine::coordinates::beginning::Beginning;
 use holonom_engine::coordinates::candidates::Strategy;
+use holonom_engine::coordinates::freedom::Freedom;
 use holonom_engine::coordinates::from_bodies::from_bodies;
-use holonom_engine::coordinates::links::{Freedom, Links};
+use holonom_engine::coordinates::links::Links;
 use holonom_engine::coordinates::system::{Reduced, Solution};
 use holonom_engine::model::{BodyKind, Model};
 use holonom_engine::plan::eliminate::Check;
