@@ -31,9 +31,10 @@ use crate::state::vector::Array;
 /// equation to a hundredth of the terms of the equation: in these directions the formulation is a
 /// penalty with the compliance `e / max_iterations`. Where equations stay nearly dependent as the
 /// mechanism moves, the iteration goes on by conjugate gradients, which take about one solution for
-/// each such `s`, up to `max_iterations` more. [`Iterations::excused`](crate::dynamics::Iterations::excused)
-/// counts evaluations that end before their tolerance. Where the loads do not cancel, slow
-/// convergence is [`Fault::NotConverged`]: `alpha` is too small for the masses.
+/// each such `s`, up to `max_iterations` more.
+/// [`Iterations::excused`](crate::dynamics::Iterations::excused) counts evaluations that end before
+/// their tolerance. Where the loads do not cancel, slow convergence is [`Fault::NotConverged`]:
+/// `alpha` is too small for the masses.
 ///
 /// In joint coordinates it iterates on the equations that remain, by the rates of their velocities,
 /// and goes on by conjugate gradients wherever `max_iterations` do not do; no evaluation is
@@ -90,10 +91,11 @@ impl<S: Real> AugmentedLagrangian<S> {
     /// known in advance; at least 2.
     ///
     /// The tolerance is not looked at then: a part `(e / (e + s))^(solutions - 1)` of the bias of
-    /// the penalty is left, see above. [`Dynamics::inconsistency`](crate::dynamics::Dynamics::inconsistency)
-    /// says how much that is at a state. Where the last solution still changes the accelerations by
-    /// more than a hundredth, the evaluation is refused, [`Fault::NotConverged`]: `alpha` is too
-    /// small for the masses.
+    /// the penalty is left, see above.
+    /// [`Dynamics::inconsistency`](crate::dynamics::Dynamics::inconsistency) says how much that is
+    /// at a state. Where the last solution still changes the accelerations by more than a
+    /// hundredth, the evaluation is refused, [`Fault::NotConverged`]: `alpha` is too small for the
+    /// masses.
     #[must_use]
     pub fn exactly(self, solutions: usize) -> Self {
         Self {

@@ -1,25 +1,30 @@
-//! The guide: how to describe a mechanism, run it and read it, chapter by chapter.
+//! The guide: how to describe a mechanism, run it and read the results.
 //!
-//! | chapter | what it answers |
+//! You want to simulate a mechanism. Copy [the first program](#a-first-program), find your task in
+//! [`recipes`], and open the page that goes further:
+//!
+//! | page | what it has |
 //! |---|---|
-//! | [`mechanism`] | how bodies, joints and the start are described; how joints are chosen so that the count of equations comes out |
+//! | [`recipes`] | short programs by task: read a reaction, drive a hinge, start elsewhere, write CSV |
+//! | [`coming_from`] | names for users of Pinocchio, MuJoCo, Drake, Modelica and Adams; what is missing |
+//! | [`mechanism`] | bodies, joints and the start; how to choose joints so that the degrees of freedom are right |
 //! | [`mod@reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
-//! | [`joint`] | how a joint of one's own is defined |
-//! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics and inverse dynamics; power and energy |
-//! | [`parameters`] | numbers that are known at run time only, and inputs that change at every step |
-//! | [`results`] | what can be read, in which units, frames and signs; state and restart |
-//! | [`trust`] | whether a result can be trusted: the doubts of a run, starts, steps and budgets |
-//! | [`reactions`] | what a joint exerts on which body, reduced to which point; body axes and principal axes |
-//! | [`redundant`] | equations that follow from others, singular configurations, and joints that avoid both |
-//! | [`embedded`] | fixed steps without a heap and without the standard library, single precision |
+//! | [`joint`] | how to define your own joint |
+//! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
+//! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
+//! | [`results`] | what can be read, with units, frames and signs; state and restart |
+//! | [`trust`] | whether to trust a result: the warnings of a run, starts, steps and budgets |
+//! | [`reactions`] | the reaction of a joint: on which body, about which point; body axes and principal axes |
+//! | [`redundant`] | redundant equations, singular configurations, and joints that avoid both |
+//! | [`embedded`] | fixed steps without a heap or the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
-//! | [`accuracy`] | what accuracy costs, measured; which setting does for an error; where the numerics stop to hold |
-//! | [`coordinates`] | bodies or joints: the two descriptions of a mechanism, and what each costs and gives |
+//! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
+//! | [`coordinates`] | absolute or joint coordinates: costs and properties of each |
 //!
 //! # A first program
 //!
-//! In the folder that has the repository under the name `holonom`: `cargo new pendulum`, into
-//! `pendulum/Cargo.toml`
+//! Begin in the folder that contains the repository under the name `holonom`. Call
+//! `cargo new pendulum`, and write into `pendulum/Cargo.toml`
 //!
 //! ```toml
 //! [dependencies]
@@ -71,10 +76,16 @@
 //! }
 //! ```
 //!
-//! The examples of the chapters leave `fn main` out: structs, `joint!` and `force!` stand outside
-//! it, what follows inside. Every example is compiled and run with the tests of the crate, and what
-//! the text says of its numbers is asserted in it. Equations stand twice: typeset, where the page
-//! could load KaTeX, and as plain text.
+//! The examples of the pages leave `fn main` out. Structs, `joint!` and `force!` belong outside it,
+//! the rest inside. Every example is compiled and run with the tests of the crate, and asserts the
+//! numbers that the text gives. Every equation is shown twice: typeset, where the page could load
+//! KaTeX, and as plain text.
+
+#[doc = include_str!("recipes.md")]
+pub mod recipes {}
+
+#[doc = include_str!("coming_from.md")]
+pub mod coming_from {}
 
 #[doc = include_str!("mechanism.md")]
 pub mod mechanism {}

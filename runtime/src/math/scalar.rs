@@ -75,8 +75,8 @@ pub trait Scalar:
     fn round(self) -> Self;
 
     /// The sines of angles (rad), and their versines, `1 - cos`: what turns by these angles are
-    /// made of, see [`crate::state::JointState`]. Both keep their digits however small or large the angle
-    /// is; NaN for an infinite one.
+    /// made of, see [`crate::state::JointState`]. Both keep their digits however small or large the
+    /// angle is; NaN for an infinite one.
     ///
     /// By [`Scalar::sin`] and [`Scalar::cos`] of half the angles, if a type does not know better:
     /// `f64` and `f32` have no call of a function where all angles are below 0.9 rad.

@@ -19,9 +19,9 @@ pub struct Wrench<S> {
     /// The point (m, global).
     pub point: Vector3<S>,
     /// Whether nothing else would do. Not so where equations of the joint depend on others
-    /// ([`JointInfo::undetermined`](crate::mechanism::JointInfo)): then a part of the reaction is one of many
-    /// that hold the bodies, by the choice of equations that are kept or the compliance that they
-    /// share, and zero in it says nothing.
+    /// ([`JointInfo::undetermined`](crate::mechanism::JointInfo)): then a part of the reaction is
+    /// one of many that hold the bodies, by the choice of equations that are kept or the compliance
+    /// that they share, and zero in it says nothing.
     pub is_unique: bool,
 }
 

@@ -78,9 +78,9 @@ pub trait Mechanism: Sized + 'static {
     /// assembled, its equations are independent at the start, and those that were left out follow
     /// from them.
     ///
-    /// `new` of the mechanism, [`Dynamics::new`](crate::dynamics::Dynamics::new) and `update` call it. It
-    /// uses double precision and takes some dozens of evaluations. It does nothing where no typical
-    /// value was used.
+    /// `new` of the mechanism, [`Dynamics::new`](crate::dynamics::Dynamics::new) and `update` call
+    /// it. It uses double precision and takes some dozens of evaluations. It does nothing where no
+    /// typical value was used.
     ///
     /// # Errors
     /// The parameter, and the joint where it shows:
@@ -365,7 +365,8 @@ pub struct Evaluation<S: Scalar, M: Mechanism> {
 }
 
 impl<S: Scalar, M: Mechanism> Evaluation<S, M> {
-    /// A place for results, see [`Dynamics::evaluate_into`](crate::dynamics::Dynamics::evaluate_into).
+    /// A place for results, see
+    /// [`Dynamics::evaluate_into`](crate::dynamics::Dynamics::evaluate_into).
     #[inline(always)]
     #[must_use]
     pub fn zeros() -> Self {

@@ -26,8 +26,8 @@ use crate::watch::Watch;
 
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
-/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::mechanism::Raw)), `A` which forces
-/// come on top of those of the description.
+/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::mechanism::Raw)), `A`
+/// which forces come on top of those of the description.
 pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoForces, C = Bodies> {
     mechanism: &'a M,
     formulation: F,

@@ -197,7 +197,8 @@ pub enum Treatment {
     None,
     /// Positions and velocities are corrected onto the constraints, see [`holonom::Projection`].
     Projection,
-    /// The same by the pseudo-inverse of the Jacobian, once, see [`holonom::run::DirectCorrection`].
+    /// The same by the pseudo-inverse of the Jacobian, once, see
+    /// [`holonom::run::DirectCorrection`].
     DirectCorrection,
     /// Velocities alone are, see [`holonom::run::VelocityProjection`].
     VelocityProjection,

@@ -142,8 +142,8 @@ fn a_corrected_state_keeps_the_slopes_before() {
     );
 }
 
-/// What a run takes from [`crate::integrate::Integrator::turning_error`]: with `z` half the angle of a step,
-/// an angle is off by less than `|p|`.
+/// What a run takes from [`crate::integrate::Integrator::turning_error`]: with `z` half the angle
+/// of a step, an angle is off by less than `|p|`.
 #[test]
 fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
     let mut system = equation(|_, &[a, b]: &[f64; 2]| [-b, a]);
