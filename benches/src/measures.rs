@@ -37,13 +37,13 @@ pub struct Measures {
 pub const COMPARE: Measures = Measures {
     name: "compare",
     feature: "compare",
-    seconds: [None, None],
+    seconds: [Some(81), None],
 };
 /// `study trade`.
 pub const TRADE: Measures = Measures {
     name: "trade",
     feature: "trade",
-    seconds: [Some(260), None],
+    seconds: [Some(213), None],
 };
 /// `study recommend`.
 pub const RECOMMEND: Measures = Measures {
@@ -54,7 +54,7 @@ pub const RECOMMEND: Measures = Measures {
 pub const EXTREMES: Measures = Measures {
     name: "extremes",
     feature: "extremes",
-    seconds: [None, None],
+    seconds: [Some(155), None],
 };
 
 /// Whose seconds these are.
