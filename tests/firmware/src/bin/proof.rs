@@ -8,7 +8,10 @@
 use core::hint::black_box;
 
 use holonom::prelude::*;
-use holonom::{Heun, JointStepper, Midpoint, Scalar, SemiImplicitEuler, integrate::{DormandPrince5, Scheme}};
+use holonom::{
+    Heun, JointStepper, Midpoint, Scalar, SemiImplicitEuler,
+    integrate::{DormandPrince5, Scheme},
+};
 use holonom_firmware::Number;
 use holonom_firmware::trials::{
     PendulumByBodies, PendulumByJoints, Swing, SwingByBodies, SwingByJoints, Ur5ByJoints, run,
