@@ -6,10 +6,8 @@ use crate::math::scalar::Scalar;
 #[inline(always)]
 pub(super) fn scaled<S: Scalar, const N: usize>(row: [f64; N], step: S) -> [S; N] {
     let mut weights = [step; N];
-    let mut k = 0;
-    while k < N {
-        weights[k] = S::constant(row[k]) * step;
-        k += 1;
+    for (weight, factor) in weights.iter_mut().zip(row) {
+        *weight = S::constant(factor) * step;
     }
     weights
 }

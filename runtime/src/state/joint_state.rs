@@ -137,10 +137,8 @@ fn more_increments<S: Scalar, const T: usize, const Q: usize, const U: usize, co
     terms: &[(S, &JointState<S, T, Q, U>); K],
 ) -> [S; T] {
     for (factor, slope) in terms {
-        let mut k = 0;
-        while k < T {
-            sums[k] = slope.pairs[k][0].fused(*factor, sums[k]);
-            k += 1;
+        for (sum, [rate, _]) in sums.iter_mut().zip(&slope.pairs) {
+            *sum = rate.fused(*factor, *sum);
         }
     }
     sums

@@ -1,8 +1,4 @@
 //! Fixed-size arrays of scalars, and the state of a mechanism.
-//!
-//! The algebra of arrays is written as plain loops: optimised they are what iterators are, and in a
-//! build that is not optimised, as that of tests, they take a third of the time and no code of
-//! `core`.
 
 use core::ops::IndexMut;
 
@@ -210,20 +206,16 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     #[inline(always)]
     fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {
         let mut result = *self;
-        let mut k = 0;
-        while k < N {
-            result[k] = f(result[k], other[k]);
-            k += 1;
+        for (element, other) in result.iter_mut().zip(other) {
+            *element = f(*element, *other);
         }
         result
     }
 
     #[inline(always)]
     fn for_each(&self, mut f: impl FnMut(S)) {
-        let mut k = 0;
-        while k < N {
-            f(self[k]);
-            k += 1;
+        for &element in self {
+            f(element);
         }
     }
 
@@ -258,11 +250,8 @@ pub(crate) fn plus<S: Scalar, X, const N: usize>(
 ) -> [S; N] {
     let mut result = *from;
     for (factor, direction) in terms {
-        let direction = part(direction);
-        let mut k = 0;
-        while k < N {
-            result[k] = direction[k].fused(*factor, result[k]);
-            k += 1;
+        for (element, slope) in result.iter_mut().zip(part(direction)) {
+            *element = slope.fused(*factor, *element);
         }
     }
     result
@@ -277,11 +266,9 @@ pub(crate) fn relative_norm<S: Real, X, const N: usize>(
     part: impl Fn(&X) -> &[S; N],
 ) -> S {
     let mut ratio = plus(&[S::zero(); N], terms, part);
-    let mut k = 0;
-    while k < N {
-        let scale = greater(greater(from[k].abs(), to[k].abs()), floor);
-        ratio[k] = ratio[k].abs().quotient(scale);
-        k += 1;
+    for ((ratio, x), y) in ratio.iter_mut().zip(from).zip(to) {
+        let scale = greater(greater(x.abs(), y.abs()), floor);
+        *ratio = ratio.abs().quotient(scale);
     }
     greatest(&ratio)
 }
@@ -300,14 +287,10 @@ pub(crate) fn greater<S: Real>(a: S, b: S) -> S {
 pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
     let mut lanes = [S::zero(); 4];
     let mut ordered = true;
-    let mut k = 0;
-    while k < elements.len() {
-        let mut lane = 0;
-        while lane < 4 && k < elements.len() {
-            ordered &= elements[k] >= S::zero();
-            lanes[lane] = greater(lanes[lane], elements[k]);
-            lane += 1;
-            k += 1;
+    for chunk in elements.chunks(4) {
+        for (lane, &element) in lanes.iter_mut().zip(chunk) {
+            ordered &= element >= S::zero();
+            *lane = greater(*lane, element);
         }
     }
     let [a, b, c, d] = lanes;
@@ -337,13 +320,9 @@ pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
         return zero_if_finite_after(-S::zero(), elements);
     }
     let mut lanes = [-S::zero(); 4];
-    let mut k = 0;
-    while k < elements.len() {
-        let mut lane = 0;
-        while lane < 4 && k < elements.len() {
-            lanes[lane] = elements[k].fused(-S::zero(), lanes[lane]);
-            lane += 1;
-            k += 1;
+    for chunk in elements.chunks(4) {
+        for (lane, element) in lanes.iter_mut().zip(chunk) {
+            *lane = element.fused(-S::zero(), *lane);
         }
     }
     let [a, b, c, d] = lanes;
