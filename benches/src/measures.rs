@@ -43,7 +43,7 @@ pub const COMPARE: Measures = Measures {
 pub const TRADE: Measures = Measures {
     name: "trade",
     feature: "trade",
-    seconds: [Some(213), None],
+    seconds: [Some(260), None],
 };
 /// `study recommend`.
 pub const RECOMMEND: Measures = Measures {
@@ -54,7 +54,7 @@ pub const RECOMMEND: Measures = Measures {
 pub const EXTREMES: Measures = Measures {
     name: "extremes",
     feature: "extremes",
-    seconds: [Some(155), None],
+    seconds: [Some(136), None],
 };
 
 /// Whose seconds these are.

@@ -81,6 +81,12 @@ fn rooms_of_the_run_time_read_one_way() {
             continue;
         }
         for other in used {
+            assert_ne!(
+                other,
+                &["lib"],
+                "`{}` names something by the root, which is for users",
+                file.join("/")
+            );
             if file[0] != other[0] && !BESIDE.contains(&other[0].as_str()) {
                 arrows += 1;
                 assert!(
@@ -166,8 +172,19 @@ fn graph(folder: &str) -> BTreeMap<Module, BTreeSet<Module>> {
             let whole = absolute(module, path);
             let file = (1..=whole.len()).rev().map(|length| &whole[..length]);
             let file = file.into_iter().find(|start| texts.contains_key(*start));
-            if let Some(file) = file.filter(|file| *file != module.as_slice()) {
-                used.insert(file.to_vec());
+            match file {
+                Some(file) if file == module.as_slice() => {}
+                Some(file) => {
+                    used.insert(file.to_vec());
+                }
+                // A type or a function; macros are of the root, and written in small letters.
+                None if whole
+                    .first()
+                    .is_some_and(|name| name.starts_with(char::is_uppercase)) =>
+                {
+                    used.insert(vec!["lib".to_owned()]);
+                }
+                None => {}
             }
         });
         graph.insert(module.clone(), used);
@@ -225,6 +242,11 @@ fn named(tokens: TokenStream, each: &mut impl FnMut(&[String])) {
                 named(group.stream(), each);
                 place += 1;
             }
+            // `$crate` is what users of a macro name.
+            TokenTree::Punct(mark) if mark.as_char() == '$' => {
+                let is_name = matches!(tokens.get(place + 1), Some(TokenTree::Ident(_)));
+                place += if is_name { 2 } else { 1 };
+            }
             TokenTree::Ident(word) if word == "crate" || word == "super" => {
                 place = path(&tokens, place, &mut Vec::new(), each);
             }
@@ -268,5 +290,5 @@ fn path(
     }
     each(path_so_far);
     path_so_far.truncate(depth);
-    place.max(1)
+    place
 }

@@ -1,6 +1,6 @@
 //! Whether a run may begin where it is told to.
 
-use crate::constraints::extent::resolution;
+use crate::constraints::extent::{largest, resolution};
 use crate::constraints::row_units::{Meanings, characteristic_length};
 use crate::constraints::side::check_sides;
 use crate::error::{Fault, Quantity};
@@ -97,8 +97,4 @@ fn add_products<S: Scalar>(blocks: &[Block], jacobian: &[S], velocities: &[S], s
             }
         }
     }
-}
-
-fn largest<S: Real>(elements: &[S]) -> S {
-    elements.iter().fold(S::zero(), |most, x| most.max(x.abs()))
 }

@@ -48,6 +48,7 @@ pub(crate) fn farthest<S: Real>(bodies: &[BodyInfo], coordinates: &[S]) -> S {
     positions.fold(S::zero(), S::max)
 }
 
-fn largest<S: Real>(elements: &[S]) -> S {
+/// The largest magnitude; zero where there is none.
+pub(crate) fn largest<S: Real>(elements: &[S]) -> S {
     elements.iter().fold(S::zero(), |most, x| most.max(x.abs()))
 }

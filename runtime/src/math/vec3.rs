@@ -32,7 +32,7 @@ pub(crate) fn minus<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     [a1 - b1, a2 - b2, a3 - b3]
 }
 
-/// `factor v`. A plain loop: `map` of an array is a page of code in a build that is not optimised.
+/// `factor v`. A loop, as `map` of an array becomes much code where nothing is optimised.
 pub(crate) fn times<S: Scalar, const N: usize>(v: &[S; N], factor: S) -> [S; N] {
     let mut result = *v;
     let mut k = 0;

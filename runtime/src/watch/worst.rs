@@ -9,8 +9,8 @@ use crate::state::vector::Array;
 
 /// The largest size of every row, as a length or an angle, and when.
 pub(super) struct Worst<S: Scalar, M: Mechanism> {
-    pub(super) size: M::Multipliers<S>,
-    pub(super) time: M::Multipliers<S>,
+    size: M::Multipliers<S>,
+    time: M::Multipliers<S>,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Worst<S, M> {
