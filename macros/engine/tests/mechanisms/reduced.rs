@@ -191,6 +191,12 @@ impl Comparison<'_> {
         let Some(equations) = Equations::new(self.described, &exact) else {
             return Ok(());
         };
+        // Counted angles are those of that state, which may lie beyond half a turn from the first.
+        let counted = inputs.coordinates.iter_mut().rev();
+        let angles = cartesian(&exact, &equations.angles).coordinates;
+        for (own, angle) in counted.zip(angles.iter().rev().take(equations.angles.len())) {
+            *own = *angle;
+        }
         // Joints of the tree hold by themselves, rigidly.
         let remains = |joint: usize| {
             let mut constraints = reduced.scene.constraints.iter();
