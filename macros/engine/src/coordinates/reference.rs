@@ -4,7 +4,7 @@
 //! coordinates that vanishes as well where links are in line: the tree has taken what the row could
 //! act on, and the pivot of the only row of a loop would never be small beside itself. So pivots
 //! are compared with what their rows would be on free bodies, as those of the bodies are: with its
-//! greatest value along a tour where numbers tell, which costs nothing.
+//! greatest value along a tour where numbers tell, outliers apart, which costs nothing.
 
 use super::beginning::Beginning;
 use super::dependent::tour;
@@ -22,21 +22,18 @@ impl Reduced {
         let mobilities = trial.mobilities();
         let arena = &trial.scene.space.arena;
         let stops = tour(arena, beginning, &trial.links);
-        let mut greatest: Vec<Option<f64>> = vec![None; mobilities.len()];
+        let mut known: Vec<Vec<f64>> = vec![Vec::new(); mobilities.len()];
         for (time, coordinates) in &stops {
             let values = evaluate(arena, &mobilities, |input| match input {
                 Input::Coordinate(place) => coordinates.get(place as usize).copied(),
                 Input::Time => Some(*time),
                 _ => None,
             });
-            for (greatest, value) in greatest.iter_mut().zip(values) {
-                let value = value.filter(|value| value.is_finite() && *value > 0.0);
-                if let Some(value) = value {
-                    *greatest = Some(greatest.map_or(value, |known| known.max(value)));
-                }
+            for (known, value) in known.iter_mut().zip(values) {
+                known.extend(value.filter(|value| value.is_finite() && *value > 0.0));
             }
         }
-        self.references = greatest;
+        self.references = known.into_iter().map(size).collect();
     }
 
     /// The same pivots, compared with what their rows are on free bodies; those that do not change
@@ -85,6 +82,19 @@ impl Reduced {
         }
         mobilities
     }
+}
+
+/// The greatest of some values, without those that a stop near a singular point of the row itself
+/// gives, as where an angle about two axes is hardly defined: they are far beyond the median.
+fn size(mut values: Vec<f64>) -> Option<f64> {
+    /// Times the median; rows that vanish at some stops are within it.
+    const FAR_BEYOND: f64 = 1e4;
+    values.sort_by(f64::total_cmp);
+    let median = *values.get(values.len() / 2)?;
+    let near = values
+        .into_iter()
+        .rfind(|value| *value <= FAR_BEYOND * median);
+    near.or(Some(median))
 }
 
 /// `sum + v.v` with the squares over masses.

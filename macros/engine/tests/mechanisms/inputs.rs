@@ -2,6 +2,7 @@
 
 use holonom_engine::model::inertia::{compose, rotation};
 use holonom_engine::model::{BodyKind, Model};
+use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::arena::{Arena, Expr, Input};
 use holonom_engine::symbolic::equations::Kernel;
 use holonom_engine::symbolic::evaluate::evaluate;
@@ -15,6 +16,17 @@ pub(crate) struct Coefficients {
     pub(crate) rate_gain: f64,
     pub(crate) position_gain: f64,
     pub(crate) compliance: f64,
+}
+
+impl Coefficients {
+    /// The gains of `Phi'` and `Phi`, where the terms have them.
+    pub(crate) fn gains(&self, terms: Terms) -> (f64, f64) {
+        if terms == Terms::Plain {
+            (0.0, 0.0)
+        } else {
+            (self.rate_gain, self.position_gain)
+        }
+    }
 }
 
 /// Everything that a kernel may ask for.

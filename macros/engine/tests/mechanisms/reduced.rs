@@ -218,17 +218,13 @@ impl Comparison<'_> {
         let Some(system) = System::of(&equations, matrix) else {
             return Ok(());
         };
-        let (gain, square) = if terms == Terms::Plain {
-            (0.0, 0.0)
-        } else {
-            (coefficients.rate_gain, coefficients.position_gain)
-        };
+        let (gain, square) = coefficients.gains(terms);
         let mut right = equations.forces.clone();
         right
             .extend((0..equations.phi.len()).map(|k| {
                 equations.gamma[k] - gain * equations.rate[k] - square * equations.phi[k]
             }));
-        let (wanted, round_off) = system.solve(&right);
+        let (wanted, round_off) = system.solve_with(&right, (gain, square));
         let Solution {
             accelerations,
             multipliers,

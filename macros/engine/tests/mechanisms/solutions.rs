@@ -51,10 +51,16 @@ impl System {
 
     /// The solution, and what its round-off is compared with.
     pub(crate) fn solve(&self, right: &[f64]) -> (Vec<f64>, f64) {
+        self.solve_with(right, (0.0, 0.0))
+    }
+
+    /// The same with gains of `Phi'` and `Phi` in the right-hand side, by which their round-off
+    /// counts.
+    pub(crate) fn solve_with(&self, right: &[f64], gains: (f64, f64)) -> (Vec<f64>, f64) {
         let solution = self.factors.solve(right);
         let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         // Right-hand sides are differences of larger numbers.
-        let right = largest(right).max(self.scale);
+        let right = largest(right).max(self.scale * (1.0 + gains.0 + gains.1));
         let round_off = self.inverse * (self.norm * largest(&solution) + right);
         (solution, round_off)
     }
@@ -131,13 +137,7 @@ impl Comparison<'_> {
         let rigid = System::new(equations, 0.0);
         let soft = System::new(equations, coefficients.compliance);
         self.statistics.singular += usize::from(rigid.is_none());
-        let right = |terms: Terms| {
-            let stabilised = terms != Terms::Plain;
-            let gains = if stabilised {
-                (coefficients.rate_gain, coefficients.position_gain)
-            } else {
-                (0.0, 0.0)
-            };
+        let right = |gains: (f64, f64)| {
             let lower = (0..rows).map(|k| {
                 equations.gamma[k] - gains.0 * equations.rate[k] - gains.1 * equations.phi[k]
             });
@@ -151,10 +151,9 @@ impl Comparison<'_> {
             } else {
                 &rigid
             };
-            (
-                terms,
-                system.as_ref().map(|system| system.solve(&right(terms))),
-            )
+            let gains = coefficients.gains(terms);
+            let solve = |system: &System| system.solve_with(&right(gains), gains);
+            (terms, system.as_ref().map(solve))
         });
         let wanted = |terms: Terms| {
             let mut solved = solved.iter();
@@ -227,7 +226,7 @@ impl Comparison<'_> {
         self.solvers(
             raw,
             equations,
-            &right(Terms::Stabilised),
+            &right(coefficients.gains(Terms::Stabilised)),
             [rigid.as_ref(), soft.as_ref()],
         )
     }
