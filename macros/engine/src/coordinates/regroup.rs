@@ -8,6 +8,10 @@ use super::links::Links;
 use crate::symbolic::arena::Arena;
 use crate::symbolic::vector::{Triple, ZERO};
 
+/// How far an origin moves at most, in lengths of its offset. Seen from far away an inertia is a
+/// small difference of large numbers.
+const FARTHEST: f64 = 4.0;
+
 impl Links {
     /// Moves the origins of turning links along their axes to where offsets have the most zeros.
     pub(super) fn slide_origins(&mut self, arena: &mut Arena) {
@@ -19,14 +23,17 @@ impl Links {
             // The axis as the carrier sees it, in the reference configuration.
             let along = self.axis_on_carrier(arena, link, axis);
             let mut best = (self.zeros(arena, link, along, axis, 0.0), 0.0);
+            let size = own.iter().filter_map(|&x| arena.literal(x));
+            let size = size.fold(0.0, |sum: f64, x| sum.hypot(x));
             for k in 0..3 {
                 let (Some(x), Some(a)) = (arena.literal(own[k]), arena.literal(along[k])) else {
                     continue;
                 };
-                if a.abs() < 1e-9 {
+                let distance = -x / a;
+                let is_near = distance.abs() <= FARTHEST * size;
+                if !is_near {
                     continue;
                 }
-                let distance = -x / a;
                 let zeros = self.zeros(arena, link, along, axis, distance);
                 if zeros > best.0 {
                     best = (zeros, distance);

@@ -185,3 +185,35 @@ fn what_follows_by_chance_is_not_left_out_nor_advised_to_be() {
         assert!(why.contains("keep") && !why.contains("drop"), "{why}");
     }
 }
+
+/// A principal axis nearly across the axis of a joint: the origin that turns the offset into a zero
+/// was a kilometre away along the axis, and cost the accelerations five digits.
+const FAR_ORIGIN: &str = "
+    pub struct Random {
+        #[body(mass = 2.2, inertia = [0.6, 0.5, 0.7], position = [0.0, 0.5, -0.5], free)]
+        a: Body,
+        #[body(mass = 1.4, inertia = [
+            [1.5007402883175056, -0.04554896473330505, 0.06115028496719204],
+            [-0.04554896473330505, 1.0268866201212283, 0.3257979997884696],
+            [0.06115028496719204, 0.3257979997884696, 1.0733135037578398],
+        ], orientation = rotation([1.0, 0.0, 0.0], deg(-90.0)), position = [0.5, 0.25, 0.25], free)]
+        b: Body,
+        #[joint(between = [b, a], point = [1.0, 0.0, 0.25], axis = [0.0, 0.0, -2.0])]
+        joint: Cylindrical,
+    }";
+
+#[test]
+fn origins_stay_near_their_links() {
+    let text = Text {
+        item: FAR_ORIGIN.into(),
+        definitions: Vec::new(),
+    };
+    for seed in 0..4 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}
