@@ -1,7 +1,7 @@
 //! The two descriptions of a mechanism: an evaluation, and a step of Runge-Kutta in the time of one
 //! of its four evaluations, over states that do not depend on each other.
 //!
-//! - `bodies`, `joints`: [`System::rates`] of [`Dynamics`] and of [`JointDynamics`], standard
+//! - `bodies`, `joints`: [`System::rates`] of [`Dynamics`] in absolute and in relative coordinates, standard
 //!   multipliers;
 //! - `step by bodies`, `step by joints`: [`Rk4`].
 
@@ -11,7 +11,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use holonom::prelude::*;
 use holonom::{
     JointCoordinates,
-    dynamics::{Dynamics, JointDynamics},
+    dynamics::Dynamics,
     integrate::{Scheme, System},
 };
 use holonom_models::{Bricard, CartPole, FourBar, HeavyTop, Panda, RodPendulum, SliderCrank, Ur5};
@@ -25,8 +25,8 @@ fn both<M: JointCoordinates + Default>(criterion: &mut Criterion, name: &str) {
     let mechanism = M::default();
     let bodies = Dynamics::<f64, M, _>::new(&mechanism, StandardLagrange);
     let mut bodies = bodies.expect("the mechanism is sound");
-    let joints = JointDynamics::<f64, M, _>::new(&mechanism, StandardLagrange);
-    let mut joints = joints.expect("the mechanism is sound");
+    let joints = Dynamics::<f64, M, _>::new(&mechanism, StandardLagrange);
+    let mut joints = joints.expect("the mechanism is sound").joint_coordinates();
     let start = M::initial_state(bodies.constants());
     let joint_start = joints.initial_state().expect("it stands as described");
     let mut group = criterion.benchmark_group(name);

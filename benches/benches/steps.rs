@@ -7,7 +7,7 @@
 //!   sixth of its cube;
 //! - `six powers`: by six, which are exact up to 0.0125 rad. No longer angle is provided for,
 //!   lengths drift, nothing is looked at, as with two: a step that is right does more;
-//! - `step`: [`JointStepper::step`].
+//! - `step`: [`Stepper::step`] in relative coordinates.
 //!
 //! Behind them, `sum of pairs`: [`Vector::plus`] of so many pairs and rates, which LLVM compiles
 //! well for some numbers and not for others (`versine::cut`).
@@ -20,7 +20,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use holonom::prelude::*;
 use holonom::{
-    Formulation, JointCoordinates, JointStepper, Rk4,
+    Formulation, JointCoordinates, Rk4,
     mechanism::Plain,
     state::{Array, JointState, Vector},
 };
@@ -47,8 +47,8 @@ where
     let kernel = |state: &M::JointState<f64>, rates: &mut M::JointState<f64>| {
         M::joint_rates_into::<f64, Plain>(&constants, &coefficients, 0.0, state, rates);
     };
-    let stepper = JointStepper::new(&mechanism, StandardLagrange, Rk4);
-    let mut stepper: JointStepper<f64, M, _, _> = stepper.expect("the mechanism is sound");
+    let stepper = Stepper::<f64, M, _, _>::new(&mechanism, StandardLagrange, Rk4);
+    let mut stepper = stepper.expect("the mechanism is sound").joint_coordinates();
     let start = stepper.initial_state().expect("it stands as described");
 
     let mut group = criterion.benchmark_group(name);

@@ -183,7 +183,6 @@ pub use mechanism::joint_kernels::JointCoordinates;
 pub use mechanism::kernels::Mechanism;
 pub use mechanism::report::Report;
 pub use nalgebra;
-pub use run::joint_stepper::JointStepper;
 pub use run::kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
 pub use run::output::{Reporting, every, every_step};
 #[cfg(feature = "recorder")]
@@ -200,9 +199,9 @@ pub use watch::{Doubt, Doubts, Watch};
 pub use crate::{
     error::ParameterFault,
     mechanism::{
-        AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts, Driven,
-        Evaluation, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle, HasDisplacement,
-        Joint, JointCounter, JointEvaluation, JointInfo, JointMotion, JointParts, JointReport,
+        Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
+        Driven, Evaluation, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
+        HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointParts, JointReport,
         Kernel, Operations, Orientation, Pivot, Rank, RedundantRow, Stabilisation, Terms,
     },
     state::{Array, JointState, State},

@@ -4,9 +4,9 @@ pub use holonom_macros::{assemble, force_impl, joint_impl};
 
 pub use crate::dynamics::likes::{Like, check_likes};
 
-use crate::dynamics::stabilised;
 use crate::error::{ParameterError, ParameterFault};
 use crate::math::scalar::{Real, Scalar, elementary};
+use crate::mechanism::absolute::stabilised;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Terms};
 use crate::mechanism::orientations::{scale_euler_rates, with_unit_orientations};
 use crate::state::vector::StateParts;

@@ -3,7 +3,7 @@
 
 use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
-use holonom::{JointCoordinates, JointHandle, dynamics::JointDynamics, state::Array};
+use holonom::{JointCoordinates, JointHandle, dynamics::Dynamics, state::Array};
 
 #[path = "references/arms/data.rs"]
 mod data;
@@ -273,9 +273,11 @@ fn holds<M: JointCoordinates, const N: usize>(
         let pairs = found.iter().zip(&given.torques);
         pairs.fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs())) / largest
     };
-    let dynamics = JointDynamics::new(arm, StandardLagrange).expect("sound");
-    let joints = dynamics.joints(state).expect("closed");
-    let evaluation = dynamics.evaluate(0.0, &joints).expect("regular");
+    let dynamics = Dynamics::new(arm, StandardLagrange)
+        .expect("sound")
+        .joint_coordinates();
+    let joints = dynamics.state_of(state).expect("closed");
+    let (evaluation, _) = dynamics.evaluate(0.0, &joints).expect("regular");
     let efforts: Vec<f64> = evaluation
         .multipliers
         .as_slice()

@@ -1,27 +1,251 @@
-//! An evaluation by whatever formulation.
+//! An evaluation of the equations of motion, in one straight line or from its parts.
 
-use super::Dynamics;
+use core::marker::PhantomData;
+
+use super::{Dynamics, vanishes};
 use crate::error::Fault;
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, Saddle, Solution};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::kernels::{Evaluation, Mechanism, Orientation};
+use crate::measure::load::{AppliedForces, Loads};
+use crate::mechanism::coordinates::{Absolute, Begun, Coordinates, EquationsIn, Evaluation};
+use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
+use crate::state::vector::{Array, MovingState, StateParts};
 
-/// [`Dynamics`] without its formulation and forces in the type.
-pub(crate) trait Evaluate<S: Real, M: Mechanism> {
-    fn evaluation(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault>;
+/// The equations of motion in some coordinates, with a formulation and forces of a closure.
+pub(crate) struct Evaluator<'d, S: Real, M: Mechanism, F, A, C: Coordinates<M>> {
+    pub(super) equations: &'d EquationsIn<S, M, C>,
+    /// What depends on parameters alone, in absolute coordinates.
+    pub(super) absolute: &'d M::Constants<S>,
+    pub(super) stabilisation: &'d Stabilisation<S>,
+    pub(super) formulation: &'d F,
+    pub(super) forces: &'d A,
 }
 
-impl<S, M, F, P, A> Evaluate<S, M> for Dynamics<S, M, F, P, A>
+/// What an evaluation from its parts tells besides rates and multipliers.
+pub(super) struct Parts<S> {
+    pub(super) pivot: Pivot<S>,
+    pub(super) iterations: usize,
+    /// Whether the iteration was ended before its tolerance.
+    pub(super) excused: bool,
+    /// The power (W) of the forces of a closure.
+    pub(super) applied_power: S,
+}
+
+impl<S, M, F, A, C> Evaluator<'_, S, M, F, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation
+    /// may iterate.
+    pub(super) const IN_PARTS: bool = A::PRESENT || F::ITERATED;
+
+    /// See [`Dynamics::evaluate_into`].
+    #[inline(always)]
+    pub(super) fn evaluate_into(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        evaluation: &mut Evaluation<S, M, C>,
+    ) -> Result<usize, Fault> {
+        let Evaluation {
+            rates,
+            multipliers,
+            pivot,
+        } = evaluation;
+        let mut iterations = 1;
+        if Self::IN_PARTS {
+            match self.in_parts(time, state, rates, multipliers) {
+                Ok(parts) => (*pivot, iterations) = (parts.pivot, parts.iterations),
+                Err(Fault::StateNotFinite) => return Err(self.fault(time, state)),
+                Err(fault) => return Err(fault),
+            }
+        } else {
+            *pivot = self.straight(time, state, rates, multipliers);
+        }
+        if sound::<S, C::State<S>, F::Terms>(rates, pivot) {
+            Ok(iterations)
+        } else {
+            Err(self.fault(time, state))
+        }
+    }
+
+    /// The evaluation in one straight line.
+    #[inline(always)]
+    pub(super) fn straight(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
+        multipliers: &mut C::Multipliers<S>,
+    ) -> Pivot<S> {
+        C::evaluate_into::<S, F::Terms>(
+            &self.equations.constants,
+            &self.equations.coefficients,
+            time,
+            state,
+            rates,
+            multipliers,
+        )
+    }
+
+    /// The same for a step, which may leave multipliers as they are.
+    #[inline(always)]
+    pub(super) fn slope(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
+        multipliers: &mut C::Multipliers<S>,
+    ) -> Pivot<S> {
+        C::rates_into::<S, F::Terms>(
+            &self.equations.constants,
+            &self.equations.coefficients,
+            time,
+            state,
+            rates,
+            multipliers,
+        )
+    }
+
+    /// The first solution from parts, and the power (W) of the closure's forces.
+    #[inline(always)]
+    pub(super) fn begun(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
+    ) -> (Begun<S, M, C>, S) {
+        let constants = &self.equations.constants;
+        let Stabilisation { rate, position, .. } = *self.stabilisation;
+        let mut power = S::zero();
+        let begun = C::begin::<S, F::Terms>(
+            (constants, &self.equations.coefficients),
+            [rate, position],
+            time,
+            state,
+            rates,
+            A::PRESENT,
+            |read, forces| {
+                C::with_bodies(constants, read, |bodies| {
+                    let described = *forces;
+                    self.forces
+                        .apply(time, bodies, &mut Loads::new(bodies, forces));
+                    let velocities = bodies.velocities().as_slice();
+                    let loads = forces.as_slice().iter().zip(described.as_slice());
+                    for ((&whole, &own), &u) in loads.zip(velocities) {
+                        power = (whole - own).fused(u, power);
+                    }
+                });
+            },
+        );
+        (begun, power)
+    }
+
+    /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
+    ///
+    /// # Errors
+    /// [`Fault::StateNotFinite`] where a pivot vanishes or something is not finite:
+    /// [`Evaluator::fault`] says what, once this has given its stack back.
+    pub(super) fn in_parts(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
+        multipliers: &mut C::Multipliers<S>,
+    ) -> Result<Parts<S>, Fault> {
+        let (begun, applied_power) = self.begun(time, state, rates);
+        if vanishes::<S, F::Terms>(begun.pivot.relative) {
+            return Err(Fault::StateNotFinite);
+        }
+        let mut solution = Solution::<S, M, C> {
+            accelerations: begun.accelerations,
+            multipliers: begun.multipliers,
+            iterations: 1,
+            excused: false,
+        };
+        let saddle = Saddle::<S, M, C, F::Terms> {
+            constants: &self.equations.constants,
+            coefficients: &self.equations.coefficients,
+            compliances: &self.equations.compliances,
+            factors: &begun.factors,
+            right: &begun.right,
+            time,
+            state: C::as_read(state, rates),
+            terms: PhantomData,
+        };
+        match self.formulation.refine(&saddle, &mut solution) {
+            Ok(()) => {}
+            Err(Fault::RatesNotFinite { .. }) => return Err(Fault::StateNotFinite),
+            Err(fault) => return Err(fault),
+        }
+        let constants = &self.equations.constants;
+        C::finish(constants, state, rates, &solution.accelerations);
+        *multipliers = solution.multipliers;
+        Ok(Parts {
+            pivot: begun.pivot,
+            iterations: solution.iterations,
+            excused: solution.excused,
+            applied_power,
+        })
+    }
+
+    /// Forces and moments of the closure alone on bodies whose Euler parameters have length 1.
+    pub(super) fn applied(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
+        let mut forces = M::Velocities::<S>::zeros();
+        self.forces
+            .apply(time, bodies, &mut Loads::new(bodies, &mut forces));
+        forces
+    }
+}
+
+impl<S, M, F, A, P> Evaluator<'_, S, M, F, A, Absolute<P>>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    Absolute<P>: Coordinates<M, Constants<S> = M::Constants<S>>,
+{
+    /// Forces and moments of the description and of a closure.
+    pub(super) fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
+        let mut forces = M::forces(&self.equations.constants, time, bodies);
+        if A::PRESENT {
+            self.forces
+                .apply(time, bodies, &mut Loads::new(bodies, &mut forces));
+        }
+        forces
+    }
+}
+
+/// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of
+/// the multiplier is left.
+///
+/// With a compliance the system is solvable whatever the constraints are. A pivot of NaN shows in
+/// the rates.
+#[inline(always)]
+fn sound<S: Real, X: MovingState<S>, T: Terms>(rates: &X, pivot: &Pivot<S>) -> bool {
+    rates.is_finite() && !vanishes::<S, T>(pivot.relative)
+}
+
+/// [`Dynamics`] without its formulation, forces and coordinates in the type.
+pub(crate) trait Evaluate<S: Real, M: Mechanism> {
+    fn evaluation(&self, time: S, bodies: &M::State<S>) -> Result<Evaluation<S, M>, Fault>;
+}
+
+impl<S, M, F, A, C> Evaluate<S, M> for Dynamics<S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
 {
     #[inline(never)]
-    fn evaluation(&self, time: S, state: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
-        self.evaluate(time, state).map(|(evaluation, _)| evaluation)
+    fn evaluation(&self, time: S, bodies: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
+        self.evaluate_bodies(time, bodies)
     }
 }

@@ -1,23 +1,25 @@
 //! Why a mechanism has no rates: asked after a step was refused, apart from what a step takes.
 
-use super::{Dynamics, vanishes};
+use super::{Dynamics, Evaluator, vanishes};
 use crate::constraints::extent::farthest;
-use crate::dynamics::origin::{differing, origin};
-use crate::error::Fault;
+use crate::dynamics::origin::{before_accelerations, differing};
+use crate::error::{Fault, NotFinite};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::kernels::{Evaluation, Mechanism, Orientation, Pivot, Terms};
+use crate::measure::load::{AppliedForces, Loads};
+use crate::mechanism::absolute::as_read;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
 use crate::mechanism::orientations::check_state;
-use crate::state::vector::{Array, StateParts};
+use crate::state::vector::{Array, MovingState, StateParts};
 
-impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
+impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
+    C: Coordinates<M>,
 {
     /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly
     /// vanished at a state, and with what the number type resolves of a position where that is
@@ -63,9 +65,9 @@ where
         if !A::PRESENT {
             return Ok(());
         }
-        let read = Self::read(state);
+        let read = as_read::<S, M, C::Orientation>(state);
         let one = self.applied(time, &read);
-        let _ = self.applied(between.0, &Self::read(between.1));
+        let _ = self.applied(between.0, &as_read::<S, M, C::Orientation>(between.1));
         let other = self.applied(time, &read);
         match differing(&M::REPORT, [one.as_slice(), other.as_slice()]) {
             None => Ok(()),
@@ -84,32 +86,53 @@ where
         if F::Terms::COMPLIANT || M::REPORT.keeps_redundant() {
             return None;
         }
-        let (Pivot { relative, joint }, _) = self.solved_again(time, state);
+        let mut rates = M::State::zeros();
+        let Pivot { relative, joint } = self.of_bodies().solved_again(time, state, &mut rates);
         (relative < S::constant(NEARLY_VANISHED)).then(|| field::<M>(joint.to_f64() as usize))
     }
+}
 
+impl<S, M, F, A, C> Evaluator<'_, S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
     /// Why an evaluation is not sound: solved again, so that the rates of one that is sound need
     /// not be kept.
     #[cold]
     #[inline(never)]
-    pub(super) fn fault(&self, time: S, state: &M::State<S>) -> Fault {
-        if let Err(fault) = check_state::<S, M>(state) {
+    pub(super) fn fault(&self, time: S, state: &C::State<S>) -> Fault {
+        if let Err(fault) = C::check(state) {
             return fault;
         }
-        let (pivot, accelerations) = self.solved_again(time, state);
+        let mut rates = C::State::zeros();
+        let pivot = self.solved_again(time, state, &mut rates);
         if vanishes::<S, F::Terms>(pivot.relative) {
             return singular::<S, M>(&pivot);
         }
-        let read = &Self::read(state);
-        let applied = A::PRESENT.then(|| self.all_forces(time, read));
+        let bodies = &C::bodies(&self.equations.constants, state);
+        if let Err(fault) = check_state::<S, M>(bodies) {
+            return fault;
+        }
+        let read = &as_read::<S, M, C::Orientation>(bodies);
+        let applied = A::PRESENT.then(|| {
+            let mut forces = M::forces(self.absolute, time, read);
+            self.forces
+                .apply(time, read, &mut Loads::new(read, &mut forces));
+            forces
+        });
+        let applied = applied.as_ref();
+        let origin = before_accelerations::<S, M, F::Terms>(self.absolute, time, read, applied);
+        let of_body = || {
+            let mut accelerations = rates.rates_slice().iter();
+            let place = accelerations.position(|rate| !rate.is_finite())?;
+            C::body_of_velocity(place).map(NotFinite::Body)
+        };
         Fault::RatesNotFinite {
-            origin: origin::<S, M, F::Terms>(
-                &self.constants,
-                time,
-                read,
-                applied.as_ref(),
-                &accelerations,
-            ),
+            origin: origin.or_else(of_body).unwrap_or(NotFinite::Unknown),
         }
     }
 
@@ -120,24 +143,20 @@ where
     pub(super) fn solved_again(
         &self,
         time: S,
-        state: &M::State<S>,
-    ) -> (Pivot<S>, M::Velocities<S>) {
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
+    ) -> Pivot<S> {
         if !Self::IN_PARTS {
-            let mut evaluation = Evaluation::<S, M>::zeros();
-            let Evaluation {
-                rates, multipliers, ..
-            } = &mut evaluation;
-            let pivot = self.straight(time, state, rates, multipliers);
-            return (pivot, *rates.velocities());
+            return self.slope(time, state, rates, &mut Array::zeros());
         }
-        let read = &Self::read(state);
-        let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
-        let upper = self.all_forces(time, read);
-        let lower = self.stabilised(time, read);
-        let (accelerations, _) =
-            M::solve::<S, F::Terms>(constants, coefficients, &factors, &upper, &lower);
-        (pivot, accelerations)
+        let (begun, _) = self.begun(time, state, rates);
+        C::finish(
+            &self.equations.constants,
+            state,
+            rates,
+            &begun.accelerations,
+        );
+        begun.pivot
     }
 }
 

@@ -1,56 +1,73 @@
 //! The Jacobian of the rates, by kernels over forward numbers.
 
-use super::{Dynamics, as_read, coordinate_rates, stabilised, straight};
+use super::Dynamics;
 use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, by_forward_numbers, lifted, with_differences};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
-use crate::mechanism::kernels::{Mechanism, Orientation, Stabilisation};
-use crate::state::vector::{Array, StateParts, Vector};
+use crate::mechanism::absolute::as_read;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::{Mechanism, Stabilisation};
+use crate::state::vector::{Array, MovingState, Vector};
 
-impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
+impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
+    C: Coordinates<M>,
 {
     /// Writes the columns of the Jacobian, and says how many there were. `None` where a derivative
     /// is not finite.
     pub(super) fn differentiated(
         &self,
         time: S,
-        state: &M::State<S>,
-        columns: &mut <M::State<S> as Vector<S>>::Each<M::State<S>>,
+        state: &C::State<S>,
+        columns: &mut <C::State<S> as Vector<S>>::Each<C::State<S>>,
     ) -> Option<usize> {
-        let constants: &M::Constants<Lifted<S>> = &lifted(&self.constants);
-        let coefficients: &M::Coefficients<Lifted<S>> = &lifted(&self.coefficients);
+        let equations = self.evaluator().equations;
+        let constants: &C::Constants<Lifted<S>> = &lifted(&equations.constants);
+        let coefficients: &C::Coefficients<Lifted<S>> = &lifted(&equations.coefficients);
         let at = Forward::fixed(time);
-        let zeros = M::State::from_parts(Array::zeros(), Array::zeros());
+        let zeros = C::State::zeros();
         if !A::PRESENT {
             let multipliers = &mut Array::zeros();
             return by_forward_numbers(state, &zeros, columns, |state, rates, _| {
-                let prepared = (constants, coefficients);
-                straight::<Lifted<S>, M, F::Terms, P>(prepared, at, state, rates, multipliers);
+                C::rates_into::<Lifted<S>, F::Terms>(
+                    constants,
+                    coefficients,
+                    at,
+                    state,
+                    rates,
+                    multipliers,
+                );
             });
         }
         let Stabilisation { rate, position, .. } = self.stabilisation;
         let gains = [rate, position].map(Forward::fixed);
-        let applied = |state: &M::State<S>| self.applied(time, &Self::read(state));
+        let applied = |state: &C::State<S>| {
+            let bodies = self.bodies(state);
+            self.applied(time, &as_read::<S, M, C::Orientation>(&bodies))
+        };
         let here = applied(state);
         by_forward_numbers(state, &zeros, columns, |lifted, rates, taken| {
-            let read = &as_read::<_, M, P>(lifted);
-            let (factors, _) = M::factor::<_, F::Terms>(constants, coefficients, at, read);
-            let mut upper = M::forces(constants, at, read);
-            let law: M::Velocities<Lifted<S>> = with_differences(state, taken, &here, applied);
-            let forces = upper.as_mut_slice().iter_mut().zip(law.as_slice());
-            forces.for_each(|(force, &more)| *force = *force + more);
-            let lower = stabilised::<_, M, F::Terms>(constants, gains, at, read);
-            let solution =
-                M::solve::<_, F::Terms>(constants, coefficients, &factors, &upper, &lower);
-            *rates.coordinates_mut() = coordinate_rates::<_, M, P>(constants, lifted, read);
-            *rates.velocities_mut() = solution.0;
+            let prepared = (constants, coefficients);
+            let begun = C::begin::<Lifted<S>, F::Terms>(
+                prepared,
+                gains,
+                at,
+                lifted,
+                rates,
+                true,
+                |_, forces| {
+                    let law: M::Velocities<Lifted<S>> =
+                        with_differences(state, taken, &here, applied);
+                    let forces = forces.as_mut_slice().iter_mut().zip(law.as_slice());
+                    forces.for_each(|(force, &more)| *force = *force + more);
+                },
+            );
+            C::finish(constants, lifted, rates, &begun.accelerations);
         })
     }
 }

@@ -7,22 +7,15 @@ use super::Dynamics;
 use crate::constraints::rows::Rows;
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::kernels::{Compliant, Mechanism, Orientation, Pivot};
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::{Compliant, Mechanism, Pivot};
 use crate::state::vector::Array;
 
 /// Steps of the inverse iteration. Near a singular configuration one is enough; far from it any
 /// estimate is.
 const ITERATIONS: usize = 3;
 
-impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    P: Orientation,
-    A: AppliedForces<S, M>,
-{
+impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S, M, F, A, C> {
     /// The least eigenvalue beside zero of `S^-1 G S^-1`, with `S^2` the diagonal of `G`, and the
     /// joint whose rows have most of it. It goes with the square of the distance from where it
     /// vanishes, as a relative pivot does, down to the compliance that keeps the matrix regular.
@@ -31,7 +24,7 @@ where
     /// which what depends on others for good drops out.
     #[inline(never)]
     pub(super) fn kept_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
-        let rows = Rows::<S, M>::at(&self.constants, time, state);
+        let rows = Rows::<S, M>::at(self.constants(), time, state);
         let stiffness = rows.stiffness.as_slice();
         let largest = stiffness.iter().fold(S::zero(), |most, &x| most.max(x));
         let compliance = S::EPSILON.sqrt();
@@ -45,7 +38,7 @@ where
             *e = compliance * g;
             *scale = g.sqrt();
         }
-        let (constants, scales) = (&self.constants, scales.as_slice());
+        let (constants, scales) = (self.constants(), scales.as_slice());
         let coefficients = M::coefficients_by_row(constants, &self.stabilisation, &compliances);
         let (factors, _) = M::factor::<S, Compliant>(constants, &coefficients, time, state);
         let solve = |x: &M::Multipliers<S>| {

@@ -1,12 +1,14 @@
-//! A mechanism as a system of differential equations.
+//! A mechanism as a system of differential equations, in absolute or relative coordinates.
 //!
-//! A run in joint coordinates moves a `JointState`, and shows, watches, projects and reports the
-//! bodies made of it (`moving.rs`). `jacobian.rs` has the exact Jacobian:
+//! [`Dynamics`] is one type for both: [`Coordinates`] names the kernels. Whatever reads a mechanism
+//! (views, reactions, the watch, projections) reads its bodies, and so the equations in absolute
+//! coordinates are always prepared. `evaluate.rs` evaluates either equations, `system.rs` is what
+//! an integrator moves. `jacobian.rs` has the exact Jacobian:
 //! `docs/decisions/009-jacobian-by-forward-numbers.md`.
 //!
 //! Faults. The smallest pivot leaves a kernel with its result, and `faults.rs` makes an error with
 //! the joint's name. `origin.rs` finds where a non-finite rate began, after a fault only:
-//! `docs/decisions/007-checks-after-a-step.md`. Where joint coordinates give no rates, their own
+//! `docs/decisions/007-checks-after-a-step.md`. Where relative coordinates give no rates, their own
 //! numbers name the body.
 //!
 //! `likes.rs` judges the values of parameters with `like`: it assembles, from the described state
@@ -17,10 +19,8 @@
 pub(crate) mod evaluate;
 mod faults;
 mod jacobian;
-pub(crate) mod joint_dynamics;
 mod kept;
 pub(crate) mod likes;
-pub(crate) mod moving;
 mod on_constraints;
 pub(crate) mod origin;
 mod secants;
@@ -28,42 +28,78 @@ mod system;
 mod trial;
 mod watched;
 
-pub use joint_dynamics::JointDynamics;
-pub use moving::{Bodies, Description, Joints, Moving};
+pub use on_constraints::RigidSteps;
 
 use core::marker::PhantomData;
 
+pub(crate) use evaluate::Evaluator;
 pub(crate) use faults::singular;
-pub(crate) use watched::lesser;
 
+use crate::assembly::consistent_start::check_start;
 use crate::constraints::compliance::compliances;
 use crate::error::{Fault, ParameterError};
-use crate::formulation::{Formulation, Saddle, inconsistency};
-use crate::math::scalar::{Real, Scalar};
+use crate::formulation::{Formulation, inconsistency};
+use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::measure::view::View;
-use crate::mechanism::kernels::{
-    Evaluation, Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms,
+use crate::mechanism::absolute::{as_read, stabilised};
+use crate::mechanism::coordinates::{
+    Absolute, AbsoluteEquations, Coordinates, Equations, Evaluation, Relative,
 };
-use crate::mechanism::orientations::{scale_euler_rates, with_unit_orientations};
-use crate::state::vector::{Array, StateParts, Vector};
+use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
+use crate::mechanism::orientations::check_state;
+use crate::state::vector::Vector;
 use crate::watch::Seen;
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
-/// `P` says how Euler parameters are read, `A` which forces come on top of those of the
-/// description.
-pub struct Dynamics<S: Real, M: Mechanism, F: Formulation<S>, P = Normalised, A = NoForces> {
+/// `A` says which forces come on top of those of the description, `C` in which coordinates the
+/// equations are solved. States are [`Coordinates::State`]: in absolute coordinates the state of
+/// the bodies, in relative ones [`JointCoordinates::JointState`]. [`Dynamics::bodies`] says how the
+/// bodies stand and move in a state, and everything that can be read of a mechanism is read there.
+///
+/// ```
+/// use holonom::joints::Revolute;
+/// use holonom::prelude::*;
+/// use holonom::{dynamics::Dynamics, integrate::Scheme};
+///
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+/// struct Rod {
+///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+///     rod: Body,
+///     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     hinge: Revolute,
+/// }
+///
+/// let dynamics = Dynamics::<f64, _, _>::new(&Rod::default(), StandardLagrange)?;
+/// let mut dynamics = dynamics.joint_coordinates();
+/// let mut state = dynamics.initial_state()?;
+/// for step in 0..100 {
+///     Rk4.step(&mut dynamics, 0.01 * f64::from(step), &mut state, 0.01)?;
+/// }
+/// let bodies = dynamics.bodies(&state);
+/// let angle = dynamics.view(1.0, &bodies).angle(Rod::HANDLES.hinge);
+/// assert!((state.pairs()[0][0] - angle.cos()).abs() < 1e-14);
+/// # Ok::<(), Fault>(())
+/// ```
+pub struct Dynamics<
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A = NoForces,
+    C: Coordinates<M> = Absolute,
+> {
     parameters: M::Parameters<S>,
-    constants: M::Constants<S>,
-    coefficients: M::Coefficients<S>,
+    absolute: AbsoluteEquations<S, M>,
+    own: C::Own<S>,
     stabilisation: Stabilisation<S>,
-    compliances: M::Multipliers<S>,
     formulation: F,
     forces: A,
     pub(crate) iterations: Iterations,
     pub(crate) seen: Seen<S, M>,
-    orientation: PhantomData<P>,
+    coordinates: PhantomData<C>,
 }
 
 /// The parameters and inputs of a mechanism; inputs are finite in the number type of the run, too.
@@ -85,9 +121,24 @@ pub struct Iterations {
     pub excused: usize,
 }
 
+/// The equations in absolute coordinates.
+fn equations<S: Real, M: Mechanism, F: Formulation<S>>(
+    parameters: &M::Parameters<S>,
+    formulation: &F,
+    stabilisation: &Stabilisation<S>,
+) -> Result<AbsoluteEquations<S, M>, Fault> {
+    let constants = M::prepare(parameters);
+    let radian = formulation.radian();
+    let compliances = compliances::<S, M, F::Terms>(&constants, stabilisation, radian)?;
+    Ok(Equations {
+        coefficients: M::coefficients_by_row(&constants, stabilisation, &compliances),
+        constants,
+        compliances,
+    })
+}
+
 impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
-    /// Prepares the kernels: Euler parameters normalised inside the evaluation, no forces beyond
-    /// the description.
+    /// Prepares the kernels, without forces beyond the description.
     ///
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
@@ -95,73 +146,97 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
         let stabilisation = formulation.stabilisation()?;
         let parameters = parameters(mechanism)?;
         mechanism.check_likes::<S>(None)?;
-        let constants = M::prepare(&parameters);
-        let radian = formulation.radian();
-        let compliances = compliances::<S, M, F::Terms>(&constants, &stabilisation, radian)?;
         Ok(Self {
+            absolute: equations::<S, M, F>(&parameters, &formulation, &stabilisation)?,
+            own: (),
             parameters,
-            constants,
-            coefficients: M::coefficients_by_row(&constants, &stabilisation, &compliances),
             stabilisation,
-            compliances,
             formulation,
             forces: NoForces,
             iterations: Iterations::default(),
             seen: Seen::nothing(),
-            orientation: PhantomData,
+            coordinates: PhantomData,
         })
     }
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, P, A: Clone> Clone for Dynamics<S, M, F, P, A> {
+impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clone
+    for Dynamics<S, M, F, A, C>
+{
     fn clone(&self) -> Self {
         Self {
             parameters: self.parameters,
-            constants: self.constants,
-            coefficients: self.coefficients,
+            absolute: self.absolute,
+            own: self.own,
             stabilisation: self.stabilisation,
-            compliances: self.compliances,
             formulation: self.formulation,
             forces: self.forces.clone(),
             iterations: self.iterations,
             seen: self.seen,
-            orientation: PhantomData,
+            coordinates: PhantomData,
         }
     }
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M, F, P, A> {
-    /// The same with Euler parameters read in another way.
+impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S, M, F, A, C> {
+    /// The same with forces from a closure, which is shown the state of the bodies.
     #[must_use]
-    pub fn orientation<P2: Orientation>(self) -> Dynamics<S, M, F, P2, A> {
-        self.exchange(|forces| forces)
-    }
-
-    /// The same with forces from a closure.
-    #[must_use]
-    pub fn forces<G>(self, law: G) -> Dynamics<S, M, F, P, ForceLaw<G>>
+    pub fn forces<G>(self, law: G) -> Dynamics<S, M, F, ForceLaw<G>, C>
     where
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
-        self.exchange(|_| ForceLaw(law))
+        self.with_forces(ForceLaw(law))
     }
 
-    pub(crate) fn exchange<P2, A2>(
-        self,
-        forces: impl FnOnce(A) -> A2,
-    ) -> Dynamics<S, M, F, P2, A2> {
+    pub(crate) fn with_forces<A2>(self, forces: A2) -> Dynamics<S, M, F, A2, C> {
         Dynamics {
             parameters: self.parameters,
-            constants: self.constants,
-            coefficients: self.coefficients,
+            absolute: self.absolute,
+            own: self.own,
             stabilisation: self.stabilisation,
-            compliances: self.compliances,
             formulation: self.formulation,
-            forces: forces(self.forces),
+            forces,
             iterations: self.iterations,
             seen: self.seen,
-            orientation: PhantomData,
+            coordinates: PhantomData,
         }
+    }
+
+    /// The same in other coordinates.
+    #[must_use]
+    pub fn coordinates<C2: Coordinates<M>>(self) -> Dynamics<S, M, F, A, C2> {
+        Dynamics {
+            own: C2::own(&self.parameters, &self.stabilisation, &self.absolute),
+            parameters: self.parameters,
+            absolute: self.absolute,
+            stabilisation: self.stabilisation,
+            formulation: self.formulation,
+            forces: self.forces,
+            iterations: self.iterations,
+            seen: self.seen,
+            coordinates: PhantomData,
+        }
+    }
+
+    /// The same in relative (joint) coordinates.
+    #[must_use]
+    pub fn joint_coordinates(self) -> Dynamics<S, M, F, A, Relative>
+    where
+        M: JointCoordinates,
+    {
+        self.coordinates()
+    }
+
+    /// The same in absolute coordinates.
+    #[must_use]
+    pub fn absolute_coordinates(self) -> Dynamics<S, M, F, A, Absolute> {
+        self.coordinates()
+    }
+
+    /// The same in absolute coordinates, with Euler parameters read in another way.
+    #[must_use]
+    pub fn orientation<P: Orientation>(self) -> Dynamics<S, M, F, A, Absolute<P>> {
+        self.coordinates()
     }
 
     /// Takes the present parameters and inputs of the mechanism.
@@ -171,13 +246,9 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
         let parameters = parameters(mechanism)?;
         mechanism.check_likes(Some(&self.parameters))?;
-        let constants = M::prepare(&parameters);
-        let radian = self.formulation.radian();
-        self.compliances = compliances::<S, M, F::Terms>(&constants, &self.stabilisation, radian)?;
-        self.coefficients =
-            M::coefficients_by_row(&constants, &self.stabilisation, &self.compliances);
+        self.absolute = equations::<S, M, F>(&parameters, &self.formulation, &self.stabilisation)?;
+        self.own = C::own(&parameters, &self.stabilisation, &self.absolute);
         self.parameters = parameters;
-        self.constants = constants;
         Ok(())
     }
 
@@ -189,24 +260,21 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     #[inline]
     pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
         M::put_inputs(inputs, &mut self.parameters)?;
-        M::take_inputs(&self.parameters, &mut self.constants);
+        M::take_inputs(&self.parameters, &mut self.absolute.constants);
+        C::take_inputs(&self.parameters, &mut self.own);
         Ok(())
     }
 
-    /// The values that the constants are made of.
-    pub(crate) fn parameters(&self) -> &M::Parameters<S> {
-        &self.parameters
-    }
-
-    /// What depends on the parameters of the mechanism alone.
+    /// What depends on the parameters of the mechanism alone, in absolute coordinates.
     #[must_use]
     pub fn constants(&self) -> &M::Constants<S> {
-        &self.constants
+        &self.absolute.constants
     }
 
-    /// The compliance of every row; zeros for a formulation without.
-    pub(crate) fn compliances(&self) -> &M::Multipliers<S> {
-        &self.compliances
+    /// The same in its own coordinates.
+    #[inline(always)]
+    pub(crate) fn own_constants(&self) -> &C::Constants<S> {
+        &C::equations(&self.absolute, &self.own).constants
     }
 
     pub(crate) fn formulation(&self) -> &F {
@@ -214,31 +282,109 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, P: Orientation, A> Dynamics<S, M,
     }
 
     /// How often the augmented Lagrangian solved its system in
-    /// [`System::rates`](crate::integrate::System::rates); zero for other formulations.
+    /// [`System::rates`](crate::integrate::System::rates); zero for other formulations, and where
+    /// no equation is solved.
     #[must_use]
     pub fn iterations(&self) -> Iterations {
         self.iterations
     }
 
-    /// Readable access to a state.
+    /// The state that the attributes of the bodies describe.
+    ///
+    /// # Errors
+    /// As [`Dynamics::state_of`]; [`MechanismExt::assemble`](crate::MechanismExt::assemble) mends a
+    /// start that opens a joint.
+    pub fn initial_state(&self) -> Result<C::State<S>, Fault> {
+        self.state_of(&M::initial_state(self.constants()))
+    }
+
+    /// How the bodies stand and move in a state; in relative coordinates exactly as the joints of
+    /// the tree let them.
     #[must_use]
-    pub fn view<'a>(&'a self, time: S, state: &'a M::State<S>) -> View<'a, S, M> {
-        View::new(&self.constants, time, state).reading::<P>()
+    pub fn bodies(&self, state: &C::State<S>) -> M::State<S> {
+        C::bodies(self.own_constants(), state)
+    }
+
+    /// The state in which bodies stand and move so.
+    ///
+    /// # Errors
+    /// A state that is not finite. In relative coordinates [`Fault::InconsistentStart`] where the
+    /// bodies do not stand as the joints let them, or move so that one would open within a second,
+    /// by more than four digits; smaller violations of the joints of the tree are taken away. There
+    /// [`Fault::StateNotFinite`] where the two axes of a joint are in line.
+    pub fn state_of(&self, bodies: &M::State<S>) -> Result<C::State<S>, Fault> {
+        let mut bodies = *bodies;
+        M::recount(self.constants(), &mut bodies);
+        check_state::<S, M>(&bodies)?;
+        if C::IS_RELATIVE {
+            let second = (S::zero(), S::one());
+            check_start::<S, M>(self.constants(), second, &bodies, true)?;
+        }
+        let state = C::of_bodies(self.own_constants(), &bodies);
+        if state.is_finite() {
+            Ok(state)
+        } else {
+            Err(Fault::StateNotFinite)
+        }
+    }
+
+    /// The bodies of a state, when they stood near by a moment ago: Euler parameters keep their
+    /// signs as far as they can.
+    #[inline(always)]
+    pub(crate) fn bodies_near(&self, state: &C::State<S>, near: &M::State<S>) -> M::State<S> {
+        C::bodies_near(self.own_constants(), state, near)
+    }
+
+    /// The state in which bodies stand and move so, or nearly so.
+    #[inline(always)]
+    pub(crate) fn nearest(&self, bodies: &M::State<S>) -> C::State<S> {
+        C::of_bodies(self.own_constants(), bodies)
+    }
+
+    /// The same, with those signs of Euler parameters that are nearer to those of another state.
+    pub(crate) fn nearest_to(&self, bodies: &M::State<S>, near: &C::State<S>) -> C::State<S> {
+        C::of_bodies_near(self.own_constants(), bodies, near)
+    }
+
+    /// Readable access to a state of the bodies.
+    #[must_use]
+    pub fn view<'a>(&'a self, time: S, bodies: &'a M::State<S>) -> View<'a, S, M> {
+        View::new(self.constants(), time, bodies).reading::<C::Orientation>()
+    }
+
+    /// Evaluates the equations in its own coordinates.
+    #[inline(always)]
+    pub(crate) fn evaluator(&self) -> Evaluator<'_, S, M, F, A, C> {
+        Evaluator {
+            equations: C::equations(&self.absolute, &self.own),
+            absolute: &self.absolute.constants,
+            stabilisation: &self.stabilisation,
+            formulation: &self.formulation,
+            forces: &self.forces,
+        }
+    }
+
+    /// Evaluates the equations of the bodies.
+    #[inline(always)]
+    pub(crate) fn of_bodies(&self) -> Evaluator<'_, S, M, F, A, Absolute<C::Orientation>> {
+        Evaluator {
+            equations: &self.absolute,
+            absolute: &self.absolute.constants,
+            stabilisation: &self.stabilisation,
+            formulation: &self.formulation,
+            forces: &self.forces,
+        }
     }
 }
 
-impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
+impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
+    C: Coordinates<M>,
 {
-    /// Whether an evaluation is done in its parts: applied forces enter there, and a formulation
-    /// may iterate.
-    const IN_PARTS: bool = A::PRESENT || F::ITERATED;
-
     /// Rates of the state and multipliers, and how often the system was solved.
     ///
     /// # Errors
@@ -249,9 +395,9 @@ where
     pub fn evaluate(
         &self,
         time: S,
-        state: &M::State<S>,
-    ) -> Result<(Evaluation<S, M>, usize), Fault> {
-        let mut evaluation = Evaluation::<S, M>::zeros();
+        state: &C::State<S>,
+    ) -> Result<(Evaluation<S, M, C>, usize), Fault> {
+        let mut evaluation = Evaluation::zeros();
         let iterations = self.evaluate_into(time, state, &mut evaluation)?;
         Ok((evaluation, iterations))
     }
@@ -265,244 +411,85 @@ where
     pub fn evaluate_into(
         &self,
         time: S,
-        state: &M::State<S>,
-        evaluation: &mut Evaluation<S, M>,
+        state: &C::State<S>,
+        evaluation: &mut Evaluation<S, M, C>,
     ) -> Result<usize, Fault> {
+        self.evaluator().evaluate_into(time, state, evaluation)
+    }
+
+    /// The kernel of an evaluation in one straight line, and its smallest relative pivot: nothing is
+    /// checked, a closure does not enter and nothing iterates. For measuring.
+    #[inline(always)]
+    pub fn kernel(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
+        multipliers: &mut C::Multipliers<S>,
+    ) -> Pivot<S> {
+        self.evaluator().straight(time, state, rates, multipliers)
+    }
+
+    /// Rates and multipliers of all joints in a state of the bodies, by the equations in absolute
+    /// coordinates: what [`View::reaction`] asks for.
+    ///
+    /// # Errors
+    /// As [`Dynamics::evaluate`].
+    pub fn evaluate_bodies(
+        &self,
+        time: S,
+        bodies: &M::State<S>,
+    ) -> Result<Evaluation<S, M, Absolute>, Fault> {
+        let mut evaluation = Evaluation::<S, M, Absolute<C::Orientation>>::zeros();
+        self.of_bodies()
+            .evaluate_into(time, bodies, &mut evaluation)?;
         let Evaluation {
             rates,
             multipliers,
             pivot,
         } = evaluation;
-        let mut iterations = 1;
-        if Self::IN_PARTS {
-            match self.evaluate_in_parts(time, state, rates, multipliers) {
-                Ok(parts) => (*pivot, iterations) = (parts.pivot, parts.iterations),
-                Err(Fault::StateNotFinite) => return Err(self.fault(time, state)),
-                Err(fault) => return Err(fault),
-            }
-        } else {
-            *pivot = self.straight(time, state, rates, multipliers);
-        }
-        if sound::<S, M, F::Terms>(evaluation) {
-            Ok(iterations)
-        } else {
-            Err(self.fault(time, state))
-        }
-    }
-
-    /// The evaluation in one straight line.
-    #[inline(always)]
-    fn straight(
-        &self,
-        time: S,
-        state: &M::State<S>,
-        rates: &mut M::State<S>,
-        multipliers: &mut M::Multipliers<S>,
-    ) -> Pivot<S> {
-        let prepared = (&self.constants, &self.coefficients);
-        straight::<S, M, F::Terms, P>(prepared, time, state, rates, multipliers)
-    }
-
-    /// The state as the kernels read it.
-    #[inline]
-    fn read(state: &M::State<S>) -> M::State<S> {
-        as_read::<S, M, P>(state)
-    }
-
-    /// Forces and moments of the closure alone, as [`Mechanism::forces`] has them, in a state whose
-    /// Euler parameters have length 1.
-    pub(crate) fn applied(&self, time: S, state: &M::State<S>) -> M::Velocities<S> {
-        let mut forces = M::Velocities::<S>::zeros();
-        self.forces
-            .apply(time, state, &mut Loads::new(state, &mut forces));
-        forces
-    }
-
-    /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
-    ///
-    /// # Errors
-    /// [`Fault::StateNotFinite`] where a pivot vanishes or something is not finite:
-    /// [`Dynamics::fault`] says what, once this has given its stack back.
-    fn evaluate_in_parts(
-        &self,
-        time: S,
-        state: &M::State<S>,
-        rates: &mut M::State<S>,
-        multipliers: &mut M::Multipliers<S>,
-    ) -> Result<Parts<S>, Fault> {
-        // In the place of the rates, which are as long: the stack of a controller is short.
-        *rates = Self::read(state);
-        let read = &*rates;
-        let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
-        if vanishes::<S, F::Terms>(pivot.relative) {
-            return Err(Fault::StateNotFinite);
-        }
-        let mut upper = M::forces(constants, time, read);
-        let mut applied_power = S::zero();
-        if A::PRESENT {
-            let described = upper;
-            self.forces
-                .apply(time, read, &mut Loads::new(read, &mut upper));
-            let velocities = read.velocities().as_slice();
-            let loads = upper.as_slice().iter().zip(described.as_slice());
-            for ((&whole, &own), &u) in loads.zip(velocities) {
-                applied_power = (whole - own).fused(u, applied_power);
-            }
-        }
-        let lower = self.stabilised(time, read);
-        let saddle = Saddle::<S, M, F::Terms> {
-            constants,
-            coefficients,
-            factors: &factors,
-            compliances: &self.compliances,
-            time,
-            state: read,
-            upper: &upper,
-            lower: &lower,
-            terms: PhantomData,
-        };
-        let mut solution = saddle.solve();
-        match self.formulation.refine(&saddle, &mut solution) {
-            Ok(()) => {}
-            Err(Fault::RatesNotFinite { .. }) => return Err(Fault::StateNotFinite),
-            Err(fault) => return Err(fault),
-        }
-        let coordinate_rates = coordinate_rates::<S, M, P>(constants, state, read);
-        *rates.coordinates_mut() = coordinate_rates;
-        *rates.velocities_mut() = solution.accelerations;
-        *multipliers = solution.multipliers;
-        Ok(Parts {
+        Ok(Evaluation {
+            rates,
+            multipliers,
             pivot,
-            iterations: solution.iterations,
-            excused: solution.excused,
-            applied_power,
         })
     }
 
-    /// Forces and moments of the description and of a closure, in a state whose Euler parameters
-    /// have length 1.
-    fn all_forces(&self, time: S, state: &M::State<S>) -> M::Velocities<S> {
-        let mut forces = M::forces(&self.constants, time, state);
-        if A::PRESENT {
-            self.forces
-                .apply(time, state, &mut Loads::new(state, &mut forces));
-        }
-        forces
-    }
-
-    /// How far the accelerations of an evaluation at a state are from what the constraints ask: the
-    /// largest `|D u' - gamma*|` of a row, relative to the sum of the sizes of its terms and of
+    /// How far the accelerations of an evaluation of the bodies are from what the constraints ask:
+    /// the largest `|D u' - gamma*|` of a row, relative to the sum of the sizes of its terms and of
     /// what the applied forces would do without constraints; and the row's joint.
     ///
     /// Round-off for rigid constraints; the bias of a [`Penalty`](crate::Penalty), which a motion
     /// gathers; for an augmented Lagrangian what its tolerance, or an excuse, leaves. It costs
     /// about as much as one evaluation. `p` is read as by the formulation.
-    pub fn inconsistency(
+    pub fn inconsistency<P: Orientation>(
         &self,
         time: S,
-        state: &M::State<S>,
-        evaluation: &Evaluation<S, M>,
+        bodies: &M::State<S>,
+        evaluation: &Evaluation<S, M, Absolute<P>>,
     ) -> (S, Option<&'static str>) {
-        let read = &Self::read(state);
+        let read = &as_read::<S, M, C::Orientation>(bodies);
         let forces = self.all_forces(time, read);
-        let gamma = self.stabilised(time, read);
-        let accelerations = evaluation.rates.velocities();
-        let (row, size) = inconsistency::<S, M>(
-            &self.constants,
-            (time, read),
-            accelerations,
-            &forces,
-            &gamma,
-        );
+        let Stabilisation { rate, position, .. } = self.stabilisation;
+        let constants = self.constants();
+        let gamma = stabilised::<S, M, F::Terms>(constants, [rate, position], time, read);
+        let accelerations = crate::state::vector::StateParts::velocities(&evaluation.rates);
+        let (row, size) =
+            inconsistency::<S, M>(constants, (time, read), accelerations, &forces, &gamma);
         (size, M::REPORT.joint_of(row))
     }
 
-    /// `gamma* = gamma - 2 a Phi' - b^2 Phi`.
-    fn stabilised(&self, time: S, state: &M::State<S>) -> M::Multipliers<S> {
-        let Stabilisation { rate, position, .. } = self.stabilisation;
-        stabilised::<S, M, F::Terms>(&self.constants, [rate, position], time, state)
+    /// Forces and moments of the closure alone, as [`Mechanism::forces`] has them, in a state whose
+    /// Euler parameters have length 1.
+    pub(crate) fn applied(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
+        self.of_bodies().applied(time, bodies)
     }
-}
 
-/// The evaluation in one straight line, from constants and coefficients.
-#[inline(always)]
-fn straight<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
-    (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
-    time: S,
-    state: &M::State<S>,
-    rates: &mut M::State<S>,
-    multipliers: &mut M::Multipliers<S>,
-) -> Pivot<S> {
-    let pivot =
-        M::evaluate_into::<S, T, P>(constants, coefficients, time, state, rates, multipliers);
-    if P::NORMALISED_RATES {
-        scale_euler_rates::<S, M>(rates.coordinates_mut(), state, |length| length.reciprocal());
+    /// Forces and moments of the description and of a closure, in a state whose Euler parameters
+    /// have length 1.
+    pub(crate) fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
+        self.of_bodies().all_forces(time, bodies)
     }
-    pivot
-}
-
-/// The state as the kernels read it.
-#[inline]
-fn as_read<S: Scalar, M: Mechanism, P: Orientation>(state: &M::State<S>) -> M::State<S> {
-    if P::NORMALISED {
-        with_unit_orientations::<S, M>(state)
-    } else {
-        *state
-    }
-}
-
-/// The rates of the coordinates of a state, from the state as the kernels read it.
-#[inline]
-fn coordinate_rates<S: Scalar, M: Mechanism, P: Orientation>(
-    constants: &M::Constants<S>,
-    state: &M::State<S>,
-    read: &M::State<S>,
-) -> <M::State<S> as StateParts<S>>::Coordinates {
-    let mut rates = M::coordinate_rates(constants, read);
-    if P::NORMALISED && !P::NORMALISED_RATES {
-        scale_euler_rates::<S, M>(&mut rates, state, |length| length);
-    }
-    rates
-}
-
-/// `gamma* = gamma - r Phi' - p Phi` with the gains `r` and `p`, where the terms have them.
-pub(crate) fn stabilised<S: Scalar, M: Mechanism, T: Terms>(
-    constants: &M::Constants<S>,
-    [rate, position]: [S; 2],
-    time: S,
-    state: &M::State<S>,
-) -> M::Multipliers<S> {
-    let mut gamma = M::gamma(constants, time, state);
-    if T::STABILISED {
-        let phi = M::constraints(constants, time, state);
-        let phi_rate = M::constraint_rates(constants, time, state);
-        let terms = phi.as_slice().iter().zip(phi_rate.as_slice());
-        for (gamma, (&phi, &phi_rate)) in gamma.as_mut_slice().iter_mut().zip(terms) {
-            *gamma = *gamma - (rate * phi_rate + position * phi);
-        }
-    }
-    gamma
-}
-
-/// What an evaluation from its parts tells besides rates and multipliers.
-struct Parts<S> {
-    pivot: Pivot<S>,
-    iterations: usize,
-    /// Whether the iteration was ended before its tolerance.
-    excused: bool,
-    /// The power (W) of the forces of a closure.
-    applied_power: S,
-}
-
-/// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of
-/// the multiplier is left.
-///
-/// With a compliance the system is solvable whatever the constraints are. A pivot of NaN shows in
-/// the rates.
-#[inline(always)]
-fn sound<S: Real, M: Mechanism, T: Terms>(evaluation: &Evaluation<S, M>) -> bool {
-    evaluation.rates.is_finite() && !vanishes::<S, T>(evaluation.pivot.relative)
 }
 
 #[inline(always)]

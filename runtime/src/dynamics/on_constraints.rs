@@ -11,6 +11,8 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
 use crate::measure::load::AppliedForces;
 use crate::mechanism::blocks::add_product;
+use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
+use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Terms};
 use crate::state::vector::{Array, StateParts, Vector};
 
@@ -37,13 +39,45 @@ const TURNS: usize = 4;
 /// Below this power of `EPSILON` changes that no longer fall are round-off.
 const NOISE: f64 = 0.6;
 
-impl<S, M, F, P, A> Dynamics<S, M, F, P, A>
+/// Coordinates in which [`GeneralizedAlpha`](crate::GeneralizedAlpha) has a step, or refuses it.
+pub trait RigidSteps<M: Mechanism>: Coordinates<M> {
+    /// One step, solved together with multipliers.
+    ///
+    /// # Errors
+    /// [`Fault::NoConstraints`] in coordinates without one, or of a formulation that lets
+    /// constraints yield; what keeps the step from being solved.
+    #[doc(hidden)]
+    fn step_on_constraints<S: Real, F: Formulation<S>, A: AppliedForces<S, M>>(
+        dynamics: &mut Dynamics<S, M, F, A, Self>,
+        asked: &AlphaStep<'_, S, Self::State<S>>,
+    ) -> Result<AlphaEnd<Self::State<S>>, Fault>;
+}
+
+impl<M: Mechanism, P: Orientation> RigidSteps<M> for Absolute<P> {
+    fn step_on_constraints<S: Real, F: Formulation<S>, A: AppliedForces<S, M>>(
+        dynamics: &mut Dynamics<S, M, F, A, Self>,
+        asked: &AlphaStep<'_, S, M::State<S>>,
+    ) -> Result<AlphaEnd<M::State<S>>, Fault> {
+        dynamics.solved_on_constraints(asked)
+    }
+}
+
+impl<M: JointCoordinates> RigidSteps<M> for Relative {
+    fn step_on_constraints<S: Real, F: Formulation<S>, A: AppliedForces<S, M>>(
+        _dynamics: &mut Dynamics<S, M, F, A, Self>,
+        _asked: &AlphaStep<'_, S, M::JointState<S>>,
+    ) -> Result<AlphaEnd<M::JointState<S>>, Fault> {
+        Err(Fault::NoConstraints)
+    }
+}
+
+impl<S, M, F, A, P> Dynamics<S, M, F, A, Absolute<P>>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
+    P: Orientation,
 {
     /// See [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     ///
@@ -58,19 +92,19 @@ where
         if F::Terms::STABILISED || F::ITERATED {
             return Err(Fault::NoConstraints);
         }
-        let mass = M::mass(&self.constants);
-        let first = M::jacobian(&self.constants, asked.end - asked.step, asked.state);
+        let mass = M::mass(self.constants());
+        let first = M::jacobian(self.constants(), asked.end - asked.step, asked.state);
         let mut trial = Trial::<S, M>::new(asked, first);
         let noise = S::EPSILON.powf(NOISE);
         // The extent alone may be that of one point.
-        let size = extent::<S, M>(&self.constants, asked.state).max(farthest(
+        let size = extent::<S, M>(self.constants(), asked.state).max(farthest(
             M::REPORT.bodies,
             asked.state.coordinates().as_slice(),
         ));
         trial.begin_nearby(size);
         let mut changes = [S::constant(f64::INFINITY); TURNS];
         for iteration in 1..=ITERATIONS {
-            let state = trial.state(&self.constants);
+            let state = trial.state(self.constants());
             let seen = match self.iterate(&mut trial, &state, (size, &mass)) {
                 Ok(seen) => seen,
                 // What is wrong where the iteration begins is wrong with the motion, later with the
@@ -101,9 +135,9 @@ where
     /// start of the step.
     #[cold]
     fn unsolved(&self, asked: &AlphaStep<'_, S, M::State<S>>, iterations: usize) -> Fault {
-        let (constants, start) = (&self.constants, asked.end - asked.step);
+        let (constants, start) = (self.constants(), asked.end - asked.step);
         let (_, pivot) =
-            M::factor::<S, F::Terms>(constants, &self.coefficients, start, asked.state);
+            M::factor::<S, F::Terms>(constants, &self.absolute.coefficients, start, asked.state);
         let is_near = pivot.relative < S::constant(NEARLY_VANISHED);
         let joint = M::REPORT.joints.get(pivot.joint.to_f64() as usize);
         Fault::StepNotSolved {
@@ -128,7 +162,7 @@ where
         state: &M::State<S>,
         (size, mass): (S, &M::Velocities<S>),
     ) -> Result<Iteration<S, M>, Fault> {
-        let (constants, coefficients) = (&self.constants, &self.coefficients);
+        let (constants, coefficients) = (&self.absolute.constants, &self.absolute.coefficients);
         let end = trial.asked.end;
         let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, end, state);
         if vanishes::<S, F::Terms>(pivot.relative) {
@@ -177,7 +211,7 @@ where
         let coarse = speed + place.quotient(trial.asked.step);
         let sum = change + norm(&farther) + violation + coarse;
         if !sum.is_finite() {
-            return Err(self.fault(end, state));
+            return Err(self.evaluator().fault(end, state));
         }
         Ok(Iteration {
             change: ratio(change, speed).max(opened),
@@ -194,11 +228,11 @@ where
         iterations: usize,
     ) -> Result<AlphaEnd<M::State<S>>, Fault> {
         let end = trial.asked.end;
-        let state = trial.state(&self.constants);
-        let coordinate_rates = M::coordinate_rates(&self.constants, &state);
+        let state = trial.state(self.constants());
+        let coordinate_rates = M::coordinate_rates(self.constants(), &state);
         let slope = M::State::from_parts(coordinate_rates, trial.accelerations);
         if !(state.is_finite() && slope.is_finite()) {
-            return Err(self.fault(end, &state));
+            return Err(self.evaluator().fault(end, &state));
         }
         if A::PRESENT {
             let applied = self.applied(end, &state);

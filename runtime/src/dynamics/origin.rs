@@ -6,23 +6,9 @@ use crate::mechanism::kernels::{Mechanism, Terms};
 use crate::mechanism::report::{BodyInfo, BodyKind, Report};
 use crate::state::vector::Array;
 
-/// Looks for the first thing that is not finite, at a state as the kernels read it: forces of the
-/// description, what a closure has made of their sum, equations, accelerations.
-#[cold]
-#[inline(never)]
-pub(crate) fn origin<S: Real, M: Mechanism, T: Terms>(
-    constants: &M::Constants<S>,
-    time: S,
-    state: &M::State<S>,
-    applied: Option<&M::Velocities<S>>,
-    accelerations: &M::Velocities<S>,
-) -> NotFinite {
-    before_accelerations::<S, M, T>(constants, time, state, applied).unwrap_or_else(|| {
-        body(&M::REPORT, accelerations.as_slice()).map_or(NotFinite::Unknown, NotFinite::Body)
-    })
-}
-
-/// The first thing that is not finite of those that accelerations are made of. Only what the terms
+/// The first thing that is not finite of those that accelerations are made of, at a state as the
+/// kernels read it: forces of the description, what a closure has made of their sum, equations.
+/// Only what the terms
 /// ask for is looked at: a user compiles no kernel for a message that nothing else needs.
 #[cold]
 #[inline(never)]

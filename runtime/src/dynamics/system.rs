@@ -1,31 +1,31 @@
 //! The equations of motion as a system of ordinary differential equations.
 
-use super::{Dynamics, coordinate_rates, vanishes};
+use super::{Dynamics, Evaluator, RigidSteps, vanishes};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{AlphaEnd, AlphaStep, System, by_differences};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
-use crate::mechanism::kernels::{Mechanism, Orientation};
-use crate::mechanism::orientations::{bring_to_unit_length, stretch};
-use crate::state::vector::{Array, StateParts, Vector};
 
-impl<S, M, F, P, A> System<S> for Dynamics<S, M, F, P, A>
+use crate::mechanism::kernels::Mechanism;
+use crate::state::vector::{Array, MovingState, Vector};
+
+impl<S, M, F, A, C> System<S> for Dynamics<S, M, F, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
 {
-    type State = M::State<S>;
+    type State = C::State<S>;
 
     #[inline(always)]
-    fn rates(&mut self, time: S, state: &M::State<S>) -> Result<M::State<S>, Fault> {
-        let mut rates = M::State::from_parts(Array::zeros(), Array::zeros());
+    fn rates(&mut self, time: S, state: &C::State<S>) -> Result<C::State<S>, Fault> {
+        let mut rates = C::State::zeros();
         match self.stage(time, state, &mut rates) {
             Ok(()) if rates.is_finite() => Ok(rates),
-            Ok(()) | Err(Fault::StateNotFinite) => Err(self.fault(time, state)),
+            Ok(()) | Err(Fault::StateNotFinite) => Err(self.evaluator().fault(time, state)),
             Err(fault) => Err(fault),
         }
     }
@@ -36,16 +36,19 @@ where
     fn stage(
         &mut self,
         time: S,
-        state: &M::State<S>,
-        rates: &mut M::State<S>,
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
     ) -> Result<(), Fault> {
         let mut multipliers = Array::zeros();
-        if Self::IN_PARTS {
-            let parts = self.evaluate_in_parts(time, state, rates, &mut multipliers)?;
-            self.gather(&parts, &multipliers);
+        if Evaluator::<S, M, F, A, C>::IN_PARTS {
+            let parts = self
+                .evaluator()
+                .in_parts(time, state, rates, &mut multipliers)?;
+            self.count(&parts);
+            self.look_in_parts(&parts, &multipliers);
             return Ok(());
         }
-        let pivot = self.straight(time, state, rates, &mut multipliers);
+        let pivot = self.evaluator().slope(time, state, rates, &mut multipliers);
         if vanishes::<S, F::Terms>(pivot.relative) {
             // Why is not asked here: a reference to the state would keep it in memory at every
             // stage.
@@ -55,8 +58,8 @@ where
         Ok(())
     }
 
-    fn why(&mut self, time: S, state: &M::State<S>) -> Option<Fault> {
-        Some(self.fault(time, state))
+    fn why(&mut self, time: S, state: &C::State<S>) -> Option<Fault> {
+        Some(self.evaluator().fault(time, state))
     }
 
     /// Exact, by the kernels over [`Forward`](crate::Forward) numbers: a law that is a closure
@@ -68,9 +71,9 @@ where
     fn jacobian(
         &mut self,
         time: S,
-        state: &M::State<S>,
-        rates: &M::State<S>,
-        columns: &mut <M::State<S> as Vector<S>>::Each<M::State<S>>,
+        state: &C::State<S>,
+        rates: &C::State<S>,
+        columns: &mut <C::State<S> as Vector<S>>::Each<C::State<S>>,
     ) -> Result<usize, Fault> {
         if !F::ITERATED
             && let Some(evaluations) = self.differentiated(time, state, columns)
@@ -85,35 +88,27 @@ where
     #[inline]
     fn with_new_velocities(
         &mut self,
-        _time: S,
-        state: &M::State<S>,
+        time: S,
+        state: &C::State<S>,
         step: S,
-        rates: &mut M::State<S>,
+        rates: &mut C::State<S>,
     ) -> Result<(), Fault> {
-        let mut end = Self::read(state);
-        let velocities = end.velocities_mut().as_mut_slice().iter_mut();
-        for (velocity, &rate) in velocities.zip(rates.velocities().as_slice()) {
-            *velocity = rate.fused(step, *velocity);
-        }
-        *rates.coordinates_mut() = coordinate_rates::<S, M, P>(&self.constants, state, &end);
+        C::with_new_velocities(self.own_constants(), time, state, step, rates);
         Ok(())
     }
 
     fn step_on_constraints(
         &mut self,
-        asked: AlphaStep<'_, S, M::State<S>>,
-    ) -> Result<AlphaEnd<M::State<S>>, Fault> {
-        self.solved_on_constraints(&asked)
+        asked: AlphaStep<'_, S, C::State<S>>,
+    ) -> Result<AlphaEnd<C::State<S>>, Fault> {
+        C::step_on_constraints(self, &asked)
     }
 
     #[inline]
-    fn settle(&mut self, state: &mut M::State<S>, rates: Option<&mut M::State<S>>) {
-        let stretch = if P::NORMALISED && !P::NORMALISED_RATES {
-            bring_to_unit_length::<S, M>(state, rates)
-        } else {
-            stretch::<S, M>(state)
-        };
-        self.seen.stretch = stretch;
-        M::recount(&self.constants, state);
+    fn settle(&mut self, state: &mut C::State<S>, rates: Option<&mut C::State<S>>) {
+        let constants = &C::equations(&self.absolute, &self.own).constants;
+        if let Some(stretch) = C::normalise(&self.absolute, constants, state, rates) {
+            self.seen.stretch = stretch;
+        }
     }
 }

@@ -1,13 +1,12 @@
 //! The augmented Lagrangian formulation.
 
-use super::{
-    Formulation, JointSaddle, JointSolution, Saddle, Solution, difference, faster_decay, penalty,
-};
+use super::{Formulation, Saddle, Solution, faster_decay, inconsistency, penalty};
+use crate::constraints::self_stress::{passing, self_stressed};
 use crate::error::setting::positive;
 use crate::error::{Fault, NotFinite};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
-use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::coordinates::{ByAllRows, Coordinates};
 use crate::mechanism::kernels::{Compliant, Mechanism, Stabilisation};
 use crate::state::vector::Array;
 
@@ -141,33 +140,30 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
         self.radian.unwrap_or(S::one())
     }
 
-    fn refine<M: Mechanism>(
+    // Apart from the other way, which takes more stack.
+    fn refine<M: Mechanism, C: Coordinates<M>>(
         &self,
-        saddle: &Saddle<'_, S, M, Compliant>,
-        solution: &mut Solution<S, M>,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        solution: &mut Solution<S, M, C>,
     ) -> Result<(), Fault> {
+        if solution.multipliers.as_slice().is_empty() {
+            return Ok(());
+        }
         if self.is_exact {
             self.as_often(saddle, solution)
         } else {
             self.until_small(saddle, solution)
         }
     }
-
-    fn solve_joints<M: JointCoordinates>(
-        &self,
-        saddle: &JointSaddle<'_, S, M, Compliant>,
-    ) -> Result<JointSolution<S, M>, Fault> {
-        self.iterate(saddle)
-    }
 }
 
 impl<S: Real> AugmentedLagrangian<S> {
-    /// An exact number of solutions. Apart from the other way, which takes more stack.
+    /// An exact number of solutions.
     #[inline(never)]
-    fn as_often<M: Mechanism>(
+    fn as_often<M: Mechanism, C: Coordinates<M>>(
         &self,
-        saddle: &Saddle<'_, S, M, Compliant>,
-        last: &mut Solution<S, M>,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        last: &mut Solution<S, M, C>,
     ) -> Result<(), Fault> {
         let mut before = last.accelerations;
         for _ in 1..self.max_iterations {
@@ -176,20 +172,24 @@ impl<S: Real> AugmentedLagrangian<S> {
         }
         last.iterations = self.max_iterations;
         let size = square(last.accelerations.as_slice()).sqrt();
-        self.ended(norm_of_difference(&last.accelerations, &before), size)
+        let change = norm_of_difference(&last.accelerations, &before);
+        if change > S::constant(EXCUSED) * (S::one() + size) {
+            return Err(self.not_converged(self.max_iterations, change, None));
+        }
+        Ok(())
     }
 
     /// As many solutions as it takes.
     #[inline(never)]
-    fn until_small<M: Mechanism>(
+    fn until_small<M: Mechanism, C: Coordinates<M>>(
         &self,
-        saddle: &Saddle<'_, S, M, Compliant>,
-        next: &mut Solution<S, M>,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        next: &mut Solution<S, M, C>,
     ) -> Result<(), Fault> {
+        let mut last = *next;
         let mut change = S::zero();
-        let mut worst = 0;
         for iterations in 2..=self.max_iterations {
-            let last = *next;
+            last = *next;
             saddle.solve_again(next);
             next.iterations = iterations;
             change = norm_of_difference(&next.accelerations, &last.accelerations);
@@ -200,98 +200,151 @@ impl<S: Real> AugmentedLagrangian<S> {
                 let origin = NotFinite::Unknown;
                 return Err(Fault::RatesNotFinite { origin });
             }
-            if iterations == self.max_iterations {
-                let (row, missing) = saddle.inconsistency(next);
-                worst = row;
-                if missing <= S::constant(EXCUSED) && saddle.self_stressed(next, &last.multipliers)
-                {
+        }
+        // With the rows of all joints a state of self-stress can be told from masses that are too
+        // large; without them, conjugate gradients decide.
+        let multipliers = difference_of(&next.multipliers, &last.multipliers);
+        if let Some(rows) = saddle.by_all_rows(&next.accelerations, &multipliers) {
+            let (worst, excuse) = excuse(saddle.time, &rows);
+            match excuse {
+                Excuse::None => {
+                    let joint = M::REPORT.joint_of(worst);
+                    return Err(self.not_converged(self.max_iterations, change, joint));
+                }
+                Excuse::Passing => {
                     next.excused = true;
-                    if !saddle.passing(next, &last.multipliers) {
-                        *next = self.by_conjugate_gradients(saddle, *next);
-                    }
                     return Ok(());
                 }
+                Excuse::Lasting => next.excused = true,
             }
         }
-        Err(Fault::NotConverged {
-            iterations: self.max_iterations,
-            residual: change.to_f64(),
-            joint: M::REPORT.joint_of(worst),
-            alpha: Some(self.alpha.to_f64()),
-        })
+        self.by_conjugate_gradients(saddle, next, saddle.yielded(&multipliers))
     }
 
-    /// Refuses an exact number of solutions that are not enough by far.
-    pub(super) fn ended(&self, change: S, size: S) -> Result<(), Fault> {
-        if change > S::constant(EXCUSED) * (S::one() + size) {
-            return Err(Fault::NotConverged {
-                iterations: self.max_iterations,
-                residual: change.to_f64(),
-                joint: None,
-                alpha: Some(self.alpha.to_f64()),
-            });
+    #[cold]
+    fn not_converged(&self, iterations: usize, change: S, joint: Option<&'static str>) -> Fault {
+        Fault::NotConverged {
+            iterations,
+            residual: change.to_f64(),
+            joint,
+            alpha: Some(self.alpha.to_f64()),
         }
-        Ok(())
     }
 
     /// Whether a change of the accelerations ends the iteration.
-    fn small<M: Mechanism>(&self, change: S, solution: &Solution<S, M>) -> bool {
+    fn small<M: Mechanism, C: Coordinates<M>>(
+        &self,
+        change: S,
+        solution: &Solution<S, M, C>,
+    ) -> bool {
         let size = square(solution.accelerations.as_slice()).sqrt();
         change <= self.tolerance * (S::one() + size)
     }
 
-    /// A solution where equations stay nearly dependent: as often solved again, at most, and
-    /// excused where that is not enough.
+    /// A solution where equations stay nearly dependent: as often solved again, at most. The best
+    /// one where that is not enough and it is excused.
     #[cold]
-    fn by_conjugate_gradients<M: Mechanism>(
+    #[inline(never)]
+    fn by_conjugate_gradients<M: Mechanism, C: Coordinates<M>>(
         &self,
-        saddle: &Saddle<'_, S, M, Compliant>,
-        excused: Solution<S, M>,
-    ) -> Solution<S, M> {
-        let mut best = excused;
-        let mut least = None;
-        let mut last = excused;
-        let mut course = Conjugate::<S, M>::new();
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        solution: &mut Solution<S, M, C>,
+        missing: C::Multipliers<S>,
+    ) -> Result<(), Fault> {
+        let mut best = *solution;
+        let (mut least, mut size) = (None, S::zero());
+        let mut last = *solution;
+        let mut descent = Conjugate::<S, M, C>::from(missing);
         for iterations in 1..=self.max_iterations {
             let mut next = last;
             saddle.solve_again(&mut next);
             next.iterations = self.max_iterations + iterations;
-            let changes = (
-                difference_of(&next.accelerations, &last.accelerations),
-                difference::<S, M>(&next.multipliers, &last.multipliers),
-            );
-            let change = square(changes.0.as_slice()).sqrt();
-            if self.small(change, &next) {
-                return next;
+            let accelerations = difference_of(&next.accelerations, &last.accelerations);
+            let multipliers = difference_of(&next.multipliers, &last.multipliers);
+            size = square(accelerations.as_slice()).sqrt();
+            if self.small(size, &next) {
+                *solution = next;
+                return Ok(());
             }
-            next.excused = true;
-            if least.is_none_or(|least| change < least) {
-                (best, least) = (next, Some(change));
+            if !size.is_finite() && !solution.excused {
+                let origin = NotFinite::Unknown;
+                return Err(Fault::RatesNotFinite { origin });
             }
-            course.advance(saddle, &mut last, changes);
+            if least.is_none_or(|least| size < least) {
+                (best, least) = (next, Some(size));
+            }
+            descent.advance(saddle, &mut last, &accelerations, &multipliers);
         }
-        best
+        if solution.excused {
+            *solution = best;
+            return Ok(());
+        }
+        let joint = C::joint_of_row(largest(descent.missing.as_slice()));
+        Err(self.not_converged(2 * self.max_iterations, size, joint))
     }
+}
+
+/// Why an iteration may end before its tolerance.
+enum Excuse {
+    None,
+    /// The state is on its way through a singular configuration.
+    Passing,
+    /// Equations stay nearly dependent.
+    Lasting,
+}
+
+/// Whether multipliers change by what is nearly a state of self-stress, and the row whose
+/// accelerations are farthest from what it asks for.
+#[cold]
+fn excuse<S: Real, M: Mechanism>(time: S, rows: &ByAllRows<'_, S, M>) -> (usize, Excuse) {
+    let ByAllRows {
+        constants,
+        state,
+        upper,
+        lower,
+        accelerations,
+        multipliers: change,
+    } = *rows;
+    let (worst, missing) =
+        inconsistency::<S, M>(constants, (time, state), accelerations, upper, lower);
+    let excuse = if missing > S::constant(EXCUSED)
+        || !self_stressed::<S, M>(constants, time, state, change)
+    {
+        Excuse::None
+    } else if passing::<S, M>(constants, time, state, change) {
+        Excuse::Passing
+    } else {
+        Excuse::Lasting
+    };
+    (worst, excuse)
 }
 
 /// The iterates as conjugate gradients, preconditioned by the factorised system.
 ///
 /// The multipliers `lambda` that the constraints ask for solve `S lambda = b` with
-/// `S = D M^-1 D^T`. A solution after `lambda` changes them by `z = (S + E)^-1 (b - S lambda)`, and
-/// the accelerations by `w = -M^-1 D^T z`, so that `z^T S z = w^T M w`: all that the method needs.
-/// Where `S` is large against `E`, a step is `z`, as without it; a few nearly dependent equations
-/// take an iteration each.
-struct Conjugate<S: Scalar, M: Mechanism> {
+/// `S = D M^-1 D^T`. A solution after `lambda` changes them by `z = (S + E)^-1 r` with the residual
+/// `r = b - S lambda`, which is `D u' - gamma*` at `lambda`, and the accelerations by
+/// `w = -M^-1 D^T z`. In absolute coordinates `z^T S z = w^T M w`. In others the mass matrix stays
+/// in the kernels: what is missing after a solution is `E z`, so that `S z = r - E z`. Where `S` is
+/// large against `E`, a step is `z`, as without it; a few nearly dependent equations take an
+/// iteration each.
+struct Conjugate<S: Scalar, M: Mechanism, C: Coordinates<M>> {
+    /// `r`.
+    missing: C::Multipliers<S>,
     /// The last direction, of accelerations and multipliers.
-    direction: (M::Velocities<S>, M::Multipliers<S>),
+    direction: (C::Velocities<S>, C::Multipliers<S>),
+    /// `S` times the direction.
+    answered: C::Multipliers<S>,
     /// `z^T (S + E) z` of the last step; zero before the first.
     length: S,
 }
 
-impl<S: Real, M: Mechanism> Conjugate<S, M> {
-    fn new() -> Self {
+impl<S: Real, M: Mechanism, C: Coordinates<M>> Conjugate<S, M, C> {
+    fn from(missing: C::Multipliers<S>) -> Self {
         Self {
+            missing,
             direction: (Array::zeros(), Array::zeros()),
+            answered: Array::zeros(),
             length: S::zero(),
         }
     }
@@ -299,34 +352,67 @@ impl<S: Real, M: Mechanism> Conjugate<S, M> {
     /// Moves a solution on, from what solving the system after it would change.
     fn advance(
         &mut self,
-        saddle: &Saddle<'_, S, M, Compliant>,
-        last: &mut Solution<S, M>,
-        (accelerations, multipliers): (M::Velocities<S>, M::Multipliers<S>),
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        last: &mut Solution<S, M, C>,
+        accelerations: &C::Velocities<S>,
+        multipliers: &C::Multipliers<S>,
     ) {
-        let mass = M::mass(saddle.constants);
-        let length = weighted(accelerations.as_slice(), mass.as_slice())
-            + weighted(multipliers.as_slice(), saddle.compliances.as_slice());
-        let conjugate = if self.length > S::zero() {
-            length.quotient(self.length)
+        let left = saddle.yielded(multipliers);
+        let mut answer = self.missing;
+        add(answer.as_mut_slice(), -S::one(), left.as_slice());
+        let before = self.length;
+        let kinetic = |w: &C::Velocities<S>| {
+            let rows = saddle.by_all_rows(w, multipliers)?;
+            let mass = M::mass(rows.constants);
+            Some(weighted(rows.accelerations.as_slice(), mass.as_slice()))
+        };
+        self.length = match kinetic(accelerations) {
+            Some(kinetic) => {
+                let compliances = saddle.compliances.as_slice();
+                kinetic + weighted(multipliers.as_slice(), compliances)
+            }
+            None => product(self.missing.as_slice(), multipliers.as_slice()),
+        };
+        let conjugate = if before > S::zero() {
+            self.length.quotient(before)
         } else {
             S::zero()
         };
-        self.length = length;
         let (along, across) = (&mut self.direction.0, &mut self.direction.1);
         combine(along.as_mut_slice(), conjugate, accelerations.as_slice());
         combine(across.as_mut_slice(), conjugate, multipliers.as_slice());
-        let stiffness = weighted(along.as_slice(), mass.as_slice());
-        let step = length.quotient(stiffness);
+        combine(self.answered.as_mut_slice(), conjugate, answer.as_slice());
+        let stiffness =
+            kinetic(along).unwrap_or_else(|| product(across.as_slice(), self.answered.as_slice()));
+        let step = self.length.quotient(stiffness);
         let step = if step.is_finite() { step } else { S::one() };
         add(last.accelerations.as_mut_slice(), step, along.as_slice());
         add(last.multipliers.as_mut_slice(), step, across.as_slice());
+        add(self.missing.as_mut_slice(), -step, self.answered.as_slice());
     }
+}
+
+/// The place of the largest element.
+fn largest<S: Real>(elements: &[S]) -> usize {
+    let mut largest = (0, S::zero());
+    for (place, element) in elements.iter().enumerate() {
+        if element.abs() > largest.1 {
+            largest = (place, element.abs());
+        }
+    }
+    largest.0
 }
 
 /// `sum of weight x^2`.
 fn weighted<S: Real>(vector: &[S], weights: &[S]) -> S {
     let pairs = vector.iter().zip(weights);
     pairs.fold(S::zero(), |sum, (&x, &weight)| (x * x).fused(weight, sum))
+}
+
+/// `x . y`.
+fn product<S: Real>(x: &[S], y: &[S]) -> S {
+    let pairs = x.iter().zip(y);
+    pairs.fold(S::zero(), |sum, (&x, &y)| x.fused(y, sum))
 }
 
 /// `x = factor x + y`.

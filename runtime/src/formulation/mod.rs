@@ -25,15 +25,13 @@
 //! `(M + alpha D^T D) u' = g + alpha D^T gamma*`, which loses digits as `alpha` grows; this form
 //! does not.
 //!
-//! The augmented Lagrangian starts from zero multipliers at every evaluation. In joint coordinates
-//! it needs `S z` with `S = D M^-1 D^T`, which follows from two solutions (`joints.rs`), so
-//! neither `M` nor `D` leaves the kernels.
+//! The augmented Lagrangian starts from zero multipliers at every evaluation. All are written once,
+//! over [`Coordinates`]: in relative coordinates the system is that of the equations that remain.
 
 mod augmented_lagrangian;
 mod baumgarte;
 mod consistency;
 mod derived;
-mod joints;
 mod penalty;
 mod standard;
 
@@ -42,17 +40,15 @@ pub(crate) use consistency::inconsistency;
 
 pub use augmented_lagrangian::AugmentedLagrangian;
 pub use baumgarte::Baumgarte;
-pub use joints::{JointSaddle, JointSolution};
 pub use penalty::Penalty;
 pub use standard::StandardLagrange;
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use crate::constraints::self_stress::{passing, self_stressed};
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
-use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::coordinates::{Absolute, ByAllRows, Coordinates};
 use crate::mechanism::kernels::{Mechanism, Stabilisation, Terms};
 use crate::state::vector::Array;
 
@@ -92,129 +88,77 @@ pub trait Formulation<S: Real>: Copy + Debug {
     ///
     /// # Errors
     /// [`Fault::NotConverged`] for a formulation that iterates.
-    fn refine<M: Mechanism>(
+    #[inline(always)]
+    fn refine<M: Mechanism, C: Coordinates<M>>(
         &self,
-        _saddle: &Saddle<'_, S, M, Self::Terms>,
-        _solution: &mut Solution<S, M>,
+        _saddle: &Saddle<'_, S, M, C, Self::Terms>,
+        _solution: &mut Solution<S, M, C>,
     ) -> Result<(), Fault> {
         Ok(())
-    }
-
-    /// The same in joint coordinates, where the system has been solved once, with
-    /// `lambda_previous = 0`: takes that solution.
-    ///
-    /// # Errors
-    /// [`Fault::NotConverged`] for a formulation that iterates.
-    fn solve_joints<M: JointCoordinates>(
-        &self,
-        saddle: &JointSaddle<'_, S, M, Self::Terms>,
-    ) -> Result<JointSolution<S, M>, Fault> {
-        Ok(saddle.solve())
     }
 }
 
 /// The saddle system at one time and state, factorised.
-pub struct Saddle<'a, S: Scalar, M: Mechanism, T: Terms> {
-    pub(crate) constants: &'a M::Constants<S>,
-    pub(crate) coefficients: &'a M::Coefficients<S>,
-    pub(crate) factors: &'a M::Factors<S>,
-    pub(crate) compliances: &'a M::Multipliers<S>,
+pub struct Saddle<'a, S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms> {
+    pub(crate) constants: &'a C::Constants<S>,
+    pub(crate) coefficients: &'a C::Coefficients<S>,
+    pub(crate) compliances: &'a C::Multipliers<S>,
+    pub(crate) factors: &'a C::Factors<S>,
+    pub(crate) right: &'a C::RightSide<S>,
     pub(crate) time: S,
-    pub(crate) state: &'a M::State<S>,
-    pub(crate) upper: &'a M::Velocities<S>,
-    pub(crate) lower: &'a M::Multipliers<S>,
+    /// As the kernels read it.
+    pub(crate) state: &'a C::State<S>,
     pub(crate) terms: PhantomData<T>,
 }
 
-impl<S: Scalar, M: Mechanism, T: Terms> Saddle<'_, S, M, T> {
-    /// The solution with `lambda_previous = 0`.
-    #[must_use]
-    pub fn solve(&self) -> Solution<S, M> {
-        let mut solution = Solution {
-            accelerations: M::Velocities::zeros(),
-            multipliers: M::Multipliers::zeros(),
-            iterations: 1,
-            excused: false,
-        };
-        self.solve_for(self.lower, &mut solution);
-        solution
-    }
-
+impl<S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms> Saddle<'_, S, M, C, T> {
     /// The solution with the multipliers of a solution before, in its place.
-    #[inline]
-    pub fn solve_again(&self, solution: &mut Solution<S, M>) {
-        let mut lower = *self.lower;
-        let previous = solution.multipliers.as_slice();
-        let rows = lower.as_mut_slice().iter_mut().zip(previous);
-        for ((element, &lambda), &compliance) in rows.zip(self.compliances.as_slice()) {
-            *element = *element - compliance * lambda;
-        }
-        self.solve_for(&lower, solution);
-    }
-
-    /// The row whose accelerations are farthest from `D u' = gamma*`, and how far, relative to its
-    /// terms: what a compliance does to the motion, from 0 to about 1.
-    #[must_use]
-    pub fn inconsistency(&self, solution: &Solution<S, M>) -> (usize, S)
-    where
-        S: Real,
-    {
-        let at = (self.time, self.state);
-        let accelerations = &solution.accelerations;
-        inconsistency::<S, M>(self.constants, at, accelerations, self.upper, self.lower)
-    }
-
-    /// Whether the state is on its way through a singular configuration, in which the multipliers
-    /// of two solutions differ.
-    pub(crate) fn passing(&self, next: &Solution<S, M>, last: &M::Multipliers<S>) -> bool
-    where
-        S: Real,
-    {
-        let difference = difference::<S, M>(&next.multipliers, last);
-        passing::<S, M>(self.constants, self.time, self.state, &difference)
-    }
-
-    /// Whether the multipliers of two solutions differ by what is nearly a state of self-stress.
-    pub(crate) fn self_stressed(&self, next: &Solution<S, M>, last: &M::Multipliers<S>) -> bool
-    where
-        S: Real,
-    {
-        let difference = difference::<S, M>(&next.multipliers, last);
-        self_stressed::<S, M>(self.constants, self.time, self.state, &difference)
-    }
-
     // One piece of code for all solutions of a formulation that iterates, and one stack.
     #[inline(never)]
-    fn solve_for(&self, lower: &M::Multipliers<S>, solution: &mut Solution<S, M>) {
-        (solution.accelerations, solution.multipliers) = M::solve::<S, T>(
-            self.constants,
-            self.coefficients,
+    pub fn solve_again(&self, solution: &mut Solution<S, M, C>) {
+        let yielded = self.yielded(&solution.multipliers);
+        (solution.accelerations, solution.multipliers) = C::solve_after::<S, T>(
+            (self.constants, self.coefficients),
             self.factors,
-            self.upper,
-            lower,
+            self.right,
+            &yielded,
         );
     }
-}
 
-/// The difference of two sets of multipliers.
-fn difference<S: Scalar, M: Mechanism>(
-    next: &M::Multipliers<S>,
-    last: &M::Multipliers<S>,
-) -> M::Multipliers<S> {
-    let mut difference = *next;
-    let pairs = difference.as_mut_slice().iter_mut();
-    for (new, &old) in pairs.zip(last.as_slice()) {
-        *new = *new - old;
+    /// `E lambda`.
+    pub(crate) fn yielded(&self, multipliers: &C::Multipliers<S>) -> C::Multipliers<S> {
+        let mut yielded = *multipliers;
+        let rows = yielded.as_mut_slice().iter_mut();
+        for (row, &compliance) in rows.zip(self.compliances.as_slice()) {
+            *row = compliance * *row;
+        }
+        yielded
     }
-    difference
+
+    /// A solution by the rows of all joints; `None` in coordinates that do not have them.
+    pub(crate) fn by_all_rows<'s>(
+        &'s self,
+        accelerations: &'s C::Velocities<S>,
+        multipliers: &'s C::Multipliers<S>,
+    ) -> Option<ByAllRows<'s, S, M>> {
+        C::by_all_rows(
+            self.constants,
+            self.state,
+            self.right,
+            accelerations,
+            multipliers,
+        )
+    }
 }
 
 /// Accelerations and multipliers of the saddle system.
-pub struct Solution<S: Scalar, M: Mechanism> {
-    /// `u'` (m/s^2 global; rad/s^2 principal body axes).
-    pub accelerations: M::Velocities<S>,
-    /// `lambda`, one per equation; the reaction on the bodies is `-D^T lambda`.
-    pub multipliers: M::Multipliers<S>,
+pub struct Solution<S: Scalar, M: Mechanism, C: Coordinates<M> = Absolute> {
+    /// The rates of the velocities; in absolute coordinates `u'` (m/s^2 global; rad/s^2 principal
+    /// body axes).
+    pub accelerations: C::Velocities<S>,
+    /// `lambda`, one per equation that is solved; in absolute coordinates the reaction on the
+    /// bodies is `-D^T lambda`.
+    pub multipliers: C::Multipliers<S>,
     /// How often the system was solved.
     pub iterations: usize,
     /// Whether an iteration was ended before its tolerance, because what still changed was nearly a
@@ -222,10 +166,10 @@ pub struct Solution<S: Scalar, M: Mechanism> {
     pub excused: bool,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Solution<S, M> {
+impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Clone for Solution<S, M, C> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Scalar, M: Mechanism> Copy for Solution<S, M> {}
+impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Copy for Solution<S, M, C> {}

@@ -6,7 +6,7 @@ use crate::math::scalar::Scalar;
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
 use crate::mechanism::report::Kernel;
 use crate::state::joint_state::JointState;
-use crate::state::vector::{Array, Vector};
+use crate::state::vector::{Array, MovingState};
 
 /// A mechanism with `#[mechanism(coordinates = "joints")]` or `"both"`: besides the kernels of
 /// [`Mechanism`] it has those of its equations of motion in joint coordinates.
@@ -139,32 +139,8 @@ pub trait JointCoordinates: Mechanism {
     ) -> Self::JointState<S>;
 }
 
-/// The slope of a state, and the multipliers of the equations that remain.
-pub struct JointEvaluation<S: Scalar, M: JointCoordinates> {
-    /// Rates of the angles, of the further coordinates and of the velocities.
-    pub rates: M::JointState<S>,
-    /// `lambda`, one per equation that remains.
-    pub multipliers: M::ClosingMultipliers<S>,
-}
-
-impl<S: Scalar, M: JointCoordinates> JointEvaluation<S, M> {
-    /// A place for results, see
-    /// [`JointDynamics::evaluate_into`](crate::dynamics::JointDynamics::evaluate_into).
-    #[inline(always)]
-    #[must_use]
-    pub fn zeros() -> Self {
-        Self {
-            rates: M::JointState::zeros(),
-            multipliers: Array::zeros(),
-        }
-    }
-}
-
 /// Access to the parts of a [`JointState`], for code that is generic over the mechanism.
-pub trait JointParts<S: Scalar>: Vector<S> + Copy + Debug + PartialEq {
-    /// Nothing turned, nothing moved; of a slope, nothing that moves.
-    fn zeros() -> Self;
-
+pub trait JointParts<S: Scalar>: MovingState<S> {
     /// Cosine and sine of every turn; of a slope, the rate of the angle first.
     fn pairs_slice(&self) -> &[[S; 2]];
 
@@ -173,15 +149,9 @@ pub trait JointParts<S: Scalar>: Vector<S> + Copy + Debug + PartialEq {
 
     /// The further coordinates, to be written.
     fn rest_slice_mut(&mut self) -> &mut [S];
-
-    /// The velocities; of a slope, their rates.
-    fn rates_slice(&self) -> &[S];
-
-    /// The velocities, to be written.
-    fn rates_slice_mut(&mut self) -> &mut [S];
 }
 
-impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> JointParts<S>
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> MovingState<S>
     for JointState<S, TURNS, REST, RATES>
 {
     #[inline(always)]
@@ -193,6 +163,20 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Joint
         )
     }
 
+    #[inline(always)]
+    fn rates_slice(&self) -> &[S] {
+        self.rates()
+    }
+
+    #[inline(always)]
+    fn rates_slice_mut(&mut self) -> &mut [S] {
+        self.rates_mut()
+    }
+}
+
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> JointParts<S>
+    for JointState<S, TURNS, REST, RATES>
+{
     #[inline(always)]
     fn pairs_slice(&self) -> &[[S; 2]] {
         self.pairs()
@@ -206,16 +190,6 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Joint
     #[inline(always)]
     fn rest_slice_mut(&mut self) -> &mut [S] {
         self.rest_mut()
-    }
-
-    #[inline(always)]
-    fn rates_slice(&self) -> &[S] {
-        self.rates()
-    }
-
-    #[inline(always)]
-    fn rates_slice_mut(&mut self) -> &mut [S] {
-        self.rates_mut()
     }
 }
 

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::error::ParameterError;
 use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::coordinates::Evaluation;
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::mechanism::report::Report;
 use crate::state::vector::{Array, StateParts};
@@ -352,48 +353,6 @@ pub trait Mechanism: Sized + 'static {
     /// `A(p) A(c)`, with Euler parameters `p c` (quaternion product). `(1, 0, 0, 0)` where the user
     /// gave principal moments, and for a particle.
     fn user_axes(body: usize) -> [f64; 4];
-}
-
-/// Rates of the state, multipliers and the verdict on the pivots.
-pub struct Evaluation<S: Scalar, M: Mechanism> {
-    /// `(q', u')`.
-    pub rates: M::State<S>,
-    /// `lambda`, one per equation; the reaction on the bodies is `-D^T lambda`.
-    pub multipliers: M::Multipliers<S>,
-    /// The smallest relative pivot.
-    pub pivot: Pivot<S>,
-}
-
-impl<S: Scalar, M: Mechanism> Evaluation<S, M> {
-    /// A place for results, see
-    /// [`Dynamics::evaluate_into`](crate::dynamics::Dynamics::evaluate_into).
-    #[inline(always)]
-    #[must_use]
-    pub fn zeros() -> Self {
-        Self {
-            rates: M::State::from_parts(Array::zeros(), Array::zeros()),
-            multipliers: Array::zeros(),
-            pivot: Pivot::unchecked(),
-        }
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Clone for Evaluation<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Evaluation<S, M> {}
-
-impl<S: Scalar, M: Mechanism> Debug for Evaluation<S, M> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Evaluation")
-            .field("rates", &self.rates)
-            .field("multipliers", &self.multipliers)
-            .field("pivot", &self.pivot)
-            .finish()
-    }
 }
 
 /// The smallest relative pivot of a factorisation and its joint, per lane.

@@ -1,26 +1,29 @@
 //! What a generated mechanism is: its kernels, its report, its handles.
 //!
 //! `Mechanism` (`kernels.rs`) is the interface of generated code in absolute coordinates,
-//! `JointCoordinates` (`joint_kernels.rs`) in joint coordinates. Compliances are one per row; the
+//! `JointCoordinates` (`joint_kernels.rs`) in joint coordinates. `Coordinates` (`coordinates.rs`)
+//! is one interface to both, for all that solves, steps and runs. Compliances are one per row; the
 //! three rows of a vector equation share one, so that the axes of a plan do not matter.
 
+pub(crate) mod absolute;
 pub(crate) mod blocks;
 pub(crate) mod body;
+pub(crate) mod coordinates;
 pub(crate) mod handle;
 pub(crate) mod joint_kernels;
 pub(crate) mod joint_report;
 pub(crate) mod kernels;
 pub(crate) mod orientations;
 pub(crate) mod readout;
+pub(crate) mod relative;
 pub(crate) mod report;
 
+pub use coordinates::{Absolute, Begun, ByAllRows, Coordinates, Equations, Evaluation, Relative};
 pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint};
-pub use joint_kernels::{
-    Freedom, JointCounter, JointEvaluation, JointMotion, JointParts, JointReport,
-};
+pub use joint_kernels::{Freedom, JointCounter, JointMotion, JointParts, JointReport};
 pub use kernels::{
-    Chapter15, Compliant, Evaluation, Normalised, Orientation, Pivot, Plain, Raw, Stabilisation,
-    Stabilised, Terms,
+    Chapter15, Compliant, Normalised, Orientation, Pivot, Plain, Raw, Stabilisation, Stabilised,
+    Terms,
 };
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{

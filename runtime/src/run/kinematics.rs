@@ -188,8 +188,7 @@ where
         observe: &mut impl FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<KinematicReport<S, M::State<S>>, Fault> {
-        let dynamics = Dynamics::new(self.mechanism, self.formulation)?
-            .exchange::<crate::mechanism::Normalised, &A>(|_| &self.forces);
+        let dynamics = Dynamics::new(self.mechanism, self.formulation)?.with_forces(&self.forces);
         let state = self
             .initial
             .unwrap_or_else(|| M::initial_state(dynamics.constants()));

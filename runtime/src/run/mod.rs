@@ -18,7 +18,6 @@
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
 pub(crate) mod direct;
-pub(crate) mod joint_stepper;
 pub(crate) mod kinematics;
 pub(crate) mod output;
 pub(crate) mod post_step;

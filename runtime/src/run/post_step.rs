@@ -1,12 +1,12 @@
 //! What is done to states after steps, so that they stay on the constraints.
 
 use crate::constraints::projection::Projection;
-use crate::dynamics::joint_dynamics::bodies_of;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
+use crate::mechanism::relative::bodies_of;
 use crate::run::direct::DirectCorrection;
 
 /// What a run does to the state after every step, and to every state that it reports.

@@ -8,8 +8,9 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::measure::reaction::Wrench;
 use crate::measure::view::View;
+use crate::mechanism::coordinates::Evaluation;
 use crate::mechanism::handle::{BodyHandle, Driven, JointHandle};
-use crate::mechanism::kernels::{Evaluation, Mechanism};
+use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::StateParts;
 
 /// A state at a reporting time: a [`View`], and what takes an evaluation.

@@ -3,11 +3,13 @@
 
 use core::ops::ControlFlow;
 
-use crate::dynamics::moving::Moving;
+use crate::dynamics::{Dynamics, RigidSteps};
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{Counts, Course, Integrator, Span};
+use crate::integrate::{Counts, Course, Integrator, Span, System as _};
 use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::output::Schedule;
 use crate::run::post_step::Treatment;
@@ -17,9 +19,9 @@ use crate::run::within::{better_end, look_within};
 use crate::watch::{Watch, fastest};
 
 /// A run under way.
-pub(crate) struct Run<'r, S: Real, M: Mechanism, D> {
+pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> {
     /// What the integrator moves.
-    pub(crate) moving: D,
+    pub(crate) dynamics: Dynamics<S, M, F, A, C>,
     /// What is done to states after steps and before reports.
     pub(crate) treatment: Option<&'r dyn Treatment<S, M>>,
     pub(crate) schedule: Schedule<S>,
@@ -60,11 +62,13 @@ impl<'r, S: Real, M: Mechanism> Log<'r, S, M> {
     }
 }
 
-impl<S, M, D> Run<'_, S, M, D>
+impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
 where
     S: Real,
     M: Mechanism,
-    D: Moving<S, M>,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
 {
     /// Goes from a state to the end; keeps the last good state.
     pub(crate) fn go<I: Integrator<S>>(
@@ -80,12 +84,11 @@ where
         }
         self.show(start, &last_good.1);
         if let Some(watch) = self.watch.as_mut().filter(|_| from < end) {
-            let dynamics = self.moving.dynamics();
-            dynamics.begin(watch, start, &last_good.1);
+            self.dynamics.begin(watch, start, &last_good.1);
         }
         if from < end {
             let start = (start, &last_good.1);
-            self.moving.dynamics().ask_twice(start, (end, start.1))?;
+            self.dynamics.ask_twice(start, (end, start.1))?;
         }
         while from < end && self.log.flow.is_continue() {
             let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
@@ -103,8 +106,8 @@ where
 
     /// Evaluates the rates once: a run of no length is refused where any other would be.
     fn evaluate(&mut self, time: S, state: &M::State<S>) -> Result<(), Fault> {
-        let state = self.moving.of(state);
-        self.moving.rates(time, &state)?;
+        let state = self.dynamics.nearest(state);
+        self.dynamics.rates(time, &state)?;
         self.counts.evaluations += 1;
         Ok(())
     }
@@ -116,23 +119,23 @@ where
         span: Span<S>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
-        let start = self.moving.of(&last_good.1);
-        let mut course = integrator.start(&mut self.moving, span, start)?;
+        let start = self.dynamics.nearest(&last_good.1);
+        let mut course = integrator.start(&mut self.dynamics, span, start)?;
         if let Some(watch) = &mut self.watch {
             watch.restart();
-            self.moving.watch(watch, span.start, &last_good.1);
+            self.dynamics.watch(watch, span.start, &last_good.1);
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
         // What interpolants evaluate for the watch is no part of the run.
         let mut of_watch = 0_usize;
         while course.time() < span.end {
-            course.advance(&mut self.moving)?;
+            course.advance(&mut self.dynamics)?;
             let before = course.counts().evaluations;
             let mut better = None;
             if let Some(watch) = &mut self.watch {
-                better = better_end(watch, &mut self.moving, &course, &last_good.1);
-                look_within(watch, &mut self.moving, &mut course, &last_good.1);
+                better = better_end(watch, &mut self.dynamics, &course, &last_good.1);
+                look_within(watch, &mut self.dynamics, &mut course, &last_good.1);
             }
             let after = course.counts().evaluations;
             let looks = after.saturating_sub(before);
@@ -140,9 +143,9 @@ where
             // end.
             let mut seen = None;
             while let Some(time) = self.schedule.within(course.time()) {
-                seen.get_or_insert_with(|| self.moving.seen());
-                let state = course.at(&mut self.moving, time)?;
-                let mut state = self.moving.bodies(&state, &last_good.1);
+                seen.get_or_insert_with(|| self.dynamics.seen());
+                let state = course.at(&mut self.dynamics, time)?;
+                let mut state = self.dynamics.bodies_near(&state, &last_good.1);
                 if let Some(treatment) = self.treatment {
                     state = self.treated(treatment, time, state)?;
                 }
@@ -157,7 +160,7 @@ where
                 // With reports, which find what interpolation needs where a look has evaluated it,
                 // or evaluate for each time anew.
                 Some(seen) => {
-                    self.moving.recall(seen);
+                    self.dynamics.recall(seen);
                     course.counts().evaluations == after
                 }
                 // Or as the slope at the start of the next step.
@@ -167,24 +170,24 @@ where
                 of_watch = of_watch.saturating_add(looks);
             }
             let time = course.time();
-            let mut state = self.moving.bodies(course.state(), &last_good.1);
+            let mut state = self.dynamics.bodies_near(course.state(), &last_good.1);
             if let Some(treatment) = self.treatment {
                 state = self.treated(treatment, time, state)?;
-                let state = self.moving.of_near(&state, course.state());
+                let state = self.dynamics.nearest_to(&state, course.state());
                 course.replace(state);
             }
             if let Some(watch) = &mut self.watch {
                 if let Some(better) = better {
                     watch.judge([&state, &better]);
                 }
-                self.moving.watch(watch, time, &state);
-                let excused = self.moving.iterations().excused;
+                self.dynamics.watch(watch, time, &state);
+                let excused = self.dynamics.iterations().excused;
                 watch.excuse_evaluations(excused, time);
             }
             self.steps = self.steps.saturating_add(1);
             if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
-                let dynamics = self.moving.dynamics();
-                dynamics.ask_twice((time, &state), (last_good.0, &last_good.1))?;
+                let before = (last_good.0, &last_good.1);
+                self.dynamics.ask_twice((time, &state), before)?;
             }
             *last_good = (time, state);
             self.log.unseen += 1;
@@ -215,7 +218,7 @@ where
         time: S,
         mut state: M::State<S>,
     ) -> Result<M::State<S>, Fault> {
-        let constants = self.moving.dynamics().constants();
+        let constants = self.dynamics.constants();
         let excused = treatment.treat(constants, time, &mut state)?;
         if let Some(watch) = &mut self.watch
             && excused > S::zero()
@@ -226,7 +229,7 @@ where
     }
 
     fn show(&mut self, time: S, state: &M::State<S>) {
-        let dynamics = self.moving.dynamics();
+        let dynamics = &self.dynamics;
         let view = dynamics.view(time, state);
         let log = &mut self.log;
         log.worst_violation = log.worst_violation.max(view.violation());
@@ -237,15 +240,15 @@ where
     /// The last state is one that was shown.
     fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
         if let Some(watch) = &mut self.watch {
-            self.moving.name_smallest_pivot(watch);
-            watch.end(self.moving.dynamics().constants(), time, &state);
+            self.dynamics.name_smallest_pivot(watch);
+            watch.end(self.dynamics.constants(), time, &state);
         }
         RunReport {
             evaluations: self.counts.evaluations,
             accepted: self.counts.accepted,
             rejected: self.counts.rejected,
             worst_violation: self.log.worst_violation,
-            iterations: self.moving.iterations(),
+            iterations: self.dynamics.iterations(),
             time,
             state,
             stopped: self.log.flow.is_break(),
@@ -270,7 +273,7 @@ where
         if not_finite
             && let (Some(step), Some(rate)) = (
                 integrator.fixed_step(),
-                self.moving.dynamics().formulation().decay_rate(),
+                self.dynamics.formulation().decay_rate(),
             )
             && step * rate > S::constant(STABLE)
         {
@@ -285,7 +288,7 @@ where
             Fault::Singular { .. } => Some(BEYOND),
             _ => not_finite.then_some(1.0),
         };
-        let (constants, state) = (self.moving.dynamics().constants(), &last_good.1);
+        let (constants, state) = (self.dynamics.constants(), &last_good.1);
         if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())
             && step * fastest::<S, M>(constants, state) > S::constant(turned)
         {
@@ -294,7 +297,7 @@ where
             };
         }
         let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
-        self.moving.dynamics().explained(fault, absolute, last_good)
+        self.dynamics.explained(fault, absolute, last_good)
     }
 }
 

@@ -6,15 +6,15 @@ use core::ops::{ControlFlow, RangeInclusive};
 use crate::assembly::assembled;
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::projection::Projection;
-use crate::dynamics::Dynamics;
-use crate::dynamics::moving::{Bodies, Description, Joints};
+use crate::dynamics::{Dynamics, RigidSteps};
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
 use crate::integrate::{Counts, Integrator};
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::{Mechanism, Normalised, Orientation};
+use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::check_state;
 use crate::run::output::{Reporting, Schedule, check_interval};
 use crate::run::post_step::Treatment;
@@ -26,9 +26,9 @@ use crate::watch::Watch;
 
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
-/// `P` says how Euler parameters are read ([`Normalised`] or [`Raw`](crate::mechanism::Raw)), `A`
-/// which forces come on top of those of the description.
-pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoForces, C = Bodies> {
+/// `A` says which forces come on top of those of the description, `C` in which coordinates the
+/// equations of motion are solved.
+pub struct Simulation<'a, S: Real, M: Mechanism, F, I, A = NoForces, C = Absolute> {
     mechanism: &'a M,
     formulation: F,
     integrator: I,
@@ -40,8 +40,7 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, P = Normalised, A = NoFor
     breaks: &'a [S],
     accepts_any_start: bool,
     is_watched: bool,
-    /// How Euler parameters are read, and by what the mechanism is described.
-    kind: PhantomData<(P, C)>,
+    coordinates: PhantomData<C>,
 }
 
 impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<'a, S, M, F, I> {
@@ -61,18 +60,18 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<
             breaks: &[],
             accepts_any_start: false,
             is_watched: true,
-            kind: PhantomData,
+            coordinates: PhantomData,
         }
     }
 }
 
-impl<'a, S, M, F, I, P, A, C> Simulation<'a, S, M, F, I, P, A, C>
+impl<'a, S, M, F, I, A, C> Simulation<'a, S, M, F, I, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
     I: Integrator<S>,
-    P: Orientation,
+    C: Coordinates<M>,
 {
     /// Starts from this state.
     #[must_use]
@@ -132,10 +131,7 @@ where
         self
     }
 
-    fn exchange<P2, A2, C2>(
-        self,
-        forces: impl FnOnce(A) -> A2,
-    ) -> Simulation<'a, S, M, F, I, P2, A2, C2> {
+    fn exchange<A2, C2>(self, forces: impl FnOnce(A) -> A2) -> Simulation<'a, S, M, F, I, A2, C2> {
         Simulation {
             mechanism: self.mechanism,
             formulation: self.formulation,
@@ -148,34 +144,10 @@ where
             breaks: self.breaks,
             accepts_any_start: self.accepts_any_start,
             is_watched: self.is_watched,
-            kind: PhantomData,
+            coordinates: PhantomData,
         }
     }
-}
 
-impl<'a, S, M, F, I, P, A> Simulation<'a, S, M, F, I, P, A>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Integrator<S>,
-    P: Orientation,
-{
-    /// Reads Euler parameters in another way: `.orientation::<Raw>()`.
-    #[must_use]
-    pub fn orientation<P2: Orientation>(self) -> Simulation<'a, S, M, F, I, P2, A> {
-        self.exchange(|forces| forces)
-    }
-}
-
-impl<'a, S, M, F, I, P, A, C> Simulation<'a, S, M, F, I, P, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Integrator<S>,
-    P: Orientation,
-{
     /// Applies forces as a function of time and state,
     /// `|time, state, loads| loads.force(body, ...)`.
     ///
@@ -186,24 +158,22 @@ where
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, P, ForceLaw<G>, C>
+    pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, ForceLaw<G>, C>
     where
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
         self.exchange(|_| ForceLaw(law))
     }
-}
 
-impl<'a, S, M, F, I, A> Simulation<'a, S, M, F, I, Normalised, A>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Integrator<S>,
-{
-    /// Moves joint coordinates, see [`JointCoordinates`]: bodies stand as the joints of a spanning
-    /// tree let them at every step, to round-off, and an evaluation costs what the mechanism's
-    /// freedom asks for.
+    /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
+    #[must_use]
+    pub fn coordinates<C2: Coordinates<M>>(self) -> Simulation<'a, S, M, F, I, A, C2> {
+        self.exchange(|forces| forces)
+    }
+
+    /// Solves the equations of motion in relative (joint) coordinates, see [`JointCoordinates`]:
+    /// bodies stand as the joints of a spanning tree let them at every step, to round-off, and an
+    /// evaluation costs what the mechanism's freedom asks for.
     ///
     /// A start that opens a joint is refused, whatever [`Simulation::inconsistent_start`] says:
     /// those of the tree cannot open.
@@ -213,23 +183,35 @@ where
     /// bodies once a step, which takes more time than the step itself: see
     /// [`Simulation::unwatched`].
     #[must_use]
-    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, Normalised, A, Joints>
+    pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, A, Relative>
     where
         M: JointCoordinates,
     {
-        self.exchange(|forces| forces)
+        self.coordinates()
+    }
+
+    /// Solves the equations of motion in absolute coordinates: of every body position, Euler
+    /// parameters and velocities.
+    #[must_use]
+    pub fn absolute_coordinates(self) -> Simulation<'a, S, M, F, I, A, Absolute> {
+        self.coordinates()
+    }
+
+    /// Reads Euler parameters in another way, in absolute coordinates: `.orientation::<Raw>()`.
+    #[must_use]
+    pub fn orientation<P: Orientation>(self) -> Simulation<'a, S, M, F, I, A, Absolute<P>> {
+        self.coordinates()
     }
 }
 
-impl<S, M, F, I, P, A, C> Simulation<'_, S, M, F, I, P, A, C>
+impl<S, M, F, I, A, C> Simulation<'_, S, M, F, I, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
     I: Integrator<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
-    C: for<'f> Description<S, M, F, P, &'f A>,
+    C: RigidSteps<M>,
 {
     /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the
     /// reporting times and at the end; `ControlFlow::Break(())` stops the run, so an observer that
@@ -272,8 +254,9 @@ where
         observe: &mut Observer<'_, S, M>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<RunReport<S, M>, Fault> {
-        let dynamics =
-            Dynamics::new(self.mechanism, self.formulation)?.exchange::<P, &A>(|_| &self.forces);
+        let dynamics = Dynamics::new(self.mechanism, self.formulation)?
+            .with_forces(&self.forces)
+            .coordinates::<C>();
         let constants = *dynamics.constants();
         let mut state = self.initial.unwrap_or_else(|| M::initial_state(&constants));
         last_good.1 = state;
@@ -286,9 +269,9 @@ where
             assembled::<S, M>(&projection, &constants, start, &mut state, &from)?;
         }
         last_good.1 = state;
-        if !self.accepts_any_start || C::HAS_EXACT_JOINTS {
+        if !self.accepts_any_start || C::IS_RELATIVE {
             let interval = (start, end - start);
-            check_start::<S, M>(&constants, interval, &state, C::HAS_EXACT_JOINTS)?;
+            check_start::<S, M>(&constants, interval, &state, C::IS_RELATIVE)?;
         }
         let watch = self
             .is_watched
@@ -296,7 +279,7 @@ where
         let projection = self.projection.as_ref();
         let projection = projection.map(|projection| projection as &dyn Treatment<S, M>);
         let run = Run {
-            moving: C::moving(dynamics)?,
+            dynamics,
             treatment: self.treatment.or(projection),
             schedule,
             breaks: self.breaks,

@@ -1,7 +1,7 @@
 //! Steps for a loop that somebody else owns.
 
 use crate::constraints::projection::Projection;
-use crate::dynamics::{Dynamics, Iterations};
+use crate::dynamics::{Dynamics, Iterations, RigidSteps};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::formulation::Formulation;
@@ -10,22 +10,65 @@ use crate::math::clock::Clock;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::measure::view::View;
-use crate::mechanism::kernels::{Mechanism, Normalised, Orientation};
-use crate::mechanism::orientations::check_state;
+use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
+use crate::mechanism::joint_kernels::JointCoordinates;
+use crate::mechanism::kernels::{Mechanism, Orientation};
 
 /// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
 ///
 /// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
 /// [`DormandPrince5`](crate::integrate::DormandPrince5) 6), allocates nothing and does not panic.
-pub struct Stepper<S: Real, M: Mechanism, F: Formulation<S>, K, P = Normalised, A = NoForces> {
-    dynamics: Dynamics<S, M, F, P, A>,
+///
+/// `C` says in which coordinates the equations of motion are solved. In absolute coordinates a
+/// state is one of the bodies. In relative ones it is a [`JointCoordinates::JointState`]: a start
+/// is set in a state of the bodies, by handle as ever, and [`Stepper::state_of`] takes it over;
+/// what is to be read is read of [`Stepper::bodies`]. Joints of the tree cannot open there;
+/// equations that close loops drift or are stabilised, as the formulation has it.
+///
+/// ```
+/// use holonom::joints::Revolute;
+/// use holonom::prelude::*;
+///
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+/// struct Rod {
+///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+///     rod: Body,
+///     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     hinge: Revolute,
+/// }
+///
+/// let rod = Rod::default();
+/// let hinge = Rod::HANDLES.hinge;
+/// let stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
+/// let mut stepper = stepper.joint_coordinates();
+/// let mut start = rod.described_state()?;
+/// rod.set_angle(&mut start, hinge, 0.5)?;
+/// let mut state = stepper.state_of(&start)?;
+/// for _ in 0..200 {
+///     stepper.step(&mut state, 1e-3)?;
+/// }
+/// let bodies = stepper.bodies(&state);
+/// let view = stepper.view(&bodies);
+/// assert!(view.angle(hinge) < 0.4 && view.violation() < 1e-30);
+/// # Ok::<(), Fault>(())
+/// ```
+pub struct Stepper<
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K,
+    A = NoForces,
+    C: Coordinates<M> = Absolute,
+> {
+    dynamics: Dynamics<S, M, F, A, C>,
     scheme: K,
     clock: Clock<S>,
     projection: Option<Projection<S>>,
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, P, A: Clone> Clone
-    for Stepper<S, M, F, K, P, A>
+impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, A: Clone, C: Coordinates<M>> Clone
+    for Stepper<S, M, F, K, A, C>
 {
     fn clone(&self) -> Self {
         Self {
@@ -43,9 +86,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, K: Scheme<S>> Stepper<S, M, F, K>
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F, scheme: K) -> Result<Self, Fault> {
-        let dynamics = Dynamics::new(mechanism, formulation)?;
         Ok(Self {
-            dynamics,
+            dynamics: Dynamics::new(mechanism, formulation)?,
             scheme,
             clock: Clock::at(S::zero()),
             projection: None,
@@ -53,14 +95,26 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, K: Scheme<S>> Stepper<S, M, F, K>
     }
 }
 
-impl<S, M, F, K, P, A> Stepper<S, M, F, K, P, A>
+impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
     K: Scheme<S>,
-    P: Orientation,
+    C: Coordinates<M>,
 {
+    fn exchange<A2, C2: Coordinates<M>>(
+        self,
+        exchange: impl FnOnce(Dynamics<S, M, F, A, C>) -> Dynamics<S, M, F, A2, C2>,
+    ) -> Stepper<S, M, F, K, A2, C2> {
+        Stepper {
+            dynamics: exchange(self.dynamics),
+            scheme: self.scheme,
+            clock: self.clock,
+            projection: self.projection,
+        }
+    }
+
     /// Begins at a time (s).
     #[must_use]
     pub fn starting_at(mut self, time: S) -> Self {
@@ -75,41 +129,40 @@ where
         self
     }
 
-    /// Reads Euler parameters in another way: `.orientation::<Raw>()`.
+    /// Applies forces as a function of time and state of the bodies, see [`Loads`].
     #[must_use]
-    pub fn orientation<P2: Orientation>(self) -> Stepper<S, M, F, K, P2, A> {
-        let Self {
-            dynamics,
-            scheme,
-            clock,
-            projection,
-        } = self;
-        Stepper {
-            dynamics: dynamics.orientation(),
-            scheme,
-            clock,
-            projection,
-        }
-    }
-
-    /// Applies forces as a function of time and state, see [`Loads`].
-    #[must_use]
-    pub fn forces<G>(self, law: G) -> Stepper<S, M, F, K, P, ForceLaw<G>>
+    pub fn forces<G>(self, law: G) -> Stepper<S, M, F, K, ForceLaw<G>, C>
     where
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
-        let Self {
-            dynamics,
-            scheme,
-            clock,
-            projection,
-        } = self;
-        Stepper {
-            dynamics: dynamics.forces(law),
-            scheme,
-            clock,
-            projection,
-        }
+        self.exchange(|dynamics| dynamics.forces(law))
+    }
+
+    /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
+    #[must_use]
+    pub fn coordinates<C2: Coordinates<M>>(self) -> Stepper<S, M, F, K, A, C2> {
+        self.exchange(Dynamics::coordinates)
+    }
+
+    /// Solves the equations of motion in relative (joint) coordinates.
+    #[must_use]
+    pub fn joint_coordinates(self) -> Stepper<S, M, F, K, A, Relative>
+    where
+        M: JointCoordinates,
+    {
+        self.coordinates()
+    }
+
+    /// Solves the equations of motion in absolute coordinates.
+    #[must_use]
+    pub fn absolute_coordinates(self) -> Stepper<S, M, F, K, A, Absolute> {
+        self.coordinates()
+    }
+
+    /// Reads Euler parameters in another way, in absolute coordinates: `.orientation::<Raw>()`.
+    #[must_use]
+    pub fn orientation<P: Orientation>(self) -> Stepper<S, M, F, K, A, Absolute<P>> {
+        self.coordinates()
     }
 
     /// The time that was reached (s).
@@ -136,46 +189,70 @@ where
         self.dynamics.set_inputs(inputs)
     }
 
-    /// Readable access to a state at the time that was reached.
-    #[must_use]
-    pub fn view<'a>(&'a self, state: &'a M::State<S>) -> View<'a, S, M> {
-        self.dynamics.view(self.time(), state)
+    /// The state that the attributes of the bodies describe.
+    ///
+    /// # Errors
+    /// As [`Dynamics::initial_state`].
+    pub fn initial_state(&self) -> Result<C::State<S>, Fault> {
+        self.dynamics.initial_state()
     }
 
-    /// The multipliers of all joints in a state, at the time that was reached and with the inputs
-    /// of the last step: what [`View::reaction`] asks for. One evaluation.
+    /// The state in which bodies stand and move so.
+    ///
+    /// # Errors
+    /// As [`Dynamics::state_of`].
+    pub fn state_of(&self, bodies: &M::State<S>) -> Result<C::State<S>, Fault> {
+        self.dynamics.state_of(bodies)
+    }
+
+    /// How the bodies stand and move in a state.
+    #[must_use]
+    pub fn bodies(&self, state: &C::State<S>) -> M::State<S> {
+        self.dynamics.bodies(state)
+    }
+
+    /// Readable access to a state of the bodies at the time that was reached.
+    #[must_use]
+    pub fn view<'a>(&'a self, bodies: &'a M::State<S>) -> View<'a, S, M> {
+        self.dynamics.view(self.time(), bodies)
+    }
+
+    /// The multipliers of all joints in a state of the bodies, at the time that was reached and
+    /// with the inputs of the last step: what [`View::reaction`] asks for. One evaluation in
+    /// absolute coordinates.
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`].
-    pub fn multipliers(&self, state: &M::State<S>) -> Result<M::Multipliers<S>, Fault>
+    pub fn multipliers(&self, bodies: &M::State<S>) -> Result<M::Multipliers<S>, Fault>
     where
         A: AppliedForces<S, M>,
     {
-        let (evaluation, _) = self.dynamics.evaluate(self.time(), state)?;
+        let evaluation = self.dynamics.evaluate_bodies(self.time(), bodies)?;
         Ok(evaluation.multipliers)
     }
 
     /// The prepared dynamics, for evaluations outside a step.
     #[must_use]
-    pub fn dynamics(&self) -> &Dynamics<S, M, F, P, A> {
+    pub fn dynamics(&self) -> &Dynamics<S, M, F, A, C> {
         &self.dynamics
     }
 
-    /// How often the augmented Lagrangian solved its system; zero for other formulations.
+    /// How often the augmented Lagrangian solved its system; zero for other formulations, and where
+    /// no equation is solved.
     #[must_use]
     pub fn iterations(&self) -> Iterations {
         self.dynamics.iterations()
     }
 }
 
-impl<S, M, F, K, P, A> Stepper<S, M, F, K, P, A>
+impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
     K: Scheme<S>,
-    P: Orientation,
     A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
 {
     /// Moves the state by one step of `dt` (s).
     ///
@@ -185,10 +262,12 @@ where
     ///
     /// # Errors
     /// Why the step could not be done. State and time are then as before.
-    pub fn step(&mut self, state: &mut M::State<S>, dt: S) -> Result<(), Fault> {
+    pub fn step(&mut self, state: &mut C::State<S>, dt: S) -> Result<(), Fault> {
         let time = self.time();
         let clock = end_of_step::<S, M>(&self.clock, dt)?;
-        check_state::<S, M>(state)?;
+        if !C::IS_RELATIVE {
+            C::check(state)?;
+        }
         if let Some(projection) = self.projection {
             self.projected(state, dt, clock.time(), &projection)?;
         } else {
@@ -202,7 +281,7 @@ where
     #[inline(never)]
     fn projected(
         &mut self,
-        state: &mut M::State<S>,
+        state: &mut C::State<S>,
         dt: S,
         end: S,
         projection: &Projection<S>,
@@ -210,9 +289,10 @@ where
         let mut next = *state;
         let time = self.time();
         self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
+        let mut bodies = self.dynamics.bodies(&next);
         let constants = self.dynamics.constants();
-        projection.correct_in_motion::<M>(constants, end, &mut next)?;
-        *state = next;
+        projection.correct_in_motion::<M>(constants, end, &mut bodies)?;
+        *state = self.dynamics.nearest_to(&bodies, &next);
         Ok(())
     }
 
@@ -224,7 +304,7 @@ where
     #[inline]
     pub fn step_with(
         &mut self,
-        state: &mut M::State<S>,
+        state: &mut C::State<S>,
         inputs: &M::Inputs<S>,
         dt: S,
     ) -> Result<(), Fault> {
@@ -234,10 +314,7 @@ where
 }
 
 /// The clock after a step, if that is one.
-pub(crate) fn end_of_step<S: Real, M: Mechanism>(
-    clock: &Clock<S>,
-    dt: S,
-) -> Result<Clock<S>, Fault> {
+fn end_of_step<S: Real, M: Mechanism>(clock: &Clock<S>, dt: S) -> Result<Clock<S>, Fault> {
     let time = clock.time();
     if positive("step", dt)? < time.ulp() && M::REPORT.time.is_anywhere() {
         return Err(Fault::StepTooShort {

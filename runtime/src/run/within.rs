@@ -1,10 +1,13 @@
 //! What the ends of a step do not tell: singular configurations between them, and what a method of
 //! low order misses.
 
-use crate::dynamics::moving::Moving;
+use crate::dynamics::{Dynamics, RigidSteps};
 use crate::error::Fault;
+use crate::formulation::Formulation;
 use crate::integrate::Course;
 use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::watch::{Nearness, Watch};
@@ -22,27 +25,29 @@ const DIVISION: f64 = 0.44;
 /// Where a rule of higher order would have led in the last step of a course, of some steps of a
 /// method that is judged. The bodies stood near by a moment ago.
 #[inline]
-pub(crate) fn better_end<S, M, D, C>(
+pub(crate) fn better_end<S, M, F, A, C, K>(
     watch: &Watch<S, M>,
-    moving: &mut D,
-    course: &C,
+    dynamics: &mut Dynamics<S, M, F, A, C>,
+    course: &K,
     near: &M::State<S>,
 ) -> Option<M::State<S>>
 where
     S: Real,
     M: Mechanism,
-    D: Moving<S, M>,
-    C: Course<S, D::State>,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
+    K: Course<S, C::State<S>>,
 {
     if !watch.judges() {
         return None;
     }
-    let (seen, iterations) = (moving.seen(), moving.iterations());
+    let (seen, iterations) = (dynamics.seen(), dynamics.iterations());
     // Where there is a fault the run will find it.
-    let better = course.better_end(moving).ok().flatten();
-    moving.recall(seen);
-    moving.recount(iterations);
-    better.map(|state| moving.bodies(&state, near))
+    let better = course.better_end(dynamics).ok().flatten();
+    dynamics.recall(seen);
+    dynamics.iterations = iterations;
+    better.map(|state| dynamics.bodies_near(&state, near))
 }
 
 /// Looks into the last step of a course, before its end is corrected or shown to the watch: as far
@@ -50,32 +55,34 @@ where
 /// vanishes. The bodies stood near by a moment ago.
 ///
 /// By joints a step may be a fifth of a turn.
-pub(crate) fn look_within<S, M, D, C>(
+pub(crate) fn look_within<S, M, F, A, C, K>(
     watch: &mut Watch<S, M>,
-    moving: &mut D,
-    course: &mut C,
+    dynamics: &mut Dynamics<S, M, F, A, C>,
+    course: &mut K,
     near: &M::State<S>,
 ) where
     S: Real,
     M: Mechanism,
-    D: Moving<S, M>,
-    C: Course<S, D::State>,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
+    K: Course<S, C::State<S>>,
 {
     let (start, end) = (watch.time(), course.time());
     if !watch.may_have_passed(end - start) {
         return;
     }
-    let last = moving.bodies(course.state(), near);
+    let last = dynamics.bodies_near(course.state(), near);
     let rate = watch.faster(&last);
     let first = watch.last_nearness();
-    let last = nearness(watch, moving, end, &last);
+    let last = nearness(watch, dynamics, end, &last);
     if !watch.may_pass(rate * (end - start), [first, last]) {
         return;
     }
-    let seen = moving.seen();
+    let seen = dynamics.seen();
     let mut step = Within {
         watch,
-        moving,
+        dynamics,
         course,
         near,
         rate,
@@ -84,45 +91,49 @@ pub(crate) fn look_within<S, M, D, C>(
     if is_known {
         watch.is_known_for(rate * (end - start));
     }
-    moving.recall(seen);
+    dynamics.recall(seen);
 }
 
-fn nearness<S, M, D>(
+fn nearness<S, M, F, A, C>(
     watch: &mut Watch<S, M>,
-    moving: &D,
+    dynamics: &Dynamics<S, M, F, A, C>,
     time: S,
     bodies: &M::State<S>,
 ) -> Nearness<S>
 where
     S: Real,
     M: Mechanism,
-    D: Moving<S, M>,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
 {
-    let pivot = moving.pivot_within(time, bodies);
-    watch.nearness(moving.dynamics().constants(), (time, bodies), pivot)
+    let pivot = dynamics.pivot_within(time, bodies);
+    watch.nearness(dynamics.constants(), (time, bodies), pivot)
 }
 
 /// A step that is looked into.
-struct Within<'w, S: Real, M: Mechanism, D, C> {
+struct Within<'w, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, K> {
     watch: &'w mut Watch<S, M>,
-    moving: &'w mut D,
-    course: &'w mut C,
+    dynamics: &'w mut Dynamics<S, M, F, A, C>,
+    course: &'w mut K,
     near: &'w M::State<S>,
     /// The largest rate of motion (rad/s) at its ends.
     rate: S,
 }
 
-impl<S, M, D, C> Within<'_, S, M, D, C>
+impl<S, M, F, A, C, K> Within<'_, S, M, F, A, C, K>
 where
     S: Real,
     M: Mechanism,
-    D: Moving<S, M>,
-    C: Course<S, D::State>,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
+    K: Course<S, C::State<S>>,
 {
     fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
-        let state = self.course.at(self.moving, time)?;
+        let state = self.course.at(self.dynamics, time)?;
         // An interpolant between two orientations passes within the sphere of Euler parameters.
-        let bodies = self.moving.bodies(&state, self.near);
+        let bodies = self.dynamics.bodies_near(&state, self.near);
         Ok(with_unit_orientations::<S, M>(&bodies))
     }
 
@@ -130,7 +141,7 @@ where
     #[inline(never)]
     fn nearness(&mut self, time: S) -> Option<Nearness<S>> {
         match self.bodies(time) {
-            Ok(state) => Some(nearness(self.watch, self.moving, time, &state)),
+            Ok(state) => Some(nearness(self.watch, self.dynamics, time, &state)),
             Err(Fault::Singular { .. }) => Some(Nearness::singular()),
             Err(_) => None,
         }

@@ -16,4 +16,4 @@ pub(crate) mod vector;
 
 pub use each::{EachOfJoints, EachOfState};
 pub use joint_state::JointState;
-pub use vector::{Array, State, Vector};
+pub use vector::{Array, MovingState, State, Vector};

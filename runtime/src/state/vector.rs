@@ -421,8 +421,40 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
     }
 }
 
+/// A state with velocities, in whatever coordinates. Its slope has the same type.
+pub trait MovingState<S: Scalar>: Vector<S> + Copy + core::fmt::Debug + PartialEq {
+    /// The state with zero in every place.
+    fn zeros() -> Self;
+
+    /// The velocities; of a slope, the accelerations.
+    fn rates_slice(&self) -> &[S];
+
+    /// The velocities, to be written.
+    fn rates_slice_mut(&mut self) -> &mut [S];
+}
+
+impl<S: Scalar, const Q: usize, const U: usize> MovingState<S> for State<S, Q, U> {
+    #[inline(always)]
+    fn zeros() -> Self {
+        Self {
+            coordinates: [S::zero(); Q],
+            velocities: [S::zero(); U],
+        }
+    }
+
+    #[inline(always)]
+    fn rates_slice(&self) -> &[S] {
+        &self.velocities
+    }
+
+    #[inline(always)]
+    fn rates_slice_mut(&mut self) -> &mut [S] {
+        &mut self.velocities
+    }
+}
+
 /// Access to the two parts of a state, for code that is generic over the mechanism.
-pub trait StateParts<S: Scalar>: Vector<S> + Copy + core::fmt::Debug + PartialEq {
+pub trait StateParts<S: Scalar>: MovingState<S> {
     /// Coordinates `q` (and auxiliary variables).
     type Coordinates: Array<S>;
     /// Velocities `u`.

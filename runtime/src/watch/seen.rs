@@ -6,7 +6,7 @@ use crate::state::vector::Array;
 
 /// Kept by [`Dynamics`](crate::dynamics::Dynamics) at every evaluation, for the watch to read at
 /// the end of a step.
-pub struct Seen<S: Scalar, M: Mechanism> {
+pub(crate) struct Seen<S: Scalar, M: Mechanism> {
     /// The smallest relative pivot of the last evaluation, without its joint: to find that costs
     /// more than to look again at the end of a run.
     pub(crate) pivot: S,

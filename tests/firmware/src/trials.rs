@@ -3,7 +3,7 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{JointCoordinates, JointStepper, Real, View};
+use holonom::{JointCoordinates, Real, View, measure::NoForces, mechanism::Relative};
 
 // Not by the crate of the models, which has many more to compile.
 #[path = "../../../models/src/rod_pendulum.rs"]
@@ -224,7 +224,7 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
 
 /// By its joints.
 pub struct ByJoints<S: Real, M: Plant, F: Tried<S>> {
-    stepper: JointStepper<S, M, F, Rk4>,
+    stepper: Stepper<S, M, F, Rk4, NoForces, Relative>,
 }
 
 impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByJoints<S, M, F> {
@@ -234,7 +234,7 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByJoints<S, M, F> {
     const DESCRIPTION: &'static str = "joints";
 
     fn new() -> Result<(Self, Self::State), Fault> {
-        let stepper = JointStepper::new(&M::default(), F::tried(), Rk4)?;
+        let stepper = Stepper::new(&M::default(), F::tried(), Rk4)?.joint_coordinates();
         let state = stepper.initial_state()?;
         Ok((Self { stepper }, state))
     }

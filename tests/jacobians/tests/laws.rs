@@ -6,7 +6,7 @@ use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
     AugmentedLagrangian,
-    dynamics::{Dynamics, JointDynamics},
+    dynamics::Dynamics,
     integrate::System,
     mechanism::{Chapter15, Orientation},
     state::Vector,
@@ -70,7 +70,9 @@ fn agrees<Y: System<f64>>(
 #[test]
 fn parameters_and_inputs_enter() {
     let mut bodies = Dynamics::<f64, _, _>::new(&swing(), StandardLagrange).expect("sound");
-    let mut joints = JointDynamics::<f64, _, _>::new(&swing(), StandardLagrange).expect("sound");
+    let mut joints = Dynamics::<f64, _, _>::new(&swing(), StandardLagrange)
+        .expect("sound")
+        .joint_coordinates();
     let of_bodies = beside(&Swing::initial_state(bodies.constants()), 0.1, 5);
     let of_joints = beside(&joints.initial_state().expect("assembled"), 0.3, 6);
     let mut before = None;
@@ -117,7 +119,9 @@ fn closures_enter_by_differences_of_their_forces() {
         let without = offered(&mut bodies.clone(), &state).0;
         let with = agrees("bodies", &mut bodies.forces(drag), &state, (27, CLOSURE));
         assert!((with - without).amax() > 0.1);
-        let joints = JointDynamics::<f64, _, _>::new(swing, formulation).expect("sound");
+        let joints = Dynamics::<f64, _, _>::new(swing, formulation)
+            .expect("sound")
+            .joint_coordinates();
         let state = beside(&joints.initial_state().expect("assembled"), 0.3, 8);
         let without = offered(&mut joints.clone(), &state).0;
         let with = agrees("joints", &mut joints.forces(drag), &state, (10, CLOSURE));
@@ -157,8 +161,12 @@ fn single_precision_has_its_digits() {
         gain: 2.0,
         ..swing()
     };
-    let mut double = JointDynamics::<f64, _, _>::new(&swing, StandardLagrange).expect("sound");
-    let mut single = JointDynamics::<f32, _, _>::new(&swing, StandardLagrange).expect("sound");
+    let mut double = Dynamics::<f64, _, _>::new(&swing, StandardLagrange)
+        .expect("sound")
+        .joint_coordinates();
+    let mut single = Dynamics::<f32, _, _>::new(&swing, StandardLagrange)
+        .expect("sound")
+        .joint_coordinates();
     let state = beside(&double.initial_state().expect("assembled"), 0.3, 10);
     let mut rounded = single.initial_state().expect("assembled");
     for index in 0..state.length() {

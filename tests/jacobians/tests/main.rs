@@ -10,10 +10,10 @@ mod laws;
 
 use holonom::{
     Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, StandardLagrange, StateParts,
-    dynamics::{Dynamics, JointDynamics},
+    dynamics::Dynamics,
     integrate::System,
     mechanism::{JointParts, Normalised, Orientation},
-    state::{Array, Vector},
+    state::{Array, MovingState, Vector},
 };
 use holonom_models as models;
 use nalgebra::DMatrix;
@@ -268,7 +268,9 @@ fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulati
             &finite,
         );
     }
-    let mut joints = JointDynamics::<f64, M, F>::new(mechanism, formulation).expect("sound");
+    let mut joints = Dynamics::<f64, M, F>::new(mechanism, formulation)
+        .expect("sound")
+        .joint_coordinates();
     let start = joints.initial_state().expect("assembled");
     for (size, seed) in [(0.01, 3), (0.3, 4)] {
         let state = beside(&start, size, seed);

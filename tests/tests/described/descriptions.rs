@@ -8,7 +8,7 @@ use holonom::joints::{
 };
 use holonom::prelude::*;
 use holonom::{
-    JointCoordinates, ParameterError, SimulationError, StateParts, dynamics::JointDynamics,
+    JointCoordinates, ParameterError, SimulationError, StateParts, dynamics::Dynamics,
     error::Quantity, integrate::Scheme, state::Array,
 };
 use nalgebra::Vector3;
@@ -460,11 +460,13 @@ fn single_precision_in_both_descriptions() {
 /// What a stage takes is what an evaluation gives, which has the multipliers besides.
 fn stages<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulation: F, step: f64) {
     use holonom::integrate::System;
-    let mut dynamics = JointDynamics::<f64, _, _>::new(mechanism, formulation).expect("acceptable");
+    let mut dynamics = Dynamics::<f64, _, _>::new(mechanism, formulation)
+        .expect("acceptable")
+        .joint_coordinates();
     let mut state = dynamics.initial_state().expect("consistent");
     for number in 0..50 {
         let time = step * f64::from(number);
-        let evaluation = dynamics.evaluate(time, &state).expect("regular");
+        let (evaluation, _) = dynamics.evaluate(time, &state).expect("regular");
         let rates = dynamics.rates(time, &state).expect("regular");
         assert_eq!(rates, evaluation.rates);
         let multipliers = evaluation.multipliers.as_slice();
@@ -491,10 +493,12 @@ fn a_stage_computes_what_an_evaluation_does() {
 fn descriptions_take_turns() {
     let loose = Loose::default();
     let start = loose.start();
-    let mut joints = JointDynamics::<f64, _, _>::new(&loose, StandardLagrange).expect("acceptable");
+    let mut joints = Dynamics::<f64, _, _>::new(&loose, StandardLagrange)
+        .expect("acceptable")
+        .joint_coordinates();
     let mut bodies = holonom::dynamics::Dynamics::<f64, _, _>::new(&loose, StandardLagrange)
         .expect("acceptable");
-    let mut alone = joints.joints(&start).expect("consistent");
+    let mut alone = joints.state_of(&start).expect("consistent");
     let mut state = start;
     let step = 1e-3;
     for turn in 0..10 {
@@ -503,7 +507,7 @@ fn descriptions_take_turns() {
             Rk4.step(&mut bodies, time, &mut state, step)
                 .expect("solvable");
         }
-        let mut other = joints.joints(&state).expect("consistent");
+        let mut other = joints.state_of(&state).expect("consistent");
         for number in 50..100 {
             let time = step * f64::from(100 * turn + number);
             Rk4.step(&mut joints, time, &mut other, step)

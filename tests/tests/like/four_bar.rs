@@ -2,7 +2,7 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{JointCoordinates, dynamics::JointDynamics, mechanism::Rank};
+use holonom::{JointCoordinates, dynamics::Dynamics, mechanism::Rank};
 
 use super::twins::{difference, move_alike, runs};
 
@@ -213,11 +213,13 @@ fn a_thousand_linkages_move_as_freudenstein_says() {
             let report = report.unwrap_or_else(|error| panic!("{number}: {lengths:?}: {error}"));
             report.state
         });
-        let dynamics = JointDynamics::new(&linkage, StandardLagrange).expect("sound");
-        let by_joints = dynamics.bodies(&dynamics.joints(&start).expect("assembled"));
+        let dynamics = Dynamics::new(&linkage, StandardLagrange)
+            .expect("sound")
+            .joint_coordinates();
+        let by_joints = dynamics.bodies(&dynamics.state_of(&start).expect("assembled"));
         let mut branches = Vec::new();
         for state in [start, by_joints, ends[0], ends[1]] {
-            let view = dynamics.of_bodies().view(0.0, &state);
+            let view = dynamics.view(0.0, &state);
             let crank = upright + view.angle(handles.o);
             let rocker = upright + view.angle(handles.c);
             let errors = freudenstein(lengths, crank).map(|angle| apart(angle, rocker));

@@ -2,12 +2,7 @@
 //! written.
 
 use holonom::prelude::*;
-use holonom::{
-    JointCoordinates, StateParts,
-    dynamics::{Dynamics, JointDynamics},
-    integrate::Scheme,
-    state::Array,
-};
+use holonom::{JointCoordinates, StateParts, dynamics::Dynamics, integrate::Scheme, state::Array};
 
 /// Positions and velocities of rigid bodies after some steps from the assembled start, by bodies
 /// and by joints.
@@ -18,8 +13,8 @@ pub(crate) fn runs<M: JointCoordinates>(
     let mut start = mechanism.described_state::<f64>()?;
     mechanism.assemble(0.0, &mut start)?;
     let mut by_bodies = Dynamics::new(mechanism, StandardLagrange)?;
-    let mut by_joints = JointDynamics::new(mechanism, StandardLagrange)?;
-    let (mut bodies, mut joints) = (start, by_joints.joints(&start)?);
+    let mut by_joints = Dynamics::new(mechanism, StandardLagrange)?.joint_coordinates();
+    let (mut bodies, mut joints) = (start, by_joints.state_of(&start)?);
     for number in 0..steps {
         let time = step * f64::from(number);
         Rk4.step(&mut by_bodies, time, &mut bodies, step)?;

@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{
-    JointCoordinates, JointStepper,
+    JointCoordinates,
     integrate::{Scheme, System},
     state::JointState,
 };
@@ -76,7 +76,9 @@ fn by_joints<M: JointCoordinates>(
     mechanism: &M,
     steps: u32,
 ) -> (M::JointState<f64>, M::State<f64>) {
-    let mut stepper = JointStepper::new(mechanism, StandardLagrange, Rk4).expect("sound");
+    let mut stepper = Stepper::new(mechanism, StandardLagrange, Rk4)
+        .expect("sound")
+        .joint_coordinates();
     let mut state = stepper.initial_state().expect("closed");
     for _ in 0..steps {
         stepper

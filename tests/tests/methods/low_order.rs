@@ -3,11 +3,10 @@
 
 use holonom::prelude::*;
 use holonom::{
-    Heun, JointCoordinates, JointStepper, Midpoint, SemiImplicitEuler, StateParts,
-    dynamics::{Dynamics, JointDynamics},
+    Heun, JointCoordinates, Midpoint, SemiImplicitEuler, StateParts,
+    dynamics::Dynamics,
     integrate::{Scheme, System},
-    mechanism::JointParts,
-    state::{Array, Vector},
+    state::{Array, MovingState, Vector},
 };
 use holonom_models::{
     Bricard, CartPole, DrivenSliderCrank, FlyballGovernor, FourBar, HeavyTop, RodPendulum,
@@ -19,8 +18,9 @@ fn angles<K: Scheme<f64>>(scheme: K, steps: u32) -> [f64; 2] {
     let rod = RodPendulum::default();
     let step = 0.5 / f64::from(steps);
     let mut bodies = Stepper::new(&rod, StandardLagrange, scheme).expect("acceptable");
-    let mut joints =
-        JointStepper::<f64, _, _, _>::new(&rod, StandardLagrange, scheme).expect("acceptable");
+    let mut joints = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, scheme)
+        .expect("acceptable")
+        .joint_coordinates();
     let mut state = rod.described_state().expect("described");
     let mut joint_state = joints.initial_state().expect("consistent");
     for _ in 0..steps {
@@ -76,8 +76,10 @@ fn moves_by_new_velocities<M: JointCoordinates + Default>() {
         );
     }
 
-    let mut joints = JointDynamics::<f64, M, _>::new(&mechanism, Penalty::default()).expect("fine");
-    let start = joints.joints(&start).expect("consistent");
+    let mut joints = Dynamics::<f64, M, _>::new(&mechanism, Penalty::default())
+        .expect("fine")
+        .joint_coordinates();
+    let start = joints.state_of(&start).expect("consistent");
     let mut rates = joints.rates(time, &start).expect("regular");
     let mut end = start;
     for (velocity, rate) in end.rates_slice_mut().iter_mut().zip(rates.rates_slice()) {
@@ -113,8 +115,9 @@ fn coordinates_move_by_the_velocities_at_the_end() {
 #[test]
 fn semi_implicit_euler_does_not_drift() {
     let rod = RodPendulum::default();
-    let mut joints =
-        JointStepper::<f64, _, _, _>::new(&rod, StandardLagrange, SemiImplicitEuler).expect("fine");
+    let mut joints = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, SemiImplicitEuler)
+        .expect("fine")
+        .joint_coordinates();
     let mut state = joints.initial_state().expect("consistent");
     let mut largest = [0.0_f64; 2];
     for number in 0..100_000 {
@@ -138,8 +141,9 @@ fn an_augmented_lagrangian_of_a_known_cost() {
     let evaluate = |formulation| {
         let dynamics = Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, formulation)?;
         let (evaluation, solutions) = dynamics.evaluate(0.0, &state)?;
-        let joints = JointDynamics::<f64, DrivenSliderCrank, _>::new(&crank, formulation)?;
-        let evaluated = joints.evaluate(0.0, &joints.joints(&state)?)?;
+        let joints =
+            Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, formulation)?.joint_coordinates();
+        let (evaluated, _) = joints.evaluate(0.0, &joints.state_of(&state)?)?;
         Ok::<_, Fault>((evaluation.rates, solutions, evaluated.rates))
     };
     let (wanted, _, wanted_joints) = evaluate(formulation).expect("regular");
@@ -171,8 +175,10 @@ fn an_augmented_lagrangian_of_a_known_cost() {
         matches!(fault, Some(Fault::NotConverged { iterations: 2, .. })),
         "{fault:?}"
     );
-    let joints = JointDynamics::<f64, DrivenSliderCrank, _>::new(&crank, weak).expect("acceptable");
-    let start = joints.joints(&state).expect("consistent");
+    let joints = Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, weak)
+        .expect("acceptable")
+        .joint_coordinates();
+    let start = joints.state_of(&state).expect("consistent");
     let fault = joints.evaluate(0.0, &start).err();
     assert!(
         matches!(fault, Some(Fault::NotConverged { iterations: 2, .. })),

@@ -6,7 +6,7 @@
 
 use holonom::prelude::*;
 use holonom::{
-    Heun, JointStepper, Midpoint, SemiImplicitEuler, StateParts, Stepper,
+    Heun, Midpoint, SemiImplicitEuler, StateParts, Stepper,
     integrate::{BogackiShampine3, DormandPrince5, Scheme, System},
     mechanism::{Orientation, Raw},
 };
@@ -180,9 +180,10 @@ fn of_a_body<K: Scheme<f64>, P: Orientation>(scheme: K, axis: [f64; 3], speed: f
 }
 
 fn of_a_ball<K: Scheme<f64>>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4] {
-    let mut stepper = JointStepper::<f64, _, _, _>::new(&Free::default(), StandardLagrange, scheme)
-        .expect("acceptable");
-    let mut state = stepper.joints(&turning(axis, speed)).expect("consistent");
+    let mut stepper = Stepper::<f64, _, _, _>::new(&Free::default(), StandardLagrange, scheme)
+        .expect("acceptable")
+        .joint_coordinates();
+    let mut state = stepper.state_of(&turning(axis, speed)).expect("consistent");
     for _ in 0..STEPS {
         stepper.step(&mut state, STEP).expect("regular");
     }

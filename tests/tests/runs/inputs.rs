@@ -4,7 +4,7 @@
 use holonom::forces::{PointForce, TorsionalActuator};
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
-use holonom::{JointStepper, Real, error::ParameterFault};
+use holonom::{Real, error::ParameterFault};
 
 /// Two rods and a bar between ground and their end: motors with a gain, a thrust of three numbers,
 /// a weight that changes.
@@ -73,10 +73,12 @@ fn agree<S: Real, F: Formulation<S>>(formulation: F) {
     let step = S::constant(1e-3);
     let mut by_struct = Stepper::new(&crane, formulation, Rk4).expect("acceptable");
     let mut by_inputs = Stepper::new(&crane, formulation, Rk4).expect("acceptable");
-    let mut joints_by_struct =
-        JointStepper::<S, Crane, _, _>::new(&crane, formulation, Rk4).expect("acceptable");
-    let mut joints_by_inputs =
-        JointStepper::<S, Crane, _, _>::new(&crane, formulation, Rk4).expect("acceptable");
+    let mut joints_by_struct = Stepper::<S, Crane, _, _>::new(&crane, formulation, Rk4)
+        .expect("acceptable")
+        .joint_coordinates();
+    let mut joints_by_inputs = Stepper::<S, Crane, _, _>::new(&crane, formulation, Rk4)
+        .expect("acceptable")
+        .joint_coordinates();
     let mut states = [crane.described_state().expect("acceptable"); 2];
     let mut joint_states = [joints_by_struct.initial_state().expect("consistent"); 2];
     for number in 0..100 {

@@ -5,8 +5,9 @@ use holonom::forces::{TorsionalActuator, TorsionalSpringDamper};
 use holonom::joints::{Cylindrical, Prismatic, Revolute, Spherical, Universal};
 use holonom::prelude::*;
 use holonom::{
-    JointCoordinates, JointHandle, JointStepper,
+    JointCoordinates, JointHandle,
     mechanism::{HasAngle, HasDisplacement, JointParts},
+    state::MovingState,
 };
 use holonom::{View, mechanism::JointReport};
 
@@ -128,10 +129,10 @@ type Read<'a, M> = &'a dyn Fn(&View<'_, f64, M>) -> [f64; 2];
 /// Compares what the report reads of each joint's only motion of a kind with what access by handle
 /// does.
 fn agrees<M: JointCoordinates>(mechanism: &M, joints: &[(&'static str, bool, Read<'_, M>)]) {
-    let stepper = JointStepper::<f64, _, _, _>::new(mechanism, StandardLagrange, Rk4);
-    let stepper = stepper.expect("parameters");
+    let stepper = Stepper::<f64, _, _, _>::new(mechanism, StandardLagrange, Rk4);
+    let stepper = stepper.expect("parameters").joint_coordinates();
     let described = mechanism.described_state().expect("parameters");
-    let start = stepper.joints(&described).expect("it is consistent");
+    let start = stepper.state_of(&described).expect("it is consistent");
     let mut random = Random(7);
     for _ in 0..50 {
         let state = any::<M>(&start, &mut random);

@@ -6,9 +6,7 @@ use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
     Adams, Bdf, BodyHandle, BogackiShampine, DormandPrince853, Doubt, Heun, JointCoordinates,
-    JointStepper, RadauIIA, Rk4, Sample, SemiImplicitEuler,
-    dynamics::{Dynamics, JointDynamics},
-    integrate::Integrator,
+    RadauIIA, Rk4, Sample, SemiImplicitEuler, dynamics::Dynamics, integrate::Integrator,
 };
 use holonom_models::FourBar;
 use nalgebra::Vector3;
@@ -421,12 +419,13 @@ fn links_in_line_are_singular_in_both_descriptions() {
         let bodies = model.described_state().expect("acceptable");
         let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange).expect("acceptable");
         let by_bodies = dynamics.evaluate(0.0, &bodies).map(|_| ());
-        let dynamics = JointDynamics::<f64, _, _>::new(model, StandardLagrange);
-        let dynamics = dynamics.expect("acceptable");
+        let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange);
+        let dynamics = dynamics.expect("acceptable").joint_coordinates();
         let joints = dynamics.initial_state().expect("consistent");
         let by_joints = dynamics.evaluate(0.0, &joints).map(|_| ());
-        let mut stepper =
-            JointStepper::<f64, _, _, _>::new(model, StandardLagrange, Rk4).expect("acceptable");
+        let mut stepper = Stepper::<f64, _, _, _>::new(model, StandardLagrange, Rk4)
+            .expect("acceptable")
+            .joint_coordinates();
         let mut state = joints;
         let stepped = stepper.step(&mut state, 1e-3);
         [by_bodies, by_joints, stepped].map(|outcome| match outcome {

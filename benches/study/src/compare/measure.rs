@@ -9,9 +9,10 @@ use std::time::Instant;
 use holonom::{
     AugmentedLagrangian, Baumgarte, Fault, Formulation, JointCoordinates, Mechanism, Penalty, Real,
     Rk4, Scalar as _, StandardLagrange, StateParts as _,
-    dynamics::{Dynamics, JointDynamics},
+    dynamics::{Dynamics, RigidSteps},
     integrate::{Scheme as _, System},
-    mechanism::{Evaluation, JointEvaluation, Kernel, Normalised, Operations},
+    measure::NoForces,
+    mechanism::{Absolute, Coordinates as Kernels, Evaluation, Kernel, Operations, Relative},
     state::{Array as _, Vector as _},
 };
 
@@ -62,27 +63,24 @@ pub trait Subject<S: Real> {
 /// The state of a subject.
 pub type StateOf<S, Y> = <<Y as Subject<S>>::System as System<S>>::State;
 
-/// A mechanism by its bodies.
-struct Bodies<S: Real, M: Mechanism, F: Formulation<S>> {
-    dynamics: Dynamics<S, M, F>,
-    coefficients: M::Coefficients<S>,
-    multipliers: M::Multipliers<S>,
+/// A mechanism in some coordinates.
+struct Solved<S: Real, M: Mechanism, F: Formulation<S>, C: Kernels<M>> {
+    dynamics: Dynamics<S, M, F, NoForces, C>,
+    multipliers: C::Multipliers<S>,
 }
 
-impl<S: Real, M: Mechanism + Default, F: Formulation<S>> Bodies<S, M, F> {
+impl<S: Real, M: Mechanism + Default, F: Formulation<S>, C: Kernels<M>> Solved<S, M, F, C> {
     fn new(formulation: F) -> Result<Self, Fault> {
-        let dynamics = Dynamics::new(&M::default(), formulation)?;
         Ok(Self {
-            coefficients: M::coefficients(dynamics.constants(), &formulation.stabilisation()?),
-            dynamics,
+            dynamics: Dynamics::new(&M::default(), formulation)?.coordinates(),
             multipliers: holonom::state::Array::zeros(),
         })
     }
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>> Subject<S> for Bodies<S, M, F> {
-    type System = Dynamics<S, M, F>;
-    type Evaluation = Evaluation<S, M>;
+impl<S: Real, M: Mechanism, F: Formulation<S>, C: RigidSteps<M>> Subject<S> for Solved<S, M, F, C> {
+    type System = Dynamics<S, M, F, NoForces, C>;
+    type Evaluation = Evaluation<S, M, C>;
 
     const IS_ONE_KERNEL: bool = !F::ITERATED;
 
@@ -96,94 +94,20 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Subject<S> for Bodies<S, M, F> {
     }
 
     #[inline(always)]
-    fn evaluate(&self, state: &M::State<S>, place: &mut Self::Evaluation) -> Result<(), Fault> {
+    fn evaluate(&self, state: &C::State<S>, place: &mut Self::Evaluation) -> Result<(), Fault> {
         let outcome = self.dynamics.evaluate_into(S::zero(), state, place);
         outcome.map(|_| ())
     }
 
     #[inline(always)]
-    fn rates(evaluation: &Self::Evaluation) -> &M::State<S> {
+    fn rates(evaluation: &Self::Evaluation) -> &C::State<S> {
         &evaluation.rates
     }
 
     #[inline(always)]
-    fn kernel(&mut self, state: &M::State<S>, rates: &mut M::State<S>) {
-        let pivot = M::evaluate_into::<S, F::Terms, Normalised>(
-            self.dynamics.constants(),
-            &self.coefficients,
-            S::zero(),
-            state,
-            rates,
-            &mut self.multipliers,
-        );
-        black_box((&pivot, &self.multipliers));
-    }
-}
-
-/// A mechanism by its joints.
-struct Joints<S: Real, M: JointCoordinates, F: Formulation<S>> {
-    dynamics: JointDynamics<S, M, F>,
-    constants: M::JointConstants<S>,
-    coefficients: M::JointCoefficients<S>,
-    multipliers: M::ClosingMultipliers<S>,
-}
-
-impl<S: Real, M: JointCoordinates + Default, F: Formulation<S>> Joints<S, M, F> {
-    fn new(formulation: F) -> Result<Self, Fault> {
-        let mechanism = M::default();
-        let dynamics = JointDynamics::new(&mechanism, formulation)?;
-        let constants = M::prepare_joints(&mechanism.parameters()?);
-        let stabilisation = formulation.stabilisation()?;
-        let mut compliances: M::ClosingMultipliers<S> = holonom::state::Array::zeros();
-        compliances.as_mut_slice().fill(stabilisation.compliance);
-        Ok(Self {
-            coefficients: M::joint_coefficients(&constants, &stabilisation, &compliances),
-            dynamics,
-            constants,
-            multipliers: holonom::state::Array::zeros(),
-        })
-    }
-}
-
-impl<S: Real, M: JointCoordinates, F: Formulation<S>> Subject<S> for Joints<S, M, F> {
-    type System = JointDynamics<S, M, F>;
-    type Evaluation = JointEvaluation<S, M>;
-
-    const IS_ONE_KERNEL: bool = !F::ITERATED;
-
-    #[inline(always)]
-    fn system(&mut self) -> &mut Self::System {
-        &mut self.dynamics
-    }
-
-    fn place(&self) -> Self::Evaluation {
-        JointEvaluation::zeros()
-    }
-
-    #[inline(always)]
-    fn evaluate(
-        &self,
-        state: &M::JointState<S>,
-        place: &mut JointEvaluation<S, M>,
-    ) -> Result<(), Fault> {
-        self.dynamics.evaluate_into(S::zero(), state, place)
-    }
-
-    #[inline(always)]
-    fn rates(evaluation: &JointEvaluation<S, M>) -> &M::JointState<S> {
-        &evaluation.rates
-    }
-
-    #[inline(always)]
-    fn kernel(&mut self, state: &M::JointState<S>, rates: &mut M::JointState<S>) {
-        let pivot = M::evaluate_joints_into::<S, F::Terms>(
-            &self.constants,
-            &self.coefficients,
-            S::zero(),
-            state,
-            rates,
-            &mut self.multipliers,
-        );
+    fn kernel(&mut self, state: &C::State<S>, rates: &mut C::State<S>) {
+        let multipliers = &mut self.multipliers;
+        let pivot = self.dynamics.kernel(S::zero(), state, rates, multipliers);
         black_box((&pivot, &self.multipliers));
     }
 }
@@ -300,7 +224,7 @@ impl Scene {
         formulation: F,
         step: f64,
     ) {
-        let bodies = Bodies::<S, M, F>::new(formulation).and_then(|bodies| {
+        let bodies = Solved::<S, M, F, Absolute>::new(formulation).and_then(|bodies| {
             let start = M::initial_state(bodies.dynamics.constants());
             let operations = match reported(M::REPORT.kernels, method) {
                 Some(operations) => operations,
@@ -309,7 +233,7 @@ impl Scene {
             Ok(([operations; 2], contestants(bodies, start, step)?))
         });
         self.take(which, Coordinates::Bodies, method, bodies);
-        let joints = Joints::<S, M, F>::new(formulation).and_then(|joints| {
+        let joints = Solved::<S, M, F, Relative>::new(formulation).and_then(|joints| {
             let start = joints.dynamics.initial_state()?;
             let kernels = M::JOINT_REPORT.kernels;
             let operations = match reported(kernels, method) {
@@ -402,9 +326,9 @@ fn iterated_by_joints<M: JointCoordinates + Default>(
     states: &[Vec<f64>],
 ) -> Result<Operations, Fault> {
     let formulation = AugmentedLagrangian::<Counted>::default();
-    let dynamics = JointDynamics::<Counted, M, _>::new(&M::default(), formulation)?;
-    let state = counted_state::<M>(dynamics.of_bodies().constants(), states);
-    let state = dynamics.joints(&state)?;
+    let dynamics = Dynamics::<Counted, M, _>::new(&M::default(), formulation)?.joint_coordinates();
+    let state = counted_state::<M>(dynamics.constants(), states);
+    let state = dynamics.state_of(&state)?;
     let (operations, outcome) = counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));
     outcome.map(|()| operations)
 }

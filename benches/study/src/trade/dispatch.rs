@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use holonom::{
     AugmentedLagrangian, Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, Projection,
     Real, Sample, Simulation, StandardLagrange,
-    dynamics::{Description, Dynamics, JointDynamics},
+    dynamics::{Dynamics, RigidSteps},
     every,
     integrate::{Span, System},
     measure::NoForces,
-    mechanism::{Kernel, Normalised},
+    mechanism::Kernel,
     run::{DirectCorrection, TreeRecovery, VelocityProjection},
 };
 
@@ -250,14 +250,14 @@ impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
     }
 }
 
-type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, Integration, Normalised, NoForces, C>;
+type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, Integration, NoForces, C>;
 
 fn observed<S: Real, P: Problem, F: Formulation<S>, C>(
     problem: &P,
     run: &Run<'_, S, P::Mechanism, F, C>,
 ) -> Result<Observation, StudyError>
 where
-    C: for<'f> Description<S, P::Mechanism, F, Normalised, &'f NoForces>,
+    C: RigidSteps<P::Mechanism>,
 {
     let span = span_of::<S>(&problem.span());
     let mut seen = Observation::default();
@@ -315,7 +315,7 @@ fn bare_run<S: Real, P: Problem, F: Formulation<S>, C>(
     run: Run<'_, S, P::Mechanism, F, C>,
 ) -> Result<u64, StudyError>
 where
-    C: for<'f> Description<S, P::Mechanism, F, Normalised, &'f NoForces>,
+    C: RigidSteps<P::Mechanism>,
 {
     let span = span_of::<S>(&problem.span());
     let report = run
@@ -367,10 +367,11 @@ impl<'a, P: Problem> Task<'a, P> for Time<'a, '_, P> {
                 bare_run(problem, run.joint_coordinates())
             }));
         }
-        let dynamics = JointDynamics::<S, _, _>::new(problem.mechanism(), formulation);
+        let dynamics = Dynamics::<S, _, _>::new(problem.mechanism(), formulation);
         let dynamics = dynamics.map_err(|fault| stopped(problem, &fault))?;
+        let dynamics = dynamics.joint_coordinates();
         let start = dynamics
-            .joints(&start)
+            .state_of(&start)
             .map_err(|fault| stopped(problem, &fault))?;
         Ok(self.bare(dynamics, start))
     }

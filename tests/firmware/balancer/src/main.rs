@@ -7,7 +7,6 @@
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_semihosting::{debug, hprintln};
-use holonom::JointStepper;
 use holonom::forces::TorsionalActuator;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
@@ -38,11 +37,11 @@ type Inputs = <Balancer as Mechanism>::Inputs<f32>;
 fn run(timer: &mut SYST) -> Result<(), Fault> {
     let pivot = Balancer::HANDLES.pivot;
     let balancer = Balancer::default();
-    let mut stepper = JointStepper::<f32, _, _, _>::new(&balancer, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<f32, _, _, _>::new(&balancer, StandardLagrange, Rk4)?.joint_coordinates();
     // Aside by 0.05 rad, at rest.
     let mut start = balancer.described_state()?;
     balancer.set_angle(&mut start, pivot, 0.05)?;
-    let mut state = stepper.joints(&start)?;
+    let mut state = stepper.state_of(&start)?;
     for period in 0..1000 {
         while !timer.has_wrapped() {}
         let bodies = stepper.bodies(&state);

@@ -9,7 +9,7 @@ use core::hint::black_box;
 
 use holonom::prelude::*;
 use holonom::{
-    Heun, JointStepper, Midpoint, Scalar, SemiImplicitEuler,
+    Heun, Midpoint, Scalar, SemiImplicitEuler,
     integrate::{DormandPrince5, Scheme},
 };
 use holonom_firmware::Number;
@@ -48,7 +48,8 @@ fn by_joints<F: Formulation<Number>, K: Scheme<Number>>(
     scheme: K,
 ) -> Result<(), Fault> {
     let plant = Swing::default();
-    let mut stepper = JointStepper::<Number, Swing, _, _>::new(&plant, formulation, scheme)?;
+    let mut stepper =
+        Stepper::<Number, Swing, _, _>::new(&plant, formulation, scheme)?.joint_coordinates();
     let mut state = stepper.initial_state()?;
     for _ in 0..10 {
         stepper.update(&plant)?;

@@ -19,13 +19,15 @@ fn refused<M: JointCoordinates>(
 #[test]
 fn open_joints_are_refused() {
     let crane = Crane::driven().expect("acceptable");
-    let dynamics = JointDynamics::<f64, _, _>::new(&crane, StandardLagrange).expect("acceptable");
+    let dynamics = Dynamics::<f64, _, _>::new(&crane, StandardLagrange)
+        .expect("acceptable")
+        .joint_coordinates();
     let handles = Crane::HANDLES;
     let mut open = crane.start::<f64>();
     let mut pose = Crane::pose(&open, handles.load);
     pose.position.z -= 0.01;
     Crane::set_pose(&mut open, handles.load, pose);
-    let fault = dynamics.joints(&open).expect_err("the hook is open");
+    let fault = dynamics.state_of(&open).expect_err("the hook is open");
     assert_eq!(refused(&crane, open).fault, fault);
     let Fault::InconsistentStart {
         joint,
@@ -43,7 +45,7 @@ fn open_joints_are_refused() {
     let spin = Crane::angular_velocity_global(&moving, handles.boom) + Vector3::new(0.0, 0.5, 0.0);
     Crane::set_angular_velocity_global(&mut moving, handles.boom, spin);
     let fault = dynamics
-        .joints(&moving)
+        .state_of(&moving)
         .expect_err("the boom turns out of its plane");
     assert_eq!(refused(&crane, moving).fault, fault);
     assert!(

@@ -6,9 +6,8 @@ mod data;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{
-    BodyHandle, JointCoordinates, JointHandle, Pose, StateParts,
-    dynamics::{Dynamics, JointDynamics},
-    mechanism::JointParts,
+    BodyHandle, JointCoordinates, JointHandle, Pose, StateParts, dynamics::Dynamics,
+    state::MovingState,
 };
 use holonom_models::{Panda, Ur5};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
@@ -221,16 +220,18 @@ fn moves_as_given<M: Arm<N>, const N: usize>() {
 
 /// The accelerations of the angles in joint coordinates.
 fn by_joints<M: Arm<N>, const N: usize>(arm: &M, state: &M::State<f64>) -> [f64; N] {
-    let dynamics = JointDynamics::new(arm, StandardLagrange).expect("sound");
-    let state = dynamics.joints(state).expect("closed");
-    let evaluation = dynamics.evaluate(0.0, &state).expect("regular");
+    let dynamics = Dynamics::new(arm, StandardLagrange)
+        .expect("sound")
+        .joint_coordinates();
+    let state = dynamics.state_of(state).expect("closed");
+    let (evaluation, _) = dynamics.evaluate(0.0, &state).expect("regular");
     // The rates of angles are linear in the velocities of the joints, whatever these are counted
     // against.
     let mut rates = state;
     let accelerations = evaluation.rates.rates_slice();
     rates.rates_slice_mut().copy_from_slice(accelerations);
     let bodies = dynamics.bodies(&rates);
-    let view = dynamics.of_bodies().view(0.0, &bodies);
+    let view = dynamics.view(0.0, &bodies);
     M::JOINTS.map(|joint| view.angle_rate(joint))
 }
 

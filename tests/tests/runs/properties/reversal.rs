@@ -1,11 +1,7 @@
 //! A motion that is run backwards comes to where it began, by a method that is symmetric.
 
 use holonom::{
-    Heun, ImplicitMidpoint,
-    dynamics::{Dynamics, JointDynamics},
-    integrate::Scheme,
-    mechanism::JointParts,
-    state::Array,
+    Heun, ImplicitMidpoint, dynamics::Dynamics, integrate::Scheme, state::Array, state::MovingState,
 };
 use holonom::{StateParts, integrate::System};
 
@@ -53,8 +49,10 @@ fn return_errors<M: JointCoordinates>(
             negative(state.velocities_mut().as_mut_slice());
         },
     );
-    let mut joints = JointDynamics::new(mechanism, StandardLagrange).expect("sound");
-    let mut joint_state = joints.joints(&start).expect("consistent");
+    let mut joints = Dynamics::new(mechanism, StandardLagrange)
+        .expect("sound")
+        .joint_coordinates();
+    let mut joint_state = joints.state_of(&start).expect("consistent");
     there_and_back(
         &mut joints,
         scheme,

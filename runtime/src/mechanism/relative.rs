@@ -1,0 +1,335 @@
+//! Relative coordinates, by the kernels of a mechanism in joint coordinates.
+
+use crate::error::Fault;
+use crate::math::quaternion::{from_matrix, scale, to_unit_length};
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::{read, write};
+use crate::mechanism::absolute::{take_nearer_sign, with_nearer_signs};
+use crate::mechanism::coordinates::{
+    AbsoluteEquations, Begun, Coordinates, Equations, EquationsIn, Relative,
+};
+use crate::mechanism::joint_kernels::{Freedom, JointCoordinates, JointParts};
+use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, MovingState, StateParts, Vector};
+
+impl<M: JointCoordinates> Coordinates<M> for Relative {
+    type State<S: Scalar> = M::JointState<S>;
+    type Velocities<S: Scalar> = M::JointVelocities<S>;
+    type Multipliers<S: Scalar> = M::ClosingMultipliers<S>;
+    type Constants<S: Scalar> = M::JointConstants<S>;
+    type Coefficients<S: Scalar> = M::JointCoefficients<S>;
+    type Factors<S: Scalar> = M::JointFactors<S>;
+    /// The first solution: the equations are linear in their right-hand sides.
+    type RightSide<S: Scalar> = (M::JointVelocities<S>, M::ClosingMultipliers<S>);
+    type Own<S: Scalar> = EquationsIn<S, M, Self>;
+    type Orientation = Normalised;
+
+    const IS_RELATIVE: bool = true;
+    const HAS_PIVOTS: bool = !M::JOINT_REPORT.rows.is_empty();
+    const HAS_LINEAR_PIVOTS: bool = M::JOINT_REPORT.determines;
+
+    #[inline(always)]
+    fn equations<'e, S: Scalar>(
+        _absolute: &'e AbsoluteEquations<S, M>,
+        own: &'e Self::Own<S>,
+    ) -> &'e EquationsIn<S, M, Self> {
+        own
+    }
+
+    /// The compliances are those of the same rows of the bodies, so that one coefficient means the
+    /// same in both coordinates.
+    fn own<S: Scalar>(
+        parameters: &M::Parameters<S>,
+        stabilisation: &Stabilisation<S>,
+        absolute: &AbsoluteEquations<S, M>,
+    ) -> Self::Own<S> {
+        let constants = M::prepare_joints(parameters);
+        let mut compliances = M::ClosingMultipliers::<S>::zeros();
+        let rows = compliances.as_mut_slice().iter_mut();
+        for (compliance, row) in rows.zip(M::JOINT_REPORT.rows) {
+            let known = row.and_then(|row| absolute.compliances.as_slice().get(row));
+            *compliance = known.copied().unwrap_or(stabilisation.compliance);
+        }
+        Equations {
+            coefficients: M::joint_coefficients(&constants, stabilisation, &compliances),
+            constants,
+            compliances,
+        }
+    }
+
+    #[inline(always)]
+    fn take_inputs<S: Scalar>(parameters: &M::Parameters<S>, own: &mut Self::Own<S>) {
+        M::take_joint_inputs(parameters, &mut own.constants);
+    }
+
+    #[inline(always)]
+    fn evaluate_into<S: Scalar, T: Terms>(
+        constants: &M::JointConstants<S>,
+        coefficients: &M::JointCoefficients<S>,
+        time: S,
+        state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+        multipliers: &mut M::ClosingMultipliers<S>,
+    ) -> Pivot<S> {
+        M::evaluate_joints_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
+    }
+
+    #[inline(always)]
+    fn rates_into<S: Scalar, T: Terms>(
+        constants: &M::JointConstants<S>,
+        coefficients: &M::JointCoefficients<S>,
+        time: S,
+        state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+        _multipliers: &mut M::ClosingMultipliers<S>,
+    ) -> Pivot<S> {
+        M::joint_rates_into::<S, T>(constants, coefficients, time, state, rates)
+    }
+
+    #[inline(always)]
+    fn begin<S: Scalar, T: Terms>(
+        (constants, coefficients): (&M::JointConstants<S>, &M::JointCoefficients<S>),
+        _gains: [S; 2],
+        time: S,
+        state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+        is_loaded: bool,
+        law: impl FnOnce(&M::JointState<S>, &mut M::Velocities<S>),
+    ) -> Begun<S, M, Self> {
+        let mut multipliers = M::ClosingMultipliers::<S>::zeros();
+        let pivot = M::evaluate_joints_into::<S, T>(
+            constants,
+            coefficients,
+            time,
+            state,
+            rates,
+            &mut multipliers,
+        );
+        let factors = M::factor_joints::<S, T>(constants, coefficients, time, state);
+        let mut accelerations = M::JointVelocities::<S>::zeros();
+        add(accelerations.as_mut_slice(), rates.rates_slice());
+        if is_loaded {
+            let mut forces = M::Velocities::<S>::zeros();
+            law(state, &mut forces);
+            let (further, loads) = M::solve_joints::<S, T>(
+                constants,
+                coefficients,
+                &factors,
+                &forces,
+                &Array::zeros(),
+            );
+            add(accelerations.as_mut_slice(), further.as_slice());
+            add(multipliers.as_mut_slice(), loads.as_slice());
+        }
+        Begun {
+            factors,
+            right: (accelerations, multipliers),
+            pivot,
+            accelerations,
+            multipliers,
+        }
+    }
+
+    #[inline(always)]
+    fn as_read<'s, S: Scalar>(
+        state: &'s M::JointState<S>,
+        _rates: &'s M::JointState<S>,
+    ) -> &'s M::JointState<S> {
+        state
+    }
+
+    #[inline(always)]
+    fn solve_after<S: Scalar, T: Terms>(
+        (constants, coefficients): (&M::JointConstants<S>, &M::JointCoefficients<S>),
+        factors: &M::JointFactors<S>,
+        (accelerations, multipliers): &(M::JointVelocities<S>, M::ClosingMultipliers<S>),
+        yielded: &M::ClosingMultipliers<S>,
+    ) -> (M::JointVelocities<S>, M::ClosingMultipliers<S>) {
+        let mut lower = *yielded;
+        lower.as_mut_slice().iter_mut().for_each(|row| *row = -*row);
+        let (further, loads) =
+            M::solve_joints::<S, T>(constants, coefficients, factors, &Array::zeros(), &lower);
+        let mut solution = (*accelerations, *multipliers);
+        add(solution.0.as_mut_slice(), further.as_slice());
+        add(solution.1.as_mut_slice(), loads.as_slice());
+        solution
+    }
+
+    #[inline(always)]
+    fn finish<S: Scalar>(
+        _constants: &M::JointConstants<S>,
+        _state: &M::JointState<S>,
+        rates: &mut M::JointState<S>,
+        accelerations: &M::JointVelocities<S>,
+    ) {
+        let places = rates.rates_slice_mut().iter_mut();
+        places
+            .zip(accelerations.as_slice())
+            .for_each(|(place, &rate)| *place = rate);
+    }
+
+    #[inline]
+    fn with_new_velocities<S: Scalar>(
+        constants: &M::JointConstants<S>,
+        time: S,
+        state: &M::JointState<S>,
+        step: S,
+        rates: &mut M::JointState<S>,
+    ) {
+        let mut end = *state;
+        let velocities = end.rates_slice_mut().iter_mut();
+        for (velocity, &rate) in velocities.zip(rates.rates_slice()) {
+            *velocity = rate.fused(step, *velocity);
+        }
+        let mut of_coordinates = M::joint_coordinate_rates(constants, time, &end);
+        let places = of_coordinates.rates_slice_mut().iter_mut();
+        for (place, &rate) in places.zip(rates.rates_slice()) {
+            *place = rate;
+        }
+        *rates = of_coordinates;
+    }
+
+    #[inline]
+    fn normalise<S: Real>(
+        absolute: &AbsoluteEquations<S, M>,
+        constants: &M::JointConstants<S>,
+        state: &mut M::JointState<S>,
+        mut rates: Option<&mut M::JointState<S>>,
+    ) -> Option<S> {
+        let mut stretch = None;
+        for &place in M::JOINT_REPORT.euler_parameters {
+            let p: [S; 4] = read(state.rest_slice(), place);
+            let (off, factor) = to_unit_length(&p);
+            stretch = Some(stretch.map_or(off, |known: S| known.max(off)));
+            let Some(factor) = factor else { continue };
+            scale(state.rest_slice_mut(), place, factor);
+            if let Some(rates) = rates.as_deref_mut() {
+                // They are linear in `p`.
+                scale(rates.rest_slice_mut(), place, factor);
+            }
+        }
+        if M::JOINT_REPORT.recounts {
+            let mut bodies = bodies_of::<S, M>(constants, state);
+            M::recount(&absolute.constants, &mut bodies);
+            let counted = bodies.coordinates().as_slice();
+            let counted = counted.get(M::REPORT.coordinates..).unwrap_or(&[]);
+            let rest = state.rest_slice_mut();
+            let first = rest.len().saturating_sub(M::JOINT_REPORT.auxiliaries);
+            for (place, &value) in counted.iter().enumerate() {
+                write(rest, first + place, [value]);
+            }
+        }
+        stretch
+    }
+
+    #[inline(always)]
+    fn with_bodies<S: Real, R>(
+        constants: &M::JointConstants<S>,
+        state: &M::JointState<S>,
+        then: impl FnOnce(&M::State<S>) -> R,
+    ) -> R {
+        then(&bodies_of::<S, M>(constants, state))
+    }
+
+    fn bodies<S: Real>(constants: &M::JointConstants<S>, state: &M::JointState<S>) -> M::State<S> {
+        bodies_of::<S, M>(constants, state)
+    }
+
+    // Turns about an axis are pairs on a circle, which do not tell the two signs apart.
+    fn bodies_near<S: Real>(
+        constants: &M::JointConstants<S>,
+        state: &M::JointState<S>,
+        near: &M::State<S>,
+    ) -> M::State<S> {
+        with_nearer_signs::<S, M>(bodies_of::<S, M>(constants, state), near)
+    }
+
+    fn of_bodies<S: Real>(
+        constants: &M::JointConstants<S>,
+        bodies: &M::State<S>,
+    ) -> M::JointState<S> {
+        M::joint_state(constants, bodies)
+    }
+
+    fn of_bodies_near<S: Real>(
+        constants: &M::JointConstants<S>,
+        bodies: &M::State<S>,
+        near: &M::JointState<S>,
+    ) -> M::JointState<S> {
+        let mut state = M::joint_state(constants, bodies);
+        for &place in M::JOINT_REPORT.euler_parameters {
+            take_nearer_sign(state.rest_slice_mut(), near.rest_slice(), place);
+        }
+        state
+    }
+
+    fn check<S: Real>(state: &M::JointState<S>) -> Result<(), Fault> {
+        if state.is_finite() {
+            Ok(())
+        } else {
+            Err(Fault::StateNotFinite)
+        }
+    }
+
+    fn body_of_velocity(place: usize) -> Option<&'static str> {
+        let motions = M::JOINT_REPORT.motions.iter();
+        let mut first = 0;
+        for motion in motions {
+            first += match motion.freedom {
+                Freedom::Ball => 3,
+                Freedom::Turn { .. } | Freedom::Slide => 1,
+            };
+            if place < first {
+                return Some(motion.body);
+            }
+        }
+        None
+    }
+
+    fn joint_of_row(row: usize) -> Option<&'static str> {
+        M::JOINT_REPORT.closing.get(row).copied()
+    }
+}
+
+/// `x = x + y`.
+fn add<S: Scalar>(x: &mut [S], y: &[S]) {
+    x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x + y);
+}
+
+/// How the bodies of joint coordinates stand and move.
+pub(crate) fn bodies_of<S: Real, M: JointCoordinates>(
+    constants: &M::JointConstants<S>,
+    state: &M::JointState<S>,
+) -> M::State<S> {
+    let motions = M::body_motions(constants, state);
+    let mut parts = motions.as_slice();
+    let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
+    let mut next = |count: usize| {
+        let (first, rest) = parts.split_at_checked(count).unwrap_or((parts, &[]));
+        parts = rest;
+        first
+    };
+    for body in M::REPORT.bodies {
+        let linear = next(6);
+        let (position, velocity): ([S; 3], [S; 3]) = (read(linear, 0), read(linear, 3));
+        let coordinates = bodies.coordinates_mut().as_mut_slice();
+        write(coordinates, body.coordinate, position);
+        if body.kind == BodyKind::Rigid {
+            let angular = next(12);
+            let rows = [0, 3, 6].map(|place| read(angular, place));
+            write(coordinates, body.coordinate + 3, from_matrix(&rows));
+            let spin: [S; 3] = read(angular, 9);
+            let velocities = bodies.velocities_mut().as_mut_slice();
+            write(velocities, body.velocity + 3, spin);
+        }
+        let velocities = bodies.velocities_mut().as_mut_slice();
+        write(velocities, body.velocity, velocity);
+    }
+    let auxiliaries = next(M::REPORT.auxiliaries);
+    let coordinates = bodies.coordinates_mut().as_mut_slice();
+    for (place, &value) in auxiliaries.iter().enumerate() {
+        write(coordinates, M::REPORT.coordinates + place, [value]);
+    }
+    bodies
+}
