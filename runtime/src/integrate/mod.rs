@@ -28,7 +28,7 @@
 //!
 //! Multistep methods (`adams`, `bdf.rs`) keep differences of slopes or increments. A correction
 //! after a step must not change the sign of Euler parameters, which a one-step method does not
-//! notice (`Moving::of_near`).
+//! notice (`Coordinates::of_bodies_near`).
 //!
 //! After a step `System::settle` normalises the state and scales the slope, so nothing is
 //! evaluated again. Choices: `docs/decisions` 006 (turns), 007 (checks), 009 and 010 (Jacobians
