@@ -7,8 +7,9 @@ use super::{Pivot, Plan};
 use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
+use crate::symbolic::expression::Constraint;
 use crate::symbolic::rotation;
-use crate::symbolic::scene::{Constraint, Scene};
+use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::{Frame, Triple, VectorId, ZERO, cross};
 
 /// The terms of a formulation.
