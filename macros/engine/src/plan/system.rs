@@ -2,7 +2,8 @@
 //! state.
 
 use super::augmented::{Augmented, handed_on, shares};
-use super::eliminate::{Check, Factors, Symmetric, factorise_within};
+use super::eliminate::{Check, Factors, factorise_within};
+use super::symmetric::Symmetric;
 use super::{Pivot, Plan};
 use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
