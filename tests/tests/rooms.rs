@@ -32,7 +32,7 @@ const RUNTIME: [&str; 13] = [
 const BESIDE: [&str; 5] = ["lib", "private", "joints", "forces", "guide"];
 
 /// The circles of files in the engine. They may only shrink.
-const ENGINE_CIRCLES: [&[&str]; 4] = [
+const ENGINE_CIRCLES: [&[&str]; 3] = [
     &["coordinates/align", "coordinates/links"],
     &[
         "coordinates/candidates",
@@ -40,13 +40,6 @@ const ENGINE_CIRCLES: [&[&str]; 4] = [
         "coordinates/system",
     ],
     &["coordinates/certain", "coordinates/dependent"],
-    &[
-        "emit/coordinates",
-        "emit/likes",
-        "emit/mechanism",
-        "emit/parameters",
-        "emit/solution",
-    ],
 ];
 
 /// The circles of files in the run time.
