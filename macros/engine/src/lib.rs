@@ -32,8 +32,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::DeriveInput;
 
+use check::definition::{Definition, Definitions};
 use check::kinds;
-use check::mechanism::{Definition, Definitions};
 use diag::Faults;
 use model::{BodyKind, ElementKind};
 use wire::{Carried, Delivery};

@@ -3,7 +3,7 @@
 
 use proc_macro2::TokenStream;
 
-use crate::check::mechanism::Definitions;
+use crate::check::definition::Definitions;
 use crate::diag::Faults;
 use crate::model::{ElementDef, Model};
 use crate::syntax::joint::JointSyntax;

@@ -1,6 +1,6 @@
 //! What joints cost by themselves, against the counts of the field's tools.
 
-use holonom_engine::check::mechanism::Definition;
+use holonom_engine::check::definition::Definition;
 use holonom_engine::diag::Faults;
 use holonom_engine::model::{BodyKind, ElementDef, ElementKind, Model};
 use holonom_engine::plan::alone::{Alone, alone};

@@ -4,10 +4,10 @@ use proc_macro2::{Ident, Span};
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::definition::{Definition, Definitions, definition};
 use super::elements::{Found, Reference, bare, known};
 use super::expression::too_large;
 use super::laws::LawReader;
-use super::mechanism::{Definition, Definitions, definition};
 use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use crate::diag::{Faults, code, did_you_mean, list};

@@ -40,6 +40,22 @@ impl Value {
         }
     }
 
+    /// The value with the other sign.
+    pub(super) fn negated(self) -> Self {
+        match self {
+            Self::Literal(value) => Self::Literal(-value),
+            Self::Later(later) => {
+                let expression = &later.expression;
+                Self::Later(Later {
+                    expression: quote!((-(#expression))),
+                    scalar: later.scalar.map(|scalar| quote!((-(#scalar)))),
+                    like: later.like.map(|like| -like),
+                    ..later
+                })
+            }
+        }
+    }
+
     /// The value over `S`.
     pub(super) fn scalar(&self) -> TokenStream {
         match self {

@@ -7,31 +7,18 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprLit, Lit};
 
 use super::bodies;
+use super::definition::{Definition, Definitions, definition};
 use super::joints::{JointChecker, Mentioned};
 use super::number::Numbers;
 use super::pairs::Pairs;
 use super::{kinds, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::{
-    BodyKind, Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Redundant,
+    Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Redundant,
 };
 use crate::syntax::array::is_index;
-use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
+use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
 use crate::syntax::ungroup;
-
-/// What a field's type turned out to be.
-#[derive(Clone, Debug)]
-pub enum Definition {
-    /// A rigid body or a particle.
-    Body(BodyKind),
-    /// A joint or force by its place among the definitions.
-    Element(usize),
-    /// A joint or force with a fault in its definition, which is reported where it is defined.
-    Faulty,
-}
-
-/// The definitions behind the field types, by the path as it was written.
-pub type Definitions = Vec<(String, Definition)>;
 
 /// A mechanism that is sound as far as can be read from what was written.
 pub struct Checked<'a> {
@@ -235,16 +222,6 @@ fn choice<T: Copy>(key: &str, expr: &Expr, all: &[(&str, T)], faults: &mut Fault
         faults.at(expr, format!("`{key}` takes {names}{near}"));
     }
     known.map(|(_, meaning)| *meaning)
-}
-
-/// What the type of a field turned out to be.
-#[must_use]
-pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Definition> {
-    let path = carrier_path(&field.ty)?.to_string();
-    types
-        .iter()
-        .find(|(known, _)| *known == path)
-        .map(|(_, definition)| definition)
 }
 
 /// Whether two fields have one name: what speaks of it would speak of the first. The compiler

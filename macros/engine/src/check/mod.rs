@@ -21,6 +21,7 @@
 //! is differentiated. Both refuse.
 
 pub mod bodies;
+pub mod definition;
 mod elements;
 mod expression;
 mod functions;

@@ -207,24 +207,7 @@ impl<'a> Numbers<'a> {
                 _ => self.refuse(expr, faults),
             },
             Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
-                Some(match self.value(&unary.expr, faults)? {
-                    Value::Literal(value) => Value::Literal(-value),
-                    Value::Later(Later {
-                        expression,
-                        scalar,
-                        is_const,
-                        is_varying,
-                        values,
-                        like,
-                    }) => Value::Later(Later {
-                        expression: quote!((-(#expression))),
-                        scalar: scalar.map(|scalar| quote!((-(#scalar)))),
-                        is_const,
-                        is_varying,
-                        values,
-                        like: like.map(|like| -like),
-                    }),
-                })
+                Some(self.value(&unary.expr, faults)?.negated())
             }
             Expr::Binary(binary) => {
                 let left = self.value(&binary.left, faults);

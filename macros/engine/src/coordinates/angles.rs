@@ -5,7 +5,7 @@ use super::frames::FrameId;
 use super::freedom::Freedom;
 use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr};
-use crate::symbolic::functions::PairedAngle;
+use crate::symbolic::expression::PairedAngle;
 use crate::symbolic::vector::Triple;
 
 impl Links {

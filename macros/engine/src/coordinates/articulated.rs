@@ -11,7 +11,7 @@ use super::frames::{FrameId, Frames};
 use super::freedom::Freedom;
 use super::links::Links;
 use super::wrenches::Wrench;
-use crate::plan::eliminate::Symmetric;
+use crate::plan::symmetric::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::vector::{Triple, ZERO, cross, dot};
 

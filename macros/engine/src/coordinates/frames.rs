@@ -3,7 +3,7 @@
 
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::fixed::transpose;
-use crate::symbolic::scene::normalised_rotation;
+use crate::symbolic::rotation::normalised_rotation;
 use crate::symbolic::vector::{Triple, dot};
 
 /// A reference to a frame.

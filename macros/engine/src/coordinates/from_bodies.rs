@@ -11,7 +11,7 @@ use super::links::Links;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::transpose;
-use crate::symbolic::scene::normalised_rotation;
+use crate::symbolic::rotation::normalised_rotation;
 use crate::symbolic::vector::{Triple, ZERO, cross, dot};
 
 /// How a link stands and moves, global axes.

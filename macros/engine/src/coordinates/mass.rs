@@ -5,7 +5,7 @@ use super::algebra::{Inertia, add, add_tensors, apply, cross_inertia};
 use super::freedom::Freedom;
 use super::links::Links;
 use super::wrenches::Wrench;
-use crate::plan::eliminate::Symmetric;
+use crate::plan::symmetric::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::vector::{Triple, ZERO, cross};
 

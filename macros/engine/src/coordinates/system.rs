@@ -11,11 +11,12 @@ use super::links::{Links, Runs};
 use super::wrenches::{Wrench, inertial};
 use crate::model::{BodyKind, Model};
 use crate::plan::Pivot;
-use crate::plan::eliminate::{Check, Symmetric, factorise};
+use crate::plan::eliminate::{Check, factorise};
+use crate::plan::symmetric::Symmetric;
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input};
-use crate::symbolic::differentiate::Gradient;
 use crate::symbolic::fixed::{clean, size, transpose};
+use crate::symbolic::motion::Gradient;
 use crate::symbolic::scene::{Chart, Scene};
 use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
 

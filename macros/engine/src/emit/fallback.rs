@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::ext::IdentExt;
 
-use crate::check::mechanism::{Definition, Definitions, definition};
+use crate::check::definition::{Definition, Definitions, definition};
 use crate::syntax::array::array;
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
 

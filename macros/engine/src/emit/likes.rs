@@ -4,9 +4,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::mechanism::Writer;
 use super::parts::Frame;
 use super::straight_line::{Given, StraightLine};
+use super::writer::Writer;
 use crate::model::Model;
 use crate::symbolic::left_out::left_out;
 use crate::syntax::words::local;

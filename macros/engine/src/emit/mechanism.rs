@@ -3,20 +3,20 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use super::coordinates;
 use super::documentation::documentation;
 use super::inputs::{Inputs, inputs_of, taken};
 use super::parameters;
-use super::parts::{Frame, write_in_parts};
+use super::parts::Frame;
 use super::report::report;
 use super::rows;
 use super::solution::is_short;
-use super::store::{Kernel as Arguments, Store};
-use super::straight_line::{Given, StraightLine, write};
+use super::store::Store;
+use super::straight_line::{Given, StraightLine};
+use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
-use crate::model::name::fields;
-use crate::model::{Model, Name};
+use crate::model::Model;
 use crate::plan::kernels::Kernels;
-use crate::symbolic::arena::Stage;
 use crate::symbolic::equations::Kernel;
 use crate::syntax::words::local;
 
@@ -34,76 +34,54 @@ pub fn emit(model: &Model, facade: &TokenStream) -> TokenStream {
     writer.write()
 }
 
-/// What the parts of an implementation are written from.
-pub(super) struct Writer<'a> {
-    pub(super) model: &'a Model,
-    pub(super) kernels: &'a Kernels,
-    pub(super) facade: &'a TokenStream,
-    pub(super) store: Store,
-    /// The functions that long kernels are written in.
-    pub(super) parts: TokenStream,
+/// What a kernel returns.
+enum Returned {
+    /// Its one output.
+    Number,
+    /// All outputs, in an array of this type.
+    Array(TokenStream),
+}
+
+impl Returned {
+    /// The type, and the value over the outputs.
+    fn written(&self, outputs: &[TokenStream]) -> (TokenStream, TokenStream) {
+        match self {
+            Self::Number => (quote!(__S), quote!(#(#outputs)*)),
+            Self::Array(kind) => (kind.clone(), quote!([#(#outputs),*])),
+        }
+    }
 }
 
 impl Writer<'_> {
     fn write(mut self) -> TokenStream {
-        let (model, facade, kernels) = (self.model, self.facade, self.kernels);
+        let (model, kernels, facade) = (self.model, self.kernels, self.facade);
         let name = &model.name;
-        let layout = model.layout();
-        let (q, u, m) = (
-            layout.coordinates + layout.auxiliaries,
-            layout.velocities,
-            layout.rows,
-        );
-        let values = model.values.len();
-        let jacobian_size = kernels.jacobian.outputs.len();
-        let report = report(model, kernels, facade);
-        let documentation = documentation(model, kernels);
-        let (handles_type, handles) = self.handles();
         let state_kernels = self.state_kernels();
         let evaluations = self.evaluations();
         let dispatch = self.dispatch();
-        let mut sizes = [0, 0];
-        let mut solvers = TokenStream::new();
-        for (size, solver) in sizes.iter_mut().zip(&kernels.solvers) {
-            let (tokens, factors) = self.solver(solver);
-            solvers.extend(tokens);
-            *size = factors;
-        }
-        let [plain_size, compliant_size] = sizes;
-        let factors = rows::array(plain_size.max(compliant_size));
-        let angles = self.angles();
-        let points = self.points();
-        let displacements = self.displacements();
-        let sides = self.sides();
-        let recount = self.recount();
-        let forces = self.force_readouts();
-        let user_axes = self.user_axes();
+        let (solvers, factors) = self.solvers();
+        let readouts = self.readouts();
         let initial = self.initial_state();
         let likes = self.likes();
-        let coefficients = self.store.write_coefficients();
-        let (coefficient_statements, coefficient_outputs) =
-            (coefficients.statements, coefficients.outputs);
-        let taken = taken(model, &mut self.store);
-        let prepared = self.store.write_constants(&model.symbols);
-        let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
-        let (c, k) = (self.store.constants(), self.store.coefficients());
-        let parameters = parameters::parameters(model, facade);
+        // What every kernel asks for is known now.
+        let stages = self.stages();
+        let (handles_type, handles) = self.handles();
         let Inputs {
             declared: inputs_type,
             kind: inputs_kind,
             functions: inputs,
         } = inputs_of(model, facade);
+        let types = self.types(&factors, &inputs_kind);
+        let (report, documentation) = (
+            report(model, kernels, facade),
+            documentation(model, kernels),
+        );
         let assertions = parameters::assertions(model, facade);
+        let parameters = parameters::parameters(model, facade);
         let construction = parameters::construction(model, facade);
-        let (constants, stabilisation) = (local("constants"), local("stabilisation"));
-        let compliances = local("compliances");
         let vector_rows = &kernels.vector_rows;
-        let joints = model
-            .coordinates
-            .have_joints()
-            .then(|| super::coordinates::implementation(model, &JointKernels::new(model), facade));
+        let joints = self.in_joint_coordinates();
         let parts = &self.parts;
-        let given = local("parameters");
         quote! {
             #[allow(
                 clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction,
@@ -123,15 +101,7 @@ impl Writer<'_> {
                 #[automatically_derived]
                 #documentation
                 impl #facade::Mechanism for #name {
-                    type State<__S: #facade::Scalar> = #facade::State<__S, #q, #u>;
-                    type Velocities<__S: #facade::Scalar> = [__S; #u];
-                    type Multipliers<__S: #facade::Scalar> = [__S; #m];
-                    type Jacobian<__S: #facade::Scalar> = [__S; #jacobian_size];
-                    type Parameters<__S: #facade::Scalar> = [__S; #values];
-                    type Inputs<__S: #facade::Scalar> = #inputs_kind;
-                    type Constants<__S: #facade::Scalar> = [__S; #c];
-                    type Coefficients<__S: #facade::Scalar> = [__S; #k];
-                    type Factors<__S: #facade::Scalar> = #factors;
+                    #types
                     type Handles = __Handles;
 
                     const HANDLES: __Handles = #handles;
@@ -141,42 +111,11 @@ impl Writer<'_> {
                     #parameters
                     #inputs
                     #likes
-
-                    fn prepare<__S: #facade::Scalar>(
-                        #given: &Self::Parameters<__S>,
-                    ) -> Self::Constants<__S> {
-                        #constant_statements
-                        [#(#constant_outputs),*]
-                    }
-
-                    #[inline]
-                    fn take_inputs<__S: #facade::Scalar>(
-                        #given: &Self::Parameters<__S>,
-                        #constants: &mut Self::Constants<__S>,
-                    ) {
-                        #taken
-                    }
-
-                    #[inline]
-                    fn coefficients_by_row<__S: #facade::Scalar>(
-                        #constants: &Self::Constants<__S>,
-                        #stabilisation: &#facade::Stabilisation<__S>,
-                        #compliances: &Self::Multipliers<__S>,
-                    ) -> Self::Coefficients<__S> {
-                        #coefficient_statements
-                        [#(#coefficient_outputs),*]
-                    }
-
+                    #stages
                     #state_kernels
                     #dispatch
                     #initial
-                    #angles
-                    #points
-                    #displacements
-                    #sides
-                    #recount
-                    #forces
-                    #user_axes
+                    #readouts
                 }
 
                 #evaluations
@@ -190,45 +129,99 @@ impl Writer<'_> {
         }
     }
 
-    pub(super) fn line(&mut self, kernel: &Kernel) -> StraightLine {
-        write(
-            &kernel.arena,
-            &kernel.outputs,
-            Stage::State,
-            &mut Arguments {
-                store: &mut self.store,
-            },
-        )
-    }
-
-    /// A kernel that may be long.
-    pub(super) fn line_of(
-        &mut self,
-        kernel: &Kernel,
-        given: &Given,
-        frame: &Frame,
-    ) -> StraightLine {
-        let (line, parts) = write_in_parts(
-            (&kernel.arena, &kernel.outputs),
-            Stage::State,
-            given,
-            &mut Arguments {
-                store: &mut self.store,
-            },
-            frame,
+    /// The arrays that kernels take and give.
+    fn types(&self, factors: &TokenStream, inputs: &TokenStream) -> TokenStream {
+        let facade = self.facade;
+        let layout = self.model.layout();
+        let (q, u, m) = (
+            layout.coordinates + layout.auxiliaries,
+            layout.velocities,
+            layout.rows,
         );
-        self.parts.extend(parts);
-        line
+        let values = self.model.values.len();
+        let jacobian_size = self.kernels.jacobian.outputs.len();
+        let (c, k) = (self.store.constants(), self.store.coefficients());
+        quote! {
+            type State<__S: #facade::Scalar> = #facade::State<__S, #q, #u>;
+            type Velocities<__S: #facade::Scalar> = [__S; #u];
+            type Multipliers<__S: #facade::Scalar> = [__S; #m];
+            type Jacobian<__S: #facade::Scalar> = [__S; #jacobian_size];
+            type Parameters<__S: #facade::Scalar> = [__S; #values];
+            type Inputs<__S: #facade::Scalar> = #inputs;
+            type Constants<__S: #facade::Scalar> = [__S; #c];
+            type Coefficients<__S: #facade::Scalar> = [__S; #k];
+            type Factors<__S: #facade::Scalar> = #factors;
+        }
     }
 
-    /// Statements that give a kernel its arrays.
-    pub(super) fn unpack() -> TokenStream {
-        let (state, coordinates, velocities) =
-            (local("state"), local("coordinates"), local("velocities"));
+    /// What is computed before the state is known: complete when every kernel is written.
+    fn stages(&mut self) -> TokenStream {
+        let (model, facade) = (self.model, self.facade);
+        let coefficients = self.store.write_coefficients();
+        let (coefficient_statements, coefficient_outputs) =
+            (coefficients.statements, coefficients.outputs);
+        let taken = taken(model, &mut self.store);
+        let prepared = self.store.write_constants(&model.symbols);
+        let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
+        let names = ["constants", "stabilisation", "compliances", "parameters"];
+        let [constants, stabilisation, compliances, given] = names.map(local);
         quote! {
-            let #coordinates = #state.coordinates();
-            let #velocities = #state.velocities();
+            fn prepare<__S: #facade::Scalar>(
+                #given: &Self::Parameters<__S>,
+            ) -> Self::Constants<__S> {
+                #constant_statements
+                [#(#constant_outputs),*]
+            }
+
+            #[inline]
+            fn take_inputs<__S: #facade::Scalar>(
+                #given: &Self::Parameters<__S>,
+                #constants: &mut Self::Constants<__S>,
+            ) {
+                #taken
+            }
+
+            #[inline]
+            fn coefficients_by_row<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #stabilisation: &#facade::Stabilisation<__S>,
+                #compliances: &Self::Multipliers<__S>,
+            ) -> Self::Coefficients<__S> {
+                #coefficient_statements
+                [#(#coefficient_outputs),*]
+            }
         }
+    }
+
+    /// Factorisations and back-substitutions, and the array that passes between them.
+    fn solvers(&mut self) -> (TokenStream, TokenStream) {
+        let mut solvers = TokenStream::new();
+        let mut most = 0;
+        for solver in &self.kernels.solvers {
+            let (tokens, factors) = self.solver(solver);
+            solvers.extend(tokens);
+            most = most.max(factors);
+        }
+        (solvers, rows::array(most))
+    }
+
+    /// What is read of bodies, joints and forces.
+    fn readouts(&mut self) -> TokenStream {
+        let mut tokens = self.angles();
+        tokens.extend(self.points());
+        tokens.extend(self.displacements());
+        tokens.extend(self.sides());
+        tokens.extend(self.recount());
+        tokens.extend(self.force_readouts());
+        tokens.extend(self.user_axes());
+        tokens
+    }
+
+    /// The same mechanism in joint coordinates, where these are asked for.
+    fn in_joint_coordinates(&self) -> Option<TokenStream> {
+        let (model, facade) = (self.model, self.facade);
+        let is_wanted = model.coordinates.have_joints();
+        is_wanted.then(|| coordinates::implementation(model, &JointKernels::new(model), facade))
     }
 
     fn state_kernels(&mut self) -> TokenStream {
@@ -236,61 +229,43 @@ impl Writer<'_> {
         let kernels = self.kernels;
         let constants = local("constants");
         let mut tokens = TokenStream::new();
-        let (rows, velocities) = (
-            quote!(Self::Multipliers<__S>),
-            quote!(Self::Velocities<__S>),
-        );
+        let rows = Returned::Array(quote!(Self::Multipliers<__S>));
+        let velocities = Returned::Array(quote!(Self::Velocities<__S>));
+        let jacobian = Returned::Array(quote!(Self::Jacobian<__S>));
+        let number = Returned::Number;
         for (name, kernel, result) in [
             ("constraints", &kernels.constraints, &rows),
             ("constraint_rates", &kernels.constraint_rates, &rows),
-            ("jacobian", &kernels.jacobian, &quote!(Self::Jacobian<__S>)),
+            ("jacobian", &kernels.jacobian, &jacobian),
             ("gamma", &kernels.gamma, &rows),
             ("forces", &kernels.forces, &velocities),
-            ("potential_energy", &kernels.potential_energy, &quote!(__S)),
-            ("power", &kernels.power, &quote!(__S)),
+            ("potential_energy", &kernels.potential_energy, &number),
+            ("power", &kernels.power, &number),
         ] {
             let time = local("time");
             tokens.extend(self.function(name, kernel, &quote!(#time: __S,), result));
         }
         let coordinates = self.model.layout().coordinates + self.model.layout().auxiliaries;
+        let coordinates = Returned::Array(quote!([__S; #coordinates]));
         for (name, kernel, result) in [
-            ("kinetic_energy", &kernels.kinetic_energy, quote!(__S)),
-            (
-                "coordinate_rates",
-                &kernels.coordinate_rates,
-                quote!([__S; #coordinates]),
-            ),
+            ("kinetic_energy", &kernels.kinetic_energy, &number),
+            ("coordinate_rates", &kernels.coordinate_rates, &coordinates),
         ] {
-            tokens.extend(self.function(name, kernel, &TokenStream::new(), &result));
+            tokens.extend(self.function(name, kernel, &TokenStream::new(), result));
         }
-        let (statements, value) = self.body(&kernels.mass, &velocities);
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line(&kernels.mass);
+        let (kind, value) = velocities.written(&outputs);
         tokens.extend(quote! {
             #[inline]
-            fn mass<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> Self::Velocities<__S> {
+            fn mass<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> #kind {
                 #statements
                 #value
             }
         });
         tokens
-    }
-
-    /// Statements and value of a kernel: one number where the result is `S`, else an array.
-    fn body(&mut self, kernel: &Kernel, result: &TokenStream) -> (TokenStream, TokenStream) {
-        let line = self.line(kernel);
-        Self::value(line, result)
-    }
-
-    fn value(line: StraightLine, result: &TokenStream) -> (TokenStream, TokenStream) {
-        let StraightLine {
-            statements,
-            outputs,
-        } = line;
-        let value = if result.to_string() == "__S" {
-            quote!(#(#outputs)*)
-        } else {
-            quote!([#(#outputs),*])
-        };
-        (statements, value)
     }
 
     /// A function of constants, time (if it is declared) and state.
@@ -299,7 +274,7 @@ impl Writer<'_> {
         name: &str,
         kernel: &Kernel,
         time: &TokenStream,
-        result: &TokenStream,
+        result: &Returned,
     ) -> TokenStream {
         let facade = self.facade;
         let (constants, state) = (local("constants"), local("state"));
@@ -317,8 +292,11 @@ impl Writer<'_> {
             passed: quote!(#constants, #(#passed_time,)* #state,),
             unpack: unpack.clone(),
         };
-        let line = self.line_of(kernel, &Given::default(), &frame);
-        let (statements, value) = Self::value(line, result);
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line_of(kernel, &Given::default(), &frame);
+        let (kind, value) = result.written(&outputs);
         let name = format_ident!("{name}");
         // A long kernel is compiled once, and not wherever something is read or goes wrong.
         let inline = if is_short(&kernel.arena, &kernel.outputs) {
@@ -332,7 +310,7 @@ impl Writer<'_> {
                 #constants: &Self::Constants<__S>,
                 #time
                 #state: &Self::State<__S>,
-            ) -> #result {
+            ) -> #kind {
                 #unpack
                 #statements
                 #value
@@ -376,50 +354,5 @@ impl Writer<'_> {
                 }
             }
         }
-    }
-
-    fn handles(&self) -> (TokenStream, TokenStream) {
-        let (name, facade) = (&self.model.name, self.facade);
-        let mut declared = TokenStream::new();
-        let mut values = TokenStream::new();
-        let mut declare = |handles: Vec<(&Name, TokenStream, TokenStream)>| {
-            let names = handles.iter().map(|(name, ..)| *name);
-            let mut rest = handles.iter();
-            for (field, length) in fields(names) {
-                let (_, kind, value) = rest.next().expect("a handle of every field");
-                let Some(length) = length else {
-                    declared.extend(quote!(pub #field: #kind,));
-                    values.extend(quote!(#field: #value,));
-                    continue;
-                };
-                let others = rest.by_ref().take(length - 1).map(|(.., value)| value);
-                declared.extend(quote!(pub #field: [#kind; #length],));
-                values.extend(quote!(#field: [#value, #(#others),*],));
-            }
-        };
-        let bodies = self.model.bodies.iter().enumerate().map(|(place, body)| {
-            let kind = quote!(#facade::BodyHandle<#name>);
-            (&body.name, kind, quote!(#facade::BodyHandle::new(#place)))
-        });
-        declare(bodies.collect());
-        let joints = self.model.joints.iter().enumerate().map(|(place, joint)| {
-            let path = &joint.path;
-            let kind = quote!(#facade::JointHandle<#name, #path>);
-            (&joint.name, kind, quote!(#facade::JointHandle::new(#place)))
-        });
-        declare(joints.collect());
-        let forces = self.model.forces.iter().enumerate().map(|(place, force)| {
-            let path = &force.path;
-            let kind = quote!(#facade::ForceHandle<#name, #path>);
-            (&force.name, kind, quote!(#facade::ForceHandle::new(#place)))
-        });
-        declare(forces.collect());
-        let documentation = format!("The handles of [`{name}`], one per field.");
-        let declared = quote! {
-            #[doc = #documentation]
-            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-            pub struct __Handles { #declared }
-        };
-        (declared, quote!(__Handles { #values }))
     }
 }

@@ -19,6 +19,7 @@
 mod coordinates;
 pub mod documentation;
 pub mod fallback;
+mod handles;
 mod inputs;
 pub mod joint;
 mod joint_report;
@@ -32,3 +33,4 @@ mod rows;
 pub mod solution;
 pub mod store;
 pub mod straight_line;
+mod writer;

@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::mechanism::Writer;
 use super::straight_line::StraightLine;
+use super::writer::Writer;
 use crate::syntax::words::local;
 
 impl Writer<'_> {

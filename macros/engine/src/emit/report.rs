@@ -83,13 +83,8 @@ pub fn describe(model: &Model, plan: &Plan, layout: &Layout) -> String {
     };
     let unknown = |k: usize| {
         if k >= layout.velocities {
-            let row = k - layout.velocities;
-            let joint = layout
-                .row
-                .iter()
-                .rposition(|&first| first <= row)
-                .expect("a row belongs to a joint");
-            return format!("{}[{}]", model.joints[joint].name, row - layout.row[joint]);
+            let (joint, row) = layout.place_of(k - layout.velocities);
+            return format!("{}[{row}]", model.joints[joint].name);
         }
         let body = layout
             .velocity

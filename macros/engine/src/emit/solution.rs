@@ -3,11 +3,11 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::mechanism::Writer;
 use super::parts::{Frame, write_in_parts};
 use super::rows::{WIDTH, pack};
 use super::store::BackSubstitution;
 use super::straight_line::{Given, StraightLine};
+use super::writer::Writer;
 use crate::plan::kernels::{Evaluation, PivotCheck, Solver};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Stage};

@@ -326,3 +326,19 @@ pub struct Layout {
     /// All rows.
     pub rows: usize,
 }
+
+impl Layout {
+    /// The joint of a row. Joints without rows stand at the place of the next.
+    #[must_use]
+    pub fn joint_of(&self, row: usize) -> usize {
+        let joint = self.row.iter().rposition(|&first| first <= row);
+        joint.unwrap_or(0)
+    }
+
+    /// The joint of a row, and its place among those of the joint.
+    #[must_use]
+    pub fn place_of(&self, row: usize) -> (usize, usize) {
+        let joint = self.joint_of(row);
+        (joint, row - self.row[joint])
+    }
+}

@@ -14,7 +14,7 @@
 
 use super::Pivot;
 use super::Plan;
-use super::eliminate::Symmetric;
+use super::symmetric::Symmetric;
 use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::scene::Scene;

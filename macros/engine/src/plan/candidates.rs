@@ -5,12 +5,12 @@
 //! all bodies, all of them or the point rows between moving bodies. Candidates differ in this, in
 //! the points whose accelerations are eliminated, and in the axes of rows and of accelerations.
 
+use super::Plan;
 use super::eliminate::Check;
 use super::order::{Course, Order, Rows, StartValues};
 use super::reach::Reach;
 use super::system::{Solution, System, Terms, applied_forces, coupling};
 use super::tree::{Tree, tree};
-use super::{Plan, Plans};
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Expr, Stage};
 use crate::symbolic::count::count;
@@ -147,6 +147,27 @@ impl<'a> Beginning<'a> {
 #[must_use]
 pub fn all(model: &Model, terms: Terms) -> Vec<Plan> {
     Beginning::new(model).plans(terms)
+}
+
+/// The plans of a mechanism: what is cheapest without a compliance need not be so with one, where
+/// the rows have a diagonal of their own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plans {
+    /// For rigid constraints, with or without stabilisation.
+    pub rigid: Plan,
+    /// For constraints with a compliance, where every order is safe.
+    pub compliant: Plan,
+}
+
+impl Plans {
+    /// The plan for some terms.
+    #[must_use]
+    pub fn of(&self, terms: Terms) -> &Plan {
+        match terms {
+            Terms::Plain | Terms::Stabilised => &self.rigid,
+            Terms::Compliant => &self.compliant,
+        }
+    }
 }
 
 /// The cheapest plans for a model.

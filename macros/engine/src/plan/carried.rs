@@ -8,8 +8,9 @@
 //! place of back-substitution. Both hold with and without a compliance of other rows.
 
 use super::collect::common;
-use super::eliminate::{Factors, Step, Symmetric};
+use super::eliminate::{Factors, Step};
 use super::inverse::Inverse;
+use super::symmetric::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};
 
 impl Step {

@@ -9,7 +9,7 @@ use super::Pivot;
 use super::augmented::Share;
 use super::collect::{common, sum_of_products, through};
 use super::inverse::{Inverse, by_determined, dot, invert, invert_forbidden};
-pub use super::symmetric::Symmetric;
+use super::symmetric::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};
 
 /// One step of the elimination: `x_P = P^-1 (rhs_P - sum A_iP^T x_i)`.

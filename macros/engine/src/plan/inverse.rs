@@ -1,7 +1,7 @@
 //! The inverses of pivots.
 
 use super::collect::shortest_dot;
-use super::eliminate::Symmetric;
+use super::symmetric::Symmetric;
 use crate::symbolic::arena::{Arena, Expr};
 
 /// The inverse of a pivot.

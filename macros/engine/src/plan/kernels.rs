@@ -1,12 +1,12 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
+use super::Plan;
 use super::alone::alone;
-use super::candidates::{Factorised, cheapest, first, solved};
+use super::candidates::{Factorised, Plans, cheapest, first, solved};
 use super::eliminate::Check;
 use super::readouts::Readouts;
 use super::reference::by_numbers;
 use super::system::{System, Terms, applied_forces};
-use super::{Plan, Plans};
 use crate::model::Model;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::Count;

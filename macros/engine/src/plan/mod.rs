@@ -57,13 +57,12 @@ mod order;
 mod reach;
 pub mod readouts;
 mod reference;
-mod symmetric;
+pub mod symmetric;
 pub mod system;
 pub mod time;
 mod tree;
 
 use crate::symbolic::vector::Frame;
-use system::Terms;
 
 /// A pivot: one unknown, or a body's acceleration together with the multiplier that carries it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,25 +112,4 @@ pub struct Plan {
     /// The determinant of `C` of each [`Pivot::Forbidden`], and `c` of each [`Pivot::Dependent`],
     /// at the start, in order.
     pub determinants: Vec<f64>,
-}
-
-/// The plans of a mechanism: what is cheapest without a compliance need not be so with one, where
-/// the rows have a diagonal of their own.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plans {
-    /// For rigid constraints, with or without stabilisation.
-    pub rigid: Plan,
-    /// For constraints with a compliance, where every order is safe.
-    pub compliant: Plan,
-}
-
-impl Plans {
-    /// The plan for some terms.
-    #[must_use]
-    pub fn of(&self, terms: Terms) -> &Plan {
-        match terms {
-            Terms::Plain | Terms::Stabilised => &self.rigid,
-            Terms::Compliant => &self.compliant,
-        }
-    }
 }

@@ -20,10 +20,10 @@ use super::reach::Reach;
 use super::tree::Tree;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr, Input};
-use crate::symbolic::differentiate::{ScalarExpr, VectorExpr};
 use crate::symbolic::equations::initial_state;
 use crate::symbolic::evaluate::evaluate;
-use crate::symbolic::scene::{Constraint, Scene};
+use crate::symbolic::expression::{Constraint, ScalarExpr, VectorExpr};
+use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::Triple;
 
 /// Coordinates at the start, where the macro can see them.

@@ -3,8 +3,8 @@
 use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Input};
-use crate::symbolic::differentiate::Gradient;
 use crate::symbolic::equations::{Kernel, with_scene};
+use crate::symbolic::motion::Gradient;
 use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::{Frame, VectorId};
 

@@ -2,13 +2,15 @@
 //! state.
 
 use super::augmented::{Augmented, handed_on, shares};
-use super::eliminate::{Check, Factors, Symmetric, factorise_within};
+use super::eliminate::{Check, Factors, factorise_within};
+use super::symmetric::Symmetric;
 use super::{Pivot, Plan};
 use crate::model::BodyKind;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
+use crate::symbolic::expression::Constraint;
 use crate::symbolic::rotation;
-use crate::symbolic::scene::{Constraint, Scene};
+use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::{Frame, Triple, VectorId, ZERO, cross};
 
 /// The terms of a formulation.

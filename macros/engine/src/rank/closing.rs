@@ -1,10 +1,13 @@
 //! Which equations close loops: those of other joints are not in question, because coordinates
 //! satisfy them by themselves.
 
+use super::limits::TOLERANCE;
 use super::motion::Constraints;
+use super::random::Random;
 use super::span::{Span, independent};
 use super::sparse::{Row, Rows};
-use super::{Random, TOLERANCE, choice, place_of, tour, walk};
+use super::walk::walk;
+use super::{choice, tour};
 use crate::model::Model;
 
 /// The equations, by joint and place, of the given joints that follow from those of all others and
@@ -23,7 +26,7 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     }
     let layout = model.layout();
     let is_closing: Vec<bool> = (0..layout.rows)
-        .map(|row| closing.contains(&place_of(&layout, row).0))
+        .map(|row| closing.contains(&layout.place_of(row).0))
         .collect();
     let stands_out = |rows: &Rows| beside(rows, layout.velocities, &is_closing);
     let directions = configurations
@@ -58,7 +61,7 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     let following = (0..rows.len()).filter(|place| !kept.contains(place));
     Some(
         following
-            .map(|place| place_of(&layout, rows[place]))
+            .map(|place| layout.place_of(rows[place]))
             .collect(),
     )
 }

@@ -5,11 +5,13 @@
 //! must hold at all times, so that the speeds that it asks for must be those that the kept ones ask
 //! for: `Y^T Phi_t = 0` where `Y^T D = 0`.
 
+use super::limits::TOLERANCE;
 use super::motion::{Configuration, Constraints};
 use super::normal::Normal;
+use super::random::Random;
 use super::span::independent;
 use super::sparse::Rows;
-use super::{Random, TOLERANCE, walk};
+use super::walk::walk;
 
 /// To what fraction of themselves laws agree that are given to seven digits, as [`TOLERANCE`] has
 /// it for lengths.

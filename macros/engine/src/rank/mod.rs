@@ -66,34 +66,29 @@ mod contradiction;
 mod dense;
 mod displacement;
 mod geometry;
+mod limits;
 mod motion;
 pub mod moves;
 mod normal;
+mod random;
 mod span;
 mod sparse;
 pub mod specimen;
 mod tour;
+mod walk;
 
 use std::collections::BTreeSet;
 
 use self::contradiction::Contradicted;
+pub use self::limits::TOLERANCE;
 use self::motion::{Configuration, Constraints};
 use self::normal::Normal;
+use self::random::Random;
 use self::span::independent;
 use self::sparse::Rows;
+use self::walk::walk;
 use crate::model::mechanism::Layout;
 use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
-
-/// Relative to the length of a row. Configurations are good to about 1e-12, and lengths and axes
-/// given to six digits are to count as what they are.
-pub const TOLERANCE: f64 = 1e-7;
-
-/// Configurations besides the start.
-const SAMPLES: usize = 5;
-/// The size of a motion: in radians, and in fractions of the size of the mechanism.
-const MOTION: f64 = 0.2;
-/// How often a motion that does not lead back onto the constraints is halved.
-const HALVINGS: usize = 4;
 
 /// Finds the rank of a model's constraints, and which of them follow from others.
 #[must_use]
@@ -116,7 +111,7 @@ pub fn judge(model: &Model) -> Independence {
         });
         let layout = model.layout();
         let stuck = constraints.stuck(&described).into_iter();
-        let stuck = stuck.map(|row| place_of(&layout, row));
+        let stuck = stuck.map(|row| layout.place_of(row));
         return Independence {
             stuck: stuck.collect(),
             contradictions: found.unwrap_or_default(),
@@ -215,10 +210,10 @@ pub fn judge(model: &Model) -> Independence {
     Independence {
         undetermined: undetermined(model, &kept, regular),
         redundant,
-        dormant: dormant.map(|row| place_of(&layout, row)).collect(),
+        dormant: dormant.map(|row| layout.place_of(row)).collect(),
         by_chance: by_chance
             .into_iter()
-            .map(|row| place_of(&layout, row))
+            .map(|row| layout.place_of(row))
             .collect(),
         is_alone,
         is_driven: constraints.is_driven(),
@@ -274,30 +269,6 @@ impl Found {
             kept,
         })
     }
-}
-
-/// A configuration, and some more that random motions lead to, each from the last: they walk away
-/// from the first. All satisfy the given rows, `None` for all.
-fn walk(
-    constraints: &Constraints,
-    start: Configuration,
-    rows: Option<&[usize]>,
-    random: &mut Random,
-) -> Vec<Configuration> {
-    let mut configurations = vec![start];
-    for _ in 0..SAMPLES {
-        let from = &configurations[configurations.len() - 1];
-        let mut motion = random.motion(constraints.velocities());
-        for _ in 0..=HALVINGS {
-            let reached = constraints.assembled_of(&constraints.moved(from, &motion), rows);
-            if let Some(reached) = reached {
-                configurations.push(reached);
-                break;
-            }
-            motion.iter_mut().for_each(|x| *x *= 0.5);
-        }
-    }
-    configurations
 }
 
 /// The rows that vanish at all configurations, though not everywhere.
@@ -386,10 +357,7 @@ fn undetermined(model: &Model, kept: &[usize], configurations: [&Rows; 2]) -> Ve
         .flat_map(|rows| followers(&layout, kept, rows))
         .flat_map(|(row, others)| others.into_iter().chain([row]))
         .collect();
-    found
-        .into_iter()
-        .map(|row| place_of(&layout, row))
-        .collect()
+    found.into_iter().map(|row| layout.place_of(row)).collect()
 }
 
 /// The rows that are not kept, and the joints whose rows they follow from.
@@ -398,10 +366,10 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
     let followers = followers(&layout, kept, rows).into_iter();
     followers
         .map(|(row, others)| {
-            let others = others.into_iter().map(|other| joint_of(&layout, other));
+            let others = others.into_iter().map(|other| layout.joint_of(other));
             let mut follows_from: Vec<usize> = others.collect();
             follows_from.dedup();
-            let (joint, row) = place_of(&layout, row);
+            let (joint, row) = layout.place_of(row);
             RedundantRow {
                 joint,
                 row,
@@ -409,37 +377,4 @@ fn redundant(model: &Model, kept: &[usize], rows: &Rows) -> Vec<RedundantRow> {
             }
         })
         .collect()
-}
-
-/// The joint of a row. Joints without rows stand at the place of the next.
-fn joint_of(layout: &Layout, row: usize) -> usize {
-    let joint = layout.row.iter().rposition(|&first| first <= row);
-    joint.unwrap_or(0)
-}
-
-/// The joint of a row, and its place among those of the joint.
-fn place_of(layout: &Layout, row: usize) -> (usize, usize) {
-    let joint = joint_of(layout, row);
-    (joint, row - layout.row[joint])
-}
-
-/// Numbers without a pattern, the same at every expansion (Marsaglia's xorshift).
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub(crate) const fn new() -> Self {
-        Self(0x9e37_79b9_7f4a_7c15)
-    }
-
-    /// Between -1 and 1.
-    pub(crate) fn number(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn motion(&mut self, velocities: usize) -> Vec<f64> {
-        (0..velocities).map(|_| MOTION * self.number()).collect()
-    }
 }

@@ -3,9 +3,9 @@
 //! Motions are measured without dimension: translations by the size of the mechanism, rotations in
 //! radians.
 
-use super::TOLERANCE;
 use super::displacement::{Twist, apply};
 use super::geometry::{along_screw, length, turned};
+use super::limits::TOLERANCE;
 use super::normal::solve_normal;
 use super::sparse::{Row, Rows, transposed};
 use crate::model::inertia::IDENTITY;

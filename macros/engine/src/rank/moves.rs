@@ -4,13 +4,14 @@
 //! both together anywhere: then the equations must hold, no motion may have a part along a
 //! gradient, and there must be as many motions as the rank of the gradients leaves.
 
-use super::TOLERANCE;
+use super::assemble;
 use super::dense::norm;
 use super::displacement::{Displacement, Twist, apply};
+use super::limits::TOLERANCE;
 use super::motion::{Configuration, Constraints};
+use super::random::Random;
 use super::span::independent;
 use super::sparse::{Row, Rows, width};
-use super::{Random, assemble};
 use crate::model::{BodyKind, Comparison, Direction, Element, Model, Motion};
 use crate::symbolic::arena::Arena;
 use crate::symbolic::fixed::{Copies, copies};

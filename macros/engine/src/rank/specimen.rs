@@ -5,7 +5,8 @@
 
 use proc_macro2::{Ident, TokenStream};
 
-use super::{Random, moves};
+use super::moves;
+use super::random::Random;
 use crate::model::inertia::{IDENTITY, rotation};
 use crate::model::{
     Binding, Body, BodyKind, Comparison, Coordinates, Element, ElementDef, Extent, Independence,

@@ -1,7 +1,7 @@
 //! Ways of a mechanism: along what its constraints leave free, and as time goes on.
 
-use super::TOLERANCE;
 use super::dense::norm;
+use super::limits::TOLERANCE;
 use super::motion::{Configuration, Constraints};
 use super::span::Span;
 use super::sparse::Rows;

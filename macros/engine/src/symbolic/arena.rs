@@ -140,10 +140,10 @@ impl Arena {
         let node = self.get(expr);
         if node.is_operation() && expr.node() != with.node() {
             let with = with.with_sign_of(expr.is_negative());
-            match self.identified.find(node) {
+            match self.identified.find(node.key()) {
                 Some(known) => self.identities[known as usize] = with,
                 None => {
-                    self.identified.push(node);
+                    self.identified.push(node.key());
                     self.identities.push(with);
                 }
             }
@@ -151,10 +151,10 @@ impl Arena {
     }
 
     fn intern(&mut self, node: Node) -> Expr {
-        if let Some(known) = self.identified.find(node) {
+        if let Some(known) = self.identified.find(node.key()) {
             return self.identities[known as usize];
         }
-        if let Some(place) = self.index.find(node) {
+        if let Some(place) = self.index.find(node.key()) {
             return Expr::new(place, false);
         }
         let place = u32::try_from(self.nodes.len()).expect("fewer than 2^31 nodes");
@@ -166,7 +166,7 @@ impl Arena {
         self.nodes.push(node);
         self.stages.push(stage);
         self.without_number.push(without_number);
-        self.index.push(node);
+        self.index.push(node.key());
         Expr::new(place, false)
     }
 

@@ -1,9 +1,8 @@
 //! Definitions bound to the bodies and numbers of a mechanism.
 
 use super::arena::{Arena, Expr, Input};
-use super::differentiate::{ScalarExpr, VectorExpr};
+use super::expression::{AngleExpr, PairedAngles, ScalarExpr, VectorExpr};
 use super::fixed::{Copies, axis_and_normals, copies, number, triple};
-use super::functions::{AngleExpr, PairedAngles};
 use super::start;
 use super::vector::{Triple, ZERO};
 use crate::model::{Action, Binding, Element, Function, LawTerm, Model, Term, Turn};

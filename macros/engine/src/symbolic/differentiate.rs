@@ -3,137 +3,17 @@
 //! Two rules, never a component of `p`: a virtual rotation `dw` (body axes) moves a vector `A s` by
 //! `A (dw x s)`, and time does the same with `w`. Everything else is the product rule.
 
-use std::collections::BTreeMap;
-
 use super::arena::{Arena, Expr};
-use super::functions::AngleExpr;
+use super::expression::{AngleExpr, PairedAngle, ScalarExpr, VectorExpr};
 use super::identities::TwoVectors;
-use super::vector::{Frame, Space, Triple, VectorId, ZERO};
-use crate::model::Function;
-
-/// A vector expression of a constraint, bound to the bodies of a mechanism.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum VectorExpr {
-    /// A vector fixed on a body (in its principal axes), or on the ground (`None`).
-    Fixed(Option<usize>, Triple),
-    /// A point fixed on a body, from its centre of mass; or on the ground, from the global origin.
-    Point(Option<usize>, Triple),
-    /// A sum with signs and constant factors.
-    Sum(Vec<(Expr, VectorExpr)>),
-    /// A scalar expression times a vector expression.
-    Scaled(Box<ScalarExpr>, Box<VectorExpr>),
-    /// A cross product.
-    Cross(Box<VectorExpr>, Box<VectorExpr>),
-}
-
-/// A scalar expression of a constraint.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ScalarExpr {
-    /// A number that does not depend on the state.
-    Constant(Expr),
-    /// A scalar product.
-    Dot(Box<VectorExpr>, Box<VectorExpr>),
-    /// A sum with constant factors.
-    Sum(Vec<(Expr, ScalarExpr)>),
-    /// A product.
-    Product(Box<ScalarExpr>, Box<ScalarExpr>),
-    /// The time.
-    Time,
-    /// A function.
-    Function(Function, Box<ScalarExpr>),
-    /// An angle over many turns.
-    Angle(Box<AngleExpr>),
-    /// The time derivative, which has no derivative of its own.
-    Rate(Box<ScalarExpr>),
-}
-
-/// Position and rates of the bodies, as vectors.
-#[derive(Clone, Debug)]
-pub struct Motion {
-    /// `r` of every body.
-    pub position: Vec<VectorId>,
-    /// `v` of every body.
-    pub velocity: Vec<VectorId>,
-    /// `w` of every body.
-    pub spin: Vec<VectorId>,
-    /// The components of `w` in body axes.
-    pub spin_components: Vec<Triple>,
-    /// The point of every body whose acceleration is an unknown and about which moments are taken,
-    /// from the centre of mass in body axes: the centre of mass itself unless a plan says
-    /// otherwise. Positions and velocities are always those of centres of mass.
-    pub reference: Vec<Triple>,
-    /// The time.
-    pub time: Expr,
-}
-
-impl Motion {
-    /// A point of a body from the point of reference.
-    fn arm(&self, space: &mut Space, body: usize, point: Triple) -> Triple {
-        let reference = self.reference[body];
-        [0, 1, 2].map(|k| space.arena.sub(point[k], reference[k]))
-    }
-}
-
-/// The gradient of a scalar: the force and the moment on every body by which a virtual motion
-/// `(dr, dw)` is multiplied.
-#[derive(Clone, Debug, Default)]
-pub struct Gradient {
-    force: BTreeMap<usize, Vec<(Expr, VectorId)>>,
-    moment: BTreeMap<usize, Vec<(Expr, VectorId)>>,
-    /// What is along a velocity by itself, not by way of a body.
-    along: Vec<(usize, Expr)>,
-    /// Whether nothing goes along velocities by itself, but all by way of the bodies.
-    pub(super) is_by_bodies: bool,
-}
-
-impl Gradient {
-    /// A gradient that is made of forces and moments on bodies alone, whatever coordinates know.
-    #[must_use]
-    pub fn by_bodies() -> Self {
-        Self {
-            is_by_bodies: true,
-            ..Self::default()
-        }
-    }
-
-    /// Adds a moment on a body.
-    pub fn add_moment(&mut self, body: usize, moment: VectorId) {
-        let moments = self.moment.entry(body).or_default();
-        moments.push((Arena::ONE, moment));
-    }
-
-    /// Adds a generalised force on a velocity.
-    pub(super) fn push_along(&mut self, velocity: usize, factor: Expr) {
-        self.along.push((velocity, factor));
-    }
-
-    /// Adds what is along velocities by itself to the generalised forces on them.
-    pub(crate) fn add_along(&self, arena: &mut Arena, generalised: &mut [Expr]) {
-        for &(velocity, factor) in &self.along {
-            generalised[velocity] = arena.add(generalised[velocity], factor);
-        }
-    }
-
-    /// The factor of `dr` of a body.
-    pub fn force(&self, space: &mut Space, body: usize) -> VectorId {
-        space.sum(self.force.get(&body).into_iter().flatten().copied())
-    }
-
-    /// The factor of `dw` of a body.
-    pub fn moment(&self, space: &mut Space, body: usize) -> VectorId {
-        space.sum(self.moment.get(&body).into_iter().flatten().copied())
-    }
-}
-
-pub(super) fn body_frame(body: Option<usize>) -> Frame {
-    body.map_or(Frame::Global, Frame::Body)
-}
+use super::motion::{Gradient, Motion};
+use super::vector::{Frame, Space, VectorId, ZERO};
 
 impl VectorExpr {
     /// The vector itself.
     pub fn value(&self, space: &mut Space, motion: &Motion) -> VectorId {
         match self {
-            Self::Fixed(body, s) => space.native(body_frame(*body), *s),
+            Self::Fixed(body, s) => space.native(Frame::of(*body), *s),
             Self::Point(None, s) => space.native(Frame::Global, *s),
             Self::Point(Some(body), s) => {
                 let arm = space.native(Frame::Body(*body), *s);
@@ -249,18 +129,10 @@ impl VectorExpr {
                 let vector = space.native(Frame::Body(*body), *s);
                 let covector = space.outside(covector, *body);
                 let moment = space.cross(Frame::Body(*body), vector, covector);
-                gradient
-                    .moment
-                    .entry(*body)
-                    .or_default()
-                    .push((factor, moment));
+                gradient.push_moment(*body, factor, moment);
             }
             Self::Point(Some(body), s) => {
-                gradient
-                    .force
-                    .entry(*body)
-                    .or_default()
-                    .push((factor, covector));
+                gradient.push_force(*body, factor, covector);
                 let arm = motion.arm(space, *body, *s);
                 Self::Fixed(Some(*body), arm).pull_back(space, motion, factor, covector, gradient);
             }
@@ -450,4 +322,105 @@ fn weighted(
         sum = space.arena.add(sum, product);
     }
     sum
+}
+
+impl AngleExpr {
+    /// `atan2(s, c) + 2 pi round((near - atan2(s, c)) / 2 pi)`.
+    pub fn value(&self, space: &mut Space, motion: &Motion) -> Expr {
+        let (sine, cosine) = self.parts(space, motion);
+        let arena = &mut space.arena;
+        let within = arena.atan2(sine, cosine);
+        let turn = arena.constant(std::f64::consts::TAU);
+        let beyond = arena.sub(self.near, within);
+        let turns = arena.div(beyond, turn);
+        let turns = arena.round(turns);
+        let full = arena.mul(turn, turns);
+        arena.add(within, full)
+    }
+
+    /// `(c s' - s c') / (c^2 + s^2)`.
+    pub fn rate(&self, space: &mut Space, motion: &Motion) -> Expr {
+        if let Some(paired) = &self.paired {
+            return paired.rate(&mut space.arena);
+        }
+        let (s, c) = self.parts(space, motion);
+        let (ds, dc) = (
+            self.sine.rate(space, motion),
+            self.cosine.rate(space, motion),
+        );
+        let forth = space.arena.mul(c, ds);
+        let back = space.arena.mul(s, dc);
+        let area = space.arena.sub(forth, back);
+        let inverse = inverse_square(&mut space.arena, s, c);
+        space.arena.mul(area, inverse)
+    }
+
+    /// `(c s'' - s c'' - 2 angle' (c c' + s s')) / (c^2 + s^2)` without accelerations.
+    pub fn bias(&self, space: &mut Space, motion: &Motion) -> Expr {
+        if self.paired.is_some() {
+            return Arena::ZERO;
+        }
+        let (s, c) = self.parts(space, motion);
+        let rate = self.rate(space, motion);
+        let (ds, dc) = (
+            self.sine.rate(space, motion),
+            self.cosine.rate(space, motion),
+        );
+        let (dds, ddc) = (
+            self.sine.bias(space, motion),
+            self.cosine.bias(space, motion),
+        );
+        let arena = &mut space.arena;
+        let products = [arena.mul(c, dds), -arena.mul(s, ddc)];
+        let area = arena.sum(products);
+        let growth = [arena.mul(c, dc), arena.mul(s, ds)];
+        let growth = arena.sum(growth);
+        let twice = arena.add(growth, growth);
+        let turning = arena.mul(rate, twice);
+        let area = arena.sub(area, turning);
+        let inverse = inverse_square(arena, s, c);
+        arena.mul(area, inverse)
+    }
+
+    /// Adds `seed` times the gradient.
+    pub fn pull_back(
+        &self,
+        space: &mut Space,
+        motion: &Motion,
+        seed: Expr,
+        gradient: &mut Gradient,
+    ) {
+        if let (Some(paired), false) = (&self.paired, gradient.is_by_bodies) {
+            for &(velocity, sign) in &paired.along {
+                let factor = space.arena.mul(sign, seed);
+                gradient.push_along(velocity, factor);
+            }
+            return;
+        }
+        // Not those of pairs, which lack the positive number that both are multiplied with.
+        let s = self.sine.value(space, motion);
+        let c = self.cosine.value(space, motion);
+        let inverse = inverse_square(&mut space.arena, s, c);
+        let seed = space.arena.mul(seed, inverse);
+        let (on_sine, on_cosine) = (space.arena.mul(seed, c), space.arena.mul(seed, s));
+        self.sine.pull_back(space, motion, on_sine, gradient);
+        self.cosine.pull_back(space, motion, -on_cosine, gradient);
+    }
+
+    fn parts(&self, space: &mut Space, motion: &Motion) -> (Expr, Expr) {
+        if let Some(PairedAngle { cosine, sine, .. }) = &self.paired {
+            return (*sine, *cosine);
+        }
+        (
+            self.sine.value(space, motion),
+            self.cosine.value(space, motion),
+        )
+    }
+}
+
+/// `1 / (c^2 + s^2)`.
+fn inverse_square(arena: &mut Arena, s: Expr, c: Expr) -> Expr {
+    let (ss, cc) = (arena.square(s), arena.square(c));
+    let sum = arena.add(cc, ss);
+    arena.reciprocal(sum)
 }

@@ -2,8 +2,9 @@
 //! energies, rates of coordinates, the described state.
 
 use super::arena::{Arena, Expr};
+use super::expression::Constraint;
 use super::fixed::{initial_orientation, triple};
-use super::scene::{Constraint, Scene};
+use super::scene::Scene;
 use super::vector::{self, Frame, Triple};
 use crate::model::inertia::rotation;
 use crate::model::{BodyKind, Model};

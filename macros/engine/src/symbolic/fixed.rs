@@ -5,7 +5,8 @@
 //! computes once.
 
 use super::arena::{Arena, Expr, Input};
-use super::vector::{Triple, cross, dot};
+use super::rotation::homogeneous_rotation;
+use super::vector::{Triple, ZERO, cross, dot};
 use crate::model::inertia::{compose, rotation, snap};
 use crate::model::number::literals;
 use crate::model::{Binding, Body, BodyKind, Element, Model, Number, ParameterKind};
@@ -60,7 +61,7 @@ pub fn matrix(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     if let [Some(e0), Some(e1), Some(e2), Some(e3)] = values {
         return rotation([e0, e1, e2, e3]).map(|row| row.map(|entry| arena.constant(entry)));
     }
-    super::scene::homogeneous_rotation(arena, p)
+    homogeneous_rotation(arena, p)
 }
 
 pub(crate) fn transpose(m: [Triple; 3]) -> [Triple; 3] {
@@ -153,7 +154,7 @@ pub(crate) fn placement(arena: &mut Arena, model: &Model, body: Option<usize>) -
     let identity = rotation([1.0, 0.0, 0.0, 0.0]).map(|row| row.map(|entry| arena.constant(entry)));
     let Some(body) = body.map(|body| &model.bodies[body]) else {
         return Placement {
-            position: super::vector::ZERO,
+            position: ZERO,
             axes: identity,
             user_axes: identity,
         };

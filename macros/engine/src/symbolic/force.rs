@@ -2,7 +2,7 @@
 
 use super::arena::{Arena, Expr};
 use super::bind::Effect;
-use super::differentiate::Gradient;
+use super::motion::Gradient;
 use super::scene::Scene;
 
 impl Scene {

@@ -2,9 +2,9 @@
 //! length 1.
 
 use super::arena::{Arena, Expr};
-use super::differentiate::{Motion, ScalarExpr, VectorExpr, body_frame};
-use super::scene::Constraint;
-use super::vector::{Space, Triple, ZERO, dot};
+use super::expression::{Constraint, ScalarExpr, VectorExpr};
+use super::motion::Motion;
+use super::vector::{Frame, Space, Triple, ZERO, dot};
 
 /// Two vectors, fixed on two bodies.
 pub(super) struct TwoVectors {
@@ -28,9 +28,9 @@ impl TwoVectors {
     pub(super) fn bias(&self, space: &mut Space, motion: &Motion) -> Expr {
         let spins = self.bodies.map(|body| match body {
             Some(body) => motion.spin[body],
-            None => space.native(body_frame(None), ZERO),
+            None => space.native(Frame::of(None), ZERO),
         });
-        let [a, b] = [0, 1].map(|k| space.native(body_frame(self.bodies[k]), self.vectors[k]));
+        let [a, b] = [0, 1].map(|k| space.native(Frame::of(self.bodies[k]), self.vectors[k]));
         let relative = space.sum([(Arena::ONE, spins[0]), (-Arena::ONE, spins[1])]);
         let [ia, ib] = [a, b].map(|vector| space.dot(spins[0], vector));
         let [ja, jb] = [a, b].map(|vector| space.dot(spins[1], vector));

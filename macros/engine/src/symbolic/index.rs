@@ -1,7 +1,6 @@
-//! Where each node of an arena stands. Every operation is looked up here, by a macro that is
-//! compiled without optimisation in the crates of users: loops over places, and nothing generic.
-
-use super::node::Node;
+//! Where each node of an arena stands, by its key. Every operation is looked up here, by a macro
+//! that is compiled without optimisation in the crates of users: loops over places, and nothing
+//! generic.
 
 /// A node in two words.
 #[derive(Clone, Copy, Debug)]
@@ -52,21 +51,20 @@ impl Default for Index {
 
 impl Index {
     /// The number of a key.
-    pub(super) fn find(&self, node: Node) -> Option<u32> {
-        let key = node.key();
+    pub(super) fn find(&self, key: Key) -> Option<u32> {
         let found = self.places[self.probe(key)];
         if found == EMPTY { None } else { Some(found) }
     }
 
     /// Adds a key that is not there.
-    pub(super) fn push(&mut self, node: Node) {
+    pub(super) fn push(&mut self, key: Key) {
         if 2 * (self.keys.len() + 1) > self.places.len() {
             self.places = vec![EMPTY; 2 * self.places.len()];
             for number in 0..self.keys.len() {
                 self.enter(number);
             }
         }
-        self.keys.push(node.key());
+        self.keys.push(key);
         self.enter(self.keys.len() - 1);
     }
 
@@ -102,25 +100,25 @@ impl Index {
 
 #[cfg(test)]
 mod tests {
-    use super::{Index, Node};
+    use super::{Index, Key};
 
-    fn nodes() -> impl Iterator<Item = Node> {
-        (0..1000_u64).map(|bits| Node::Constant((bits * bits) << 20))
+    fn keys() -> impl Iterator<Item = Key> {
+        (0..1000_u64).map(|bits| Key::new(0, (bits * bits) << 20))
     }
 
     #[test]
     fn what_was_added_is_found_until_it_is_removed() {
         let mut index = Index::default();
-        for (number, node) in nodes().enumerate() {
-            assert_eq!(index.find(node), None);
-            index.push(node);
-            assert_eq!(index.find(node), Some(number as u32));
+        for (number, key) in keys().enumerate() {
+            assert_eq!(index.find(key), None);
+            index.push(key);
+            assert_eq!(index.find(key), Some(number as u32));
         }
         for kept in [999, 500, 17, 0] {
             index.truncate(kept);
-            for (number, node) in nodes().enumerate() {
+            for (number, key) in keys().enumerate() {
                 let known = (number < kept).then_some(number as u32);
-                assert_eq!(index.find(node), known);
+                assert_eq!(index.find(key), known);
             }
         }
     }

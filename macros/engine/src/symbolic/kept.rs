@@ -1,8 +1,7 @@
 //! Constraints of which some equations are left out.
 
 use super::arena::Arena;
-use super::differentiate::{ScalarExpr, VectorExpr};
-use super::scene::Constraint;
+use super::expression::{Constraint, ScalarExpr, VectorExpr};
 use super::vector::ZERO;
 
 /// What is left of a constraint whose first equation stands at `first` among those of its joint's

@@ -11,15 +11,15 @@
 //! accelerations, so `gamma = -bias`. The term `w x (w x s)` is made of the products `w_k w_l`,
 //! which all vectors of a body share. Vectors of a body along one line have one `w x (w x e)`.
 //!
-//! Binding. `bind.rs` replaces formal bodies and numbers by those of a mechanism and expands laws.
-//! Later stages see expressions only. `start.rs` evaluates `initial` and `fixed`. `fixed.rs` makes
-//! the copies of points and axes on the bodies. An axis has two normals on every body,
-//! right-handed with that body's copy. All bodies share them in the reference configuration if the
-//! copies of the axis agree there. Otherwise the least rotation takes the normals of the first
-//! body to the others.
+//! Binding. `expression.rs` has the expressions that are bound to bodies. `bind.rs` replaces formal
+//! bodies and numbers by those of a mechanism and expands laws. Later stages see expressions only.
+//! `start.rs` evaluates `initial` and `fixed`. `fixed.rs` makes the copies of points and axes on
+//! the bodies. An axis has two normals on every body, right-handed with that body's copy. All
+//! bodies share them in the reference configuration if the copies of the axis agree there.
+//! Otherwise the least rotation takes the normals of the first body to the others.
 //!
-//! Functions and forces. `functions.rs` has two derivatives of each function, and the angle over
-//! many turns: `atan2(s, c) + 2 pi round((x - atan2(s, c)) / 2 pi)`. The auxiliary variable `x` of
+//! Functions and forces. `functions.rs` has two derivatives of each function. The angle over many
+//! turns is `atan2(s, c) + 2 pi round((x - atan2(s, c)) / 2 pi)`. The auxiliary variable `x` of
 //! the state decides on the turn only. Derivatives are those of `atan2`. Forces (`force.rs`) pull
 //! a potential back with -1 and an effort along a coordinate with itself, by the reverse mode of
 //! `D`. Module `kept` leaves equations out. Module `left_out` writes the omitted equations as a
@@ -42,6 +42,7 @@ pub mod count;
 pub mod differentiate;
 pub mod equations;
 pub mod evaluate;
+pub mod expression;
 pub mod fixed;
 mod force;
 pub mod functions;
@@ -50,6 +51,7 @@ mod identities;
 mod index;
 mod kept;
 pub mod left_out;
+pub mod motion;
 mod node;
 pub mod rotation;
 pub mod scene;

@@ -3,14 +3,15 @@
 
 use super::arena::{Arena, Expr, Input};
 use super::bind::{Binder, Effect, all_copies};
-use super::differentiate::{Gradient, Motion, ScalarExpr, VectorExpr};
+use super::expression::{AngleExpr, Constraint, PairedAngles, ScalarExpr, VectorExpr};
 use super::fixed::{Copies, number, triple};
-use super::functions::{AngleExpr, PairedAngles};
 use super::identities::from_centres;
 use super::kept::kept;
-use super::rotation::{complete, own_cofactors, unit_rotation};
-pub use super::rotation::{homogeneous_rotation, normalised_rotation};
-use super::vector::{Frame, Space, Triple};
+use super::motion::{Gradient, Motion};
+use super::rotation::{
+    complete, homogeneous_rotation, normalised_rotation, own_cofactors, unit_rotation,
+};
+use super::vector::{Frame, Space, Triple, ZERO};
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, ElementKind, Model, Row, Term};
 
@@ -56,15 +57,6 @@ pub struct Chart {
     pub rotation: Option<[Triple; 3]>,
     /// Euler parameters, where these are coordinates.
     pub orientation: Option<[Expr; 4]>,
-}
-
-/// One constraint of a mechanism.
-#[derive(Clone, Debug)]
-pub enum Constraint {
-    /// One equation.
-    Scalar(ScalarExpr),
-    /// Three equations, in whatever axes.
-    Vector(VectorExpr),
 }
 
 /// A constraint and where its rows stand.
@@ -136,7 +128,7 @@ fn has_equal_moments([a, b, c]: &Triple) -> bool {
 
 /// `m (c.c I - c c^T)`: the tensor of inertia of a mass on a point.
 fn huygens(arena: &mut Arena, m: Expr, c: Triple) -> [Triple; 3] {
-    let mut tensor = [super::vector::ZERO; 3];
+    let mut tensor = [ZERO; 3];
     for k in 0..3 {
         for l in 0..3 {
             let (a, b) = ((k + 1) % 3, (k + 2) % 3);
@@ -171,7 +163,7 @@ impl Scene {
             let mut chart = Chart {
                 position,
                 velocity,
-                spin: super::vector::ZERO,
+                spin: ZERO,
                 rotation: None,
                 orientation: None,
             };
@@ -249,7 +241,7 @@ impl Scene {
                 .map(|(body, chart)| space.native(Frame::Body(body), chart.spin))
                 .collect(),
             spin_components: charts.iter().map(|chart| chart.spin).collect(),
-            reference: vec![super::vector::ZERO; charts.len()],
+            reference: vec![ZERO; charts.len()],
             time,
         };
         let mut constraints = Vec::new();
@@ -404,7 +396,7 @@ impl Scene {
             }
             Constraint::Vector(vector) => [0, 1, 2]
                 .map(|k| {
-                    let mut unit = super::vector::ZERO;
+                    let mut unit = ZERO;
                     unit[k] = Arena::ONE;
                     let covector = space.native(frame, unit);
                     let mut gradient = empty();

@@ -1,7 +1,7 @@
 //! Expressions in the reference configuration, where every body stands as its attributes say.
 
 use super::arena::{Arena, Expr};
-use super::differentiate::{ScalarExpr, VectorExpr};
+use super::expression::{ScalarExpr, VectorExpr};
 use super::fixed::{Placement, apply, clean, placement, size, transpose};
 use super::vector::{Triple, ZERO, cross, dot};
 use crate::model::Model;

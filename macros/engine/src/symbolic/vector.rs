@@ -25,6 +25,13 @@ pub enum Frame {
     Body(usize),
 }
 
+impl Frame {
+    /// The axes of a body, or of the ground (`None`).
+    pub(super) fn of(body: Option<usize>) -> Self {
+        body.map_or(Self::Global, Self::Body)
+    }
+}
+
 /// Three components.
 pub type Triple = [Expr; 3];
 

@@ -10,8 +10,8 @@ use quote::{ToTokens, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{BinOp, Expr, ExprIf, Ident, Stmt, Type, TypeArray};
 
+use super::field::Field;
 use super::integer::{condition, integer};
-use super::mechanism::Field;
 use super::{KeyValue, List, Value, ungroup};
 use crate::diag::{Faults, code};
 use crate::model::Name;

@@ -3,7 +3,7 @@
 
 use proc_macro2::{Literal, Span, TokenStream, TokenTree, token_stream};
 
-use super::split;
+use super::piece::split;
 
 /// The deepest expression that is read: operators in a row and brackets within each other.
 pub const DEEPEST: usize = 300;

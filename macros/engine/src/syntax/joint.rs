@@ -23,6 +23,7 @@ use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Attribute, Token, Visibility};
 
 use super::motion::{MotionSyntax, motions};
+use super::piece::around;
 use super::{Piece, split};
 use crate::diag::{Faults, list};
 use crate::model::{ElementKind, ParameterKind};
@@ -328,32 +329,6 @@ fn parameters(pieces: &[Piece], faults: &mut Faults) -> Vec<ParameterSyntax> {
         .iter()
         .filter_map(|piece| piece.parse(parameter, faults))
         .collect()
-}
-
-/// What stands before and behind a word, if it stands between two operands of the piece.
-pub(super) fn around(piece: &Piece, word: &str) -> Option<(Piece, Ident, Piece)> {
-    let mut before = TokenStream::new();
-    let mut tokens = piece.tokens.clone().into_iter();
-    let mut behind_operand = false;
-    while let Some(token) = tokens.next() {
-        let is_infix = behind_operand;
-        behind_operand = !matches!(token, TokenTree::Punct(_));
-        match token {
-            TokenTree::Ident(found) if is_infix && found == word => {
-                let before = Piece {
-                    tokens: before,
-                    end: found.span(),
-                };
-                let behind = Piece {
-                    tokens: tokens.collect(),
-                    end: piece.end,
-                };
-                return Some((before, found, behind));
-            }
-            other => before.extend([other]),
-        }
-    }
-    None
 }
 
 /// The word at the start of a piece, where an operand and no operator stands behind it, and the

@@ -2,26 +2,20 @@
 
 pub mod array;
 pub mod depth;
+mod field;
 pub mod integer;
 pub mod joint;
 pub mod mechanism;
 pub mod motion;
+mod piece;
 pub mod words;
 
-use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Ident, Token};
 
+pub use self::piece::{Piece, split};
 use crate::diag::Faults;
-
-/// Tokens between two separators.
-#[derive(Clone, Debug)]
-pub struct Piece {
-    /// The tokens, without the separator.
-    pub tokens: TokenStream,
-    /// Where the piece ends: its separator, or its last token.
-    pub end: Span,
-}
 
 impl Piece {
     /// Parses the whole piece, unless it is too deep. What is missing at its end is reported at its
@@ -70,29 +64,6 @@ impl Piece {
             None => error,
         }
     }
-}
-
-/// Splits tokens at a separator, so that one faulty piece does not hide the others. An empty last
-/// piece is left out.
-#[must_use]
-pub fn split(tokens: TokenStream, separator: char) -> Vec<Piece> {
-    let mut pieces = Vec::new();
-    let mut piece = TokenStream::new();
-    let mut end = Span::call_site();
-    for token in tokens {
-        end = token.span();
-        match &token {
-            TokenTree::Punct(punct) if punct.as_char() == separator => {
-                let tokens = std::mem::take(&mut piece);
-                pieces.push(Piece { tokens, end });
-            }
-            _ => piece.extend([token]),
-        }
-    }
-    if !piece.is_empty() {
-        pieces.push(Piece { tokens: piece, end });
-    }
-    pieces
 }
 
 /// Takes invisible groups, which `macro_rules` leave around fragments, away.

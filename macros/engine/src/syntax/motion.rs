@@ -9,7 +9,7 @@
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use syn::parse::ParseStream;
 
-use super::joint::around;
+use super::piece::around;
 use super::{Piece, split};
 use crate::diag::{Faults, did_you_mean, list};
 

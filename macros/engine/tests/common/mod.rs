@@ -1,7 +1,7 @@
 //! What a compiler session does between the derive and `assemble!`, without the compiler.
 #![allow(dead_code, reason = "every test uses a part of it")]
 
-use holonom_engine::check::mechanism::{Definition, Definitions};
+use holonom_engine::check::definition::{Definition, Definitions};
 use holonom_engine::diag::Faults;
 use holonom_engine::model::{BodyKind, ElementDef, ElementKind, Model};
 use holonom_engine::{check, passes, syntax};

@@ -3,7 +3,7 @@
 
 use holonom_engine::coordinates::candidates::Strategy;
 use holonom_engine::model::Model;
-use holonom_engine::plan::Plans;
+use holonom_engine::plan::candidates::Plans;
 use holonom_engine::plan::candidates::all;
 use holonom_engine::plan::kernels::{Evaluation, Kernels, evaluation};
 use holonom_engine::plan::system::Terms;
