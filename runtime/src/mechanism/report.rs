@@ -212,11 +212,6 @@ pub struct JointInfo {
     /// unique: they take part in a dependence of equations, so that [`Report::redundant`] could
     /// have been chosen otherwise. Empty where [`Report::rank`] is not decided, too.
     pub undetermined: &'static [usize],
-    /// What the joint costs by itself: `Phi`, `D` (rows along global axes) and `gamma` together, as
-    /// functions of position, Euler parameters of length 1, velocity and angular velocity of its
-    /// bodies, the last in global axes too. In the kernels of a mechanism joints share operations,
-    /// with each other and with the solution.
-    pub operations: Operations,
 }
 
 /// A force and its bodies.

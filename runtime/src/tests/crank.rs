@@ -90,7 +90,6 @@ impl Mechanism for Crank {
             auxiliary: 7,
             auxiliaries: 1,
             undetermined: &[],
-            operations: Operations::NONE,
         }],
         blocks: &[Block {
             joint: 0,

@@ -90,7 +90,6 @@ impl Mechanism for Rod {
             auxiliary: 7,
             auxiliaries: 0,
             undetermined: &[],
-            operations: Operations::NONE,
         }],
         forces: &[],
         carriers: &[Carrier {

@@ -33,18 +33,17 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
     }
     if !model.joints.is_empty() {
         lines.push(String::new());
-        lines.push("| joint | type | between | rows | operations by itself |".into());
-        lines.push("|---|---|---|---|---|".into());
+        lines.push("| joint | type | between | rows |".into());
+        lines.push("|---|---|---|---|".into());
         for (place, joint) in model.joints.iter().enumerate() {
             let first = layout.row[place];
             lines.push(format!(
-                "| `{}` | {} | {} | {}..{} | {} |",
+                "| `{}` | {} | {} | {}..{} |",
                 joint.name,
                 model.definition(joint).name,
                 between(model, joint),
                 first,
-                first + model.equations(joint),
-                kernels.alone[place].total()
+                first + model.equations(joint)
             ));
         }
     }

@@ -197,13 +197,11 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (auxiliary, auxiliaries) = auxiliaries(place);
         let undetermined = model.independence.undetermined.iter();
         let undetermined = undetermined.filter_map(|&(of, row)| (of == place).then_some(row));
-        let operations = operations(kernels.alone[place], facade);
         quote! {
             #facade::JointInfo {
                 name: #name, kind: #kind, row: #row, rows: #rows, bodies: &[#(#bodies),*], has_angle: #has_angle,
                 has_displacement: #has_displacement, has_point: #has_point,
                 auxiliary: #auxiliary, auxiliaries: #auxiliaries, undetermined: &[#(#undetermined),*],
-                operations: #operations,
             }
         }
     });

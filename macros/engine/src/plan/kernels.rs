@@ -1,7 +1,6 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
 use super::Plan;
-use super::alone::alone;
 use super::candidates::{Factorised, Plans, cheapest, first, solved};
 use super::eliminate::Check;
 use super::readouts::Readouts;
@@ -9,7 +8,6 @@ use super::reference::by_numbers;
 use super::system::{System, Terms, applied_forces};
 use crate::model::Model;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
-use crate::symbolic::count::Count;
 use crate::symbolic::equations::{
     Block, Kernel, coordinate_rates, counters, initial_state, jacobian, kinds, kinetic_energy,
     mass, potential_energy, rows, vector_rows, with_scene,
@@ -89,8 +87,6 @@ pub struct Kernels {
     pub power: Kernel,
     /// What can be read of joints and forces.
     pub readouts: Readouts,
-    /// What each joint costs by itself.
-    pub alone: Vec<Count>,
     /// The fused evaluations for all terms, those that read Euler parameters as they are before
     /// those that normalise them. None where the mechanism is described by its joints alone.
     pub evaluations: Vec<Evaluation>,
@@ -139,9 +135,6 @@ impl Kernels {
             kinetic_energy: kinetic_energy(scene),
             potential_energy: potential_energy(scene),
             coordinate_rates: with_scene(scene, |scene| coordinate_rates(scene, model)),
-            alone: (0..model.joints.len())
-                .map(|joint| alone(model, joint).count())
-                .collect(),
             initial_state: initial_state(model),
             counters: counters(scene),
             power: with_scene(scene, |scene| {

@@ -42,10 +42,8 @@
 //! `docs/decisions/005-choice-of-a-plan.md`.
 //!
 //! Other kernels. Readings have kernels in `readouts.rs`: angles, displacements, points of
-//! reactions, energy, power, loads, sides. Module `alone` counts `Phi`, `D` and `gamma` of each
-//! joint alone, for comparison with derivations by hand. They are not emitted.
+//! reactions, energy, power, loads, sides.
 
-pub mod alone;
 mod augmented;
 pub mod candidates;
 mod carried;

@@ -5,7 +5,6 @@
 
 use super::arena::{Arena, Expr};
 use super::expression::{AngleExpr, PairedAngle, ScalarExpr, VectorExpr};
-use super::identities::TwoVectors;
 use super::motion::{Gradient, Motion};
 use super::vector::{Frame, Space, VectorId, ZERO};
 
@@ -221,18 +220,15 @@ impl ScalarExpr {
     pub fn bias(&self, space: &mut Space, motion: &Motion) -> Expr {
         match self {
             Self::Constant(_) => Arena::ZERO,
-            Self::Dot(a, b) => match TwoVectors::of(a, b) {
-                Some(pair) if space.has_identities() => space
-                    .cheapest(&[false, true], |space, turning| {
-                        if turning {
-                            pair.bias(space, motion)
-                        } else {
-                            product_rule(space, motion, a, b)
-                        }
-                    })
-                    .expect("two ways were tried"),
-                _ => product_rule(space, motion, a, b),
-            },
+            Self::Dot(a, b) => {
+                let (dda, ddb) = (a.bias(space, motion), b.bias(space, motion));
+                let (da, db) = (a.rate(space, motion), b.rate(space, motion));
+                let (a, b) = (a.value(space, motion), b.value(space, motion));
+                let (first, mixed, last) =
+                    (space.dot(dda, b), space.dot(da, db), space.dot(a, ddb));
+                let twice = space.arena.add(mixed, mixed);
+                space.arena.sum([first, twice, last])
+            }
             Self::Sum(terms) => weighted(space, motion, terms, Self::bias),
             Self::Product(a, b) => {
                 let (dda, ddb) = (a.bias(space, motion), b.bias(space, motion));
@@ -297,16 +293,6 @@ impl ScalarExpr {
             Self::Rate(_) => unreachable!("only positions have a gradient in the language"),
         }
     }
-}
-
-/// `(a . b)''` without accelerations, by the product rule.
-fn product_rule(space: &mut Space, motion: &Motion, a: &VectorExpr, b: &VectorExpr) -> Expr {
-    let (dda, ddb) = (a.bias(space, motion), b.bias(space, motion));
-    let (da, db) = (a.rate(space, motion), b.rate(space, motion));
-    let (a, b) = (a.value(space, motion), b.value(space, motion));
-    let (first, mixed, last) = (space.dot(dda, b), space.dot(da, db), space.dot(a, ddb));
-    let twice = space.arena.add(mixed, mixed);
-    space.arena.sum([first, twice, last])
 }
 
 fn weighted(

@@ -27,8 +27,7 @@
 //!
 //! Identities. `rotation.rs` declares what holds of rotation matrices: an entry is its own
 //! cofactor, rows have length 1 and are perpendicular. The same holds between two bodies. Kernels
-//! of motion use only what holds for any length of `p`. Kernels of readings may use `|p| = 1`
-//! (`identities.rs`). The forms of `A(p)`: `docs/decisions/001-euler-parameters.md`.
+//! of motion use only what holds for any length of `p`. The forms of `A(p)`: `docs/decisions/001-euler-parameters.md`.
 //!
 //! Scalars (`arena.rs`). Each node knows its stage: literal, parameter, input, coefficient, state,
 //! right-hand side. Stages split the code into `prepare`, `take_inputs`, `coefficients`, the
@@ -47,7 +46,6 @@ pub mod fixed;
 mod force;
 pub mod functions;
 mod gather;
-mod identities;
 mod index;
 mod kept;
 pub mod left_out;

@@ -38,19 +38,6 @@ pub fn normalised_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
     with_diagonal(arena, p, doubled, diagonal)
 }
 
-/// The rotation of unit Euler parameters, row by row. 24 operations.
-pub(super) fn unit_rotation(arena: &mut Arena, p: [Expr; 4]) -> [Triple; 3] {
-    let doubled = [1, 2, 3].map(|k| arena.add(p[k], p[k]));
-    let [xx, yy, zz] = [0, 1, 2].map(|k| arena.mul(doubled[k], p[k + 1]));
-    let rests = [xx, yy].map(|square| arena.sub(Arena::ONE, square));
-    let diagonal = [
-        arena.sub(rests[1], zz),
-        arena.sub(rests[0], zz),
-        arena.sub(rests[0], yy),
-    ];
-    with_diagonal(arena, p, doubled, diagonal)
-}
-
 fn with_diagonal(
     arena: &mut Arena,
     p: [Expr; 4],

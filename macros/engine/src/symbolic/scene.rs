@@ -5,12 +5,9 @@ use super::arena::{Arena, Expr, Input};
 use super::bind::{Binder, Effect, all_copies};
 use super::expression::{AngleExpr, Constraint, PairedAngles, ScalarExpr, VectorExpr};
 use super::fixed::{Copies, number, triple};
-use super::identities::from_centres;
 use super::kept::kept;
 use super::motion::{Gradient, Motion};
-use super::rotation::{
-    complete, homogeneous_rotation, normalised_rotation, own_cofactors, unit_rotation,
-};
+use super::rotation::{complete, homogeneous_rotation, normalised_rotation, own_cofactors};
 use super::vector::{Frame, Space, Triple, ZERO};
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, ElementKind, Model, Row, Term};
@@ -22,26 +19,6 @@ pub enum Normalisation {
     Raw,
     /// `p / |p|` takes the place of `p` in `A`.
     Normalised,
-}
-
-/// What stands for the rotation matrix of a body.
-#[derive(Clone, Copy)]
-enum Rotation {
-    /// `|p|^2` times a rotation.
-    Homogeneous,
-    /// The rotation of `p / |p|`.
-    Normalised,
-    /// The rotation of `p`, taken to be of length 1.
-    Unit,
-}
-
-impl From<Normalisation> for Rotation {
-    fn from(normalisation: Normalisation) -> Self {
-        match normalisation {
-            Normalisation::Raw => Self::Homogeneous,
-            Normalisation::Normalised => Self::Normalised,
-        }
-    }
 }
 
 /// How a body stands and moves.
@@ -148,10 +125,10 @@ impl Scene {
     /// The scene of a model with Euler parameters as they are, exact for any length of them.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        Self::build(model, Rotation::Homogeneous, true)
+        Self::build(model, Normalisation::Raw, true)
     }
 
-    fn build(model: &Model, rotation: Rotation, exact: bool) -> Self {
+    fn build(model: &Model, normalisation: Normalisation, exact: bool) -> Self {
         let layout = model.layout();
         let mut arena = Arena::new();
         let mut charts = Vec::new();
@@ -169,10 +146,9 @@ impl Scene {
             };
             if body.kind == BodyKind::Rigid {
                 let p = [3, 4, 5, 6].map(|k| arena.input(at(k)));
-                let matrix = match rotation {
-                    Rotation::Homogeneous => homogeneous_rotation(&mut arena, p),
-                    Rotation::Unit => unit_rotation(&mut arena, p),
-                    Rotation::Normalised => normalised_rotation(&mut arena, p),
+                let matrix = match normalisation {
+                    Normalisation::Raw => homogeneous_rotation(&mut arena, p),
+                    Normalisation::Normalised => normalised_rotation(&mut arena, p),
                 };
                 for (k, row) in matrix.iter().enumerate() {
                     for (l, entry) in row.iter().enumerate() {
@@ -339,7 +315,7 @@ impl Scene {
     /// `|p|`, as `A^T A = I` does.
     #[must_use]
     pub fn for_solution(model: &Model, normalisation: Normalisation) -> Self {
-        let mut scene = Self::build(model, normalisation.into(), false);
+        let mut scene = Self::build(model, normalisation, false);
         for body in 0..model.bodies.len() {
             let Some(a) = scene.space.rotation(body).copied() else {
                 continue;
@@ -348,20 +324,6 @@ impl Scene {
             if has_equal_moments(&scene.inertia[body]) {
                 complete(&mut scene.space.arena, &a);
             }
-        }
-        scene
-    }
-
-    /// The scene of a model for a joint by itself: `p` is of length 1, and vectors turn by the
-    /// identities of rotations wherever that is cheaper; if wished, lines between points start at
-    /// centres of mass.
-    #[must_use]
-    pub fn for_one_joint(model: &Model, with_centres: bool) -> Self {
-        let mut scene = Self::build(model, Rotation::Unit, false);
-        scene.space = scene.space.with_identities();
-        for constrained in scene.constraints.iter_mut().filter(|_| with_centres) {
-            let constraint = constrained.constraint.clone();
-            constrained.constraint = from_centres(&mut scene.space.arena, constraint);
         }
         scene
     }

@@ -58,11 +58,9 @@ enum Vector {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Spun {
     body: usize,
-    /// `w` and its components in body axes.
-    spin: VectorId,
-    components: Triple,
-    /// `a` and its components in body axes.
-    vector: VectorId,
+    /// `w`, body axes.
+    spin: Triple,
+    /// `a`, body axes.
     fixed: Triple,
 }
 
@@ -90,8 +88,6 @@ pub struct Space {
     related: Vec<[usize; 2]>,
     /// Whether `A` may be any multiple of a rotation.
     exact: bool,
-    /// Whether identities of rotations are tried beside the product rule.
-    identities: bool,
     /// Trials within trials that are going on.
     trials: usize,
     /// The choices made in the trial that is going on, in the order in which they were needed.
@@ -121,19 +117,6 @@ impl Space {
     pub fn exact(mut self) -> Self {
         self.exact = true;
         self
-    }
-
-    /// The same space, trying identities of rotations. To be called before anything is computed.
-    #[must_use]
-    pub fn with_identities(mut self) -> Self {
-        self.identities = true;
-        self
-    }
-
-    /// Whether identities of rotations are tried beside the product rule.
-    #[must_use]
-    pub fn has_identities(&self) -> bool {
-        self.identities
     }
 
     /// The rotation matrix of a body.
@@ -277,15 +260,7 @@ impl Space {
             return self.native(Frame::Global, ZERO);
         }
         let (factor, fixed) = self.direction(fixed);
-        let frame = Frame::Body(body);
-        let spun = Spun {
-            body,
-            spin: self.native(frame, spin),
-            components: spin,
-            vector: self.native(frame, fixed),
-            fixed,
-        };
-        let spun = self.intern(Vector::Spun(spun));
+        let spun = self.intern(Vector::Spun(Spun { body, spin, fixed }));
         self.scale(factor, spun)
     }
 
@@ -293,7 +268,7 @@ impl Space {
     pub fn direction(&mut self, vector: Triple) -> (Expr, Triple) {
         let mut components = vector.into_iter().filter(|&c| c != Arena::ZERO);
         let (first, other) = (components.next(), components.next());
-        let Some(first) = first.filter(|_| !self.identities && !self.exact) else {
+        let Some(first) = first.filter(|_| !self.exact) else {
             return (Arena::ONE, vector);
         };
         let is_known = |c: &Expr| self.arena.literal(*c).is_some();
@@ -322,13 +297,14 @@ impl Space {
 
     /// The frames in which parts of the vector are known.
     fn native_frames(&self, vector: VectorId, frames: &mut Vec<Frame>) {
+        let add = |frame: Frame, frames: &mut Vec<Frame>| {
+            if !frames.contains(&frame) {
+                frames.push(frame);
+            }
+        };
         match &self.vectors[vector.0 as usize] {
             Vector::Native(_, ZERO) => {}
-            Vector::Native(frame, _) => {
-                if !frames.contains(frame) {
-                    frames.push(*frame);
-                }
-            }
+            Vector::Native(frame, _) => add(*frame, frames),
             Vector::Sum(terms) => {
                 for &(_, term) in terms {
                     self.native_frames(term, frames);
@@ -338,7 +314,7 @@ impl Space {
                 self.native_frames(*a, frames);
                 self.native_frames(*b, frames);
             }
-            Vector::Spun(spun) => self.native_frames(spun.vector, frames),
+            Vector::Spun(spun) => add(Frame::Body(spun.body), frames),
         }
     }
 
@@ -398,24 +374,10 @@ impl Space {
         self.native(frame, components)
     }
 
-    /// Says that the components of a vector in a frame are known.
-    pub fn give(&mut self, vector: VectorId, frame: Frame, components: Triple) {
-        self.components.insert((vector, frame), components);
-        self.history.push((vector, frame));
-    }
-
     /// The components, with every operation done in the frame itself.
     fn components_within(&mut self, vector: VectorId, frame: Frame) -> Triple {
         match self.vectors[vector.0 as usize].clone() {
-            Vector::Native(native, components)
-                if !self.identities || frame == native || frame == Frame::Global =>
-            {
-                self.turn(components, native, frame)
-            }
-            Vector::Native(..) => {
-                let global = self.components(vector, Frame::Global);
-                self.turn(global, Frame::Global, frame)
-            }
+            Vector::Native(native, components) => self.turn(components, native, frame),
             Vector::Sum(terms) => {
                 let mut sum = ZERO;
                 for (factor, term) in terms {
@@ -432,32 +394,15 @@ impl Space {
                 let b = self.components(b, frame);
                 cross(&mut self.arena, a, b)
             }
-            Vector::Spun(spun) => self.spun_within(spun, frame),
+            // From the products `w_k w_l` in body axes.
+            Vector::Spun(Spun { body, spin, fixed }) => {
+                let components = spin_twice(&mut self.arena, spin, fixed);
+                self.turn(components, Frame::Body(body), frame)
+            }
         }
     }
 
-    /// From the products `w_k w_l` in body axes; by Lagrange's identity `(w . a) w - (w . w) a`
-    /// elsewhere.
-    fn spun_within(&mut self, spun: Spun, frame: Frame) -> Triple {
-        let own = Frame::Body(spun.body);
-        if frame == own || !self.identities {
-            let components = spin_twice(&mut self.arena, spun.components, spun.fixed);
-            return self.turn(components, own, frame);
-        }
-        let along = self.dot(spun.spin, spun.vector);
-        let square = self.dot(spun.spin, spun.spin);
-        let (w, a) = (
-            self.components(spun.spin, frame),
-            self.components(spun.vector, frame),
-        );
-        [0, 1, 2].map(|k| {
-            let first = self.arena.mul(along, w[k]);
-            let second = self.arena.mul(square, a[k]);
-            self.arena.sub(first, second)
-        })
-    }
-
-    /// `a . b`, in the frame where it is cheapest, or by an identity where that is cheaper.
+    /// `a . b`, in the frame where it is cheapest.
     pub fn dot(&mut self, a: VectorId, b: VectorId) -> Expr {
         if self.is_zero(a) || self.is_zero(b) {
             return Arena::ZERO;
@@ -469,90 +414,15 @@ impl Space {
             (false, ..) => {
                 self.native_frames(a, &mut frames);
                 self.native_frames(b, &mut frames);
-                if self.identities && !frames.contains(&Frame::Global) {
-                    frames.push(Frame::Global);
-                }
             }
         }
-        let mut ways: Vec<Option<Frame>> = frames.into_iter().map(Some).collect();
-        if self.identities && self.identity(a, b).is_some() {
-            ways.push(None);
-        }
-        self.cheapest(&ways, |space, way| match (way, space.identity(a, b)) {
-            (None, Some(identity)) => space.apply(identity),
-            (way, _) => {
-                let frame = way.unwrap_or(Frame::Global);
-                let a = space.components(a, frame);
-                let b = space.components(b, frame);
-                dot(&mut space.arena, a, b)
-            }
+        self.cheapest(&frames, |space, frame| {
+            let a = space.components(a, frame);
+            let b = space.components(b, frame);
+            dot(&mut space.arena, a, b)
         })
         .expect("vectors are defined in some frame")
     }
-
-    /// Another way to a scalar product.
-    fn identity(&self, a: VectorId, b: VectorId) -> Option<Identity> {
-        match (&self.vectors[a.0 as usize], &self.vectors[b.0 as usize]) {
-            (Vector::Sum(terms), _) if self.is_spinning(terms) => {
-                Some(Identity::Distribute(terms.clone(), b))
-            }
-            (_, Vector::Sum(terms)) if self.is_spinning(terms) => {
-                Some(Identity::Distribute(terms.clone(), a))
-            }
-            (Vector::Spun(spun), _) => Some(Identity::Lagrange(*spun, b)),
-            (_, Vector::Spun(spun)) => Some(Identity::Lagrange(*spun, a)),
-            (Vector::Cross(_, a, b), Vector::Cross(_, c, d)) => {
-                Some(Identity::Crosses([*a, *b, *c, *d]))
-            }
-            _ => None,
-        }
-    }
-
-    fn is_spinning(&self, terms: &[(Expr, VectorId)]) -> bool {
-        terms
-            .iter()
-            .any(|(_, term)| matches!(self.vectors[term.0 as usize], Vector::Spun(_)))
-    }
-
-    fn apply(&mut self, identity: Identity) -> Expr {
-        match identity {
-            Identity::Distribute(terms, other) => {
-                let mut sum = Arena::ZERO;
-                for (factor, term) in terms {
-                    let product = self.dot(term, other);
-                    let product = self.arena.mul(factor, product);
-                    sum = self.arena.add(sum, product);
-                }
-                sum
-            }
-            Identity::Lagrange(spun, other) => {
-                let (along, across) =
-                    (self.dot(spun.spin, spun.vector), self.dot(spun.spin, other));
-                let (square, share) =
-                    (self.dot(spun.spin, spun.spin), self.dot(spun.vector, other));
-                let first = self.arena.mul(along, across);
-                let second = self.arena.mul(square, share);
-                self.arena.sub(first, second)
-            }
-            Identity::Crosses([a, b, c, d]) => {
-                let (ac, bd) = (self.dot(a, c), self.dot(b, d));
-                let (ad, bc) = (self.dot(a, d), self.dot(b, c));
-                let first = self.arena.mul(ac, bd);
-                let second = self.arena.mul(ad, bc);
-                self.arena.sub(first, second)
-            }
-        }
-    }
-}
-
-/// A way to a scalar product that needs no components.
-enum Identity {
-    /// Term by term of a sum.
-    Distribute(Vec<(Expr, VectorId)>, VectorId),
-    /// `(w x (w x a)) . b = (w . a) (w . b) - (w . w) (a . b)`.
-    Lagrange(Spun, VectorId),
-    /// `(a x b) . (c x d) = (a . c) (b . d) - (a . d) (b . c)`.
-    Crosses([VectorId; 4]),
 }
 
 /// `w x (w x s)` in body axes, from the products `w_k w_l` that all vectors of the body share.
