@@ -9,11 +9,11 @@
 //! ([`Space::exact`]) computes every vector in its home, the frame in which it is defined, and
 //! turns it from there.
 
-use std::collections::VecDeque;
-
 use super::arena::{Arena, Expr, Mark};
 use super::table::Table;
+use search::Search;
 
+mod search;
 mod turns;
 
 /// The axes that components refer to.
@@ -66,7 +66,7 @@ struct Spun {
 
 /// A place in the history of a space, to come back to.
 #[derive(Clone, Copy, Debug)]
-pub struct SpaceMark {
+struct SpaceMark {
     arena: Mark,
     vectors: usize,
     components: usize,
@@ -88,17 +88,7 @@ pub struct Space {
     related: Vec<[usize; 2]>,
     /// Whether `A` may be any multiple of a rotation.
     exact: bool,
-    /// Trials within trials that are going on.
-    trials: usize,
-    /// The choices made in the trial that is going on, in the order in which they were needed.
-    choices: Vec<usize>,
-    /// Those that are known, from the trial of what is being done.
-    known_choices: VecDeque<usize>,
 }
-
-/// Trials within trials; deeper down, the first candidate is taken. Without a bound, their number
-/// is exponential in the depth of a vector.
-const MOST_TRIALS: usize = 4;
 
 impl Space {
     /// A space for bodies with the given rotation matrices.
@@ -126,8 +116,7 @@ impl Space {
     }
 
     /// The present place, for [`Space::rollback`].
-    #[must_use]
-    pub fn mark(&self) -> SpaceMark {
+    fn mark(&self) -> SpaceMark {
         SpaceMark {
             arena: self.arena.mark(),
             vectors: self.vectors.len(),
@@ -136,7 +125,7 @@ impl Space {
     }
 
     /// Forgets everything made since the mark.
-    pub fn rollback(&mut self, mark: SpaceMark) {
+    fn rollback(&mut self, mark: SpaceMark) {
         for key in self.history.drain(mark.components..) {
             self.components.remove(&key);
         }
@@ -146,60 +135,21 @@ impl Space {
         self.arena.rollback(mark.arena);
     }
 
-    /// What something would cost, in operations at every evaluation; nothing is kept.
-    pub fn cost<T>(&mut self, attempt: impl FnOnce(&mut Self) -> T) -> usize {
-        let mark = self.mark();
-        self.trials += 1;
-        attempt(self);
-        self.trials -= 1;
-        let cost = self.arena.operations_since(mark.arena);
-        self.rollback(mark);
-        cost
-    }
-
-    /// Does the cheapest of some attempts; the first on ties.
-    pub fn cheapest<C: Copy, T>(
+    /// Does the cheapest of some attempts, in operations at every evaluation; the first on ties.
+    fn cheapest<C: Copy, T>(
         &mut self,
+        search: &mut Search,
         candidates: &[C],
-        mut attempt: impl FnMut(&mut Self, C) -> T,
+        mut attempt: impl FnMut(&mut Self, &mut Search, C) -> T,
     ) -> Option<T> {
-        let place = match candidates {
-            [] => return None,
-            [_] => 0,
-            _ if !self.known_choices.is_empty() => {
-                let known = self.known_choices.pop_front().expect("not empty");
-                self.choices.push(known);
-                known
-            }
-            _ if self.trials >= MOST_TRIALS => {
-                self.choices.push(0);
-                0
-            }
-            _ => {
-                let before = self.choices.len();
-                let mut best: Option<(usize, usize, Vec<usize>)> = None;
-                for (place, &candidate) in candidates.iter().enumerate() {
-                    let cost = self.cost(|space| attempt(space, candidate));
-                    let choices = self.choices.drain(before..);
-                    if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                        best = Some((cost, place, choices.collect()));
-                    }
-                    if cost == 0 {
-                        break;
-                    }
-                }
-                let (_, place, choices) = best?;
-                // What is done now was just tried: with the same choices all the way down.
-                self.known_choices = choices.into();
-                self.choices.push(place);
-                place
-            }
-        };
-        let done = attempt(self, candidates[place]);
-        if self.trials == 0 && self.known_choices.is_empty() {
-            self.choices.clear();
-        }
-        Some(done)
+        let place = search.choose(candidates.len(), |search, place| {
+            let mark = self.mark();
+            attempt(self, search, candidates[place]);
+            let cost = self.arena.operations_since(mark.arena);
+            self.rollback(mark);
+            cost
+        })?;
+        Some(attempt(self, search, candidates[place]))
     }
 
     fn intern(&mut self, vector: Vector) -> VectorId {
@@ -321,6 +271,10 @@ impl Space {
     /// The components of a vector in a frame, computed in the frame where that is cheapest and
     /// turned from there.
     pub fn components(&mut self, vector: VectorId, frame: Frame) -> Triple {
+        self.components_by(&mut Search::default(), vector, frame)
+    }
+
+    fn components_by(&mut self, search: &mut Search, vector: VectorId, frame: Frame) -> Triple {
         if let Some(&known) = self.components.get(&(vector, frame)) {
             return known;
         }
@@ -336,8 +290,8 @@ impl Space {
         let ways = frames.iter().map(|&within| (within, false));
         let ways: Vec<(Frame, bool)> = ways.chain(related.map(|&within| (within, true))).collect();
         let components = self
-            .cheapest(&ways, |space, (within, at_once)| {
-                let components = space.components_within(vector, within);
+            .cheapest(search, &ways, |space, search, (within, at_once)| {
+                let components = space.components_within(search, vector, within);
                 if at_once {
                     space.turn_at_once(components, within, frame)
                 } else {
@@ -375,13 +329,13 @@ impl Space {
     }
 
     /// The components, with every operation done in the frame itself.
-    fn components_within(&mut self, vector: VectorId, frame: Frame) -> Triple {
+    fn components_within(&mut self, search: &mut Search, vector: VectorId, frame: Frame) -> Triple {
         match self.vectors[vector.0 as usize].clone() {
             Vector::Native(native, components) => self.turn(components, native, frame),
             Vector::Sum(terms) => {
                 let mut sum = ZERO;
                 for (factor, term) in terms {
-                    let term = self.components(term, frame);
+                    let term = self.components_by(search, term, frame);
                     for (sum, component) in sum.iter_mut().zip(term) {
                         let product = self.arena.mul(factor, component);
                         *sum = self.arena.add(*sum, product);
@@ -390,8 +344,8 @@ impl Space {
                 sum
             }
             Vector::Cross(_, a, b) => {
-                let a = self.components(a, frame);
-                let b = self.components(b, frame);
+                let a = self.components_by(search, a, frame);
+                let b = self.components_by(search, b, frame);
                 cross(&mut self.arena, a, b)
             }
             // From the products `w_k w_l` in body axes.
@@ -416,9 +370,9 @@ impl Space {
                 self.native_frames(b, &mut frames);
             }
         }
-        self.cheapest(&frames, |space, frame| {
-            let a = space.components(a, frame);
-            let b = space.components(b, frame);
+        self.cheapest(&mut Search::default(), &frames, |space, search, frame| {
+            let a = space.components_by(search, a, frame);
+            let b = space.components_by(search, b, frame);
             dot(&mut space.arena, a, b)
         })
         .expect("vectors are defined in some frame")
