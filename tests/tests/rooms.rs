@@ -43,7 +43,11 @@ const ENGINE_CIRCLES: [&[&str]; 3] = [
 ];
 
 /// The circles of files in the run time.
-const RUNTIME_CIRCLES: [&[&str]; 2] = [&["math/scalar", "math/versine"], &["watch", "watch/rest"]];
+const RUNTIME_CIRCLES: [&[&str]; 3] = [
+    &["math/scalar", "math/versine"],
+    &["mechanism/coordinates", "mechanism/kernels"],
+    &["watch", "watch/rest"],
+];
 
 #[test]
 fn rooms_of_the_run_time_read_one_way() {
