@@ -3,7 +3,7 @@
 use core::mem::{replace, swap};
 
 use super::fixed::{Grid, slope};
-use super::tableau::scaled;
+use super::tableau::terms;
 use super::{
     Counted, Counts, Course, Integrator, NoStages, Rk4, Scheme as _, Span, Start, Stride, System,
     dense, named,
@@ -144,12 +144,10 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
             };
             return Rk4.stride(system, start, step, &mut NoStages);
         }
-        let [a, b, c, d] = scaled(PREDICTOR, step);
-        let predicted = state.plus([(a, first), (b, second), (c, third), (d, fourth)]);
+        let predicted = state.plus(terms(PREDICTOR, step, [first, second, third, fourth]));
         let mut slope = first.clone();
         system.stage(self.time + step, &predicted, &mut slope)?;
-        let [a, b, c, d] = scaled(CORRECTOR, step);
-        Ok(state.plus([(a, &slope), (b, first), (c, second), (d, third)]))
+        Ok(state.plus(terms(CORRECTOR, step, [&slope, first, second, third])))
     }
 
     /// Why a step failed, or led to a state that is not finite.

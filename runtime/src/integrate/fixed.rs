@@ -2,7 +2,8 @@
 
 use super::lobatto::Taken;
 use super::{
-    Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named, refused,
+    Counted, Counts, Course, Ends, Heun, ImplicitMidpoint, Integrator, Midpoint, Rk4, Scheme,
+    SemiImplicitEuler, Span, Start, Stride, System, named, refused,
 };
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -20,6 +21,21 @@ pub struct FixedStep<S, K> {
     /// The method.
     pub scheme: K,
 }
+
+/// The constructors of methods that are schemes themselves.
+macro_rules! constructors {
+    ($($scheme:ident),*) => {$(
+        impl $scheme {
+            /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
+            #[must_use]
+            pub const fn every<S>(step: S) -> FixedStep<S, Self> {
+                FixedStep { step, scheme: Self }
+            }
+        }
+    )*};
+}
+
+constructors!(SemiImplicitEuler, Midpoint, Heun, ImplicitMidpoint, Rk4);
 
 impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
     type Course<X: Vector<S>> = FixedCourse<S, X, K>;
@@ -232,7 +248,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
     }
 
     fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
-        if !K::IS_JUDGED {
+        if self.scheme.silent_phase() == 0.0 {
             return Ok(None);
         }
         let taken = Taken {

@@ -21,8 +21,9 @@
 //! [`Integrator::start`] begins a [`Course`] over an interval, with output at any time within the
 //! last step.
 //!
-//! Structure. An embedded pair (`embedded.rs`) is a scheme with error weights, their power of the
-//! step and an interpolant. The control knows no more. `Scheme::prepare` evaluates what an
+//! Structure. An explicit Runge-Kutta method is its table (`explicit.rs`). An embedded pair
+//! (`embedded.rs`) is a scheme with error weights, their power of the step and an interpolant. The
+//! control knows no more. `Scheme::prepare` evaluates what an
 //! interpolant needs besides, only for steps that are looked into: three evaluations of
 //! Dormand-Prince 8(5,3).
 //!
@@ -47,6 +48,7 @@ mod dense;
 mod dormand_prince;
 mod dormand_prince_8;
 mod embedded;
+mod explicit;
 mod fixed;
 mod generalized_alpha;
 mod implicit_midpoint;
@@ -67,12 +69,12 @@ pub use adams::{Adams, AdamsCourse};
 pub use adams_fixed::{AdamsBashforthMoulton4, AdamsFixedCourse};
 pub use adaptive::AdaptiveCourse;
 pub use bdf::{Bdf, BdfCourse};
-pub use bogacki_shampine::{BogackiShampine, BogackiShampine3, BogackiShampineStages};
+pub use bogacki_shampine::{BogackiShampine, BogackiShampine3};
 pub use controlled::StepLimits;
 pub use controller::Tolerance;
 pub use counted::Counts;
-pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
-pub use dormand_prince_8::{DormandPrince8, DormandPrince8Stages, DormandPrince853};
+pub use dormand_prince::{DormandPrince, DormandPrince5};
+pub use dormand_prince_8::{DormandPrince8, DormandPrince853};
 pub use embedded::{Adaptive, EmbeddedPair};
 pub use fixed::{FixedCourse, FixedStep};
 pub use generalized_alpha::{
@@ -359,11 +361,8 @@ pub trait Scheme<S: Real>: Copy + Debug {
         0.0
     }
 
-    /// Whether [`Course::better_end`] judges steps of this method: those of order 2, whose energy
-    /// does not tell what they miss.
-    const IS_JUDGED: bool = false;
-
-    /// See [`Integrator::silent_phase`].
+    /// See [`Integrator::silent_phase`]. Where it is not zero, [`Course::better_end`] judges the
+    /// steps of this method.
     fn silent_phase(&self) -> f64 {
         0.0
     }
@@ -389,8 +388,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
         Ok(())
     }
 
-    /// The state at the fraction `theta` (from 0 to 1) of a step.
-    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X;
+    /// The state at the fraction `theta` (from 0 to 1) of a step: by the cubic through states and
+    /// slopes at both ends, if a method does not know better.
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X {
+        dense::cubic(&stride, theta)
+    }
 
     /// One step of the size `step` from `time`, without control of the error.
     ///
