@@ -56,6 +56,7 @@ mod linear;
 mod lobatto;
 mod newton;
 mod radau;
+mod record;
 mod rk2;
 mod rk4;
 mod semi_implicit;
