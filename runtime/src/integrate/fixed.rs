@@ -3,7 +3,7 @@
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Counted, Counts, Course, Heun, ImplicitMidpoint, Integrator, Midpoint, Rk4, Scheme,
+    Counted, Counts, Course, Heun, ImplicitMidpoint, Integrator, Kutta3, Midpoint, Rk4, Scheme,
     SemiImplicitEuler, Span, Start, System, refused,
 };
 use crate::error::Fault;
@@ -36,7 +36,14 @@ macro_rules! constructors {
     )*};
 }
 
-constructors!(SemiImplicitEuler, Midpoint, Heun, ImplicitMidpoint, Rk4);
+constructors!(
+    SemiImplicitEuler,
+    Midpoint,
+    Heun,
+    ImplicitMidpoint,
+    Kutta3,
+    Rk4
+);
 
 impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
     type Course<X: Vector<S>> = FixedCourse<S, X, K>;

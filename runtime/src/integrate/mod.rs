@@ -6,6 +6,7 @@
 //! | [`Midpoint::every(h)`](Midpoint::every), [`Heun::every(h)`](Heun::every) | Runge-Kutta methods of order 2, fixed step | 2 a step |
 //! | [`ImplicitMidpoint::every(h)`](ImplicitMidpoint::every) | implicit midpoint rule of order 2, symmetric, fixed step | 1 a step and 1 an iteration |
 //! | [`GeneralizedAlpha::every(h)`](GeneralizedAlpha::every) | generalized-alpha of order 2 on rigid constraints, damping as wanted, fixed step | 1 an iteration |
+//! | [`Kutta3::every(h)`](Kutta3::every) | Runge-Kutta method of order 3, fixed step | 3 a step |
 //! | [`Rk4::every(h)`](Rk4::every) | classical Runge-Kutta of order 4, fixed step | 4 a step |
 //! | [`AdamsBashforthMoulton4::every(h)`](AdamsBashforthMoulton4::every) | multistep method of order 4, predicted and corrected, fixed step | 2 a step |
 //! | [`DormandPrince::every(h)`](DormandPrince::every) | Dormand-Prince of order 5, fixed step | 6 a step |
@@ -58,6 +59,7 @@ mod newton;
 mod radau;
 mod record;
 mod rk2;
+mod rk3;
 mod rk4;
 mod semi_implicit;
 mod tableau;
@@ -84,6 +86,7 @@ pub use generalized_alpha::{
 pub use implicit_midpoint::ImplicitMidpoint;
 pub use radau::{RadauCourse, RadauIIA};
 pub use rk2::{Heun, Midpoint};
+pub use rk3::Kutta3;
 pub use rk4::Rk4;
 pub use semi_implicit::SemiImplicitEuler;
 

@@ -3,7 +3,7 @@
 
 use holonom::prelude::*;
 use holonom::{
-    Heun, JointCoordinates, JointStepper, Midpoint, SemiImplicitEuler, StateParts,
+    Heun, JointCoordinates, JointStepper, Kutta3, Midpoint, SemiImplicitEuler, StateParts,
     dynamics::{Dynamics, JointDynamics},
     integrate::{Scheme, System},
     mechanism::JointParts,
@@ -44,6 +44,7 @@ fn methods_have_their_order_in_both_descriptions() {
     orders(SemiImplicitEuler, 1.0);
     orders(Midpoint, 2.0);
     orders(Heun, 2.0);
+    orders(Kutta3, 3.0);
 }
 
 /// Rates of coordinates at new velocities are those of an evaluation there.

@@ -84,6 +84,7 @@ fn tableaus_meet_the_conditions_of_their_order_and_not_of_the_next() {
     }
     check(Midpoint, 2, 2);
     check(Heun, 2, 2);
+    check(Kutta3, 3, 3);
     check(BogackiShampine3, 3, 3);
     check(Rk4, 4, 4);
     check(DormandPrince5, 5, 6);
