@@ -286,6 +286,29 @@ pub trait Integrator<S: Real>: Copy + Debug {
     }
 }
 
+/// The functions of an [`Integrator`] but `start`, each by that of another one, which a macro calls
+/// an expression with. It is beside the trait, so that no function is forgotten.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __hooks_of_integrator {
+    ($with:ident) => {
+        $crate::__hooks_of_integrator! { $with:
+            budget -> Option<usize>;
+            fixed_step -> Option<S>;
+            turning_error -> f64;
+            turning_error_of_short_steps -> f64;
+            silent_phase -> f64;
+            velocity_lead -> f64;
+            tolerance -> Option<$crate::Tolerance<S>>;
+        }
+    };
+    ($with:ident: $($hook:ident -> $of:ty;)*) => {$(
+        fn $hook(&self) -> $of {
+            $with!(self, own => $crate::integrate::Integrator::<S>::$hook(&own))
+        }
+    )*};
+}
+
 /// An integration under way.
 pub trait Course<S: Real, X: Vector<S>> {
     /// The time that was reached.
