@@ -169,7 +169,7 @@ pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, Stan
 pub use forward::Forward;
 pub use integrate::{
     Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince, DormandPrince853,
-    GeneralizedAlpha, Heun, ImplicitMidpoint, Midpoint, RadauIIA, Rk4, SemiImplicitEuler,
+    GeneralizedAlpha, Heun, ImplicitMidpoint, Kutta3, Midpoint, RadauIIA, Rk4, SemiImplicitEuler,
     StepLimits, Tolerance,
 };
 pub use math::scalar::{Real, Scalar};

@@ -1,12 +1,13 @@
 //! The predictor-corrector method of Adams at a fixed step.
 
-use core::mem::{replace, swap};
+use core::mem::swap;
 
-use super::fixed::{Grid, slope};
-use super::tableau::scaled;
+use super::fixed::Grid;
+use super::record::{LastStep, Reached, reached};
+use super::tableau::terms;
 use super::{
-    Counted, Counts, Course, Integrator, NoStages, Rk4, Scheme as _, Span, Start, Stride, System,
-    dense, named,
+    Counted, Counts, Course, Integrator, NoStages, Rk4, Scheme as _, Span, Start, System, dense,
+    named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -64,23 +65,13 @@ impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
         state: Y::State,
     ) -> Result<AdamsFixedCourse<S, Y::State>, Fault> {
         let grid = Grid::new(self.step, &span)?;
-        let mut counts = Counts::default();
-        let last = Counted {
-            system,
-            counts: &mut counts,
-        }
-        .rates(span.start, &state)?;
+        let reached = Reached::start(system, &span, state)?;
+        let slope = &reached.slope;
         Ok(AdamsFixedCourse {
             grid,
-            counts,
-            time: span.start,
-            from: state.clone(),
-            state,
-            before: [last.clone(), last.clone(), last.clone()],
-            last,
-            known: true,
-            start: span.start,
-            step: S::zero(),
+            before: [slope.clone(), slope.clone()],
+            last: LastStep::none(&reached),
+            reached,
         })
     }
 
@@ -101,55 +92,41 @@ impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
 #[derive(Clone)]
 pub struct AdamsFixedCourse<S: Real, X: Vector<S>> {
     grid: Grid<S>,
-    counts: Counts,
-    time: S,
-    state: X,
-    /// The slope at `state`, if it is known.
-    last: X,
-    known: bool,
-    /// The slopes at the starts of the last three steps, newest first.
-    before: [X; 3],
-    /// The last step: its start and its size.
-    start: S,
-    step: S,
-    from: X,
+    reached: Reached<S, X>,
+    last: LastStep<S, X>,
+    /// The slopes at the starts of the two steps before the last, newest first.
+    before: [X; 2],
 }
 
 impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
-    /// Computes the slope at the state that was reached, once.
-    fn slope<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        if !self.known {
-            let at = (self.time, &self.state);
-            slope(system, &mut self.counts, at, &mut self.last)?;
-            self.known = true;
-        }
-        Ok(())
-    }
-
     /// Whether a step is one of those that the slopes before it belong to. The last one may differ
     /// from them by the round-off of its ends.
     fn goes_on(&self, step: S) -> bool {
         let round_off = S::constant(16.0) * self.grid.end.ulp();
-        self.counts.accepted >= FIRST_STEPS && (self.grid.nominal - step).abs() <= round_off
+        self.reached.counts.accepted >= FIRST_STEPS && (self.grid.nominal - step).abs() <= round_off
     }
 
     /// The state after a step; not finite where a slope is not.
     fn stride<Y: System<S, State = X>>(&self, system: &mut Y, step: S) -> Result<X, Fault> {
-        let (state, first, [second, third, fourth]) = (&self.state, &self.last, &self.before);
+        let Reached {
+            time,
+            state,
+            slope: first,
+            ..
+        } = &self.reached;
+        let (time, second, [third, fourth]) = (*time, &self.last.first, &self.before);
         if !self.goes_on(step) {
             let start = Start {
-                time: self.time,
+                time,
                 state,
                 slope: first,
             };
             return Rk4.stride(system, start, step, &mut NoStages);
         }
-        let [a, b, c, d] = scaled(PREDICTOR, step);
-        let predicted = state.plus([(a, first), (b, second), (c, third), (d, fourth)]);
+        let predicted = state.plus(terms(PREDICTOR, step, [first, second, third, fourth]));
         let mut slope = first.clone();
-        system.stage(self.time + step, &predicted, &mut slope)?;
-        let [a, b, c, d] = scaled(CORRECTOR, step);
-        Ok(state.plus([(a, &slope), (b, first), (c, second), (d, third)]))
+        system.stage(time + step, &predicted, &mut slope)?;
+        Ok(state.plus(terms(CORRECTOR, step, [&slope, first, second, third])))
     }
 
     /// Why a step failed, or led to a state that is not finite.
@@ -166,62 +143,34 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
 }
 
 impl<S: Real, X: Vector<S>> Course<S, X> for AdamsFixedCourse<S, X> {
-    fn time(&self) -> S {
-        self.time
-    }
-
-    fn state(&self) -> &X {
-        &self.state
-    }
+    reached!();
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        self.slope(system)?;
-        let (step, end) = self.grid.next(self.counts.accepted, self.time)?;
-        let mut counts = self.counts;
+        self.reached.know_slope(system)?;
+        let reached = &self.reached;
+        let (step, end) = self.grid.next(reached.counts.accepted, reached.time)?;
+        let mut counts = reached.counts;
         let mut counted = Counted {
             system,
             counts: &mut counts,
         };
         let outcome = self.stride(&mut counted, step);
-        self.counts = counts;
+        self.reached.counts = counts;
         let mut state = match outcome {
             Ok(state) if state.is_finite() => state,
             outcome => return Err(self.refused(system, step, outcome.err())),
         };
         system.settle(&mut state, None);
-        self.counts.accepted += 1;
-        let [second, third, fourth] = &mut self.before;
+        let [third, fourth] = &mut self.before;
         swap(third, fourth);
-        swap(second, third);
-        swap(&mut self.last, second);
-        self.known = false;
-        self.from = replace(&mut self.state, state);
-        self.start = replace(&mut self.time, end);
-        self.step = step;
+        swap(&mut self.last.first, third);
+        self.last.take(&mut self.reached, (step, end), state);
         Ok(())
     }
 
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
-        self.slope(system)?;
-        let [first, ..] = &self.before;
-        let stride = Stride {
-            step: self.step,
-            from: &self.from,
-            first,
-            stages: &NoStages,
-            to: &self.state,
-            last: &self.last,
-        };
-        let theta = (time - self.start).quotient(self.time - self.start);
-        Ok(dense::cubic(&stride, theta))
-    }
-
-    fn replace(&mut self, state: X) {
-        self.state = state;
-        self.known = false;
-    }
-
-    fn counts(&self) -> Counts {
-        self.counts
+        self.reached.know_slope(system)?;
+        let stride = self.last.stride(&self.reached, &NoStages);
+        Ok(dense::cubic(&stride, self.last.theta(&self.reached, time)))
     }
 }

@@ -1,11 +1,10 @@
 //! An embedded pair under the control of its steps.
 
-use core::mem::{replace, swap};
+use core::mem::swap;
 
 use super::controller::{Controller, FIRST_SHARE};
-use super::{
-    Adaptive, Counted, Counts, Course, EmbeddedPair, Ends, Span, Start, Stride, System, named,
-};
+use super::record::{LastStep, Reached, reached};
+use super::{Adaptive, Counted, Counts, Course, EmbeddedPair, Span, Start, Stride, System, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -14,32 +13,20 @@ use crate::state::vector::Vector;
 pub struct AdaptiveCourse<S: Real, X: Vector<S>, K: EmbeddedPair<S>> {
     pair: K,
     controller: Controller<S>,
-    end: S,
     /// The size of the next step.
     next_step: S,
-    counts: Counts,
-    time: S,
-    state: X,
-    /// The slope at `state`, if `replaced` does not say otherwise.
-    last: X,
-    replaced: bool,
-    /// The last accepted step: its start, its size, the slopes within.
-    start: S,
-    step: S,
-    from: X,
-    first: X,
+    reached: Reached<S, X>,
+    last: LastStep<S, X>,
     stages: K::Stages<X>,
     /// Whether the interpolant has what it needs besides these.
-    prepared: bool,
+    is_prepared: bool,
 }
 
 impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Clone for AdaptiveCourse<S, X, K> {
     fn clone(&self) -> Self {
         Self {
-            state: self.state.clone(),
+            reached: self.reached.clone(),
             last: self.last.clone(),
-            from: self.from.clone(),
-            first: self.first.clone(),
             stages: self.stages.clone(),
             ..*self
         }
@@ -60,32 +47,20 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         state: X,
     ) -> Result<Self, Fault> {
         let controller = Controller::new(method.tolerance, &method.limits, K::POWER, &span)?;
-        let mut counts = Counts::default();
-        let last = Counted {
-            system,
-            counts: &mut counts,
-        }
-        .rates(span.start, &state)?;
+        let reached = Reached::start(system, &span, state)?;
         Ok(Self {
             pair: method.pair,
             controller,
-            end: span.end,
-            next_step: controller.first(&span, &state, &last, FIRST_SHARE),
-            counts,
-            time: span.start,
-            replaced: false,
-            start: span.start,
-            step: S::zero(),
-            from: state.clone(),
-            first: last.clone(),
-            stages: method.pair.stages(&last),
-            prepared: false,
-            state,
-            last,
+            next_step: controller.first(&span, &reached.state, &reached.slope, FIRST_SHARE),
+            last: LastStep::none(&reached),
+            stages: method.pair.stages(&reached.slope),
+            is_prepared: false,
+            reached,
         })
     }
 
-    /// One trial from `self.first`, to the time `end`; leaves the slope at the end in `self.last`.
+    /// One trial from the slope `self.last.first`, to the time `end`; leaves the slope at the end
+    /// in `self.reached`.
     #[inline]
     fn attempt<Y: System<S, State = X>>(
         &mut self,
@@ -93,20 +68,21 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         step: S,
         end: S,
     ) -> Result<Trial<S, X>, Fault> {
+        let reached = &mut self.reached;
         let mut counted = Counted {
             system,
-            counts: &mut self.counts,
+            counts: &mut reached.counts,
         };
         let start = Start {
-            time: self.time,
-            state: &self.state,
-            slope: &self.first,
+            time: reached.time,
+            state: &reached.state,
+            slope: &self.last.first,
         };
         let outcome = self
             .pair
             .stride(&mut counted, start, step, &mut self.stages)
             .and_then(|state| {
-                counted.stage(end, &state, &mut self.last)?;
+                counted.stage(end, &state, &mut reached.slope)?;
                 Ok(state)
             });
         let state = match outcome {
@@ -118,11 +94,11 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         };
         let stride = Stride {
             step,
-            from: &self.state,
-            first: &self.first,
+            from: &reached.state,
+            first: &self.last.first,
             stages: &self.stages,
             to: &state,
-            last: &self.last,
+            last: &reached.slope,
         };
         let error = self.pair.error(&stride, self.controller.floor);
         if !(error.is_finite() && state.is_finite()) {
@@ -151,9 +127,9 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
     ) -> Option<Fault> {
         named(fault, system, |system| {
             let start = Start {
-                time: self.time,
-                state: &self.state,
-                slope: &self.first,
+                time: self.reached.time,
+                state: &self.reached.state,
+                slope: &self.last.first,
             };
             let state = self.pair.stride(system, start, step, &mut self.stages)?;
             system.rates(end, &state)
@@ -162,43 +138,22 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
 }
 
 impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<S, X, K> {
-    fn time(&self) -> S {
-        self.time
-    }
-
-    fn state(&self) -> &X {
-        &self.state
-    }
+    reached!();
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        if replace(&mut self.replaced, false) {
-            let mut system = Counted {
-                system,
-                counts: &mut self.counts,
-            };
-            self.first = system.rates(self.time, &self.state)?;
-        } else {
-            swap(&mut self.first, &mut self.last);
-        }
-        let smallest = self.controller.smallest(self.time);
-        let interval = (self.time, self.end);
-        let (mut size, mut stretched) = self.controller.opening(interval, self.next_step);
+        self.reached.know_slope(system)?;
+        swap(&mut self.last.first, &mut self.reached.slope);
+        let time = self.reached.time;
+        let smallest = self.controller.smallest(time);
+        let (mut size, mut stretched) = self.controller.opening(time, self.next_step);
         let mut failed_before = false;
         loop {
-            let end = if stretched {
-                self.end
-            } else {
-                self.time + size
-            };
+            let end = self.controller.end_of(time, size, stretched);
             let outcome = self.attempt(system, size, end);
             if let Ok(Trial::Accepted { mut state, error }) = outcome {
-                system.settle(&mut state, Some(&mut self.last));
-                self.counts.accepted += 1;
-                self.prepared = false;
-                self.start = self.time;
-                self.step = end - self.time;
-                self.time = end;
-                self.from = replace(&mut self.state, state);
+                system.settle(&mut state, Some(&mut self.reached.slope));
+                self.is_prepared = false;
+                self.last.go(&mut self.reached, (end - time, end), state);
                 self.next_step = if failed_before {
                     size
                 } else {
@@ -206,12 +161,12 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<
                 };
                 return Ok(());
             }
-            self.counts.rejected += 1;
+            self.reached.counts.rejected += 1;
             stretched = false;
             if size <= smallest {
                 return Err(match outcome {
                     Err(fault) => fault,
-                    Ok(_) => self.controller.underflow(size, self.time),
+                    Ok(_) => self.controller.underflow(size, time),
                 });
             }
             let shrunk = match outcome {
@@ -226,39 +181,13 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<
     }
 
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
-        if !self.prepared {
-            let mut counted = Counted {
-                system,
-                counts: &mut self.counts,
-            };
-            let ends = Ends {
-                step: self.step,
-                from: &self.from,
-                first: &self.first,
-                last: &self.last,
-            };
-            self.pair
-                .prepare(&mut counted, self.start, ends, &mut self.stages)?;
-            self.prepared = true;
+        if !self.is_prepared {
+            let (reached, stages) = (&mut self.reached, &mut self.stages);
+            self.last.prepare(&self.pair, system, reached, stages)?;
+            self.is_prepared = true;
         }
-        let theta = (time - self.start).quotient(self.step);
-        let stride = Stride {
-            step: self.step,
-            from: &self.from,
-            first: &self.first,
-            stages: &self.stages,
-            to: &self.state,
-            last: &self.last,
-        };
+        let stride = self.last.stride(&self.reached, &self.stages);
+        let theta = self.last.theta(&self.reached, time);
         Ok(self.pair.interpolate(stride, theta))
-    }
-
-    fn replace(&mut self, state: X) {
-        self.state = state;
-        self.replaced = true;
-    }
-
-    fn counts(&self) -> Counts {
-        self.counts
     }
 }

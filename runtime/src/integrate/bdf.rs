@@ -6,6 +6,7 @@ use super::controlled::controlled;
 use super::controller::{Controller, FIRST_SHARE};
 use super::linear::Factors;
 use super::newton::{Age, Newton, Progress};
+use super::record::{Reached, reached};
 use super::{Counted, Counts, Course, Span, System, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -85,15 +86,13 @@ pub struct BdfCourse<S: Real, X: Vector<S>> {
     controller: Controller<S>,
     /// The iteration of a step before its first change.
     newton: Newton<S>,
-    end: S,
     /// The size of the next step, which the differences are for.
     step: S,
     order: usize,
     /// Steps of this size and order so far.
     equal: usize,
-    counts: Counts,
-    time: S,
-    state: X,
+    /// Its slope is that at the start, and then that of a Jacobian.
+    reached: Reached<S, X>,
     /// The backward differences of the state, from the first: increments.
     differences: [X; DIFFERENCES],
     jacobian: X::Each<X>,
@@ -124,29 +123,22 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         const POWER: f64 = 2.0;
         let Bdf { tolerance, limits } = method;
         let controller = Controller::new(*tolerance, limits, POWER, &span)?;
-        let mut counts = Counts::default();
-        let slope = Counted {
-            system,
-            counts: &mut counts,
-        }
-        .rates(span.start, &state)?;
-        let step = controller.first(&span, &state, &slope, FIRST_SHARE);
-        let nothing = slope.zip(&slope, |_, _| S::zero());
+        let reached = Reached::start(system, &span, state)?;
+        let Reached { state, slope, .. } = &reached;
+        let step = controller.first(&span, state, slope, FIRST_SHARE);
+        let nothing = slope.zip(slope, |_, _| S::zero());
         let mut differences = [(); DIFFERENCES].map(|()| nothing.clone());
-        differences[0] = slope.zip(&slope, |x, _| step * x);
+        differences[0] = slope.zip(slope, |x, _| step * x);
         Ok(Self {
             newton: Newton::new(controller.relative, ITERATIONS),
-            end: span.end,
             step,
             order: 1,
             equal: 0,
-            counts,
-            time: span.start,
             jacobian: state.each(nothing.clone()),
             age: Age::Unknown,
             factors: Factors::new(&nothing),
             factorised: None,
-            state,
+            reached,
             differences,
             controller,
         })
@@ -187,7 +179,10 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
     /// An increment, relative to what is allowed.
     fn size(&self, to: &X, increment: &X) -> S {
         let floor = self.controller.floor;
-        let norm = self.state.relative_norm(to, floor, [(S::one(), increment)]);
+        let norm = self
+            .reached
+            .state
+            .relative_norm(to, floor, [(S::one(), increment)]);
         norm.quotient(self.controller.relative)
     }
 
@@ -202,14 +197,14 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         system: &mut Y,
         end: S,
     ) -> Result<Option<Trial<S, X>>, Fault> {
-        let length = self.state.length();
+        let length = self.reached.state.length();
         let shift = S::constant(leading(self.order)).quotient(self.step);
         let predicted = self.predicted();
         let history = GAMMA.iter().skip(1).take(self.order);
         let history =
             self.combined(history.map(|&gamma| S::constant(gamma / leading(self.order)) * shift));
         let mut change = predicted.zip(&predicted, |_, _| S::zero());
-        let mut state = self.state.plus([(S::one(), &predicted)]);
+        let mut state = self.reached.state.plus([(S::one(), &predicted)]);
         let mut newton = self.newton;
         loop {
             let mut slope = change.clone();
@@ -223,7 +218,7 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
             }
             change = change.zip(&more, |x, more| x + more);
             let whole = predicted.zip(&change, |x, change| x + change);
-            state = self.state.plus([(S::one(), &whole)]);
+            state = self.reached.state.plus([(S::one(), &whole)]);
             if progress == Progress::Converged {
                 let error = error_constant::<S>(self.order) * self.size(&state, &change);
                 let is_finite = error.is_finite() && state.is_finite();
@@ -240,14 +235,14 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
     /// Makes Jacobian and factors be those that the step needs. `false` if there are none.
     fn prepare<Y: System<S, State = X>>(&mut self, system: &mut Y, end: S) -> Result<bool, Fault> {
         if self.age == Age::Unknown {
-            let predicted = self.state.plus([(S::one(), &self.predicted())]);
-            let mut slope = self.state.clone();
+            let predicted = self.reached.state.plus([(S::one(), &self.predicted())]);
+            let slope = &mut self.reached.slope;
             let mut counted = Counted {
                 system,
-                counts: &mut self.counts,
+                counts: &mut self.reached.counts,
             };
-            counted.stage(end, &predicted, &mut slope)?;
-            counted.jacobian(end, &predicted, &slope, &mut self.jacobian)?;
+            counted.stage(end, &predicted, slope)?;
+            counted.jacobian(end, &predicted, slope, &mut self.jacobian)?;
             self.age = Age::Present;
             self.factorised = None;
         }
@@ -281,10 +276,10 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         } = trial;
         let order = self.order;
         system.settle(&mut state, None);
-        self.counts.accepted += 1;
+        self.reached.counts.accepted += 1;
         self.age = Age::Former;
-        self.time = end;
-        self.state = state;
+        self.reached.time = end;
+        self.reached.state = state;
         let highest = replace(&mut self.differences[order], change);
         self.differences[order + 1] = self.differences[order].zip(&highest, |new, old| new - old);
         for lower in (0..order).rev() {
@@ -297,7 +292,7 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         }
         // By how much the next step may be longer at an order: the order of the longest is taken.
         let longer = |order: usize| {
-            let size = self.size(&self.state, &self.differences[order]);
+            let size = self.size(&self.reached.state, &self.differences[order]);
             let exponent = -1.0 / (order + 1) as f64;
             (error_constant::<S>(order) * size).powf(exponent)
         };
@@ -332,37 +327,29 @@ fn interpolation<S: Real>(factor: S) -> [[S; HIGHEST]; HIGHEST] {
 }
 
 impl<S: Real, X: Vector<S>> Course<S, X> for BdfCourse<S, X> {
-    fn time(&self) -> S {
-        self.time
-    }
-
-    fn state(&self) -> &X {
-        &self.state
-    }
+    // Where a state is replaced, those before are moved along: their differences stay.
+    reached!();
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        let smallest = self.controller.smallest(self.time);
-        let remaining = self.end - self.time;
-        self.resize(self.controller.limited(self.time, self.step));
+        let time = self.reached.time;
+        let smallest = self.controller.smallest(time);
+        let remaining = self.controller.remaining(time);
+        self.resize(self.controller.limited(time, self.step));
         let mut stretched = S::constant(1.0 + 1e-6) * self.step >= remaining;
         if stretched {
             self.resize(remaining);
         }
         loop {
-            let end = if stretched {
-                self.end
-            } else {
-                self.time + self.step
-            };
+            let end = self.controller.end_of(time, self.step, stretched);
             let outcome = match self.prepare(system, end) {
                 Ok(true) => {
-                    let mut counts = self.counts;
+                    let mut counts = self.reached.counts;
                     let mut counted = Counted {
                         system,
                         counts: &mut counts,
                     };
                     let outcome = self.attempt(&mut counted, end);
-                    self.counts = counts;
+                    self.reached.counts = counts;
                     outcome
                 }
                 Ok(false) => Ok(None),
@@ -389,13 +376,13 @@ impl<S: Real, X: Vector<S>> Course<S, X> for BdfCourse<S, X> {
                     (outcome.err(), S::constant(0.5))
                 }
             };
-            self.counts.rejected += 1;
+            self.reached.counts.rejected += 1;
             if self.step <= smallest {
                 let step = self.step;
                 let named = self.refused(system, end, fault);
                 return Err(named
                     .or(fault)
-                    .unwrap_or_else(|| self.controller.underflow(step, self.time)));
+                    .unwrap_or_else(|| self.controller.underflow(step, time)));
             }
             self.resize(smallest.max(factor * self.step));
             stretched = false;
@@ -406,20 +393,11 @@ impl<S: Real, X: Vector<S>> Course<S, X> for BdfCourse<S, X> {
         let mut power = S::one();
         let weights = (0..self.order).map(|k| {
             let steps = S::constant(k as f64);
-            let distance = (time - self.time).quotient(self.step) + steps;
+            let distance = (time - self.reached.time).quotient(self.step) + steps;
             power = power * distance.quotient(steps + S::one());
             power
         });
         let increment = self.combined(weights);
-        Ok(self.state.plus([(S::one(), &increment)]))
-    }
-
-    fn replace(&mut self, state: X) {
-        // The states before are moved along: their differences stay.
-        self.state = state;
-    }
-
-    fn counts(&self) -> Counts {
-        self.counts
+        Ok(self.reached.state.plus([(S::one(), &increment)]))
     }
 }

@@ -69,6 +69,8 @@ pub(super) struct Controller<S> {
     first: Option<S>,
     least: S,
     largest: S,
+    /// The end of the interval.
+    end: S,
 }
 
 /// What the first step takes of the change that the tolerance allows, if a method does not say
@@ -99,6 +101,7 @@ impl<S: Real> Controller<S> {
             first: set("first step", limits.first)?,
             least,
             largest: largest.unwrap_or(S::constant(0.1) * duration).max(least),
+            end: span.end,
         })
     }
 
@@ -148,14 +151,24 @@ impl<S: Real> Controller<S> {
 
     /// The first trial of a step, and whether it is stretched to the end of the interval: if it
     /// comes within a tenth of it.
-    pub(super) fn opening(&self, (time, end): (S, S), step: S) -> (S, bool) {
+    pub(super) fn opening(&self, time: S, step: S) -> (S, bool) {
         let size = self.limited(time, step);
-        let remaining = end - time;
+        let remaining = self.remaining(time);
         if S::constant(1.1) * size >= remaining {
             (remaining, true)
         } else {
             (size, false)
         }
+    }
+
+    /// What remains of the interval.
+    pub(super) fn remaining(&self, time: S) -> S {
+        self.end - time
+    }
+
+    /// The time that a trial from `time` leads to.
+    pub(super) fn end_of(&self, time: S, size: S, stretched: bool) -> S {
+        if stretched { self.end } else { time + size }
     }
 
     /// Whether a trial with this error is accepted; not if the error is NaN.

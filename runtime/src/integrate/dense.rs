@@ -1,7 +1,6 @@
 //! The state within a step.
 
 use super::Stride;
-use super::tableau::dormand_prince::INTERPOLANT;
 use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
@@ -24,13 +23,10 @@ pub(super) fn cubic<S: Real, X: Vector<S>, K>(stride: &Stride<'_, S, X, K>, thet
     )
 }
 
-/// The weights of slopes 1, 3, 4, 5, 6, 7 of Dormand and Prince at the fraction `theta` of a step,
-/// times `step`.
-pub(super) fn quartic_weights<S: Scalar>(step: S, theta: S) -> [S; 6] {
-    INTERPOLANT.map(|[a, b, c, d]| {
-        let inner = S::constant(d)
-            .fused(theta, S::constant(c))
-            .fused(theta, S::constant(b));
-        step * theta * inner.fused(theta, S::constant(a))
-    })
+/// A polynomial without a constant term at the fraction `theta` of a step, times `step`: the weight
+/// of a slope. `row` has its coefficients from `theta` on.
+pub(super) fn polynomial<S: Scalar, const N: usize>(row: [f64; N], step: S, theta: S) -> S {
+    let mut coefficients = row.into_iter().rev().map(S::constant);
+    let highest = coefficients.next().unwrap_or(S::zero());
+    step * theta * coefficients.fold(highest, |sum, lower| sum.fused(theta, lower))
 }

@@ -1,10 +1,7 @@
 //! The method of Dormand and Prince.
 
-use super::tableau::{dormand_prince as tableau, scaled};
-use super::{Adaptive, EmbeddedPair, Scheme, Start, Stride, System, dense};
-use crate::error::Fault;
-use crate::math::scalar::Real;
-use crate::state::vector::Vector;
+use super::Adaptive;
+use super::explicit::explicit;
 
 /// Dormand-Prince 5(4) with the step control of MATLAB's `ode45`, see [`Adaptive`]: `6 k + 1`
 /// evaluations for `k` steps. Output within a step is by the free interpolant of order 4.
@@ -17,124 +14,61 @@ use crate::state::vector::Vector;
 /// ```
 pub type DormandPrince<S> = Adaptive<S, DormandPrince5>;
 
-/// With `z` half the angle of a step, the method leaves `|p|` by `z^6 / 3600` and an angle by less
-/// than `z^7 / 3600`: their ratio is below one where a step turns by less than two radians.
-const TURNING_ERROR: f64 = 1.0;
-
-/// One step of Dormand-Prince, of order 5: six evaluations, one of them shared with the next step
-/// where a [`FixedStep`](super::FixedStep) drives it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct DormandPrince5;
-
-/// The slopes at stages 3 to 6.
-#[derive(Clone, Copy, Debug)]
-pub struct DormandPrinceStages<X> {
-    pub(super) third: X,
-    pub(super) fourth: X,
-    pub(super) fifth: X,
-    pub(super) sixth: X,
-}
-
-impl<S: Real> EmbeddedPair<S> for DormandPrince5 {
-    const POWER: f64 = 5.0;
-
-    #[inline]
-    fn error<X: Vector<S>>(
-        &self,
-        stride: &Stride<'_, S, X, DormandPrinceStages<X>>,
-        floor: S,
-    ) -> S {
-        let k = stride.stages;
-        let [e1, e3, e4, e5, e6, e7] = scaled(tableau::ERROR, stride.step);
-        let terms = [
-            (e1, stride.first),
-            (e3, &k.third),
-            (e4, &k.fourth),
-            (e5, &k.fifth),
-            (e6, &k.sixth),
-            (e7, stride.last),
-        ];
-        stride.from.relative_norm(stride.to, floor, terms)
-    }
-}
-
-impl<S: Real> Scheme<S> for DormandPrince5 {
-    type Stages<X: Vector<S>> = DormandPrinceStages<X>;
-
-    fn stages<X: Vector<S>>(&self, like: &X) -> DormandPrinceStages<X> {
-        DormandPrinceStages {
-            third: like.clone(),
-            fourth: like.clone(),
-            fifth: like.clone(),
-            sixth: like.clone(),
+explicit! {
+    /// One step of Dormand-Prince, of order 5: six evaluations, one of them shared with the next
+    /// step where a [`FixedStep`](super::FixedStep) drives it.
+    ///
+    /// Dormand and Prince, *A family of embedded Runge-Kutta formulae*, J. Comp. Appl. Math. 6
+    /// (1980), 19-26; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd
+    /// ed., table II.5.2. Within a step, `ntrp45` of MATLAB (Shampine, *Some practical Runge-Kutta
+    /// formulas*, Math. Comp. 46 (1986), 135-150). Slope 2 is in the stages alone.
+    DormandPrince5;
+    slopes { k1, inner [k2], kept [k3, k4, k5, k6] }
+    stages {
+        1.0 / 5.0 => k2 { k1: 1.0 / 5.0 }
+        3.0 / 10.0 => k3 { k1: 3.0 / 40.0, k2: 9.0 / 40.0 }
+        4.0 / 5.0 => k4 { k1: 44.0 / 45.0, k2: -56.0 / 15.0, k3: 32.0 / 9.0 }
+        8.0 / 9.0 => k5 {
+            k1: 19372.0 / 6561.0,
+            k2: -25360.0 / 2187.0,
+            k3: 64448.0 / 6561.0,
+            k4: -212.0 / 729.0,
+        }
+        1.0 => k6 {
+            k1: 9017.0 / 3168.0,
+            k2: -355.0 / 33.0,
+            k3: 46732.0 / 5247.0,
+            k4: 49.0 / 176.0,
+            k5: -5103.0 / 18656.0,
         }
     }
-
-    #[inline]
-    fn stride<Y: System<S>>(
-        &self,
-        system: &mut Y,
-        start: Start<'_, S, Y::State>,
-        step: S,
-        k: &mut DormandPrinceStages<Y::State>,
-    ) -> Result<Y::State, Fault> {
-        let Start {
-            time,
-            state,
-            slope: k1,
-        } = start;
-        let [t2, t3, t4, t5] = scaled(tableau::TIMES, S::one());
-        let at = |fraction: S| fraction.fused(step, time);
-
-        let [a] = scaled(tableau::STAGE_2, step);
-        let mut k2 = k1.clone();
-        system.stage(at(t2), &state.plus([(a, k1)]), &mut k2)?;
-        let [a, b] = scaled(tableau::STAGE_3, step);
-        let stage = state.plus([(a, k1), (b, &k2)]);
-        system.stage(at(t3), &stage, &mut k.third)?;
-        let [a, b, c] = scaled(tableau::STAGE_4, step);
-        let stage = state.plus([(a, k1), (b, &k2), (c, &k.third)]);
-        system.stage(at(t4), &stage, &mut k.fourth)?;
-        let [a, b, c, d] = scaled(tableau::STAGE_5, step);
-        let stage = state.plus([(a, k1), (b, &k2), (c, &k.third), (d, &k.fourth)]);
-        system.stage(at(t5), &stage, &mut k.fifth)?;
-        let [a, b, c, d, e] = scaled(tableau::STAGE_6, step);
-        let stage = state.plus([
-            (a, k1),
-            (b, &k2),
-            (c, &k.third),
-            (d, &k.fourth),
-            (e, &k.fifth),
-        ]);
-        system.stage(time + step, &stage, &mut k.sixth)?;
-        let [a, b, c, d, e] = scaled(tableau::RESULT, step);
-        Ok(state.plus([
-            (a, k1),
-            (b, &k.third),
-            (c, &k.fourth),
-            (d, &k.fifth),
-            (e, &k.sixth),
-        ]))
+    result {
+        k1: 35.0 / 384.0,
+        k3: 500.0 / 1113.0,
+        k4: 125.0 / 192.0,
+        k5: -2187.0 / 6784.0,
+        k6: 11.0 / 84.0,
     }
-
-    fn turning_error(&self) -> f64 {
-        TURNING_ERROR
+    error 5.0, k7 {
+        k1: 71.0 / 57600.0,
+        k3: -71.0 / 16695.0,
+        k4: 71.0 / 1920.0,
+        k5: -17253.0 / 339_200.0,
+        k6: 22.0 / 525.0,
+        k7: -1.0 / 40.0,
     }
-
-    fn interpolate<X: Vector<S>>(
-        &self,
-        stride: Stride<'_, S, X, DormandPrinceStages<X>>,
-        theta: S,
-    ) -> X {
-        let [w1, w3, w4, w5, w6, w7] = dense::quartic_weights(stride.step, theta);
-        let k = stride.stages;
-        stride.from.plus([
-            (w1, stride.first),
-            (w3, &k.third),
-            (w4, &k.fourth),
-            (w5, &k.fifth),
-            (w6, &k.sixth),
-            (w7, stride.last),
-        ])
+    within k7 {
+        k1: [1.0, -183.0 / 64.0, 37.0 / 12.0, -145.0 / 128.0],
+        k3: [0.0, 1500.0 / 371.0, -1000.0 / 159.0, 1000.0 / 371.0],
+        k4: [0.0, -125.0 / 32.0, 125.0 / 12.0, -375.0 / 64.0],
+        k5: [0.0, 9477.0 / 3392.0, -729.0 / 106.0, 25515.0 / 6784.0],
+        k6: [0.0, -11.0 / 7.0, 11.0 / 3.0, -55.0 / 28.0],
+        k7: [0.0, 3.0 / 2.0, -4.0, 5.0 / 2.0],
+    }
+    model {
+        /// With `z` half the angle of a step, the method leaves `|p|` by `z^6 / 3600` and an angle
+        /// by less than `z^7 / 3600`: their ratio is below one where a step turns by less than two
+        /// radians.
+        turning_error: 1.0,
     }
 }

@@ -1,8 +1,10 @@
 //! A scheme at a fixed step.
 
-use super::lobatto::Taken;
+use super::lobatto::better_end;
+use super::record::{LastStep, Reached, reached};
 use super::{
-    Counted, Counts, Course, Ends, Integrator, Scheme, Span, Start, Stride, System, named, refused,
+    Counted, Counts, Course, Heun, ImplicitMidpoint, Integrator, Kutta3, Midpoint, Rk4, Scheme,
+    SemiImplicitEuler, Span, Start, System, refused,
 };
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -21,6 +23,28 @@ pub struct FixedStep<S, K> {
     pub scheme: K,
 }
 
+/// The constructors of methods that are schemes themselves.
+macro_rules! constructors {
+    ($($scheme:ident),*) => {$(
+        impl $scheme {
+            /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
+            #[must_use]
+            pub const fn every<S>(step: S) -> FixedStep<S, Self> {
+                FixedStep { step, scheme: Self }
+            }
+        }
+    )*};
+}
+
+constructors!(
+    SemiImplicitEuler,
+    Midpoint,
+    Heun,
+    ImplicitMidpoint,
+    Kutta3,
+    Rk4
+);
+
 impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
     type Course<X: Vector<S>> = FixedCourse<S, X, K>;
 
@@ -31,26 +55,14 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
         state: Y::State,
     ) -> Result<FixedCourse<S, Y::State, K>, Fault> {
         let grid = Grid::new(self.step, &span)?;
-        let mut counts = Counts::default();
-        let last = Counted {
-            system,
-            counts: &mut counts,
-        }
-        .rates(span.start, &state)?;
+        let reached = Reached::start(system, &span, state)?;
         Ok(FixedCourse {
             scheme: self.scheme,
             grid,
-            counts,
-            time: span.start,
-            from: state.clone(),
-            first: last.clone(),
-            stages: self.scheme.stages(&last),
-            state,
-            last,
-            known: true,
-            start: span.start,
-            step: S::zero(),
-            prepared: false,
+            last: LastStep::none(&reached),
+            stages: self.scheme.stages(&reached.slope),
+            is_prepared: false,
+            reached,
         })
     }
 
@@ -113,73 +125,32 @@ impl<S: Real> Grid<S> {
     }
 }
 
-/// The slope at a state, written over another; refused if it is not finite.
-pub(super) fn slope<S: Real, Y: System<S>>(
-    system: &mut Y,
-    counts: &mut Counts,
-    (time, state): (S, &Y::State),
-    slope: &mut Y::State,
-) -> Result<(), Fault> {
-    let outcome = Counted { system, counts }.stage(time, state, slope);
-    if outcome.is_err() || !slope.is_finite() {
-        let fault = named(outcome.err(), system, |system| system.rates(time, state));
-        return Err(fault.unwrap_or(Fault::StateNotFinite));
-    }
-    Ok(())
-}
-
 /// An integration with a [`FixedStep`] under way.
 pub struct FixedCourse<S: Real, X: Vector<S>, K: Scheme<S>> {
     scheme: K,
     grid: Grid<S>,
-    counts: Counts,
-    time: S,
-    state: X,
-    /// The slope at `state`, if it is known.
-    last: X,
-    known: bool,
-    /// The last step: its start, its size, the slopes within.
-    start: S,
-    step: S,
-    from: X,
-    first: X,
+    reached: Reached<S, X>,
+    last: LastStep<S, X>,
     stages: K::Stages<X>,
     /// Whether the interpolant has what it needs besides these.
-    prepared: bool,
-}
-
-impl<S: Real, X: Vector<S>, K: Scheme<S>> FixedCourse<S, X, K> {
-    /// Computes the slope at the state that was reached, once.
-    fn slope<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        if !self.known {
-            let at = (self.time, &self.state);
-            slope(system, &mut self.counts, at, &mut self.last)?;
-            self.known = true;
-        }
-        Ok(())
-    }
+    is_prepared: bool,
 }
 
 impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> {
-    fn time(&self) -> S {
-        self.time
-    }
-
-    fn state(&self) -> &X {
-        &self.state
-    }
+    reached!();
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        self.slope(system)?;
-        let (step, end) = self.grid.next(self.counts.accepted, self.time)?;
+        self.reached.know_slope(system)?;
+        let reached = &mut self.reached;
+        let (step, end) = self.grid.next(reached.counts.accepted, reached.time)?;
         let mut counted = Counted {
             system,
-            counts: &mut self.counts,
+            counts: &mut reached.counts,
         };
         let start = Start {
-            time: self.time,
-            state: &self.state,
-            slope: &self.last,
+            time: reached.time,
+            state: &reached.state,
+            slope: &reached.slope,
         };
         let outcome = self
             .scheme
@@ -187,71 +158,32 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
         let mut state = match outcome {
             Ok(state) if state.is_finite() => state,
             outcome => {
-                let from = (self.time, &self.state);
+                let from = (reached.time, &reached.state);
                 return Err(refused(&self.scheme, system, from, step, outcome.err()));
             }
         };
         system.settle(&mut state, None);
-        self.counts.accepted += 1;
-        core::mem::swap(&mut self.first, &mut self.last);
-        self.known = false;
-        self.from = core::mem::replace(&mut self.state, state);
-        self.start = core::mem::replace(&mut self.time, end);
-        self.step = step;
-        self.prepared = false;
+        self.last.take(reached, (step, end), state);
+        self.is_prepared = false;
         Ok(())
     }
 
     fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
-        self.slope(system)?;
-        if !self.prepared {
-            let mut counted = Counted {
-                system,
-                counts: &mut self.counts,
-            };
-            let ends = Ends {
-                step: self.step,
-                from: &self.from,
-                first: &self.first,
-                last: &self.last,
-            };
-            self.scheme
-                .prepare(&mut counted, self.start, ends, &mut self.stages)?;
-            self.prepared = true;
+        self.reached.know_slope(system)?;
+        if !self.is_prepared {
+            let (reached, stages) = (&mut self.reached, &mut self.stages);
+            self.last.prepare(&self.scheme, system, reached, stages)?;
+            self.is_prepared = true;
         }
-        let theta = (time - self.start).quotient(self.time - self.start);
-        let stride = Stride {
-            step: self.step,
-            from: &self.from,
-            first: &self.first,
-            stages: &self.stages,
-            to: &self.state,
-            last: &self.last,
-        };
+        let stride = self.last.stride(&self.reached, &self.stages);
+        let theta = self.last.theta(&self.reached, time);
         Ok(self.scheme.interpolate(stride, theta))
     }
 
     fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
-        if !K::IS_JUDGED {
+        if self.scheme.silent_phase() == 0.0 {
             return Ok(None);
         }
-        let taken = Taken {
-            start: self.start,
-            end: self.time,
-            step: self.step,
-            from: &self.from,
-            first: &self.first,
-            to: &self.state,
-        };
-        taken.better_end(system).map(Some)
-    }
-
-    fn replace(&mut self, state: X) {
-        self.state = state;
-        self.known = false;
-    }
-
-    fn counts(&self) -> Counts {
-        self.counts
+        better_end(system, &self.last, &self.reached).map(Some)
     }
 }

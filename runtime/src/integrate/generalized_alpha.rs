@@ -2,9 +2,10 @@
 
 use core::mem::replace;
 
-use super::fixed::{Grid, slope};
-use super::lobatto::Taken;
-use super::{Counted, Counts, Course, Integrator, NoStages, Span, Stride, System, dense};
+use super::fixed::Grid;
+use super::lobatto::better_end;
+use super::record::{LastStep, Reached, reached};
+use super::{Counted, Counts, Course, Integrator, NoStages, Span, System, dense};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -198,25 +199,13 @@ impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
     ) -> Result<GeneralizedAlphaCourse<S, Y::State>, Fault> {
         let weights = AlphaWeights::of(self.rho)?;
         let grid = Grid::new(self.step, &span)?;
-        let mut counts = Counts::default();
-        let last = Counted {
-            system,
-            counts: &mut counts,
-        }
-        .rates(span.start, &state)?;
+        let reached = Reached::start(system, &span, state)?;
         Ok(GeneralizedAlphaCourse {
             weights,
             grid,
-            counts,
-            time: span.start,
-            start: span.start,
-            step: S::zero(),
-            from: state.clone(),
-            first: last.clone(),
-            auxiliary: last.clone(),
-            state,
-            last,
-            is_corrected: false,
+            last: LastStep::none(&reached),
+            auxiliary: reached.slope.clone(),
+            reached,
         })
     }
 
@@ -241,90 +230,44 @@ impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
 pub struct GeneralizedAlphaCourse<S: Real, X: Vector<S>> {
     weights: AlphaWeights<S>,
     grid: Grid<S>,
-    counts: Counts,
-    time: S,
-    state: X,
-    /// The rates at `state`, as the last step has solved for them.
-    last: X,
+    /// With the rates that the last step has solved for.
+    reached: Reached<S, X>,
     auxiliary: X,
-    /// The last step: its start, its size, state and rates there.
-    start: S,
-    step: S,
-    from: X,
-    first: X,
-    /// Whether a treatment has replaced the state that `last` belongs to.
-    is_corrected: bool,
+    last: LastStep<S, X>,
 }
 
 impl<S: Real, X: Vector<S>> Course<S, X> for GeneralizedAlphaCourse<S, X> {
-    fn time(&self) -> S {
-        self.time
-    }
-
-    fn state(&self) -> &X {
-        &self.state
-    }
+    reached!();
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        if self.is_corrected {
-            let at = (self.time, &self.state);
-            slope(system, &mut self.counts, at, &mut self.last)?;
-            self.is_corrected = false;
-        }
-        let (step, time) = self.grid.next(self.counts.accepted, self.time)?;
+        self.reached.know_slope(system)?;
+        let reached = &mut self.reached;
+        let (step, time) = self.grid.next(reached.counts.accepted, reached.time)?;
         let mut end = Counted {
             system,
-            counts: &mut self.counts,
+            counts: &mut reached.counts,
         }
         .step_on_constraints(AlphaStep {
             weights: self.weights,
             end: time,
             step,
-            state: &self.state,
-            slope: &self.last,
+            state: &reached.state,
+            slope: &reached.slope,
             auxiliary: &self.auxiliary,
         })?;
         system.settle(&mut end.state, Some(&mut end.slope));
-        self.counts.accepted += 1;
-        self.first = replace(&mut self.last, end.slope);
-        self.from = replace(&mut self.state, end.state);
+        self.last.first = replace(&mut reached.slope, end.slope);
         self.auxiliary = end.auxiliary;
-        self.start = replace(&mut self.time, time);
-        self.step = step;
+        self.last.go(reached, (step, time), end.state);
         Ok(())
     }
 
     fn at<Y: System<S, State = X>>(&mut self, _system: &mut Y, time: S) -> Result<X, Fault> {
-        let theta = (time - self.start).quotient(self.time - self.start);
-        let stride = Stride {
-            step: self.step,
-            from: &self.from,
-            first: &self.first,
-            stages: &NoStages,
-            to: &self.state,
-            last: &self.last,
-        };
-        Ok(dense::cubic(&stride, theta))
+        let stride = self.last.stride(&self.reached, &NoStages);
+        Ok(dense::cubic(&stride, self.last.theta(&self.reached, time)))
     }
 
     fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
-        let taken = Taken {
-            start: self.start,
-            end: self.time,
-            step: self.step,
-            from: &self.from,
-            first: &self.first,
-            to: &self.state,
-        };
-        taken.better_end(system).map(Some)
-    }
-
-    fn replace(&mut self, state: X) {
-        self.state = state;
-        self.is_corrected = true;
-    }
-
-    fn counts(&self) -> Counts {
-        self.counts
+        better_end(system, &self.last, &self.reached).map(Some)
     }
 }

@@ -2,7 +2,7 @@
 
 use core::mem::swap;
 
-use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
+use super::{NoStages, Scheme, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -22,14 +22,6 @@ use crate::state::vector::Vector;
 /// states and slopes at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ImplicitMidpoint;
-
-impl ImplicitMidpoint {
-    /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
-    #[must_use]
-    pub const fn every<S>(step: S) -> FixedStep<S, Self> {
-        FixedStep { step, scheme: Self }
-    }
-}
 
 /// Iterations that a step may take: enough for a factor of two thirds each, in `f64`.
 const ITERATIONS: usize = 100;
@@ -56,8 +48,6 @@ fn shaken<S: Real, X: Vector<S>>(state: &X) -> X {
 
 impl<S: Real> Scheme<S> for ImplicitMidpoint {
     type Stages<X: Vector<S>> = NoStages;
-
-    const IS_JUDGED: bool = true;
 
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
         NoStages
@@ -127,9 +117,5 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
 
     fn silent_phase(&self) -> f64 {
         1.0 / 12.0
-    }
-
-    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
-        dense::cubic(&stride, theta)
     }
 }

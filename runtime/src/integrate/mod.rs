@@ -6,6 +6,7 @@
 //! | [`Midpoint::every(h)`](Midpoint::every), [`Heun::every(h)`](Heun::every) | Runge-Kutta methods of order 2, fixed step | 2 a step |
 //! | [`ImplicitMidpoint::every(h)`](ImplicitMidpoint::every) | implicit midpoint rule of order 2, symmetric, fixed step | 1 a step and 1 an iteration |
 //! | [`GeneralizedAlpha::every(h)`](GeneralizedAlpha::every) | generalized-alpha of order 2 on rigid constraints, damping as wanted, fixed step | 1 an iteration |
+//! | [`Kutta3::every(h)`](Kutta3::every) | Runge-Kutta method of order 3, fixed step | 3 a step |
 //! | [`Rk4::every(h)`](Rk4::every) | classical Runge-Kutta of order 4, fixed step | 4 a step |
 //! | [`AdamsBashforthMoulton4::every(h)`](AdamsBashforthMoulton4::every) | multistep method of order 4, predicted and corrected, fixed step | 2 a step |
 //! | [`DormandPrince::every(h)`](DormandPrince::every) | Dormand-Prince of order 5, fixed step | 6 a step |
@@ -21,8 +22,9 @@
 //! [`Integrator::start`] begins a [`Course`] over an interval, with output at any time within the
 //! last step.
 //!
-//! Structure. An embedded pair (`embedded.rs`) is a scheme with error weights, their power of the
-//! step and an interpolant. The control knows no more. `Scheme::prepare` evaluates what an
+//! Structure. An explicit Runge-Kutta method is its table (`explicit.rs`). An embedded pair
+//! (`embedded.rs`) is a scheme with error weights, their power of the step and an interpolant. The
+//! control knows no more. `Scheme::prepare` evaluates what an
 //! interpolant needs besides, only for steps that are looked into: three evaluations of
 //! Dormand-Prince 8(5,3).
 //!
@@ -47,6 +49,7 @@ mod dense;
 mod dormand_prince;
 mod dormand_prince_8;
 mod embedded;
+mod explicit;
 mod fixed;
 mod generalized_alpha;
 mod implicit_midpoint;
@@ -54,7 +57,9 @@ mod linear;
 mod lobatto;
 mod newton;
 mod radau;
+mod record;
 mod rk2;
+mod rk3;
 mod rk4;
 mod semi_implicit;
 mod tableau;
@@ -67,12 +72,12 @@ pub use adams::{Adams, AdamsCourse};
 pub use adams_fixed::{AdamsBashforthMoulton4, AdamsFixedCourse};
 pub use adaptive::AdaptiveCourse;
 pub use bdf::{Bdf, BdfCourse};
-pub use bogacki_shampine::{BogackiShampine, BogackiShampine3, BogackiShampineStages};
+pub use bogacki_shampine::{BogackiShampine, BogackiShampine3};
 pub use controlled::StepLimits;
 pub use controller::Tolerance;
 pub use counted::Counts;
-pub use dormand_prince::{DormandPrince, DormandPrince5, DormandPrinceStages};
-pub use dormand_prince_8::{DormandPrince8, DormandPrince8Stages, DormandPrince853};
+pub use dormand_prince::{DormandPrince, DormandPrince5};
+pub use dormand_prince_8::{DormandPrince8, DormandPrince853};
 pub use embedded::{Adaptive, EmbeddedPair};
 pub use fixed::{FixedCourse, FixedStep};
 pub use generalized_alpha::{
@@ -81,6 +86,7 @@ pub use generalized_alpha::{
 pub use implicit_midpoint::ImplicitMidpoint;
 pub use radau::{RadauCourse, RadauIIA};
 pub use rk2::{Heun, Midpoint};
+pub use rk3::Kutta3;
 pub use rk4::Rk4;
 pub use semi_implicit::SemiImplicitEuler;
 
@@ -280,6 +286,29 @@ pub trait Integrator<S: Real>: Copy + Debug {
     }
 }
 
+/// The functions of an [`Integrator`] but `start`, each by that of another one, which a macro calls
+/// an expression with. It is beside the trait, so that no function is forgotten.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __hooks_of_integrator {
+    ($with:ident) => {
+        $crate::__hooks_of_integrator! { $with:
+            budget -> Option<usize>;
+            fixed_step -> Option<S>;
+            turning_error -> f64;
+            turning_error_of_short_steps -> f64;
+            silent_phase -> f64;
+            velocity_lead -> f64;
+            tolerance -> Option<$crate::Tolerance<S>>;
+        }
+    };
+    ($with:ident: $($hook:ident -> $of:ty;)*) => {$(
+        fn $hook(&self) -> $of {
+            $with!(self, own => $crate::integrate::Integrator::<S>::$hook(&own))
+        }
+    )*};
+}
+
 /// An integration under way.
 pub trait Course<S: Real, X: Vector<S>> {
     /// The time that was reached.
@@ -359,11 +388,8 @@ pub trait Scheme<S: Real>: Copy + Debug {
         0.0
     }
 
-    /// Whether [`Course::better_end`] judges steps of this method: those of order 2, whose energy
-    /// does not tell what they miss.
-    const IS_JUDGED: bool = false;
-
-    /// See [`Integrator::silent_phase`].
+    /// See [`Integrator::silent_phase`]. Where it is not zero, [`Course::better_end`] judges the
+    /// steps of this method.
     fn silent_phase(&self) -> f64 {
         0.0
     }
@@ -389,8 +415,11 @@ pub trait Scheme<S: Real>: Copy + Debug {
         Ok(())
     }
 
-    /// The state at the fraction `theta` (from 0 to 1) of a step.
-    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X;
+    /// The state at the fraction `theta` (from 0 to 1) of a step: by the cubic through states and
+    /// slopes at both ends, if a method does not know better.
+    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X {
+        dense::cubic(&stride, theta)
+    }
 
     /// One step of the size `step` from `time`, without control of the error.
     ///

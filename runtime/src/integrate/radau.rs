@@ -6,6 +6,7 @@ use super::controlled::controlled;
 use super::controller::{Controller, FIRST_SHARE};
 use super::linear::{ComplexColumn, Factors};
 use super::newton::{Age, Newton, Progress};
+use super::record::{Reached, reached};
 use super::tableau_radau as tableau;
 use super::{Counted, Counts, Course, Span, System, Tolerance, named};
 use crate::error::Fault;
@@ -64,14 +65,8 @@ pub struct RadauCourse<S: Real, X: Vector<S>> {
     controller: Controller<S>,
     /// The iteration of a step before its first change.
     newton: Newton<S>,
-    end: S,
     next_step: S,
-    counts: Counts,
-    time: S,
-    state: X,
-    /// The rates at `state`, if `replaced` does not say otherwise.
-    slope: X,
-    replaced: bool,
+    reached: Reached<S, X>,
     jacobian: X::Each<X>,
     age: Age,
     real: Factors<S, X, X>,
@@ -110,21 +105,13 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
             absolute: absolute * estimated.quotient(relative),
         };
         let controller = Controller::new(tolerance, limits, tableau::POWER, &span)?;
-        let mut counts = Counts::default();
-        let slope = Counted {
-            system,
-            counts: &mut counts,
-        }
-        .rates(span.start, &state)?;
-        let nothing = slope.zip(&slope, |_, _| S::zero());
+        let reached = Reached::start(system, &span, state)?;
+        let Reached { state, slope, .. } = &reached;
+        let nothing = slope.zip(slope, |_, _| S::zero());
         Ok(Self {
             newton: Newton::new(controller.relative, ITERATIONS),
-            end: span.end,
-            next_step: controller.first(&span, &state, &slope, FIRST_SHARE),
+            next_step: controller.first(&span, state, slope, FIRST_SHARE),
             controller,
-            counts,
-            time: span.start,
-            replaced: false,
             jacobian: state.each(nothing.clone()),
             age: Age::Unknown,
             real: Factors::new(&nothing),
@@ -135,8 +122,7 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
             error: None,
             from: state.clone(),
             increments: [nothing.clone(), nothing.clone(), nothing],
-            state,
-            slope,
+            reached,
         })
     }
 
@@ -172,9 +158,14 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         if self.age == Age::Unknown {
             let mut counted = Counted {
                 system,
-                counts: &mut self.counts,
+                counts: &mut self.reached.counts,
             };
-            counted.jacobian(self.time, &self.state, &self.slope, &mut self.jacobian)?;
+            counted.jacobian(
+                self.reached.time,
+                &self.reached.state,
+                &self.reached.slope,
+                &mut self.jacobian,
+            )?;
             self.age = Age::Present;
             self.factorised = None;
         }
@@ -185,12 +176,14 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
     fn factorise(&mut self, step: S) -> bool {
         if self.factorised != Some(step) {
             let shift = |number: f64| S::constant(number).quotient(step);
-            let exists = self
-                .real
-                .factorise(shift(tableau::REAL), &self.jacobian, &self.slope)
-                && self
-                    .complex
-                    .factorise(tableau::COMPLEX.map(shift), &self.jacobian, &self.slope);
+            let exists =
+                self.real
+                    .factorise(shift(tableau::REAL), &self.jacobian, &self.reached.slope)
+                    && self.complex.factorise(
+                        tableau::COMPLEX.map(shift),
+                        &self.jacobian,
+                        &self.reached.slope,
+                    );
             self.factorised = exists.then_some(step);
         }
         self.factorised.is_some()
@@ -204,7 +197,7 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         (time, state, step): (S, &X, S),
         increments: &mut [X; 3],
     ) -> Result<Option<Newton<S>>, Fault> {
-        let length = self.state.length();
+        let length = self.reached.state.length();
         let shift = |number: f64| -S::constant(number).quotient(step);
         let [alpha, beta] = tableau::COMPLEX.map(shift);
         let mut transformed =
@@ -234,7 +227,7 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
             let changes = [change, complex.real, complex.imaginary];
             let size = changes
                 .each_ref()
-                .map(|change| self.size(&self.state, change))
+                .map(|change| self.size(&self.reached.state, change))
                 .into_iter()
                 .fold(S::zero(), S::max);
             let progress = newton.take(size);
@@ -255,7 +248,10 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
     /// An increment, relative to what is allowed.
     fn size(&self, to: &X, increment: &X) -> S {
         let floor = self.controller.floor;
-        let norm = self.state.relative_norm(to, floor, [(S::one(), increment)]);
+        let norm = self
+            .reached
+            .state
+            .relative_norm(to, floor, [(S::one(), increment)]);
         norm.quotient(self.controller.relative)
     }
 
@@ -269,18 +265,18 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         end: &X,
         again: bool,
     ) -> Result<S, Fault> {
-        let length = self.state.length();
+        let length = self.reached.state.length();
         let weights = tableau::ERROR.map(|weight| S::constant(weight).quotient(step));
         let difference = combined(weights, increments);
         let right = |slope: &X| slope.zip(&difference, |x, y| x + y);
-        let error = self.real.solve(right(&self.slope), length);
+        let error = self.real.solve(right(&self.reached.slope), length);
         let size = self.size(end, &error);
         if !(again && size > S::one()) {
             return Ok(size);
         }
         let mut slope = error.clone();
-        let there = self.state.plus([(S::one(), &error)]);
-        system.stage(self.time, &there, &mut slope)?;
+        let there = self.reached.state.plus([(S::one(), &error)]);
+        system.stage(self.reached.time, &there, &mut slope)?;
         let error = self.real.solve(right(&slope), length);
         Ok(self.size(end, &error))
     }
@@ -293,15 +289,18 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         rejected: bool,
     ) -> Result<Option<Trial<S, X>>, Fault> {
         let mut increments = self.guess(step);
-        let Some(newton) =
-            self.collocate(system, (self.time, &self.state, step), &mut increments)?
+        let Some(newton) = self.collocate(
+            system,
+            (self.reached.time, &self.reached.state, step),
+            &mut increments,
+        )?
         else {
             return Ok(None);
         };
         let [_, _, last] = &increments;
-        let state = self.state.plus([(S::one(), last)]);
+        let state = self.reached.state.plus([(S::one(), last)]);
         let error = self.estimate(system, (step, &increments), &state, rejected)?;
-        let mut slope = self.slope.clone();
+        let mut slope = self.reached.slope.clone();
         if error <= S::one() {
             system.stage(end, &state, &mut slope)?;
         }
@@ -354,41 +353,25 @@ struct Trial<S, X> {
 }
 
 impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
-    fn time(&self) -> S {
-        self.time
-    }
-
-    fn state(&self) -> &X {
-        &self.state
-    }
+    reached!();
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        if replace(&mut self.replaced, false) {
-            let mut counted = Counted {
-                system,
-                counts: &mut self.counts,
-            };
-            self.slope = counted.rates(self.time, &self.state)?;
-        }
-        let smallest = self.controller.smallest(self.time);
-        let interval = (self.time, self.end);
-        let (mut size, mut stretched) = self.controller.opening(interval, self.next_step);
+        self.reached.know_slope(system)?;
+        let time = self.reached.time;
+        let smallest = self.controller.smallest(time);
+        let (mut size, mut stretched) = self.controller.opening(time, self.next_step);
         let mut rejected = false;
         loop {
-            let end = if stretched {
-                self.end
-            } else {
-                self.time + size
-            };
+            let end = self.controller.end_of(time, size, stretched);
             let outcome = match self.prepare(system, size) {
                 Ok(true) => {
-                    let mut counts = self.counts;
+                    let mut counts = self.reached.counts;
                     let mut counted = Counted {
                         system,
                         counts: &mut counts,
                     };
                     let outcome = self.attempt(&mut counted, (size, end), rejected);
-                    self.counts = counts;
+                    self.reached.counts = counts;
                     outcome
                 }
                 Ok(false) => Ok(None),
@@ -401,9 +384,9 @@ impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
                 }
                 Ok(Some(trial)) => {
                     let factor = self.factor(size, trial.error, &trial.newton);
-                    self.counts.rejected += 1;
+                    self.reached.counts.rejected += 1;
                     if size <= smallest {
-                        return Err(self.controller.underflow(size, self.time));
+                        return Err(self.controller.underflow(size, time));
                     }
                     size = smallest.max(size * factor.max(S::constant(0.2)).min(S::constant(0.9)));
                     (stretched, rejected) = (false, true);
@@ -417,12 +400,12 @@ impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
                 Ok(None) => None,
                 Err(fault) => Some(fault),
             };
-            self.counts.rejected += 1;
+            self.reached.counts.rejected += 1;
             if size <= smallest {
                 let named = self.refused(system, (size, end), fault);
                 return Err(named
                     .or(fault)
-                    .unwrap_or_else(|| self.controller.underflow(size, self.time)));
+                    .unwrap_or_else(|| self.controller.underflow(size, time)));
             }
             size = smallest.max(S::constant(0.5) * size);
             (stretched, rejected) = (false, true);
@@ -437,29 +420,20 @@ impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
         let mut increments = tableau::NODES.map(polynomial);
         if step > S::zero() && step < self.step && self.factorise(step) {
             let mut solved = increments.clone();
-            let mut counts = self.counts;
+            let mut counts = self.reached.counts;
             let mut counted = Counted {
                 system,
                 counts: &mut counts,
             };
             let from = (self.start, &self.from, step);
             let outcome = self.collocate(&mut counted, from, &mut solved);
-            self.counts = counts;
+            self.reached.counts = counts;
             if outcome?.is_some() {
                 increments = solved;
             }
         }
         let [_, _, last] = &increments;
         Ok(self.from.plus([(S::one(), last)]))
-    }
-
-    fn replace(&mut self, state: X) {
-        self.state = state;
-        self.replaced = true;
-    }
-
-    fn counts(&self) -> Counts {
-        self.counts
     }
 }
 
@@ -489,14 +463,14 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         }
         self.next_step = step * factor.max(S::constant(0.2));
         system.settle(&mut trial.state, Some(&mut trial.slope));
-        self.counts.accepted += 1;
+        self.reached.counts.accepted += 1;
         // Errors near zero say nothing of the next one.
         self.error = Some(trial.error.max(S::constant(1e-2)));
-        self.start = self.time;
-        self.step = end - self.time;
-        self.time = end;
+        self.start = self.reached.time;
+        self.step = end - self.reached.time;
+        self.reached.time = end;
         self.increments = trial.increments;
-        swap(&mut self.slope, &mut trial.slope);
-        self.from = replace(&mut self.state, trial.state);
+        swap(&mut self.reached.slope, &mut trial.slope);
+        self.from = replace(&mut self.reached.state, trial.state);
     }
 }

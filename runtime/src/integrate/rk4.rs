@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method.
 
-use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
+use super::{NoStages, Scheme, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -14,14 +14,6 @@ use crate::state::vector::Vector;
 /// `1 - z^6/72 + z^8/576` with `z = |w| h / 2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rk4;
-
-impl Rk4 {
-    /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
-    #[must_use]
-    pub const fn every<S>(step: S) -> FixedStep<S, Self> {
-        FixedStep { step, scheme: Self }
-    }
-}
 
 impl<S: Real> Scheme<S> for Rk4 {
     type Stages<X: Vector<S>> = NoStages;
@@ -80,9 +72,5 @@ impl<S: Real> Scheme<S> for Rk4 {
     /// `z^6 / 144`, by which `|p|` is.
     fn turning_error_of_short_steps(&self) -> f64 {
         2.4
-    }
-
-    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
-        dense::cubic(&stride, theta)
     }
 }

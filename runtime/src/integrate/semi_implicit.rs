@@ -1,6 +1,6 @@
 //! The semi-implicit Euler method.
 
-use super::{FixedStep, NoStages, Scheme, Start, Stride, System, dense};
+use super::{NoStages, Scheme, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -17,14 +17,6 @@ use crate::state::vector::Vector;
 /// step is by the cubic through states and slopes at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SemiImplicitEuler;
-
-impl SemiImplicitEuler {
-    /// This method with a fixed step (s), for [`Simulation`](crate::Simulation).
-    #[must_use]
-    pub const fn every<S>(step: S) -> FixedStep<S, Self> {
-        FixedStep { step, scheme: Self }
-    }
-}
 
 impl<S: Real> Scheme<S> for SemiImplicitEuler {
     type Stages<X: Vector<S>> = NoStages;
@@ -56,9 +48,5 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
     /// step on.
     fn velocity_lead(&self) -> f64 {
         0.5
-    }
-
-    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, NoStages>, theta: S) -> X {
-        dense::cubic(&stride, theta)
     }
 }

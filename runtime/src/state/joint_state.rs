@@ -208,22 +208,24 @@ fn stretch<S: Scalar>([c, s]: [S; 2]) -> [S; 2] {
 /// Pairs, turned by angles of these sines and versines.
 #[inline(always)]
 fn turned_by<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], turns: &[[S; 2]; T]) -> [[S; 2]; T] {
-    let turn = |pairs: &mut [[S; 2]], turns: &[[S; 2]]| {
-        for (pair, &[sine, versine]) in pairs.iter_mut().zip(turns) {
-            let [[c, s], [more_c, more_s]] = [*pair, stretch(*pair)];
-            let (full_c, full_s) = (c + more_c, s + more_s);
-            *pair = [
-                c + versine.fused(-full_c, sine.fused(-full_s, more_c)),
-                s + versine.fused(-full_s, sine.fused(full_c, more_s)),
-            ];
-        }
-    };
     let mut result = *pairs;
     let (first, last) = result.split_at_mut(versine::cut(T));
     let (by, last_by) = turns.split_at(versine::cut(T));
     turn(first, by);
     turn(last, last_by);
     result
+}
+
+#[inline(always)]
+fn turn<S: Scalar>(pairs: &mut [[S; 2]], turns: &[[S; 2]]) {
+    for (pair, &[sine, versine]) in pairs.iter_mut().zip(turns) {
+        let [[c, s], [more_c, more_s]] = [*pair, stretch(*pair)];
+        let (full_c, full_s) = (c + more_c, s + more_s);
+        *pair = [
+            c + versine.fused(-full_c, sine.fused(-full_s, more_c)),
+            s + versine.fused(-full_s, sine.fused(full_c, more_s)),
+        ];
+    }
 }
 
 /// Pairs, turned by angles and by twice these angles.

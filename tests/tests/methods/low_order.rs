@@ -3,7 +3,7 @@
 
 use holonom::prelude::*;
 use holonom::{
-    Heun, JointCoordinates, Midpoint, SemiImplicitEuler, StateParts,
+    Heun, JointCoordinates, Kutta3, Midpoint, SemiImplicitEuler, StateParts,
     dynamics::Dynamics,
     integrate::{Scheme, System},
     state::{Array, MovingState, Vector},
@@ -44,6 +44,7 @@ fn methods_have_their_order_in_both_descriptions() {
     orders(SemiImplicitEuler, 1.0);
     orders(Midpoint, 2.0);
     orders(Heun, 2.0);
+    orders(Kutta3, 3.0);
 }
 
 /// Rates of coordinates at new velocities are those of an evaluation there.

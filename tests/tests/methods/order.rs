@@ -3,7 +3,7 @@
 use holonom::prelude::*;
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince853, Heun, ImplicitMidpoint,
-    Midpoint, RadauIIA, SemiImplicitEuler, integrate::Integrator, mechanism::Orientation,
+    Kutta3, Midpoint, RadauIIA, SemiImplicitEuler, integrate::Integrator, mechanism::Orientation,
 };
 use holonom_models::HeavyTop;
 use nalgebra::Vector4;
@@ -145,6 +145,7 @@ fn methods_of_fixed_steps_have_their_order_on_the_pendulum_and_on_the_heavy_top(
     has_its_order_on_both!(Midpoint, 2.0, 1.0 / 1024.0, 1e-4);
     has_its_order_on_both!(Heun, 2.0, 1.0 / 1024.0, 1e-4);
     has_its_order_on_both!(ImplicitMidpoint, 2.0, 1.0 / 512.0, 1e-4);
+    has_its_order_on_both!(Kutta3, 3.0, 1.0 / 512.0, 1e-4);
     has_its_order_on_both!(BogackiShampine, 3.0, 1.0 / 512.0, 1e-4);
     // Of the pendulum its error of order 4 is so small that those of order 5 and of the start take
     // turns with it.

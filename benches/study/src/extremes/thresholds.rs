@@ -22,7 +22,8 @@ pub const WRONG: f64 = 1e-2;
 /// Semi-implicit Euler: half a step, `x / 2`, which does not grow with the motion; its phase
 /// `x^2 / 24`. Midpoint and Heun: `x^2 / 6`; implicit midpoint: `x^2 / 12`. Generalized-alpha:
 /// `(1/12 + 3/8 d^2) x^2`, and an amplitude of `d^3 x^3 / 2`, with `d = (1 - rho) / (1 + rho)`.
-/// Runge-Kutta: `x^4 / 120`; Adams, Bashforth and Moulton: `19 x^4 / 720`, and an amplitude of
+/// Kutta of order 3: an amplitude of `x^3 / 24`, and a phase of `x^4 / 30`. Runge-Kutta of order 4:
+/// `x^4 / 120`; Adams, Bashforth and Moulton: `19 x^4 / 720`, and an amplitude of
 /// about `x^5 / 8`. Dormand-Prince of order 5: its amplitude of a linear oscillation goes with
 /// `x^6 / 3600`; a motion that is not linear has terms of order 5, for which `x^5 / 360` stands. Of
 /// order 8: `x^8 / 360`, likewise.
@@ -30,6 +31,7 @@ fn of_step(family: Family, x: f64) -> [f64; 2] {
     match family {
         Family::SemiImplicitEuler => [x / 2.0, x * x / 24.0],
         Family::Midpoint | Family::Heun => [0.0, x.powi(2) / 6.0],
+        Family::Kutta3 => [0.0, x.powi(3) / 24.0 + x.powi(4) / 30.0],
         Family::ImplicitMidpoint => [0.0, x.powi(2) / 12.0],
         // With a spectral radius of 0.8: (1 - 0.8) / (1 + 0.8) = 1/9.
         Family::GeneralizedAlpha => [

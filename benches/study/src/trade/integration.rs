@@ -2,7 +2,7 @@
 //! grow with the number of integrators.
 
 use holonom::{
-    Fault, Heun, ImplicitMidpoint, Midpoint, Real, Rk4, SemiImplicitEuler, Tolerance,
+    Fault, Heun, ImplicitMidpoint, Kutta3, Midpoint, Real, Rk4, SemiImplicitEuler, Tolerance,
     integrate::{
         AdamsCourse, AdamsFixedCourse, AdaptiveCourse, AlphaEnd, AlphaStep, BdfCourse,
         BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, FixedCourse,
@@ -15,102 +15,171 @@ use super::grid::two_digits;
 use crate::chapter15::Method;
 use crate::compare::Coordinates;
 
-/// A method of integration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Family {
+/// The integrators: one row is all that this study knows of one.
+///
+/// ```text
+/// /// What it is.
+/// name in the enumeration: "name in JSON", order, Type::constructor(setting), kind, its course;
+/// ```
+///
+/// The setting is a `step` or a `tolerance_of`. Methods that do much `beside` their evaluations are
+/// not compiled as their own type for what is timed; a course with large matrices is in a `Box`.
+macro_rules! integrators {
+    ($dollar:tt $(
+        $(#[$about:meta])*
+        $family:ident: $key:literal, $order:literal,
+            $method:ident::$new:ident($setting:ident), $kind:ident, $course:ty;
+    )*) => {
+        /// A method of integration.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Family {
+            $($(#[$about])* $family,)*
+        }
+
+        impl Family {
+            /// All of them, those of fixed steps first.
+            pub const ALL: [Self; [$($order),*].len()] = [$(Self::$family),*];
+
+            /// The name in JSON and on the command line, and for a reader.
+            #[must_use]
+            pub const fn key(self) -> &'static str {
+                match self { $(Self::$family => $key),* }
+            }
+
+            /// The name in `holonom`.
+            pub(super) const fn name(self) -> &'static str {
+                match self { $(Self::$family => stringify!($method)),* }
+            }
+
+            /// Whether it chooses its steps by a tolerance.
+            #[must_use]
+            pub fn is_adaptive(self) -> bool {
+                match self { $(Self::$family => stringify!($setting) == "tolerance_of"),* }
+            }
+
+            /// The power of the step that the error of a motion goes with; of a method of many
+            /// orders, the highest.
+            #[must_use]
+            pub const fn order(self) -> u32 {
+                match self { $(Self::$family => $order),* }
+            }
+        }
+
+        /// An [`Integration`] under way.
+        pub enum AnyCourse<S: Real, X: Vector<S>> {
+            $(
+                #[doc = concat!("Of [`Family::", stringify!($family), "`].")]
+                $family($course),
+            )*
+        }
+
+        impl Integration {
+            fn begin<S: Real, Y: System<S>>(
+                self,
+                system: &mut Y,
+                span: Span<S>,
+                state: Y::State,
+            ) -> Result<AnyCourse<S, Y::State>, Fault> {
+                type Of<S, X> = AnyCourse<S, X>;
+                Ok(match self.family {
+                    $(Family::$family => {
+                        let integrator = holonom::$method::$new(self.$setting());
+                        Of::$family(integrator.start(system, span, state)?.into())
+                    })*
+                })
+            }
+        }
+
+        /// Calls `$then` with the integrator as its own type; for methods that do much besides
+        /// evaluations, `$other` instead if it is given.
+        macro_rules! own_type_of {
+            ($dollar integration:expr, $dollar integrator:ident => $dollar then:expr
+                $dollar (, $dollar other:expr)?) => {
+                match $dollar integration.family {
+                    $($crate::trade::Family::$family => {
+                        $crate::trade::integration::as_own_type!(
+                            $kind $dollar (, $dollar other)?; {
+                                let $dollar integrator =
+                                    holonom::$method::$new($dollar integration.$setting());
+                                $dollar then
+                            }
+                        )
+                    })*
+                }
+            };
+        }
+
+        pub(crate) use own_type_of as with_own_type;
+
+        macro_rules! on_course {
+            ($dollar any:expr, $dollar course:ident => $dollar then:expr) => {
+                match $dollar any { $(AnyCourse::$family($dollar course) => $dollar then),* }
+            };
+        }
+    };
+}
+
+/// What is done for a method of a kind.
+macro_rules! as_own_type {
+    (beside, $other:expr; $then:expr) => {
+        $other
+    };
+    ($kind:ident $(, $other:expr)?; $then:expr) => {
+        $then
+    };
+}
+pub(crate) use as_own_type;
+
+integrators! { $
     /// Semi-implicit Euler, order 1.
-    SemiImplicitEuler,
+    SemiImplicitEuler: "semi-implicit-euler", 1,
+        SemiImplicitEuler::every(step), bare, FixedCourse<S, X, SemiImplicitEuler>;
     /// The midpoint rule, order 2.
-    Midpoint,
+    Midpoint: "midpoint", 2, Midpoint::every(step), bare, FixedCourse<S, X, Midpoint>;
     /// The method of Heun, order 2.
-    Heun,
+    Heun: "heun", 2, Heun::every(step), bare, FixedCourse<S, X, Heun>;
+    /// The method of Kutta, order 3.
+    Kutta3: "kutta-3", 3, Kutta3::every(step), bare, FixedCourse<S, X, Kutta3>;
     /// The classical method of Runge and Kutta, order 4.
-    Rk4,
+    Rk4: "rk4", 4, Rk4::every(step), bare, FixedCourse<S, X, Rk4>;
     /// Dormand and Prince at a fixed step, order 5.
-    DormandPrinceFixed,
+    DormandPrinceFixed: "dormand-prince-fixed", 5,
+        DormandPrince::every(step), bare, FixedCourse<S, X, DormandPrince5>;
     /// Dormand and Prince at a fixed step, order 8.
-    DormandPrince853Fixed,
+    DormandPrince853Fixed: "dormand-prince-853-fixed", 8,
+        DormandPrince853::every(step), bare, FixedCourse<S, X, DormandPrince8>;
     /// The implicit midpoint rule, order 2.
-    ImplicitMidpoint,
+    ImplicitMidpoint: "implicit-midpoint", 2,
+        ImplicitMidpoint::every(step), beside, FixedCourse<S, X, ImplicitMidpoint>;
     /// Generalized-alpha on rigid constraints with a spectral radius of 0.8, order 2: by bodies
     /// with standard multipliers alone.
-    GeneralizedAlpha,
+    GeneralizedAlpha: "generalized-alpha", 2,
+        GeneralizedAlpha::every(step), beside, GeneralizedAlphaCourse<S, X>;
     /// Adams, Bashforth and Moulton at a fixed step, order 4.
-    AdamsBashforthMoulton4,
+    AdamsBashforthMoulton4: "adams-bashforth-moulton-4", 4,
+        AdamsBashforthMoulton4::every(step), bare, AdamsFixedCourse<S, X>;
     /// Bogacki and Shampine 3(2) under the control of `ode23`.
-    BogackiShampine,
+    BogackiShampine: "bogacki-shampine", 3,
+        BogackiShampine::new(tolerance_of), bare, AdaptiveCourse<S, X, BogackiShampine3>;
     /// Dormand and Prince 5(4) under the control of `ode45`.
-    DormandPrince,
+    DormandPrince: "dormand-prince", 5,
+        DormandPrince::new(tolerance_of), bare, AdaptiveCourse<S, X, DormandPrince5>;
     /// Dormand and Prince 8(5,3) under the same control.
-    DormandPrince853,
+    DormandPrince853: "dormand-prince-853", 8,
+        DormandPrince853::new(tolerance_of), bare, AdaptiveCourse<S, X, DormandPrince8>;
     /// Adams of order 1 to 12 under the control of `ode113`.
-    Adams,
+    Adams: "adams", 12, Adams::new(tolerance_of), beside, AdamsCourse<S, X>;
     /// Backward differentiation of order 1 to 5 under the control of `ode15s`, implicit.
-    Bdf,
+    Bdf: "bdf", 5, Bdf::new(tolerance_of), beside, Box<BdfCourse<S, X>>;
     /// Radau IIA of order 5 under the control of `RADAU5`, implicit.
-    RadauIIA,
+    RadauIIA: "radau", 5, RadauIIA::new(tolerance_of), beside, Box<RadauCourse<S, X>>;
 }
 
 impl Family {
-    /// All of them, those of fixed steps first.
-    pub const ALL: [Self; 15] = [
-        Self::SemiImplicitEuler,
-        Self::Midpoint,
-        Self::Heun,
-        Self::Rk4,
-        Self::DormandPrinceFixed,
-        Self::DormandPrince853Fixed,
-        Self::ImplicitMidpoint,
-        Self::GeneralizedAlpha,
-        Self::AdamsBashforthMoulton4,
-        Self::BogackiShampine,
-        Self::DormandPrince,
-        Self::DormandPrince853,
-        Self::Adams,
-        Self::Bdf,
-        Self::RadauIIA,
-    ];
-
-    /// The name in JSON and on the command line, and for a reader.
-    #[must_use]
-    pub const fn key(self) -> &'static str {
-        match self {
-            Self::SemiImplicitEuler => "semi-implicit-euler",
-            Self::Midpoint => "midpoint",
-            Self::Heun => "heun",
-            Self::Rk4 => "rk4",
-            Self::DormandPrinceFixed => "dormand-prince-fixed",
-            Self::DormandPrince853Fixed => "dormand-prince-853-fixed",
-            Self::ImplicitMidpoint => "implicit-midpoint",
-            Self::GeneralizedAlpha => "generalized-alpha",
-            Self::AdamsBashforthMoulton4 => "adams-bashforth-moulton-4",
-            Self::BogackiShampine => "bogacki-shampine",
-            Self::DormandPrince => "dormand-prince",
-            Self::DormandPrince853 => "dormand-prince-853",
-            Self::Adams => "adams",
-            Self::Bdf => "bdf",
-            Self::RadauIIA => "radau",
-        }
-    }
-
     /// The family of a name.
     #[must_use]
     pub fn of(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|family| family.key() == key)
-    }
-
-    /// Whether it chooses its steps by a tolerance.
-    #[must_use]
-    pub const fn is_adaptive(self) -> bool {
-        matches!(
-            self,
-            Self::BogackiShampine
-                | Self::DormandPrince
-                | Self::DormandPrince853
-                | Self::Adams
-                | Self::Bdf
-                | Self::RadauIIA
-        )
     }
 
     /// Whether it moves what is described and formulated so: all methods do, but those that solve
@@ -122,21 +191,6 @@ impl Family {
                 (coordinates, method),
                 (Coordinates::Bodies, Method::Standard)
             )
-    }
-
-    /// The power of the step that the error of a motion goes with; of a method of many orders, the
-    /// highest.
-    #[must_use]
-    pub const fn order(self) -> u32 {
-        match self {
-            Self::SemiImplicitEuler => 1,
-            Self::Midpoint | Self::Heun | Self::ImplicitMidpoint | Self::GeneralizedAlpha => 2,
-            Self::BogackiShampine => 3,
-            Self::Rk4 | Self::AdamsBashforthMoulton4 => 4,
-            Self::DormandPrinceFixed | Self::DormandPrince | Self::Bdf | Self::RadauIIA => 5,
-            Self::DormandPrince853Fixed | Self::DormandPrince853 => 8,
-            Self::Adams => 12,
-        }
     }
 }
 
@@ -169,116 +223,15 @@ impl Integration {
     /// As a user writes it.
     #[must_use]
     pub fn code(self) -> String {
-        let value = self.step_or_tolerance;
-        match self.family {
-            Family::SemiImplicitEuler => format!("SemiImplicitEuler::every({value:e})"),
-            Family::Midpoint => format!("Midpoint::every({value:e})"),
-            Family::Heun => format!("Heun::every({value:e})"),
-            Family::Rk4 => format!("Rk4::every({value:e})"),
-            Family::DormandPrinceFixed => format!("DormandPrince::every({value:e})"),
-            Family::DormandPrince853Fixed => format!("DormandPrince853::every({value:e})"),
-            Family::ImplicitMidpoint => format!("ImplicitMidpoint::every({value:e})"),
-            Family::GeneralizedAlpha => format!("GeneralizedAlpha::every({value:e})"),
-            Family::AdamsBashforthMoulton4 => format!("AdamsBashforthMoulton4::every({value:e})"),
-            Family::BogackiShampine => self.adaptive_code("BogackiShampine"),
-            Family::DormandPrince => self.adaptive_code("DormandPrince"),
-            Family::DormandPrince853 => self.adaptive_code("DormandPrince853"),
-            Family::Adams => self.adaptive_code("Adams"),
-            Family::Bdf => self.adaptive_code("Bdf"),
-            Family::RadauIIA => self.adaptive_code("RadauIIA"),
+        let (name, value) = (self.family.name(), self.step_or_tolerance);
+        if self.family.is_adaptive() {
+            let absolute = two_digits(FLOOR * value);
+            format!("{name}::new(Tolerance {{ relative: {value:e}, absolute: {absolute:e} }})")
+        } else {
+            format!("{name}::every({value:e})")
         }
     }
-
-    fn adaptive_code(self, method: &str) -> String {
-        let relative = self.step_or_tolerance;
-        let absolute = two_digits(FLOOR * relative);
-        format!("{method}::new(Tolerance {{ relative: {relative:e}, absolute: {absolute:e} }})")
-    }
 }
-
-/// Calls `$then` with the integrator as its own type; for methods that do much besides evaluations,
-/// `$other` instead if it is given.
-macro_rules! with_own_type {
-    ($integration:expr, $integrator:ident => $then:expr) => {
-        $crate::trade::integration::with_own_type!(@ $integration, $integrator => $then, {
-            $crate::trade::Family::ImplicitMidpoint => {
-                let $integrator = holonom::ImplicitMidpoint::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::GeneralizedAlpha => {
-                let $integrator = holonom::GeneralizedAlpha::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::Adams => {
-                let $integrator = holonom::Adams::new($integration.tolerance_of());
-                $then
-            }
-            $crate::trade::Family::Bdf => {
-                let $integrator = holonom::Bdf::new($integration.tolerance_of());
-                $then
-            }
-            $crate::trade::Family::RadauIIA => {
-                let $integrator = holonom::RadauIIA::new($integration.tolerance_of());
-                $then
-            }
-        })
-    };
-    ($integration:expr, $integrator:ident => $then:expr, $other:expr) => {
-        $crate::trade::integration::with_own_type!(@ $integration, $integrator => $then, {
-            $crate::trade::Family::ImplicitMidpoint
-            | $crate::trade::Family::GeneralizedAlpha
-            | $crate::trade::Family::Adams
-            | $crate::trade::Family::Bdf
-            | $crate::trade::Family::RadauIIA => $other
-        })
-    };
-    (@ $integration:expr, $integrator:ident => $then:expr, { $($others:tt)* }) => {
-        match $integration.family {
-            $crate::trade::Family::SemiImplicitEuler => {
-                let $integrator = holonom::SemiImplicitEuler::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::Midpoint => {
-                let $integrator = holonom::Midpoint::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::Heun => {
-                let $integrator = holonom::Heun::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::Rk4 => {
-                let $integrator = holonom::Rk4::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::DormandPrinceFixed => {
-                let $integrator = holonom::DormandPrince::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::DormandPrince853Fixed => {
-                let $integrator = holonom::DormandPrince853::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::AdamsBashforthMoulton4 => {
-                let $integrator = holonom::AdamsBashforthMoulton4::every($integration.step());
-                $then
-            }
-            $crate::trade::Family::BogackiShampine => {
-                let $integrator = holonom::BogackiShampine::new($integration.tolerance_of());
-                $then
-            }
-            $crate::trade::Family::DormandPrince => {
-                let $integrator = holonom::DormandPrince::new($integration.tolerance_of());
-                $then
-            }
-            $crate::trade::Family::DormandPrince853 => {
-                let $integrator = holonom::DormandPrince853::new($integration.tolerance_of());
-                $then
-            }
-            $($others)*
-        }
-    };
-}
-pub(crate) use with_own_type;
 
 impl<S: Real> Integrator<S> for Integration {
     type Course<X: Vector<S>> = AnyCourse<S, X>;
@@ -289,127 +242,10 @@ impl<S: Real> Integrator<S> for Integration {
         span: Span<S>,
         state: Y::State,
     ) -> Result<AnyCourse<S, Y::State>, Fault> {
-        let system = &mut Behind { system };
-        with_own_type!(*self, integrator => Ok(integrator.start(system, span, state)?.into()))
+        self.begin(&mut Behind { system }, span, state)
     }
 
-    fn budget(&self) -> Option<usize> {
-        with_own_type!(*self, integrator => Integrator::<S>::budget(&integrator))
-    }
-
-    fn fixed_step(&self) -> Option<S> {
-        with_own_type!(*self, integrator => integrator.fixed_step())
-    }
-
-    fn silent_phase(&self) -> f64 {
-        with_own_type!(*self, integrator => Integrator::<S>::silent_phase(&integrator))
-    }
-
-    fn velocity_lead(&self) -> f64 {
-        with_own_type!(*self, integrator => Integrator::<S>::velocity_lead(&integrator))
-    }
-
-    fn turning_error(&self) -> f64 {
-        with_own_type!(*self, integrator => Integrator::<S>::turning_error(&integrator))
-    }
-
-    fn tolerance(&self) -> Option<Tolerance<S>> {
-        with_own_type!(*self, integrator => integrator.tolerance())
-    }
-}
-
-/// An [`Integration`] under way.
-pub enum AnyCourse<S: Real, X: Vector<S>> {
-    /// Of [`Family::SemiImplicitEuler`].
-    SemiImplicitEuler(FixedCourse<S, X, SemiImplicitEuler>),
-    /// Of [`Family::Midpoint`].
-    Midpoint(FixedCourse<S, X, Midpoint>),
-    /// Of [`Family::Heun`].
-    Heun(FixedCourse<S, X, Heun>),
-    /// Of [`Family::Rk4`].
-    Rk4(FixedCourse<S, X, Rk4>),
-    /// Of [`Family::DormandPrinceFixed`].
-    DormandPrinceFixed(FixedCourse<S, X, DormandPrince5>),
-    /// Of [`Family::DormandPrince853Fixed`].
-    DormandPrince853Fixed(FixedCourse<S, X, DormandPrince8>),
-    /// Of [`Family::ImplicitMidpoint`].
-    ImplicitMidpoint(FixedCourse<S, X, ImplicitMidpoint>),
-    /// Of [`Family::GeneralizedAlpha`].
-    GeneralizedAlpha(GeneralizedAlphaCourse<S, X>),
-    /// Of [`Family::AdamsBashforthMoulton4`].
-    AdamsBashforthMoulton4(AdamsFixedCourse<S, X>),
-    /// Of [`Family::BogackiShampine`].
-    BogackiShampine(AdaptiveCourse<S, X, BogackiShampine3>),
-    /// Of [`Family::DormandPrince`].
-    DormandPrince(AdaptiveCourse<S, X, DormandPrince5>),
-    /// Of [`Family::DormandPrince853`].
-    DormandPrince853(AdaptiveCourse<S, X, DormandPrince8>),
-    /// Of [`Family::Adams`].
-    Adams(AdamsCourse<S, X>),
-    /// Of [`Family::Bdf`]; its matrices are large.
-    Bdf(Box<BdfCourse<S, X>>),
-    /// Of [`Family::RadauIIA`]; its matrices are large.
-    RadauIIA(Box<RadauCourse<S, X>>),
-}
-
-macro_rules! from_courses {
-    ($($course:ident<$($scheme:ident)?> => $variant:ident),*) => {$(
-        impl<S: Real, X: Vector<S>> From<$course<S, X $(, $scheme)?>> for AnyCourse<S, X> {
-            fn from(course: $course<S, X $(, $scheme)?>) -> Self {
-                Self::$variant(course)
-            }
-        }
-    )*};
-}
-
-from_courses!(
-    FixedCourse<SemiImplicitEuler> => SemiImplicitEuler,
-    FixedCourse<Midpoint> => Midpoint,
-    FixedCourse<Heun> => Heun,
-    FixedCourse<Rk4> => Rk4,
-    FixedCourse<DormandPrince5> => DormandPrinceFixed,
-    FixedCourse<DormandPrince8> => DormandPrince853Fixed,
-    FixedCourse<ImplicitMidpoint> => ImplicitMidpoint,
-    GeneralizedAlphaCourse<> => GeneralizedAlpha,
-    AdamsFixedCourse<> => AdamsBashforthMoulton4,
-    AdaptiveCourse<BogackiShampine3> => BogackiShampine,
-    AdaptiveCourse<DormandPrince5> => DormandPrince,
-    AdaptiveCourse<DormandPrince8> => DormandPrince853,
-    AdamsCourse<> => Adams
-);
-
-impl<S: Real, X: Vector<S>> From<BdfCourse<S, X>> for AnyCourse<S, X> {
-    fn from(course: BdfCourse<S, X>) -> Self {
-        Self::Bdf(Box::new(course))
-    }
-}
-
-impl<S: Real, X: Vector<S>> From<RadauCourse<S, X>> for AnyCourse<S, X> {
-    fn from(course: RadauCourse<S, X>) -> Self {
-        Self::RadauIIA(Box::new(course))
-    }
-}
-
-macro_rules! on_course {
-    ($any:expr, $course:ident => $then:expr) => {
-        match $any {
-            AnyCourse::SemiImplicitEuler($course) => $then,
-            AnyCourse::Midpoint($course) => $then,
-            AnyCourse::Heun($course) => $then,
-            AnyCourse::Rk4($course) => $then,
-            AnyCourse::DormandPrinceFixed($course) => $then,
-            AnyCourse::DormandPrince853Fixed($course) => $then,
-            AnyCourse::ImplicitMidpoint($course) => $then,
-            AnyCourse::GeneralizedAlpha($course) => $then,
-            AnyCourse::AdamsBashforthMoulton4($course) => $then,
-            AnyCourse::BogackiShampine($course) => $then,
-            AnyCourse::DormandPrince($course) => $then,
-            AnyCourse::DormandPrince853($course) => $then,
-            AnyCourse::Adams($course) => $then,
-            AnyCourse::Bdf($course) => $then,
-            AnyCourse::RadauIIA($course) => $then,
-        }
-    };
+    holonom::__hooks_of_integrator!(with_own_type);
 }
 
 impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
@@ -448,7 +284,30 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
 /// A system behind a pointer: one type for all systems with such states, so that a method is
 /// compiled once for all of them.
 struct Behind<'a, S: Real, X: Vector<S>> {
-    system: &'a mut dyn System<S, State = X>,
+    system: &'a mut dyn WithJacobian<S, State = X>,
+}
+
+/// A system whose Jacobian is part of its object.
+trait WithJacobian<S: Real>: System<S> {
+    fn jacobian_of(
+        &mut self,
+        time: S,
+        state: &Self::State,
+        rates: &Self::State,
+        columns: &mut <Self::State as Vector<S>>::Each<Self::State>,
+    ) -> Result<usize, Fault>;
+}
+
+impl<S: Real, Y: System<S>> WithJacobian<S> for Y {
+    fn jacobian_of(
+        &mut self,
+        time: S,
+        state: &Y::State,
+        rates: &Y::State,
+        columns: &mut <Y::State as Vector<S>>::Each<Y::State>,
+    ) -> Result<usize, Fault> {
+        self.jacobian(time, state, rates, columns)
+    }
 }
 
 impl<S: Real, X: Vector<S>> System<S> for Behind<'_, S, X> {
@@ -460,6 +319,20 @@ impl<S: Real, X: Vector<S>> System<S> for Behind<'_, S, X> {
 
     fn stage(&mut self, time: S, state: &X, rates: &mut X) -> Result<(), Fault> {
         self.system.stage(time, state, rates)
+    }
+
+    fn why(&mut self, time: S, state: &X) -> Option<Fault> {
+        self.system.why(time, state)
+    }
+
+    fn jacobian(
+        &mut self,
+        time: S,
+        state: &X,
+        rates: &X,
+        columns: &mut X::Each<X>,
+    ) -> Result<usize, Fault> {
+        self.system.jacobian_of(time, state, rates, columns)
     }
 
     fn with_new_velocities(

@@ -2,7 +2,7 @@
 
 use holonom::{AugmentedLagrangian, Baumgarte, Fault, Mechanism, Penalty, Real};
 
-use super::integration::{Family, Integration};
+use super::integration::Integration;
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
 
@@ -310,19 +310,9 @@ impl Setting {
     /// What the lines need that is not in the prelude.
     fn names(&self) -> [String; 2] {
         let name = |name: &str| format!("use holonom::{name};\n");
-        let integrator = match self.integration.family {
-            Family::SemiImplicitEuler => name("SemiImplicitEuler"),
-            Family::Midpoint => name("Midpoint"),
-            Family::Heun => name("Heun"),
-            Family::ImplicitMidpoint => name("ImplicitMidpoint"),
-            Family::GeneralizedAlpha => name("GeneralizedAlpha"),
-            Family::AdamsBashforthMoulton4 => name("AdamsBashforthMoulton4"),
-            Family::Adams => name("Adams"),
-            Family::Bdf => name("Bdf"),
-            Family::RadauIIA => name("RadauIIA"),
-            Family::DormandPrince853Fixed | Family::DormandPrince853 => name("DormandPrince853"),
-            Family::BogackiShampine => name("BogackiShampine"),
-            Family::Rk4 | Family::DormandPrinceFixed | Family::DormandPrince => String::new(),
+        let integrator = match self.integration.family.name() {
+            "Rk4" | "DormandPrince" => String::new(),
+            other => name(other),
         };
         let treatment = match self.treatment {
             Treatment::None | Treatment::Projection => String::new(),

@@ -7,6 +7,7 @@ use super::choice::{Errors, chosen, coefficient};
 use super::coefficients::{Coefficients, HIGHEST, Row};
 use crate::error::Fault;
 use crate::integrate::controller::Controller;
+use crate::integrate::record::{Reached, reached};
 use crate::integrate::{Counted, Counts, Course, Span, System, named};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -20,23 +21,18 @@ const FIRST_POWER: f64 = 2.0;
 #[derive(Clone)]
 pub struct AdamsCourse<S: Real, X: Vector<S>> {
     controller: Controller<S>,
-    end: S,
     /// The size and the order of the next step.
     next_step: S,
     order: usize,
     /// While no error has forbidden it yet, every step is twice as long as that before, and of an
     /// order more.
     is_starting: bool,
-    counts: Counts,
-    time: S,
-    state: X,
-    /// Whether another state was put in the place of that which the differences end at.
-    replaced: bool,
+    /// With the slope that was evaluated last: not that at the state, where another one was put in
+    /// the place of that which the differences end at.
+    reached: Reached<S, X>,
     coefficients: Coefficients<S>,
-    /// The modified divided differences of the slopes, `phi`: the first is the slope at `state`.
+    /// The modified divided differences of the slopes, `phi`: the first is the slope at the state.
     differences: Row<X>,
-    /// The slope that was evaluated last.
-    slope: X,
 }
 
 /// What a trial ended with.
@@ -54,39 +50,25 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
     ) -> Result<Self, Fault> {
         let Adams { tolerance, limits } = method;
         let controller = Controller::new(*tolerance, limits, FIRST_POWER, &span)?;
-        let mut counts = Counts::default();
-        let slope = Counted {
-            system,
-            counts: &mut counts,
-        }
-        .rates(span.start, &state)?;
-        let mut differences = Row::of(&zero(&slope));
-        differences[1] = slope.clone();
+        let reached = Reached::start(system, &span, state)?;
+        let mut differences = Row::of(&zero(&reached.slope));
+        differences[1] = reached.slope.clone();
         Ok(Self {
             controller,
-            end: span.end,
-            next_step: controller.first(&span, &state, &slope, FIRST_SHARE),
+            next_step: controller.first(&span, &reached.state, &reached.slope, FIRST_SHARE),
             order: 1,
             is_starting: true,
-            counts,
-            time: span.start,
-            state,
-            replaced: false,
+            reached,
             coefficients: Coefficients::new(),
             differences,
-            slope,
         })
     }
 
     /// Puts the slope at a state that was corrected in the place of that at the state before, in
     /// all differences that it is part of.
     fn renew<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        let mut counted = Counted {
-            system,
-            counts: &mut self.counts,
-        };
-        self.slope = counted.rates(self.time, &self.state)?;
-        let more = difference(&self.slope, &self.differences[1]);
+        self.reached.know_slope(system)?;
+        let more = difference(&self.reached.slope, &self.differences[1]);
         let count = match self.coefficients.last_order {
             0 => 1,
             order => order + 2,
@@ -106,14 +88,14 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
             differences[i] = differences[i].zip(&differences[i], |x, _| beta * x);
         }
         differences[order + 2] = differences[order + 1].clone();
-        differences[order + 1] = zero(&self.slope);
-        let mut slope = zero(&self.slope);
+        differences[order + 1] = zero(&self.reached.slope);
+        let mut slope = zero(&self.reached.slope);
         for i in (1..=order).rev() {
             let g = self.coefficients.g[i];
             slope = slope.zip(&differences[i], |slope, x| x.fused(g, slope));
             differences[i] = sum(&differences[i], &differences[i + 1]);
         }
-        self.state.plus([(step, &slope)])
+        self.reached.state.plus([(step, &slope)])
     }
 
     /// Takes the differences back to where they were before a trial: block 3 of STEP.
@@ -133,11 +115,12 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         let (k, phi, c) = (self.order, &self.differences, &self.coefficients);
         let floor = self.controller.floor;
         let size = self
+            .reached
             .state
             .relative_norm(predicted, floor, [(step, surprise)]);
         let less = |order: usize| {
             let terms = [(step, &phi[order + 1]), (step, surprise)];
-            let size = self.state.relative_norm(predicted, floor, terms);
+            let size = self.reached.state.relative_norm(predicted, floor, terms);
             size * c.sigma[order + 1] * coefficient(order)
         };
         let error = size * (c.g[k] - c.g[k + 1]);
@@ -158,7 +141,7 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         (error, errors)
     }
 
-    /// One trial to the time `end`; leaves the slope there in `self.slope`.
+    /// One trial to the time `end`; leaves the slope there in `self.reached.slope`.
     fn attempt<Y: System<S, State = X>>(
         &mut self,
         system: &mut Y,
@@ -168,12 +151,12 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         let predicted = self.predict(step);
         let mut counted = Counted {
             system,
-            counts: &mut self.counts,
+            counts: &mut self.reached.counts,
         };
-        if let Err(fault) = counted.stage(end, &predicted, &mut self.slope) {
+        if let Err(fault) = counted.stage(end, &predicted, &mut self.reached.slope) {
             return Err(refused(system, end, &predicted, Some(fault)).unwrap_or(fault));
         }
-        let surprise = difference(&self.slope, &self.differences[1]);
+        let surprise = difference(&self.reached.slope, &self.differences[1]);
         let (error, errors) = self.errors(step, &predicted, &surprise);
         if !error.is_finite() {
             return match refused(system, end, &predicted, None) {
@@ -188,12 +171,12 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         let state = predicted.plus([(weight, &surprise)]);
         let mut counted = Counted {
             system,
-            counts: &mut self.counts,
+            counts: &mut self.reached.counts,
         };
-        if let Err(fault) = counted.stage(end, &state, &mut self.slope) {
+        if let Err(fault) = counted.stage(end, &state, &mut self.reached.slope) {
             return Err(refused(system, end, &state, Some(fault)).unwrap_or(fault));
         }
-        if !(state.is_finite() && self.slope.is_finite()) {
+        if !(state.is_finite() && self.reached.slope.is_finite()) {
             return match refused(system, end, &state, None) {
                 Some(fault) => Err(fault),
                 None => Ok(Trial::Rejected { errors }),
@@ -206,7 +189,7 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
     /// size of the next one: block 4 of STEP.
     fn go_on(&mut self, step: S, from: &X, errors: Errors<S>) {
         let (k, phi) = (self.order, &mut self.differences);
-        phi[k + 1] = difference(&self.slope, &phi[1]);
+        phi[k + 1] = difference(&self.reached.slope, &phi[1]);
         phi[k + 2] = difference(&phi[k + 1], &phi[k + 2]);
         for i in 1..=k {
             phi[i] = sum(&phi[i], &phi[k + 1]);
@@ -221,7 +204,8 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         }
         let above = (k < self.coefficients.equal && !errors.lowers).then(|| {
             let floor = self.controller.floor;
-            from.relative_norm(&self.state, floor, [(step, &phi[k + 2])]) * coefficient(k + 1)
+            from.relative_norm(&self.reached.state, floor, [(step, &phi[k + 2])])
+                * coefficient(k + 1)
         });
         let allowed = S::constant(0.5) * self.controller.relative;
         (self.order, self.next_step) = chosen((k, step), allowed, errors, above);
@@ -229,43 +213,33 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
 }
 
 impl<S: Real, X: Vector<S>> Course<S, X> for AdamsCourse<S, X> {
-    fn time(&self) -> S {
-        self.time
-    }
-
-    fn state(&self) -> &X {
-        &self.state
-    }
+    reached!();
 
     fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        if replace(&mut self.replaced, false) {
+        if !self.reached.is_known {
             self.renew(system)?;
         }
-        let smallest = self.controller.smallest(self.time);
-        let interval = (self.time, self.end);
-        let (mut size, mut stretched) = self.controller.opening(interval, self.next_step);
+        let time = self.reached.time;
+        let smallest = self.controller.smallest(time);
+        let (mut size, mut stretched) = self.controller.opening(time, self.next_step);
         let mut failures = 0_usize;
         loop {
-            let end = if stretched {
-                self.end
-            } else {
-                self.time + size
-            };
+            let end = self.controller.end_of(time, size, stretched);
             let outcome = self.attempt(system, size, end);
             if let Ok(Trial::Accepted { mut state, errors }) = outcome {
-                system.settle(&mut state, Some(&mut self.slope));
-                self.counts.accepted += 1;
-                self.time = end;
-                let from = replace(&mut self.state, state);
+                system.settle(&mut state, Some(&mut self.reached.slope));
+                self.reached.counts.accepted += 1;
+                self.reached.time = end;
+                let from = replace(&mut self.reached.state, state);
                 self.go_on(size, &from, errors);
                 return Ok(());
             }
-            self.counts.rejected += 1;
+            self.reached.counts.rejected += 1;
             stretched = false;
             if size <= smallest {
                 return Err(match outcome {
                     Err(fault) => fault,
-                    Ok(_) => self.controller.underflow(size, self.time),
+                    Ok(_) => self.controller.underflow(size, time),
                 });
             }
             self.take_back(size);
@@ -289,23 +263,14 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdamsCourse<S, X> {
     }
 
     fn at<Y: System<S, State = X>>(&mut self, _system: &mut Y, time: S) -> Result<X, Fault> {
-        let back = time - self.time;
+        let back = time - self.reached.time;
         let weights = self.coefficients.within(back);
-        let mut slope = zero(&self.slope);
+        let mut slope = zero(&self.reached.slope);
         for i in (1..=self.coefficients.last_order + 1).rev() {
             let weight = weights[i];
             slope = slope.zip(&self.differences[i], |slope, x| x.fused(weight, slope));
         }
-        Ok(self.state.plus([(back, &slope)]))
-    }
-
-    fn replace(&mut self, state: X) {
-        self.state = state;
-        self.replaced = true;
-    }
-
-    fn counts(&self) -> Counts {
-        self.counts
+        Ok(self.reached.state.plus([(back, &slope)]))
     }
 }
 

@@ -7,6 +7,7 @@ mod failures;
 mod implicit;
 mod pairs;
 mod stiff;
+mod tableaus;
 
 use super::*;
 use crate::math::scalar::Real;

@@ -9,7 +9,7 @@ use core::hint::black_box;
 
 use holonom::prelude::*;
 use holonom::{
-    Heun, Midpoint, Scalar, SemiImplicitEuler,
+    Heun, Kutta3, Midpoint, Scalar, SemiImplicitEuler,
     integrate::{DormandPrince5, Scheme},
 };
 use holonom_firmware::Number;
@@ -88,6 +88,8 @@ fn all() -> Result<(), Fault> {
     by_joints(Baumgarte::default(), Midpoint)?;
     by_bodies(Baumgarte::default(), Heun)?;
     by_joints(Baumgarte::default(), Heun)?;
+    by_bodies(Baumgarte::default(), Kutta3)?;
+    by_joints(Baumgarte::default(), Kutta3)?;
     black_box(run::<Number, PendulumByBodies<_>>()?);
     black_box(run::<Number, PendulumByJoints<_>>()?);
     black_box(run::<Number, SwingByBodies<_>>()?);

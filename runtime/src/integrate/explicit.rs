@@ -1,0 +1,124 @@
+//! Explicit Runge-Kutta methods, each written as its table.
+
+/// An explicit Runge-Kutta method from its Butcher tableau.
+///
+/// ```text
+/// slopes { first, inner [..], kept [..] }   their names; a step leaves those that it keeps to
+///                                           the error and to the interpolant
+/// stages { c => slope { slope: a, .. }, .. }
+/// result { slope: b, .. }
+/// error POWER, last { slope: b - b_hat, .. }  of an embedded pair; `last` is the slope at the end
+/// within last { slope: [d1, d2, ..], .. }     weights of slopes within a step, see [`polynomial`];
+///                                             the cubic through both ends where there is none
+/// model { turning_error: .., .. }             constants of `Scheme`
+/// items { .. }                                functions of `Scheme` that no table gives
+/// ```
+///
+/// Every stage is code of its own: the compiler sees numbers in the place of a table, and sums
+/// have as many terms as there are entries. A sum adds its terms in the order of the table.
+macro_rules! explicit {
+    (@count [$($slope:ident),*]) => {{
+        const NAMES: &[&str] = &[$(stringify!($slope)),*];
+        NAMES.len()
+    }};
+    (@memory $like:ident []) => {{
+        let _ = $like;
+        []
+    }};
+    // Not by a function for each, whose array is copied.
+    (@memory $like:ident [$($slope:ident),*]) => {
+        [$({
+            let $slope = $like.clone();
+            $slope
+        }),*]
+    };
+    (
+        $(#[$about:meta])*
+        $method:ident;
+        slopes { $first:ident, inner [$($inner:ident),*], kept $kept:tt }
+        stages { $($time:expr => $stage:ident { $($slope:ident: $a:expr),+ $(,)? })* }
+        result { $($end:ident: $b:expr),+ $(,)? }
+        $(error $power:expr, $last:ident { $($missed:ident: $e:expr),+ $(,)? })?
+        $(within $to:ident { $($within:ident: $d:expr),+ $(,)? })?
+        model { $($(#[$why:meta])* $constant:ident: $value:expr),* $(,)? }
+        $(items { $($item:tt)* })?
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct $method;
+
+        const _: () = {
+            use crate::error::Fault;
+            use crate::integrate::{Scheme, Start, System};
+            use crate::math::scalar::Real;
+            use crate::state::vector::Vector;
+
+            impl<S: Real> Scheme<S> for $method {
+                type Stages<X: Vector<S>> = [X; explicit!(@count $kept)];
+
+                fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X> {
+                    explicit!(@memory like $kept)
+                }
+
+                #[inline]
+                fn stride<Y: System<S>>(
+                    &self,
+                    system: &mut Y,
+                    start: Start<'_, S, Y::State>,
+                    step: S,
+                    kept: &mut Self::Stages<Y::State>,
+                ) -> Result<Y::State, Fault> {
+                    let Start { time, state, slope: $first } = start;
+                    let $kept = kept;
+                    $(
+                        let mut $inner = $first.clone();
+                        let $inner = &mut $inner;
+                    )*
+                    $(
+                        let terms = [$((S::constant($a) * step, &*$slope)),+];
+                        let at = S::constant($time).fused(step, time);
+                        system.stage(at, &state.plus(terms), $stage)?;
+                    )*
+                    Ok(state.plus([$((S::constant($b) * step, &*$end)),+]))
+                }
+
+                $(
+                    fn interpolate<X: Vector<S>>(
+                        &self,
+                        stride: crate::integrate::Stride<'_, S, X, Self::Stages<X>>,
+                        theta: S,
+                    ) -> X {
+                        let ($first, $to) = (stride.first, stride.last);
+                        let $kept = stride.stages;
+                        let step = stride.step;
+                        let weight = |row| crate::integrate::dense::polynomial(row, step, theta);
+                        stride.from.plus([$((weight($d), $within)),+])
+                    }
+                )?
+
+                $($(#[$why])* fn $constant(&self) -> f64 { $value })*
+
+                $($($item)*)?
+            }
+
+            $(
+                impl<S: Real> crate::integrate::EmbeddedPair<S> for $method {
+                    const POWER: f64 = $power;
+
+                    #[inline]
+                    fn error<X: Vector<S>>(
+                        &self,
+                        stride: &crate::integrate::Stride<'_, S, X, Self::Stages<X>>,
+                        floor: S,
+                    ) -> S {
+                        let ($first, $last) = (stride.first, stride.last);
+                        let $kept = stride.stages;
+                        let terms = [$((S::constant($e) * stride.step, $missed)),+];
+                        stride.from.relative_norm(stride.to, floor, terms)
+                    }
+                }
+            )?
+        };
+    };
+}
+pub(super) use explicit;
