@@ -167,14 +167,7 @@ impl AngleExpr {
     /// `atan2(s, c) + 2 pi round((near - atan2(s, c)) / 2 pi)`.
     pub fn value(&self, space: &mut Space, motion: &Motion) -> Expr {
         let (sine, cosine) = self.parts(space, motion);
-        let arena = &mut space.arena;
-        let within = arena.atan2(sine, cosine);
-        let turn = arena.constant(std::f64::consts::TAU);
-        let beyond = arena.sub(self.near, within);
-        let turns = arena.div(beyond, turn);
-        let turns = arena.round(turns);
-        let full = arena.mul(turn, turns);
-        arena.add(within, full)
+        nearest_angle(&mut space.arena, self.near, sine, cosine)
     }
 
     /// `(c s' - s c') / (c^2 + s^2)`.
@@ -255,6 +248,17 @@ impl AngleExpr {
             self.cosine.value(space, motion),
         )
     }
+}
+
+/// The angle of this sine and cosine, times any positive number, that is nearest to another.
+pub(crate) fn nearest_angle(arena: &mut Arena, near: Expr, sine: Expr, cosine: Expr) -> Expr {
+    let within = arena.atan2(sine, cosine);
+    let turn = arena.constant(std::f64::consts::TAU);
+    let beyond = arena.sub(near, within);
+    let turns = arena.div(beyond, turn);
+    let turns = arena.round(turns);
+    let full = arena.mul(turn, turns);
+    arena.add(within, full)
 }
 
 /// `1 / (c^2 + s^2)`.
