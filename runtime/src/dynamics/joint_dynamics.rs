@@ -401,7 +401,7 @@ where
         let motion = M::JOINT_REPORT.motions.iter().find(|motion| {
             let count = match motion.freedom {
                 Freedom::Ball => 3,
-                Freedom::Turn { .. } | Freedom::Slide => 1,
+                Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. } => 1,
             };
             let mut own = left.by_ref().take(count);
             !own.all(|rate| rate.is_finite())

@@ -230,7 +230,8 @@ where
         let mut place = 0;
         for motion in M::JOINT_REPORT.motions {
             match motion.freedom {
-                Freedom::Turn { .. } => {}
+                // The angle of a screw is an auxiliary variable.
+                Freedom::Turn { .. } | Freedom::Screw { .. } => {}
                 Freedom::Slide => place += 1,
                 Freedom::Ball => {
                     take_nearer_sign(state.rest_slice_mut(), near.rest_slice(), place);
