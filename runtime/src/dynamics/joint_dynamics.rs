@@ -508,6 +508,9 @@ where
         if !M::JOINT_REPORT.euler_parameters.is_empty() {
             self.bodies.see_stretch(stretch);
         }
+        if const { M::JOINT_REPORT.has_screws() } {
+            M::JOINT_REPORT.recount_screws(state);
+        }
         let auxiliaries = M::JOINT_REPORT.auxiliaries;
         if M::JOINT_REPORT.recounts {
             let mut bodies = self.bodies(state);

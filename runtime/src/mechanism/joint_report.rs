@@ -1,6 +1,7 @@
 //! What the elements of a joint state are, for readers: in words, and as coordinates and rates of
 //! the joints.
 
+use core::f64::consts::TAU;
 use core::fmt;
 
 use crate::error::readable::Given;
@@ -84,6 +85,35 @@ impl JointReport {
     pub fn motions_of<'a>(&'a self, joint: &'a str) -> impl Iterator<Item = usize> + 'a {
         let motions = self.motions.iter().enumerate();
         motions.filter_map(move |(place, motion)| (motion.joint == joint).then_some(place))
+    }
+
+    /// Whether a body moves by a screw.
+    pub(crate) const fn has_screws(&self) -> bool {
+        let mut motions = self.motions;
+        while let [first, rest @ ..] = motions {
+            if matches!(first.freedom, Freedom::Screw { .. }) {
+                return true;
+            }
+            motions = rest;
+        }
+        false
+    }
+
+    /// Puts the counted angles of screws right: those of their pairs, of which rounding leaves more.
+    pub(crate) fn recount_screws<S: Real, X: JointParts<S>>(&self, state: &mut X) {
+        for motion in self.motions {
+            let Freedom::Screw { counter, .. } = motion.freedom else {
+                continue;
+            };
+            let Some([c, s]) = since_reference(motion, state) else {
+                continue;
+            };
+            let within = motion.signed(s.atan2(c));
+            if let Some(counted) = state.rest_slice_mut().get_mut(counter) {
+                let turns = ((*counted - within) * S::constant(TAU.recip())).round();
+                *counted = turns.fused(S::constant(TAU), within);
+            }
+        }
     }
 
     fn name(&self, motion: usize) -> &'static str {
