@@ -89,7 +89,8 @@ impl Context<'_> {
             );
             return None;
         }
-        self.named(expr, ParameterKind::Axis, faults)
+        let what = "a screw turns about an `Axis` of the joint";
+        self.named_as(expr, ParameterKind::Axis, ("axis", what), faults)
     }
 
     /// A point.
@@ -99,7 +100,7 @@ impl Context<'_> {
 
     /// A parameter of a kind that a motion speaks of, by its name alone.
     fn named(&self, expr: &Expr, wanted: ParameterKind, faults: &mut Faults) -> Option<usize> {
-        let (word, what) = match wanted {
+        let names = match wanted {
             ParameterKind::Point => ("point", "the point of a motion is a `Point` of the joint"),
             ParameterKind::Length => ("length", "the pitch of a screw is a `Length` of the joint"),
             _ => (
@@ -107,10 +108,24 @@ impl Context<'_> {
                 "the direction of a motion is an `Axis` of the joint, or the `normal()` or `binormal()` of one",
             ),
         };
+        self.named_as(expr, wanted, names, faults)
+    }
+
+    /// The same, by a word for it and what is said where something else stands.
+    fn named_as(
+        &self,
+        expr: &Expr,
+        wanted: ParameterKind,
+        (word, what): (&str, &str),
+        faults: &mut Faults,
+    ) -> Option<usize> {
         let known = self.known(|kind| kind == wanted);
         let has = self.has(&known);
         let Some(name) = ident(expr) else {
             let message = match self.on_a_body(expr, wanted) {
+                Some(name) if wanted == ParameterKind::Length => {
+                    format!("`{name}` is a number, on no body; write `{name}`")
+                }
                 Some(name) => format!(
                     "a motion is told in the reference configuration, where both bodies have one `{name}`; write `{name}`"
                 ),
