@@ -164,10 +164,12 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// |---|---|
 /// | `turn axis at point` | a rotation about the line through `point` along `axis` |
 /// | `slide axis` | a translation along `axis` |
+/// | `screw axis at point by pitch` | a rotation, and a translation along its axis by the `Length` `pitch` for every right-handed turn |
 /// | `ball at point` | every rotation about `point`: three motions |
 ///
 /// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a
-/// `Point`, as they are in the reference configuration. Motions that are not those that the
+/// `Point`, as they are in the reference configuration. The axis of a screw is an `Axis` itself,
+/// and an equation counts its turns by `angle(i, j, axis)` of it. Motions that are not those that the
 /// equations leave are refused, where that can be told without a mechanism. A joint connects one or
 /// more bodies; the `ground` of a mechanism may be any of them.
 ///

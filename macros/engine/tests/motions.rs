@@ -52,6 +52,17 @@ fn motions_stand_in_the_model_in_order() {
             Motion::Ball { point: 0 },
         ])
     );
+    let screw = definition(&format!(
+        "{SCREW} motion screw axis at point by pitch; angle about axis; }}"
+    ));
+    assert_eq!(
+        screw.expect("no fault").motions,
+        Some(vec![Motion::Screw {
+            axis: 1,
+            point: 0,
+            pitch: 2
+        }])
+    );
 }
 
 #[test]
@@ -150,6 +161,9 @@ const UNIVERSAL: &str = "J(i, j; point: Point, axis_i: Axis, axis_j: Axis) { \
     j.point - i.point; dot(i.axis_i, j.axis_j);";
 const PLANAR: &str = "J(i, j; point: Point, normal: Axis) { \
     dot(i.normal.normals(), j.normal); dot(i.normal, j.point - i.point);";
+const SCREW: &str = "J(i, j; point: Point, axis: Axis, pitch: Length) { \
+    dot(i.axis.normals(), j.axis); dot(i.axis.normals(), j.point - i.point); \
+    dot(i.axis, j.point - i.point) - pitch / TAU * angle(i, j, axis);";
 const LINE: &str = "J(i, j; point: Point, axis: Axis) { dot(i.axis.normals(), j.point - i.point);";
 
 #[test]
@@ -170,6 +184,65 @@ fn motions_that_the_equations_leave_are_accepted() {
     assert_moves(&format!("{LINE} motion slide axis, ball at point; }}"));
     assert_moves(&format!("{REVOLUTE} angle(i, j, axis); motion none; }}"));
     assert_moves("J(i, j; point: Point) { j.point - i.point; motion ball at point; }");
+    assert_moves(&format!("{SCREW} motion screw axis at point by pitch; }}"));
+    let longer = SCREW.replace(
+        "pitch: Length",
+        "pitch: Length = 0.3, other: Length = 2.0 * pitch",
+    );
+    assert_moves(&format!("{longer} motion screw axis at point by pitch; }}"));
+    assert_refused(
+        &format!("{longer} motion screw axis at point by other; }}"),
+        "forbids this motion",
+    );
+}
+
+/// The thread is right-handed for a positive pitch, and turns are counted.
+#[test]
+fn screws_that_the_equations_do_not_leave_are_refused() {
+    let left = SCREW.replace("- pitch", "+ pitch");
+    assert_refused(
+        &format!("{left} motion screw axis at point by pitch; }}"),
+        "the equation `J[4]` (line 1) forbids this motion",
+    );
+    assert_refused(
+        &format!("{SCREW} motion turn axis at point; }}"),
+        "the equation `J[4]` (line 1) forbids this motion",
+    );
+    assert_refused(
+        &format!("{CYLINDRICAL} motion screw axis at point by pitch; }}")
+            .replace("axis: Axis", "axis: Axis, pitch: Length"),
+        "no equation counts the turns of this screw; write one with `angle(i, j, axis)`",
+    );
+    // In the reference configuration there is nothing to count.
+    assert_refused(
+        &format!("{CYLINDRICAL} initial(angle(i, j, axis)) * dot(i.axis, j.axis); motion screw axis at point by pitch; }}")
+            .replace("axis: Axis", "axis: Axis, pitch: Length"),
+        "no equation counts",
+    );
+    let backwards = SCREW.replace(
+        "- pitch / TAU * angle(i, j, axis)",
+        "+ pitch / TAU * angle(j, i, axis)",
+    );
+    assert_refused(
+        &format!("{backwards} motion screw axis at point by pitch; }}"),
+        "write one with `angle(i, j, axis)`",
+    );
+    for (motion, words) in [
+        (
+            "screw axis.normal() at point by pitch",
+            "a screw turns about an `Axis` itself",
+        ),
+        ("screw point at axis by pitch", "`point` is a `Point`"),
+        ("screw axis at point by axis", "`axis` is an `Axis`"),
+        ("screw axis at point by i.pitch", "write `pitch`"),
+        (
+            "screw axis at point by 0.1",
+            "the pitch of a screw is a `Length` of the joint",
+        ),
+    ] {
+        let errors = definition(&format!("{SCREW} motion {motion}; }}")).expect_err("a fault");
+        assert!(errors.contains(words), "{words} is not in {errors}");
+    }
 }
 
 /// Such joints hold with points and axes of a special kind only, or with several.

@@ -49,6 +49,22 @@ const UNIT_CART_POLE: &str = "#[mechanism(gravity = [0.0, -9.81, 0.0])] struct U
     #[joint(between = [cart, pole], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, -1.0])] hinge: Revolute,
 }";
 
+/// A boom that a screw jack lifts; `cut` keeps the screw among the equations.
+fn jack(cut: &str) -> String {
+    format!(
+        "#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = \"joints\", redundant = \"drop\")] struct Jack {{
+            #[body(mass = 20.0, inertia = [6.0, 6.0, 0.2], position = [0.9, 0.0, 0.5])] boom: Body,
+            #[body(mass = 3.0, inertia = [0.1, 0.1, 0.02], position = [0.65, 0.0, 0.1])] tube: Body,
+            #[body(mass = 2.0, inertia = [0.08, 0.08, 0.01], position = [0.8, 0.0, 0.3])] spindle: Body,
+            #[joint(between = [ground, boom], point = [0.0, 0.0, 0.5], axis = [0.0, 1.0, 0.0])] shoulder: Revolute,
+            #[joint(between = [ground, tube], point = [0.6, 0.0, 0.0], axis = [0.0, 1.0, 0.0])] foot: Revolute,
+            #[joint({cut} between = [tube, spindle], point = [0.6, 0.0, 0.0], axis = [0.3, 0.0, 0.4], pitch = 0.02)]
+            thread: Screw,
+            #[joint(between = [spindle, boom], point = [0.9, 0.0, 0.4])] head: Spherical,
+        }}"
+    )
+}
+
 /// A struct of the crate with the models.
 fn of_library(name: &str) -> String {
     let text = std::fs::read_to_string(format!(
@@ -107,6 +123,8 @@ fn accelerations_in_joint_coordinates() {
     for name in ["slider_crank", "heavy_top", "cart_pole", "ur5", "panda"] {
         scenes.push((name.into(), of_library(name)));
     }
+    scenes.push(("screw jack".into(), jack("")));
+    scenes.push(("screw jack, the screw cut".into(), jack("cut,")));
     let mut text = String::new();
     for (name, item) in scenes {
         let model = delivered(&tokens(&item), |name| {

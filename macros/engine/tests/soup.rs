@@ -114,6 +114,7 @@ fn spoil(list: &mut Vec<TokenTree>, at: usize, dice: &mut Dice) {
                 "motion",
                 "turn",
                 "ball at point",
+                "screw axis at point by length",
                 "none",
                 "i",
                 "j",

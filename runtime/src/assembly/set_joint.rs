@@ -234,7 +234,7 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         })
     }
 
-    /// A turn about the joint's axis, by one radian of its angle.
+    /// A turn about the joint's axis, by one radian of its angle; of a screw with its translation.
     fn axis(&self) -> Result<Twist<S>, Fault> {
         let rate = |state: &M::State<S>| M::joint_angle(self.constants, state, self.joint).rate;
         let axis = self.gradient(3, rate);
@@ -245,14 +245,18 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
         let axis = axis.map(|x| x.quotient(length));
         let p = orientation_of::<S, M>(&self.state, Some(self.body));
         let turn = rotate(&p, &axis);
-        Ok(Twist {
-            turn,
-            point: self.centre(&[turn])?,
-            slide: [S::zero(); 3],
-        })
+        match self.centre(&[turn]) {
+            Ok(point) => Ok(Twist {
+                turn,
+                point,
+                slide: [S::zero(); 3],
+            }),
+            Err(fault) => self.screw(&turn).ok_or(fault),
+        }
     }
 
-    /// A translation along the joint's direction, by one metre of its displacement.
+    /// A translation along the joint's direction, by one metre of its displacement; of a screw with
+    /// its turn.
     fn direction(&self) -> Result<Twist<S>, Fault> {
         let rate = |state: &M::State<S>| {
             M::joint_displacement(self.constants, S::zero(), state, self.joint).rate
@@ -265,48 +269,91 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
             slide: slide.map(|x| x.quotient(length)),
         };
         if length > S::zero() && self.is_free(&twist) {
-            Ok(twist)
+            return Ok(twist);
+        }
+        let screw = self.screw(&slide.map(|x| x.quotient(length.sqrt())));
+        let screw = screw.ok_or_else(|| self.holds())?;
+        let advance = dot(&screw.slide, &slide);
+        if advance.abs() > S::zero() {
+            Ok(screw.scaled(advance.reciprocal()))
         } else {
             Err(self.holds())
         }
     }
 
+    /// A turn about an axis with the translation along it that the rows demand; `None` where they
+    /// leave none free.
+    fn screw(&self, axis: &[S; 3]) -> Option<Twist<S>> {
+        let zero = [S::zero(); 3];
+        let mut points = self.points();
+        points.find_map(|point| {
+            let twist = |turn, slide| Twist { turn, point, slide };
+            let turning = self.along_rows(&twist(*axis, zero));
+            let sliding = self.along_rows(&twist(zero, *axis));
+            let size = |along: S| along.abs();
+            let rows = turning.map(|x| x.0).zip(sliding.map(|x| x.0));
+            // Of all rows, the one that the translation changes most.
+            let best = rows.fold((S::zero(), S::zero()), |best, row| {
+                if size(row.1) > size(best.1) {
+                    row
+                } else {
+                    best
+                }
+            });
+            let (turned, slid) = best;
+            let advance = -turned.quotient(slid);
+            let screw = twist(*axis, axis.map(|x| x * advance));
+            (size(slid) > S::zero() && self.is_free(&screw)).then_some(screw)
+        })
+    }
+
     /// The point of the joint about which it leaves turns free: that on the carried body or, where
     /// the body slides on it, that on the other one.
     fn centre(&self, turns: &[[S; 3]]) -> Result<[S; 3], Fault> {
-        let places = self.info.bodies.iter().enumerate();
-        let own = |body: &Option<usize>| *body == Some(self.body);
-        let sorted = places
-            .clone()
-            .filter(|(_, body)| own(body))
-            .chain(places.filter(|(_, body)| !own(body)));
-        for (place, &body) in sorted {
-            let arm = M::joint_point(self.constants, self.joint, place);
-            let at = moving::<S, M>(&self.state, body).position;
-            let arm = rotate(&orientation_of::<S, M>(&self.state, body), &arm);
-            let point = plus(&at, &arm);
+        let mut points = self.points();
+        let centre = points.find(|&point| {
             let about = |&turn: &[S; 3]| Twist {
                 turn,
                 point,
                 slide: [S::zero(); 3],
             };
-            if turns.iter().all(|turn| self.is_free(&about(turn))) {
-                return Ok(point);
-            }
-        }
-        Err(self.holds())
+            turns.iter().all(|turn| self.is_free(&about(turn)))
+        });
+        centre.ok_or_else(|| self.holds())
+    }
+
+    /// The point of the joint on the carried body, then that on the other one.
+    fn points(&self) -> impl Iterator<Item = [S; 3]> + '_ {
+        let places = self.info.bodies.iter().enumerate();
+        let own = |body: &Option<usize>| *body == Some(self.body);
+        let sorted = places
+            .clone()
+            .filter(move |(_, body)| own(body))
+            .chain(places.filter(move |(_, body)| !own(body)));
+        sorted.map(|(place, &body)| {
+            let arm = M::joint_point(self.constants, self.joint, place);
+            let at = moving::<S, M>(&self.state, body).position;
+            let arm = rotate(&orientation_of::<S, M>(&self.state, body), &arm);
+            plus(&at, &arm)
+        })
     }
 
     /// Whether the rows of the joint let its bodies move so.
     fn is_free(&self, twist: &Twist<S>) -> bool {
+        let mut rows = self.along_rows(twist);
+        rows.all(|(along, size)| along.abs() <= S::constant(FREE) * size)
+    }
+
+    /// What a motion changes of every row of the joint, and the sum of the sizes of its terms.
+    fn along_rows(&self, twist: &Twist<S>) -> impl Iterator<Item = (S, S)> + use<S, M> {
         let mut state = self.state;
         *state.velocities_mut() = Array::zeros();
         self.add_to(&mut state, twist);
-        let velocities = state.velocities().as_slice();
         let jacobian = M::jacobian(self.constants, S::zero(), &self.state);
         let arm = self.round_off_of_arms();
         let (first, rows) = (self.info.row, self.info.rows);
-        (first..first + rows).all(|row| {
+        (first..first + rows).map(move |row| {
+            let velocities = state.velocities().as_slice();
             let (mut sum, mut size) = (S::zero(), S::zero());
             let own = |block: &&Block| (block.row..block.row + block.rows).contains(&row);
             for block in M::REPORT.blocks.iter().filter(own) {
@@ -328,7 +375,7 @@ impl<'a, S: Real, M: Mechanism> Carrying<'a, S, M> {
                     [force, moment, slide, turn].map(|vector| square(&vector).sqrt());
                 size = size + force * (slide + arm * turn) + moment * turn;
             }
-            sum.abs() <= S::constant(FREE) * size
+            (sum, size)
         })
     }
 

@@ -11,6 +11,7 @@ crate::joint! {
         dot(i.axis.normals(), j.point - i.point);
         dot(i.axis, j.point - i.point) - pitch / TAU * angle(i, j, axis);
         angle about axis;
+        motion screw axis at point by pitch;
         require dot(i.axis, j.axis) > 0;
         displacement dot(i.axis, j.point - i.point);
     }

@@ -229,8 +229,8 @@ pub struct JointMotion {
     pub body: &'static str,
     /// What it is.
     pub freedom: Freedom,
-    /// The place of its first coordinate: of a turn among [`pairs`](JointState::pairs), of others
-    /// among [`rest`](JointState::rest).
+    /// The place of its first coordinate: of a turn or a screw among [`pairs`](JointState::pairs),
+    /// of others among [`rest`](JointState::rest).
     pub coordinate: usize,
     /// The place of its first velocity among [`rates`](JointState::rates).
     pub velocity: usize,
@@ -263,6 +263,14 @@ pub enum Freedom {
     },
     /// A displacement (m) and its rate (m/s).
     Slide,
+    /// As a turn, with a displacement in proportion to the angle over any number of turns.
+    Screw {
+        /// Whether it counts against the joint's own angle.
+        is_reversed: bool,
+        /// The place among [`rest`](JointState::rest) of the joint's own angle over any number of
+        /// turns (rad): one of the [`counters`](JointReport::counters).
+        counter: usize,
+    },
     /// Euler parameters from principal to global axes, and an angular velocity (rad/s) in principal
     /// axes.
     Ball,

@@ -1,6 +1,7 @@
 //! What the elements of a joint state are, for readers: in words, and as coordinates and rates of
 //! the joints.
 
+use core::f64::consts::TAU;
 use core::fmt;
 
 use crate::error::readable::Given;
@@ -13,7 +14,7 @@ impl JointMotion {
     #[must_use]
     pub const fn unit(&self) -> &'static str {
         match self.freedom {
-            Freedom::Turn { .. } => "rad",
+            Freedom::Turn { .. } | Freedom::Screw { .. } => "rad",
             Freedom::Slide => "m",
             Freedom::Ball => "1",
         }
@@ -22,7 +23,14 @@ impl JointMotion {
     /// Whether its angle counts against that of the joint.
     #[must_use]
     pub const fn is_reversed(&self) -> bool {
-        matches!(self.freedom, Freedom::Turn { is_reversed: true })
+        matches!(
+            self.freedom,
+            Freedom::Turn { is_reversed: true }
+                | Freedom::Screw {
+                    is_reversed: true,
+                    ..
+                }
+        )
     }
 
     fn signed<S: Real>(&self, value: S) -> S {
@@ -31,9 +39,9 @@ impl JointMotion {
 }
 
 impl JointReport {
-    /// The coordinate of the joint itself: an angle (rad, from `-pi` to `pi`, zero in the reference
-    /// configuration), or a displacement (m) since then. `None` for a ball, and where there is no
-    /// such motion.
+    /// The coordinate of the joint itself: an angle (rad, zero in the reference configuration; of a
+    /// turn from `-pi` to `pi`, of a screw over any number of turns), or a displacement (m) since
+    /// then. `None` for a ball, and where there is no such motion.
     ///
     /// ```text
     /// angle of the joint = +-((angle - zero) - (angle - zero of the motion that it is against))
@@ -43,6 +51,7 @@ impl JointReport {
         let motion = self.motions.get(motion)?;
         match motion.freedom {
             Freedom::Slide => state.rest_slice().get(motion.coordinate).copied(),
+            Freedom::Screw { counter, .. } => state.rest_slice().get(counter).copied(),
             Freedom::Ball => None,
             Freedom::Turn { .. } => {
                 let [mut c, mut s] = since_reference(motion, state)?;
@@ -78,6 +87,35 @@ impl JointReport {
         motions.filter_map(move |(place, motion)| (motion.joint == joint).then_some(place))
     }
 
+    /// Whether a body moves by a screw.
+    pub(crate) const fn has_screws(&self) -> bool {
+        let mut motions = self.motions;
+        while let [first, rest @ ..] = motions {
+            if matches!(first.freedom, Freedom::Screw { .. }) {
+                return true;
+            }
+            motions = rest;
+        }
+        false
+    }
+
+    /// Puts the counted angles of screws right: those of their pairs, of which rounding leaves more.
+    pub(crate) fn recount_screws<S: Real, X: JointParts<S>>(&self, state: &mut X) {
+        for motion in self.motions {
+            let Freedom::Screw { counter, .. } = motion.freedom else {
+                continue;
+            };
+            let Some([c, s]) = since_reference(motion, state) else {
+                continue;
+            };
+            let within = motion.signed(s.atan2(c));
+            if let Some(counted) = state.rest_slice_mut().get_mut(counter) {
+                let turns = ((*counted - within) * S::constant(TAU.recip())).round();
+                *counted = turns.fused(S::constant(TAU), within);
+            }
+        }
+    }
+
     fn name(&self, motion: usize) -> &'static str {
         self.motions.get(motion).map_or("", |motion| motion.joint)
     }
@@ -104,7 +142,7 @@ impl fmt::Display for JointReport {
             } = *motion;
             let of = Of(joint, body);
             match motion.freedom {
-                Freedom::Turn { is_reversed } => {
+                Freedom::Turn { is_reversed } | Freedom::Screw { is_reversed, .. } => {
                     writeln!(
                         f,
                         "pairs()[{coordinate}]: cosine and sine of the angle {of} (rad)"
@@ -123,6 +161,9 @@ impl fmt::Display for JointReport {
                             f,
                             "; the angle is {zero} rad in the reference configuration"
                         )?;
+                    }
+                    if let Freedom::Screw { counter, .. } = motion.freedom {
+                        write!(f, "; it moves along its axis with rest()[{counter}]")?;
                     }
                     writeln!(f)?;
                 }

@@ -209,6 +209,9 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
                 scale(rates.rest_slice_mut(), place, factor);
             }
         }
+        if const { M::JOINT_REPORT.has_screws() } {
+            M::JOINT_REPORT.recount_screws(state);
+        }
         if M::JOINT_REPORT.recounts {
             let mut bodies = bodies_of::<S, M>(constants, state);
             M::recount(&absolute.constants, &mut bodies);
@@ -278,7 +281,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         for motion in motions {
             first += match motion.freedom {
                 Freedom::Ball => 3,
-                Freedom::Turn { .. } | Freedom::Slide => 1,
+                Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. } => 1,
             };
             if place < first {
                 return Some(motion.body);

@@ -265,7 +265,7 @@ fn compared<M: Mechanism>(
 }
 
 /// Runs in both descriptions and compares them.
-fn both<M: JointCoordinates, F: Formulation<f64>>(
+pub(crate) fn both<M: JointCoordinates, F: Formulation<f64>>(
     mechanism: &M,
     method: F,
     start: M::State<f64>,
@@ -286,7 +286,7 @@ fn both<M: JointCoordinates, F: Formulation<f64>>(
 }
 
 /// The same under forces of a closure.
-fn both_under<M: JointCoordinates, F: Formulation<f64>>(
+pub(crate) fn both_under<M: JointCoordinates, F: Formulation<f64>>(
     mechanism: &M,
     method: F,
     start: M::State<f64>,
@@ -320,7 +320,7 @@ fn both_under<M: JointCoordinates, F: Formulation<f64>>(
 }
 
 /// Forces and moments of a joint on its last body.
-fn reaction<M: Mechanism, J>(
+pub(crate) fn reaction<M: Mechanism, J>(
     sample: &Sample<'_, f64, M>,
     joint: holonom::JointHandle<M, J>,
     body: holonom::BodyHandle<M>,

@@ -8,3 +8,4 @@ mod descriptions;
 mod placing;
 mod redundant;
 mod scales;
+mod screws;

@@ -2,11 +2,11 @@
 //! state.
 
 use holonom::forces::{TorsionalActuator, TorsionalSpringDamper};
-use holonom::joints::{Cylindrical, Prismatic, Revolute, Spherical, Universal};
+use holonom::joints::{Cylindrical, Prismatic, Revolute, Screw, Spherical, Universal};
 use holonom::prelude::*;
 use holonom::{
     JointCoordinates, JointHandle,
-    mechanism::{HasAngle, HasDisplacement, JointParts},
+    mechanism::{Freedom, HasAngle, HasDisplacement, JointParts},
     state::MovingState,
 };
 use holonom::{View, mechanism::JointReport};
@@ -88,6 +88,25 @@ struct Balls {
     wrist: Universal,
 }
 
+/// Screws that are described from the body that they carry and from the other one, along axes that
+/// point either way.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+struct Screws {
+    #[body(mass = 1.0, inertia = [0.03, 0.04, 0.05], position = [0.1, 0.2, 0.3])]
+    nut: Body,
+    #[body(mass = 1.0, inertia = [0.03, 0.04, 0.05], position = [0.4, 0.6, 0.3])]
+    drill: Body,
+    #[body(mass = 1.0, inertia = [0.03, 0.04, 0.05], position = [0.4, 0.7, 0.5])]
+    bit: Body,
+    #[joint(between = [nut, ground], point = [0.0, 0.1, 0.0], axis = [0.0, 0.0, -1.0], pitch = 0.4)]
+    thread: Screw,
+    #[joint(between = [nut, drill], point = [0.3, 0.3, 0.3], axis = [0.0, 0.0, -1.0], pitch = -0.7)]
+    other: Screw,
+    #[joint(between = [bit, drill], point = [0.4, 0.5, 0.3], axis = [0.0, 0.6, 0.8], pitch = 0.5)]
+    last: Screw,
+}
+
 /// Random numbers between -1 and 1 (Knuth's MMIX).
 struct Random(u64);
 
@@ -111,14 +130,20 @@ fn any<M: JointCoordinates>(state: &M::JointState<f64>, random: &mut Random) -> 
     }
     let mut angles = M::JointState::<f64>::zeros();
     for k in 0..report.motions.len() {
-        let place = report.motions[k].coordinate;
-        if matches!(
-            report.motions[k].freedom,
-            holonom::mechanism::Freedom::Turn { .. }
-        ) {
-            // A slope has the rate of an angle in the place of the cosine.
-            holonom::state::Vector::set_element(&mut angles, 2 * place, 3.0 * random.next());
+        let motion = report.motions[k];
+        let mut angle = 3.0 * random.next();
+        match motion.freedom {
+            Freedom::Turn { .. } => {}
+            // The joint counts the same angle, which may be beyond half a turn.
+            Freedom::Screw { counter, .. } => {
+                angle *= 4.0;
+                let sign = if motion.is_reversed() { -1.0 } else { 1.0 };
+                moved.rest_slice_mut()[counter] = sign * angle;
+            }
+            Freedom::Slide | Freedom::Ball => continue,
         }
+        // A slope has the rate of an angle in the place of the cosine.
+        holonom::state::Vector::set_element(&mut angles, 2 * motion.coordinate, angle);
     }
     holonom::state::Vector::plus(&moved, [(1.0, &angles)])
 }
@@ -142,17 +167,18 @@ fn agrees<M: JointCoordinates>(mechanism: &M, joints: &[(&'static str, bool, Rea
             let [coordinate, rate] = read(&view);
             let is_it = |&place: &usize| {
                 let freedom = M::JOINT_REPORT.motions[place].freedom;
-                (freedom == holonom::mechanism::Freedom::Slide) == *is_slide
+                (freedom == Freedom::Slide) == *is_slide
             };
             let place = M::JOINT_REPORT.motions_of(joint).find(is_it);
             let place = place.unwrap_or_else(|| panic!("{joint} moves"));
             let said = M::JOINT_REPORT
                 .coordinate(place, &state)
                 .expect("it has one");
-            let off = if *is_slide {
-                said - coordinate
-            } else {
+            let is_turn = matches!(M::JOINT_REPORT.motions[place].freedom, Freedom::Turn { .. });
+            let off = if is_turn {
                 (said - coordinate).sin()
+            } else {
+                said - coordinate
             };
             assert!(off.abs() < 1e-12, "{joint}: {said} {coordinate}");
             let said = M::JOINT_REPORT.rate(place, &state).expect("it has one");
@@ -208,6 +234,15 @@ fn coordinates_and_rates_of_joints_are_read_from_the_report() {
             ("bearing", false, &angle(h.bearing)),
         ],
     );
+    let h = Screws::HANDLES;
+    agrees(
+        &Screws::default(),
+        &[
+            ("thread", false, &angle(h.thread)),
+            ("other", false, &angle(h.other)),
+            ("last", false, &angle(h.last)),
+        ],
+    );
 }
 
 trait Against {
@@ -231,11 +266,11 @@ fn every_element_is_described() {
         let mut rates = vec![0; state.rates_slice().len()];
         for motion in report.motions {
             let (coordinates, velocities) = match motion.freedom {
-                holonom::mechanism::Freedom::Turn { .. } => {
+                Freedom::Turn { .. } | Freedom::Screw { .. } => {
                     (&mut pairs[motion.coordinate..][..1], 1)
                 }
-                holonom::mechanism::Freedom::Slide => (&mut rest[motion.coordinate..][..1], 1),
-                holonom::mechanism::Freedom::Ball => (&mut rest[motion.coordinate..][..4], 3),
+                Freedom::Slide => (&mut rest[motion.coordinate..][..1], 1),
+                Freedom::Ball => (&mut rest[motion.coordinate..][..4], 3),
             };
             coordinates.iter_mut().for_each(|x| *x += 1);
             rates[motion.velocity..]
@@ -255,6 +290,7 @@ fn every_element_is_described() {
     covered::<Askew>();
     covered::<CartPole>();
     covered::<Balls>();
+    covered::<Screws>();
 }
 
 /// An angle that nobody reads is not counted, and its damper does what it did.

@@ -7,6 +7,7 @@ use quote::ToTokens;
 use syn::spanned::Spanned;
 
 use super::expression::{Context, Shaped, extent, too_large};
+use super::motion::must_count;
 use super::moves;
 use crate::diag::{Faults, did_you_mean, list};
 use crate::model::{
@@ -89,6 +90,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
     for statement in &syntax.statements {
         reader.statement(statement, &mut fresh);
     }
+    reader.must_count(&mut fresh);
     let Reader {
         rows,
         places,
@@ -141,7 +143,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
             fingerprint: fingerprint(&syntax.body.to_string()),
             span: syntax.name.span(),
         };
-        joint.turns = turns(&joint);
+        joint.turns = turns(joint.terms());
         Defined {
             syntax,
             joint,
@@ -152,7 +154,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
 
 /// The angles over many turns that a definition speaks of outside the reference configuration,
 /// where they are zero.
-fn turns(joint: &ElementDef) -> Vec<Turn> {
+fn turns<'t>(terms: impl Iterator<Item = &'t Term>) -> Vec<Turn> {
     fn find(term: &Term, turns: &mut Vec<Turn>) {
         match term {
             Term::Angle(turn) if !turns.contains(turn) => turns.push(*turn),
@@ -168,7 +170,7 @@ fn turns(joint: &ElementDef) -> Vec<Turn> {
         }
     }
     let mut turns = Vec::new();
-    joint.terms().for_each(|term| find(term, &mut turns));
+    terms.for_each(|term| find(term, &mut turns));
     turns
 }
 
@@ -449,6 +451,21 @@ impl Reader<'_> {
         }
     }
 
+    /// Refuses screws whose turns are not counted, once all equations are known.
+    fn must_count(&self, faults: &mut Faults) {
+        let mut statements = self.syntax.statements.iter();
+        let written = statements.find_map(|statement| match statement {
+            Statement::Motion { motions, .. } => Some(motions.as_slice()),
+            _ => None,
+        });
+        if let (Some(motions), Some(written)) = (&self.motions, written)
+            && motions.len() == written.len()
+        {
+            let counted = turns(self.rows.iter().map(Row::term));
+            must_count(motions, written, &counted, &self.context, faults);
+        }
+    }
+
     fn read_angle(&mut self, keyword: &Ident, axis: &Ident, faults: &mut Faults) {
         if self.angle.is_some() {
             faults.at(keyword, "a joint has one angle; this is the second");
@@ -460,11 +477,7 @@ impl Reader<'_> {
             );
         } else if self.joint_only(keyword, "an angle to read", faults) {
             let axis = self.context.axis(axis, faults);
-            self.angle = axis.map(|axis| Turn {
-                from: 0,
-                to: 1,
-                axis,
-            });
+            self.angle = axis.map(Turn::of_joint);
         }
     }
 }

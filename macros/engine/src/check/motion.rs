@@ -5,7 +5,7 @@ use syn::{Expr, Member};
 
 use super::expression::Context;
 use crate::diag::{Faults, code, did_you_mean};
-use crate::model::{Direction, Motion, ParameterKind};
+use crate::model::{Direction, Motion, ParameterKind, Turn};
 use crate::syntax::motion::{MotionKind, MotionSyntax};
 use crate::syntax::ungroup;
 
@@ -24,6 +24,15 @@ impl Context<'_> {
                 let along = self.direction(along, faults)?;
                 Some(Motion::Slide { along })
             }
+            MotionKind::Screw { axis, point, pitch } => {
+                let (axis, point) = (self.counted_axis(axis, faults), self.place(point, faults));
+                let pitch = self.named(pitch, ParameterKind::Length, faults);
+                Some(Motion::Screw {
+                    axis: axis?,
+                    point: point?,
+                    pitch: pitch?,
+                })
+            }
             MotionKind::Ball { point } => {
                 let point = self.place(point, faults)?;
                 Some(Motion::Ball { point })
@@ -36,10 +45,7 @@ impl Context<'_> {
     fn direction(&self, expr: &Expr, faults: &mut Faults) -> Option<Direction> {
         let Expr::MethodCall(call) = ungroup(expr) else {
             let parameter = self.named(expr, ParameterKind::Axis, faults)?;
-            return Some(Direction {
-                parameter,
-                normal: None,
-            });
+            return Some(Direction::axis(parameter));
         };
         let method = call.method.to_string();
         let normal = match method.as_str() {
@@ -74,6 +80,19 @@ impl Context<'_> {
         })
     }
 
+    /// An axis about which turns are counted: no normal of one.
+    fn counted_axis(&self, expr: &Expr, faults: &mut Faults) -> Option<usize> {
+        if let Expr::MethodCall(call) = ungroup(expr) {
+            faults.at(
+                &call.method,
+                "a screw turns about an `Axis` itself, as `angle(..)` does; take a further `Axis` for this direction",
+            );
+            return None;
+        }
+        let what = "a screw turns about an `Axis` of the joint";
+        self.named_as(expr, ParameterKind::Axis, ("axis", what), faults)
+    }
+
     /// A point.
     fn place(&self, expr: &Expr, faults: &mut Faults) -> Option<usize> {
         self.named(expr, ParameterKind::Point, faults)
@@ -81,17 +100,32 @@ impl Context<'_> {
 
     /// A parameter of a kind that a motion speaks of, by its name alone.
     fn named(&self, expr: &Expr, wanted: ParameterKind, faults: &mut Faults) -> Option<usize> {
-        let (word, what) = match wanted {
+        let names = match wanted {
             ParameterKind::Point => ("point", "the point of a motion is a `Point` of the joint"),
+            ParameterKind::Length => ("length", "the pitch of a screw is a `Length` of the joint"),
             _ => (
                 "axis",
                 "the direction of a motion is an `Axis` of the joint, or the `normal()` or `binormal()` of one",
             ),
         };
+        self.named_as(expr, wanted, names, faults)
+    }
+
+    /// The same, by a word for it and what is said where something else stands.
+    fn named_as(
+        &self,
+        expr: &Expr,
+        wanted: ParameterKind,
+        (word, what): (&str, &str),
+        faults: &mut Faults,
+    ) -> Option<usize> {
         let known = self.known(|kind| kind == wanted);
         let has = self.has(&known);
         let Some(name) = ident(expr) else {
             let message = match self.on_a_body(expr, wanted) {
+                Some(name) if wanted == ParameterKind::Length => {
+                    format!("`{name}` is a number, on no body; write `{name}`")
+                }
                 Some(name) => format!(
                     "a motion is told in the reference configuration, where both bodies have one `{name}`; write `{name}`"
                 ),
@@ -142,5 +176,29 @@ fn ident(expr: &Expr) -> Option<&Ident> {
     match ungroup(expr) {
         Expr::Path(path) => path.path.get_ident(),
         _ => None,
+    }
+}
+
+/// Refuses a screw whose turns no equation counts: its displacement depends on them.
+pub(super) fn must_count(
+    motions: &[Motion],
+    written: &[MotionSyntax],
+    counted: &[Turn],
+    context: &Context<'_>,
+    faults: &mut Faults,
+) {
+    let [first, second] = context.bodies else {
+        return;
+    };
+    for (motion, written) in motions.iter().zip(written) {
+        if let Motion::Screw { axis, .. } = *motion
+            && !counted.contains(&Turn::of_joint(axis))
+        {
+            let axis = &context.parameters[axis].name;
+            faults.at(
+                &written.tokens,
+                format!("no equation counts the turns of this screw; write one with `angle({first}, {second}, {axis})`"),
+            );
+        }
     }
 }

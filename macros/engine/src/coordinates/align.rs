@@ -65,7 +65,7 @@ impl Links {
             for child in self.children(Some(place)) {
                 fixed.push(self.links[child].offset);
                 match self.links[child].freedom {
-                    Freedom::Turn { axis, .. } => {
+                    Freedom::Turn { axis, .. } | Freedom::Screw { axis, .. } => {
                         fixed.push(self.axis_on_carrier(arena, child, axis));
                     }
                     Freedom::Slide { along, .. } => fixed.push(along),

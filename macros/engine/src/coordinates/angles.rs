@@ -2,7 +2,6 @@
 //! asks for is then known without any rotation matrix.
 
 use super::frames::FrameId;
-use super::freedom::Freedom;
 use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr};
 use crate::symbolic::expression::PairedAngle;
@@ -27,7 +26,8 @@ impl Links {
             let frame = if is_backwards { &mut from } else { &mut to };
             if !self.frames.is_fixed(*frame) {
                 let (sign, velocity, pair) = self.turn_about(arena, *frame, axis)?;
-                let [c, s] = self.since_reference(arena, *frame, pair)?;
+                let (_, c, s) = self.frames.pair(*frame)?;
+                let [c, s] = self.since_reference(arena, pair, [c, s]);
                 let sign = if is_backwards { -sign } else { sign };
                 angle = angle.plus(arena, velocity, c, s, sign);
             }
@@ -36,13 +36,17 @@ impl Links {
         Some(angle)
     }
 
-    /// Cosine and sine of the angle since the reference configuration.
-    fn since_reference(&self, arena: &mut Arena, frame: FrameId, pair: usize) -> Option<[Expr; 2]> {
-        let (_, c, s) = self.frames.pair(frame)?;
+    /// Cosine and sine of the angle since the reference configuration, of those of a pair.
+    pub(super) fn since_reference(
+        &self,
+        arena: &mut Arena,
+        pair: usize,
+        [c, s]: [Expr; 2],
+    ) -> [Expr; 2] {
         let [from_c, from_s] = self.angles[pair];
         let [cc, ss, sc, cs] =
             [(c, from_c), (s, from_s), (s, from_c), (c, from_s)].map(|(a, b)| arena.mul(a, b));
-        Some([arena.add(cc, ss), arena.sub(sc, cs)])
+        [arena.add(cc, ss), arena.sub(sc, cs)]
     }
 
     /// The sense in which a frame turns about an axis against the frame that it is based on, the
@@ -63,10 +67,12 @@ impl Links {
         } else {
             return None;
         };
-        self.links.iter().find_map(|link| match link.freedom {
-            Freedom::Turn { pair, .. } if link.frame == frame => Some((sign, link.velocity, pair)),
-            _ => None,
-        })
+        self.links
+            .iter()
+            .find_map(|link| match link.freedom.turn() {
+                Some((_, pair)) if link.frame == frame => Some((sign, link.velocity, pair)),
+                _ => None,
+            })
     }
 }
 

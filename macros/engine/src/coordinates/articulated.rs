@@ -21,7 +21,7 @@ const BASE: usize = 0;
 const OWN: usize = 3;
 /// The acceleration of the origin.
 const ORIGIN: usize = 6;
-/// The rate of a velocity along a direction that is no coordinate axis.
+/// The rate of a velocity along a direction that is no coordinate axis, or of a screw.
 const ALONG: usize = 9;
 
 /// A quadratic form of accelerations and forces on them.
@@ -267,6 +267,28 @@ impl Links {
                 form.forces[ALONG] = arena.add(force, efforts[0]);
                 vec![form.solve(arena, ALONG)]
             }
+            Freedom::Screw { axis, advance, .. } => {
+                let both = |arena: &mut Arena, turning: Expr, moving: Expr| {
+                    let moving = arena.mul(advance, moving);
+                    arena.add(turning, moving)
+                };
+                for other in BASE..ALONG {
+                    let turning = form.matrix.get(OWN + axis, other);
+                    let moving = form.matrix.get(ORIGIN + axis, other);
+                    let entry = both(arena, turning, moving);
+                    form.matrix.set(ALONG, other, entry);
+                }
+                let turning = form.matrix.get(ALONG, OWN + axis);
+                let moving = form.matrix.get(ALONG, ORIGIN + axis);
+                let own = both(arena, turning, moving);
+                form.matrix.set(ALONG, ALONG, own);
+                let force = both(arena, form.forces[OWN + axis], form.forces[ORIGIN + axis]);
+                form.forces[ALONG] = arena.add(force, efforts[0]);
+                for k in 0..3 {
+                    form.identify(arena, OWN + k, BASE + k);
+                }
+                vec![form.solve(arena, ALONG)]
+            }
             Freedom::Ball { .. } => {
                 for (k, &effort) in efforts.iter().enumerate() {
                     form.forces[OWN + k] = arena.add(form.forces[OWN + k], effort);
@@ -371,6 +393,13 @@ impl Links {
                         let further = along.map(|component| arena.mul(component, rate));
                         moved = add(arena, moved, further);
                     }
+                }
+                Freedom::Screw { axis, advance, .. } => {
+                    let rate = known[ALONG];
+                    rates[own.velocity] = rate;
+                    spin[axis] = arena.add(spin[axis], rate);
+                    let further = arena.mul(advance, rate);
+                    moved[axis] = arena.add(moved[axis], further);
                 }
                 Freedom::Ball { .. } => {
                     spin = three(OWN);

@@ -11,6 +11,7 @@ use super::links::Links;
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::transpose;
+use crate::symbolic::functions::nearest_angle;
 use crate::symbolic::rotation::normalised_rotation;
 use crate::symbolic::vector::{Triple, ZERO, cross, dot};
 
@@ -51,6 +52,9 @@ pub fn from_bodies(arena: &mut Arena, model: &Model, links: &Links) -> Vec<Expr>
         links,
         poses: vec![Pose::ground(); links.links.len()],
         coordinates: vec![Arena::ZERO; 2 * links.turns + links.rest],
+        counters: (0..layout.auxiliaries)
+            .map(|k| arena.input(Input::Coordinate((layout.coordinates + k) as u32)))
+            .collect(),
         velocities: vec![Arena::ZERO; links.velocities],
     };
     // A link stands behind its carrier, and so do the bodies on it; of those welded to each other
@@ -100,12 +104,11 @@ pub fn from_bodies(arena: &mut Arena, model: &Model, links: &Links) -> Vec<Expr>
     }
     let Reader {
         mut coordinates,
+        counters,
         velocities,
         ..
     } = reader;
-    for k in 0..layout.auxiliaries {
-        coordinates.push(arena.input(Input::Coordinate((layout.coordinates + k) as u32)));
-    }
+    coordinates.extend(counters);
     coordinates.extend(velocities);
     coordinates
 }
@@ -114,6 +117,8 @@ struct Reader<'a> {
     links: &'a Links,
     poses: Vec<Pose>,
     coordinates: Vec<Expr>,
+    /// The auxiliary variables.
+    counters: Vec<Expr>,
     velocities: Vec<Expr>,
 }
 
@@ -165,9 +170,9 @@ impl Reader<'_> {
     fn turns(&mut self, arena: &mut Arena, way: &[usize], pose: Pose) {
         let turning: Vec<(usize, usize, usize)> = way
             .iter()
-            .filter_map(|&place| match self.links.links[place].freedom {
-                Freedom::Turn { axis, pair, .. } => Some((place, axis, pair)),
-                _ => None,
+            .filter_map(|&place| {
+                let (axis, pair) = self.links.links[place].freedom.turn()?;
+                Some((place, axis, pair))
             })
             .collect();
         let mut number = 0;
@@ -211,6 +216,7 @@ impl Reader<'_> {
             let [c, s] = [cosine, sine].map(|x| arena.div(x, length));
             self.coordinates[2 * pair] = c;
             self.coordinates[2 * pair + 1] = s;
+            self.count(arena, place, [c, s]);
             // Turned by its angle.
             let mut axes = transpose(before.axes);
             let [ci, si, cj, sj] =
@@ -223,6 +229,21 @@ impl Reader<'_> {
             };
         }
         self.turn_rates(arena, &turning, pose);
+    }
+
+    /// The angle of a screw over any number of turns: that of its pair, near to what was counted.
+    fn count(&mut self, arena: &mut Arena, link: usize, parts: [Expr; 2]) {
+        if let Freedom::Screw {
+            pair,
+            is_reversed,
+            counter,
+            ..
+        } = self.links.links[link].freedom
+        {
+            let [c, s] = self.links.since_reference(arena, pair, parts);
+            let s = if is_reversed { -s } else { s };
+            self.counters[counter] = nearest_angle(arena, self.counters[counter], s, c);
+        }
     }
 
     fn turn_rates(&mut self, arena: &mut Arena, turning: &[(usize, usize, usize)], pose: Pose) {
@@ -269,7 +290,22 @@ impl Reader<'_> {
         for &place in way {
             let own = &self.links.links[place];
             let carrier = self.pose(own.carrier);
-            let offset = apply(arena, carrier.axes, own.offset);
+            let mut offset = own.offset;
+            if let Freedom::Screw {
+                counter,
+                is_reversed,
+                ..
+            } = own.freedom
+            {
+                let moved = self.links.advanced(arena, place, self.counters[counter]);
+                offset = add(arena, offset, moved);
+                let velocity = self.velocities[own.velocity];
+                let velocity = if is_reversed { -velocity } else { velocity };
+                let moving = self.links.advanced(arena, place, velocity);
+                let moving = apply(arena, carrier.axes, moving);
+                rate = sub(arena, rate, moving);
+            }
+            let offset = apply(arena, carrier.axes, offset);
             let sweep = cross(arena, carrier.spin, offset);
             rest = sub(arena, rest, offset);
             rate = sub(arena, rate, sweep);

@@ -40,6 +40,9 @@ pub enum Meaning {
     Turn(bool),
     /// A displacement.
     Slide,
+    /// An angle, counted the other way round than the joint does if so, and the place among the
+    /// further coordinates of the joint's angle over any number of turns.
+    Screw(bool, usize),
     /// Every rotation.
     Ball,
 }
@@ -53,8 +56,8 @@ pub struct Described {
     pub body: usize,
     /// What it moves by.
     pub meaning: Meaning,
-    /// The place of its first coordinate: among the pairs of a turn, among the further coordinates
-    /// otherwise.
+    /// The place of its first coordinate: among the pairs of a turn or a screw, among the further
+    /// coordinates otherwise.
     pub coordinate: usize,
     /// Its first velocity.
     pub velocity: usize,
@@ -154,7 +157,7 @@ impl JointKernels {
                     joint: link.joint,
                     body: link.body,
                     coordinate: match link.freedom {
-                        Freedom::Turn { pair, .. } => pair,
+                        Freedom::Turn { pair, .. } | Freedom::Screw { pair, .. } => pair,
                         Freedom::Slide { rest, .. } | Freedom::Ball { rest } => rest,
                     },
                     velocity: link.velocity,
@@ -163,6 +166,11 @@ impl JointKernels {
                     meaning: match link.freedom {
                         Freedom::Turn { is_reversed, .. } => Meaning::Turn(is_reversed),
                         Freedom::Slide { .. } => Meaning::Slide,
+                        Freedom::Screw {
+                            is_reversed,
+                            counter,
+                            ..
+                        } => Meaning::Screw(is_reversed, links.rest + counter),
                         Freedom::Ball { .. } => Meaning::Ball,
                     },
                 })
@@ -245,7 +253,7 @@ fn coordinate_rates(reduced: &mut Reduced) -> Vec<Expr> {
     for link in &links.links {
         let mut rate = |k: usize| arena.input(Input::Velocity((link.velocity + k) as u32));
         match link.freedom {
-            Freedom::Turn { pair, .. } => rates[pair] = rate(0),
+            Freedom::Turn { pair, .. } | Freedom::Screw { pair, .. } => rates[pair] = rate(0),
             Freedom::Slide { rest, .. } => rates[links.turns + rest] = rate(0),
             Freedom::Ball { rest } => {
                 let w = [0, 1, 2].map(rate);

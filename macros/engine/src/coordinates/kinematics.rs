@@ -73,7 +73,7 @@ impl Kinematics {
                 turned(arena, &motion.spin_bias, base),
             );
             let (spin, spin_bias) = match link.freedom {
-                Freedom::Turn { axis, .. } => {
+                Freedom::Turn { axis, .. } | Freedom::Screw { axis, .. } => {
                     let rate = rate(arena, links, place);
                     let unit = links.in_axes(arena, Links::unit(axis), Some(place));
                     let relative = unit.map(|component| arena.mul(component, rate));
@@ -99,7 +99,7 @@ impl Kinematics {
                 let bend = apply(arena, motion.second[carrier], offset);
                 bias = add(arena, bias, bend);
             }
-            if let Some(along) = links.slide(arena, place) {
+            if let Some(along) = links.origin_rate(arena, place) {
                 let rate = rate(arena, links, place);
                 let relative = along.map(|component| arena.mul(component, rate));
                 velocity = add(arena, velocity, relative);

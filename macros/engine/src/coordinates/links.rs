@@ -1,12 +1,12 @@
 //! Links: what carries what. A joint is one link for each of its motions, the last of which carries
 //! the body; those before have no mass.
 
-use super::algebra::{Inertia, add_tensors, apply, scale, sub};
+use super::algebra::{Inertia, add_tensors, apply, sub};
 use super::align::{NOT_TURNED, ReferenceAngle, best_angle, turned_axes};
 use super::frames::{FrameId, Frames, identity};
 use super::freedom::Freedom;
 use super::spanning::{Carried, Spanning};
-use crate::model::{Binding, BodyKind, Direction, Model, Motion, Number};
+use crate::model::{BodyKind, Direction, Model, Motion, Number};
 use crate::symbolic::arena::{Arena, Input};
 use crate::symbolic::fixed::{axis_and_normals, clean, placement, size, transpose, triple};
 use crate::symbolic::vector::{Triple, ZERO};
@@ -103,7 +103,7 @@ impl Links {
     ) -> Self {
         let turns = spanning.carried.iter().flat_map(|carried| &carried.motions);
         let turns = turns
-            .filter(|motion| matches!(motion, Motion::Turn { .. }))
+            .filter(|motion| matches!(motion, Motion::Turn { .. } | Motion::Screw { .. }))
             .count();
         let mut links = Self {
             frames: Frames::alone(),
@@ -156,7 +156,9 @@ impl Links {
             let later = carried.motions[place..].iter();
             let origin = later
                 .filter_map(|motion| match motion {
-                    Motion::Turn { point, .. } | Motion::Ball { point } => Some(*point),
+                    Motion::Turn { point, .. }
+                    | Motion::Screw { point, .. }
+                    | Motion::Ball { point } => Some(*point),
                     Motion::Slide { .. } => None,
                 })
                 .map(|point| carried.point(arena, model, point))
@@ -167,27 +169,31 @@ impl Links {
                 Motion::Turn { axis, .. } => {
                     let direction = carried.direction(arena, model, axis);
                     let (base, axis, is_negative) = self.along_axis(arena, base, direction);
-                    let is_reversed = is_negative != carried.is_reversed;
                     let base = match (runs, carrier) {
                         (Runs::Shared, Some(carrier)) => self.base_of_run(carrier, base, axis),
                         _ => base,
                     };
-                    let pair = *pairs;
-                    *pairs += 1;
-                    let [c, s] = [2 * pair, 2 * pair + 1]
-                        .map(|place| arena.input(Input::Coordinate(place as u32)));
-                    let frame = self.frames.turned(base, axis, c, s);
-                    if let Some(fixed) = fixed.get(self.links.len()) {
-                        let fixed = fixed.iter().map(|&v| self.turned_into(arena, v, base));
-                        let fixed: Vec<Triple> = fixed.collect();
-                        self.angles[pair] = best_angle(arena, &fixed, axis);
-                    }
-                    let turned = self.turned_by(arena, base, axis, self.angles[pair]);
-                    self.from_global.push(turned);
+                    let (pair, frame) = self.turned_frame(arena, (base, axis), fixed, pairs);
                     let freedom = Freedom::Turn {
                         axis,
                         pair,
-                        is_reversed,
+                        is_reversed: is_negative != carried.is_reversed,
+                    };
+                    (freedom, frame, frame)
+                }
+                Motion::Screw { axis, pitch, .. } => {
+                    let counter = carried.counter(model, axis);
+                    let advance = carried.advance(arena, model, pitch);
+                    let direction = carried.direction(arena, model, Direction::axis(axis));
+                    let (base, axis, is_negative) = self.along_axis(arena, base, direction);
+                    // It leaves the plane of a run, so that it is against its carrier.
+                    let (pair, frame) = self.turned_frame(arena, (base, axis), fixed, pairs);
+                    let freedom = Freedom::Screw {
+                        axis,
+                        pair,
+                        is_reversed: is_negative != carried.is_reversed,
+                        advance,
+                        counter,
                     };
                     (freedom, frame, frame)
                 }
@@ -271,6 +277,30 @@ impl Links {
             inertia.tensor = add_tensors(arena, inertia.tensor, tensor);
         }
         self.links[link].inertia = self.links[link].inertia.plus(arena, inertia);
+    }
+
+    /// A pair, and the frame of the next link, which turns by it about a coordinate axis of another
+    /// one, counted from where the vectors that are fixed on the link have the most zeros.
+    fn turned_frame(
+        &mut self,
+        arena: &mut Arena,
+        (base, axis): (FrameId, usize),
+        fixed: &[Vec<Triple>],
+        pairs: &mut usize,
+    ) -> (usize, FrameId) {
+        let pair = *pairs;
+        *pairs += 1;
+        let [c, s] =
+            [2 * pair, 2 * pair + 1].map(|place| arena.input(Input::Coordinate(place as u32)));
+        let frame = self.frames.turned(base, axis, c, s);
+        if let Some(fixed) = fixed.get(self.links.len()) {
+            let fixed = fixed.iter().map(|&v| self.turned_into(arena, v, base));
+            let fixed: Vec<Triple> = fixed.collect();
+            self.angles[pair] = best_angle(arena, &fixed, axis);
+        }
+        let turned = self.turned_by(arena, base, axis, self.angles[pair]);
+        self.from_global.push(turned);
+        (pair, frame)
     }
 
     /// The rotation from global axes in the reference configuration to a frame that is turned about
@@ -447,7 +477,7 @@ impl Links {
 
     /// The angle of a turn in the reference configuration (rad); zero of other motions.
     pub(super) fn zero(&self, arena: &Arena, link: &Link) -> f64 {
-        let Freedom::Turn { pair, .. } = link.freedom else {
+        let Some((_, pair)) = link.freedom.turn() else {
             return 0.0;
         };
         let [c, s] = self.angles[pair].map(|part| arena.literal(part));
@@ -526,55 +556,5 @@ impl Links {
         let mut unit = ZERO;
         unit[axis] = Arena::ONE;
         unit
-    }
-
-    /// The origin of a link from that of its carrier, in the axes of the carrier's motion.
-    pub fn offset(&self, arena: &mut Arena, link: usize) -> Triple {
-        let own = &self.links[link];
-        let mut offset = own.offset;
-        if let Freedom::Slide { along, rest } = own.freedom {
-            let x = arena.input(Input::Coordinate((2 * self.turns + rest) as u32));
-            let moved = scale(arena, x, along);
-            offset = super::algebra::add(arena, offset, moved);
-        }
-        self.in_axes(arena, offset, own.carrier)
-    }
-
-    /// The direction of a slide in the axes of a link's motion.
-    pub fn slide(&self, arena: &mut Arena, link: usize) -> Option<Triple> {
-        let Freedom::Slide { along, .. } = self.links[link].freedom else {
-            return None;
-        };
-        Some(self.in_axes(arena, along, Some(link)))
-    }
-}
-
-impl Carried {
-    /// A point of the joint in the reference configuration.
-    fn point(&self, arena: &mut Arena, model: &Model, parameter: usize) -> Triple {
-        match self
-            .joint
-            .map(|joint| &model.joints[joint].bindings[parameter])
-        {
-            Some(Binding::Global(given)) => triple(arena, *given),
-            // A body without a joint turns about its centre of mass.
-            _ => triple(arena, model.bodies[self.body].position),
-        }
-    }
-
-    /// A direction of the joint in the reference configuration, of unit length.
-    fn direction(&self, arena: &mut Arena, model: &Model, direction: Direction) -> Triple {
-        match self
-            .joint
-            .map(|joint| &model.joints[joint].bindings[direction.parameter])
-        {
-            Some(Binding::Global(given)) => {
-                let given = triple(arena, *given);
-                let axes = axis_and_normals(arena, given);
-                axes[direction.normal.map_or(0, |normal| normal + 1)]
-            }
-            // A body without a joint slides along the global axes.
-            _ => Links::unit(direction.parameter),
-        }
     }
 }

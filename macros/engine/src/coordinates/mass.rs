@@ -1,7 +1,7 @@
 //! The mass matrix: composite inertias from the leaves, and the momentum of every velocity handed
 //! on to the ground.
 
-use super::algebra::{Inertia, add, add_tensors, apply, cross_inertia};
+use super::algebra::{Inertia, add, add_tensors, apply, cross_inertia, scale};
 use super::freedom::Freedom;
 use super::links::Links;
 use super::wrenches::Wrench;
@@ -32,7 +32,7 @@ impl Links {
         let mut composites = vec![none; self.links.len()];
         for link in self.leaves_first() {
             let own = &self.links[link];
-            // Constant in the link's own frame unless something slides on it: augmented by what it
+            // Constant in the link's own frame unless something moves along it: augmented by what it
             // carries, before it is turned.
             let mut augmented = own.inertia;
             let mut carried = own.inertia.mass;
@@ -41,7 +41,11 @@ impl Links {
             for &child in &children {
                 let mass = composites[child].carried;
                 carried = arena.add(carried, mass);
-                if matches!(self.links[child].freedom, Freedom::Slide { .. }) {
+                let moves = matches!(
+                    self.links[child].freedom,
+                    Freedom::Slide { .. } | Freedom::Screw { .. }
+                );
+                if moves {
                     let offset = self.offset(arena, child);
                     let point = Inertia::point(arena, mass, offset);
                     sliding = sliding.plus(arena, point);
@@ -127,27 +131,33 @@ impl Links {
             let Composite {
                 carried, turning, ..
             } = composites[link];
-            let units: Vec<(usize, Triple)> = match own.freedom {
+            // Angular velocity, and velocity of the origin.
+            let units: Vec<(usize, [Option<Triple>; 2])> = match own.freedom {
                 Freedom::Turn { axis, .. } => {
                     let unit = self.in_axes(arena, Self::unit(axis), Some(link));
-                    vec![(own.velocity, unit)]
+                    vec![(own.velocity, [Some(unit), None])]
                 }
                 Freedom::Slide { .. } => {
                     let along = self.slide(arena, link).unwrap_or(ZERO);
-                    vec![(own.velocity, along)]
+                    vec![(own.velocity, [None, Some(along)])]
                 }
-                Freedom::Ball { .. } => (0..3).map(|k| (own.velocity + k, Self::unit(k))).collect(),
+                Freedom::Screw { axis, advance, .. } => {
+                    let unit = Self::unit(axis);
+                    let along = scale(arena, advance, unit);
+                    vec![(own.velocity, [Some(unit), Some(along)])]
+                }
+                Freedom::Ball { .. } => (0..3)
+                    .map(|k| (own.velocity + k, [Some(Self::unit(k)), None]))
+                    .collect(),
             };
-            for (velocity, unit) in units {
-                let is_slide = matches!(own.freedom, Freedom::Slide { .. });
+            for (velocity, [turn, slide]) in units {
                 let mut wrenches = vec![Wrench::NONE; self.links.len()];
                 let mut further = ZERO;
-                wrenches[link] = if is_slide {
-                    Wrench {
-                        force: unit.map(|component| arena.mul(carried, component)),
-                        moment: cross(arena, turning.first, unit),
-                    }
-                } else {
+                let mut momentum = slide.map_or(Wrench::NONE, |along| Wrench {
+                    force: along.map(|component| arena.mul(carried, component)),
+                    moment: cross(arena, turning.first, along),
+                });
+                if let Some(unit) = turn {
                     for child in self.children(Some(link)) {
                         if self.is_taken_along(child, link) {
                             let offset = self.offset(arena, child);
@@ -158,11 +168,13 @@ impl Links {
                             further = add(arena, further, moment);
                         }
                     }
-                    Wrench {
+                    let about = Wrench {
                         force: cross(arena, unit, turning.first),
                         moment: apply(arena, turning.tensor, unit),
-                    }
-                };
+                    };
+                    momentum = momentum.plus(arena, about);
+                }
+                wrenches[link] = momentum;
                 let mut column = vec![Arena::ZERO; self.velocities];
                 self.step(arena, link, &mut wrenches, &mut column);
                 if let Some(base) = self.base(link) {

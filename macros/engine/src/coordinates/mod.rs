@@ -7,9 +7,9 @@
 //! a step. `"both"` has them fused.
 //!
 //! Tree and links. The joints that declare `motion ..` form a tree (`spanning.rs`). Module `links`
-//! makes one link of every motion: a turn about a coordinate axis, a slide, or a ball. Links on
-//! the way to a body have no mass. A free body is three slides and a ball about its centre of
-//! mass.
+//! makes one link of every motion: a turn about a coordinate axis, a slide, a screw, or a ball.
+//! Links on the way to a body have no mass. A free body is three slides and a ball about its centre
+//! of mass.
 //!
 //! Frames (`frames.rs`) are a tree of axes that turn against each other. In a run of parallel
 //! axes, all frames may be based on the frame that carries the run. A ball's frame is based on the
@@ -25,8 +25,8 @@
 //! Constants. `align.rs` turns frames so that fixed vectors lie on coordinate axes. `regroup.rs`
 //! moves origins along axes and hands inertia that motion cannot distinguish to the carrier. From
 //! a turn it takes mass, first moment along the axis and an equal share of transverse moments;
-//! from a ball the mass; from a slide the inertia. Run-time parameters go the same way, in
-//! `prepare`.
+//! from a screw that share alone; from a ball the mass; from a slide the inertia. Run-time
+//! parameters go the same way, in `prepare`.
 //!
 //! Choice (`candidates.rs`) by operations and path: `L D L^T` from the leaves; articulated
 //! inertias, whose cost is proportional to the length of a chain; rows that determine velocities,
@@ -52,6 +52,7 @@ mod angles;
 mod articulated;
 pub mod beginning;
 pub mod candidates;
+mod carried;
 mod certain;
 mod dependent;
 pub mod frames;
@@ -62,6 +63,7 @@ pub mod kernels;
 mod kinematics;
 pub mod links;
 mod mass;
+mod origins;
 mod reference;
 mod regroup;
 pub mod spanning;

@@ -16,7 +16,7 @@ impl Links {
     /// Moves the origins of turning links along their axes to where offsets have the most zeros.
     pub(super) fn slide_origins(&mut self, arena: &mut Arena) {
         for link in 0..self.links.len() {
-            let Freedom::Turn { axis, .. } = self.links[link].freedom else {
+            let Some((axis, _)) = self.links[link].freedom.turn() else {
                 continue;
             };
             let own = self.links[link].offset;
@@ -92,8 +92,9 @@ impl Links {
 
     /// Hands on to the carrier, from the leaves to the ground, what is the same whether it moves
     /// with the link or with its carrier: of a link that turns, its mass, its first moment along
-    /// the axis and an equal share of the two transverse moments of inertia; of a ball, its mass;
-    /// of a slide, its inertia, for it turns with the carrier.
+    /// the axis and an equal share of the two transverse moments of inertia; of a screw, that share
+    /// alone, for its mass moves along; of a ball, its mass; of a slide, its inertia, for it turns
+    /// with the carrier.
     ///
     /// The equations of motion stay what they are; reactions do not. Masses are handed over closing
     /// joints on the way.
@@ -116,6 +117,12 @@ impl Links {
                     part.tensor[l][l] = inertia.tensor[l][l];
                 }
                 Freedom::Ball { .. } => {}
+                Freedom::Screw { axis, .. } => {
+                    let (k, l) = ((axis + 1) % 3, (axis + 2) % 3);
+                    part.mass = Arena::ZERO;
+                    part.tensor[k][k] = inertia.tensor[l][l];
+                    part.tensor[l][l] = inertia.tensor[l][l];
+                }
                 Freedom::Slide { .. } => {
                     part.mass = Arena::ZERO;
                     part.tensor = inertia.tensor;

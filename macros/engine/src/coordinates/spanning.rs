@@ -215,15 +215,10 @@ fn motions(
         };
         return (turns(&motions) == 0).then_some(motions);
     }
-    // More angles have no closed form from the orientations.
-    let is_closed = match motions
-        .iter()
-        .find(|motion| matches!(motion, Motion::Ball { .. }))
-    {
-        Some(_) => turns(&motions) == 1,
-        None => turns(&motions) <= 2,
-    };
-    is_closed.then_some(motions)
+    // More angles have no closed form from the orientations, and that of a screw is the joint's.
+    let is_alone = |motion: &Motion| matches!(motion, Motion::Ball { .. } | Motion::Screw { .. });
+    let most = if motions.iter().any(is_alone) { 1 } else { 2 };
+    (turns(&motions) <= most).then_some(motions)
 }
 
 /// Whether a particle stands at a point of its joint, as far as the macro can see.

@@ -99,7 +99,7 @@ impl Links {
             Freedom::Slide { .. } => return own.carrier,
             // What slides on the ground has its axes, but nothing turns with it.
             Freedom::Ball { .. } => return None,
-            Freedom::Turn { .. } => {}
+            Freedom::Turn { .. } | Freedom::Screw { .. } => {}
         }
         let mut carrier = own.carrier;
         while let Some(place) = carrier {
@@ -144,6 +144,10 @@ impl Links {
             Freedom::Slide { .. } => {
                 let along = self.slide(arena, link).unwrap_or(ZERO);
                 generalised[own.velocity] = dot(arena, along, force);
+            }
+            Freedom::Screw { axis, advance, .. } => {
+                let along = arena.mul(advance, force[axis]);
+                generalised[own.velocity] = arena.add(moment[axis], along);
             }
             Freedom::Ball { .. } => {
                 generalised[own.velocity..own.velocity + 3].copy_from_slice(&moment);

@@ -165,6 +165,9 @@ fn motion(joint: &ElementDef, motion: Motion) -> String {
     match motion {
         Motion::Turn { axis, point } => format!("turn {} at {}", direction(axis), name(point)),
         Motion::Slide { along } => format!("slide {}", direction(along)),
+        Motion::Screw { axis, point, pitch } => {
+            format!("screw {} at {} by {}", name(axis), name(point), name(pitch))
+        }
         Motion::Ball { point } => format!("ball at {}", name(point)),
     }
 }

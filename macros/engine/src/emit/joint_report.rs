@@ -33,6 +33,7 @@ impl Writer<'_> {
             let motion = match link.meaning {
                 Meaning::Turn(_) => "a turn",
                 Meaning::Slide => "a slide",
+                Meaning::Screw(..) => "a screw",
                 Meaning::Ball => "every rotation",
             };
             let body = &model.bodies[link.body].name;
@@ -89,6 +90,9 @@ impl Writer<'_> {
             let motion = match link.meaning {
                 Meaning::Turn(is_reversed) => quote!(Turn { is_reversed: #is_reversed }),
                 Meaning::Slide => quote!(Slide),
+                Meaning::Screw(is_reversed, counter) => {
+                    quote!(Screw { is_reversed: #is_reversed, counter: #counter })
+                }
                 Meaning::Ball => quote!(Ball),
             };
             let (coordinate, velocity, zero) = (link.coordinate, link.velocity, link.zero);

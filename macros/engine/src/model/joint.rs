@@ -2,6 +2,8 @@
 
 use proc_macro2::{Ident, Span};
 
+use super::motion::Motion;
+
 /// What a parameter of a joint is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
@@ -198,6 +200,18 @@ pub struct Turn {
     pub to: usize,
     /// The place of the axis among the parameters.
     pub axis: usize,
+}
+
+impl Turn {
+    /// That of a joint's second body against the first.
+    #[must_use]
+    pub const fn of_joint(axis: usize) -> Self {
+        Self {
+            from: 0,
+            to: 1,
+            axis,
+        }
+    }
 }
 
 impl Term {
@@ -415,48 +429,6 @@ impl Action {
             Self::Moment { vector, .. } => vec![vector],
         }
     }
-}
-
-/// One motion that a joint leaves free.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
-    /// A rotation about a line.
-    Turn {
-        /// The direction of the line.
-        axis: Direction,
-        /// The place of the parameter of a point on it.
-        point: usize,
-    },
-    /// A translation.
-    Slide {
-        /// Its direction.
-        along: Direction,
-    },
-    /// Every rotation about a point.
-    Ball {
-        /// The place of the point's parameter.
-        point: usize,
-    },
-}
-
-impl Motion {
-    /// The number of its scalar motions.
-    #[must_use]
-    pub const fn freedoms(self) -> usize {
-        match self {
-            Self::Turn { .. } | Self::Slide { .. } => 1,
-            Self::Ball { .. } => 3,
-        }
-    }
-}
-
-/// A direction of a definition: an axis, or a normal of one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Direction {
-    /// The place of the axis among the parameters.
-    pub parameter: usize,
-    /// First (0) or second (1) normal; `None` for the axis itself.
-    pub normal: Option<usize>,
 }
 
 /// What a definition defines.

@@ -6,16 +6,17 @@ mod counted;
 pub mod inertia;
 pub mod joint;
 pub mod mechanism;
+pub mod motion;
 pub mod name;
 pub mod number;
 pub mod rank;
 
 pub use comparison::Comparison;
 pub use joint::{
-    Action, Direction, ElementDef, ElementKind, Extent, Function, Motion, Parameter, ParameterKind,
-    Row, Term, Turn,
+    Action, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term, Turn,
 };
 pub use mechanism::{Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, RunTimeValue};
+pub use motion::{Direction, Motion};
 pub use name::Name;
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};

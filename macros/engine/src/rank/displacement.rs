@@ -98,6 +98,15 @@ impl Twist {
         }
     }
 
+    /// A rotation about an axis through a point, and a translation along it in proportion.
+    pub(super) fn screw(point: [f64; 3], axis: [f64; 3], advance: f64) -> Self {
+        let around = cross(point, axis);
+        Self {
+            spin: axis,
+            velocity: [0, 1, 2].map(|k| around[k] + advance * axis[k]),
+        }
+    }
+
     /// The velocity of a point.
     pub(super) fn at(&self, point: [f64; 3]) -> [f64; 3] {
         let around = cross(self.spin, point);

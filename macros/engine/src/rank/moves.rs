@@ -14,6 +14,7 @@ use super::span::independent;
 use super::sparse::{Row, Rows, width};
 use crate::model::{BodyKind, Comparison, Direction, Element, Model, Motion};
 use crate::symbolic::arena::Arena;
+use crate::symbolic::bind::advance;
 use crate::symbolic::fixed::{Copies, copies};
 use crate::symbolic::vector::Triple;
 
@@ -48,9 +49,22 @@ pub fn compare(model: &Model, joint: usize) -> Comparison {
 
 /// A motion in the reference configuration, in global axes.
 enum Moving {
-    Turn { axis: [f64; 3], point: [f64; 3] },
-    Slide { along: [f64; 3] },
-    Ball { point: [f64; 3] },
+    Turn {
+        axis: [f64; 3],
+        point: [f64; 3],
+    },
+    Slide {
+        along: [f64; 3],
+    },
+    /// The translation is by `advance` for a radian.
+    Screw {
+        axis: [f64; 3],
+        point: [f64; 3],
+        advance: f64,
+    },
+    Ball {
+        point: [f64; 3],
+    },
 }
 
 impl Moving {
@@ -59,6 +73,11 @@ impl Moving {
         match *self {
             Self::Turn { axis, point } => vec![Twist::about(point, axis)],
             Self::Slide { along } => vec![Twist::along(along)],
+            Self::Screw {
+                axis,
+                point,
+                advance,
+            } => vec![Twist::screw(point, axis, advance)],
             Self::Ball { point } => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
                 .map(|axis| Twist::about(point, axis))
                 .into(),
@@ -75,6 +94,15 @@ impl Moving {
             Self::Slide { along } => {
                 let way = length * random.number();
                 Displacement::along(along.map(|x| way * x))
+            }
+            Self::Screw {
+                axis,
+                point,
+                advance,
+            } => {
+                let angle = random.number();
+                let turned = Displacement::about(point, axis.map(|x| angle * x));
+                Displacement::along(axis.map(|x| advance * angle * x)).after(&turned)
             }
             Self::Ball { point } => Displacement::about(point, [0; 3].map(|_| random.number())),
         }
@@ -127,6 +155,15 @@ impl Pair {
             Motion::Slide { along } => Moving::Slide {
                 along: self.direction(model, joint, along)?,
             },
+            Motion::Screw { axis, point, pitch } => {
+                let mut arena = Arena::new();
+                let advance = advance(&mut arena, model, joint, pitch);
+                Moving::Screw {
+                    axis: self.direction(model, joint, Direction::axis(axis))?,
+                    point: self.point(model, joint, point)?,
+                    advance: arena.literal(advance)?,
+                }
+            }
             Motion::Ball { point } => Moving::Ball {
                 point: self.point(model, joint, point)?,
             },

@@ -22,20 +22,41 @@ pub enum Effect {
 
 /// The copies of all vector parameters of joints, then forces; `None` for the others.
 pub(super) fn all_copies(arena: &mut Arena, model: &Model) -> Vec<Vec<Option<Copies>>> {
-    model
-        .elements()
-        .map(|element| {
-            let parameters = &model.definition(element).parameters;
-            parameters
-                .iter()
-                .enumerate()
-                .map(|(place, parameter)| {
-                    let is_vector = parameter.kind.is_vector();
-                    is_vector.then(|| copies(arena, model, element, place))
-                })
-                .collect()
+    let elements = model.elements();
+    elements
+        .map(|element| copies_of(arena, model, element))
+        .collect()
+}
+
+/// The copies of the vector parameters of a joint or force; `None` for the others.
+fn copies_of(arena: &mut Arena, model: &Model, element: &Element) -> Vec<Option<Copies>> {
+    let parameters = &model.definition(element).parameters;
+    parameters
+        .iter()
+        .enumerate()
+        .map(|(place, parameter)| {
+            let is_vector = parameter.kind.is_vector();
+            is_vector.then(|| copies(arena, model, element, place))
         })
         .collect()
+}
+
+/// The translation of a screw for a radian, from the parameter of a joint that is its translation
+/// for a turn.
+pub fn advance(arena: &mut Arena, model: &Model, joint: &Element, pitch: usize) -> Expr {
+    let copies = copies_of(arena, model, joint);
+    let binder = Binder {
+        model,
+        element: joint,
+        copies: &copies,
+        // Defaults are constant, and an angle is zero in the reference configuration.
+        first_counter: 0,
+        paired: &|_, _, _| None,
+    };
+    let pitch = binder.number(arena, pitch);
+    let pitch = start::scalar(arena, model, &pitch);
+    let turn = arena.constant(std::f64::consts::TAU);
+    arena.div(pitch, turn)
 }
 
 /// Replaces formal bodies and parameters of a definition by those of a joint or force.

@@ -5,6 +5,7 @@
 
 use super::arena::{Arena, Expr};
 use super::expression::{AngleExpr, PairedAngle, ScalarExpr, VectorExpr};
+use super::functions::nearest_angle;
 use super::motion::{Gradient, Motion};
 use super::vector::{Frame, Space, VectorId, ZERO};
 
@@ -314,14 +315,7 @@ impl AngleExpr {
     /// `atan2(s, c) + 2 pi round((near - atan2(s, c)) / 2 pi)`.
     pub fn value(&self, space: &mut Space, motion: &Motion) -> Expr {
         let (sine, cosine) = self.parts(space, motion);
-        let arena = &mut space.arena;
-        let within = arena.atan2(sine, cosine);
-        let turn = arena.constant(std::f64::consts::TAU);
-        let beyond = arena.sub(self.near, within);
-        let turns = arena.div(beyond, turn);
-        let turns = arena.round(turns);
-        let full = arena.mul(turn, turns);
-        arena.add(within, full)
+        nearest_angle(&mut space.arena, self.near, sine, cosine)
     }
 
     /// `(c s' - s c') / (c^2 + s^2)`.

@@ -96,3 +96,14 @@ fn unit(arena: &mut Arena, x: Expr) -> (Expr, Expr) {
     let u = arena.clamp(x);
     (u, arena.sub(Arena::ONE, u))
 }
+
+/// The angle of this sine and cosine, times any positive number, that is nearest to another.
+pub(crate) fn nearest_angle(arena: &mut Arena, near: Expr, sine: Expr, cosine: Expr) -> Expr {
+    let within = arena.atan2(sine, cosine);
+    let turn = arena.constant(std::f64::consts::TAU);
+    let beyond = arena.sub(near, within);
+    let turns = arena.div(beyond, turn);
+    let turns = arena.round(turns);
+    let full = arena.mul(turn, turns);
+    arena.add(within, full)
+}

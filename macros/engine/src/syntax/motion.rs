@@ -3,6 +3,7 @@
 //! ```text
 //! motion turn axis at point, slide axis;
 //! motion slide normal.normal(), ball at point;
+//! motion screw axis at point by pitch;
 //! motion none;
 //! ```
 
@@ -14,7 +15,7 @@ use super::{Piece, split};
 use crate::diag::{Faults, did_you_mean, list};
 
 /// The words that begin a motion.
-const WORDS: [&str; 4] = ["turn", "slide", "ball", "none"];
+const WORDS: [&str; 5] = ["turn", "slide", "screw", "ball", "none"];
 
 /// One motion as written.
 #[derive(Clone, Debug)]
@@ -39,6 +40,15 @@ pub enum MotionKind {
     Slide {
         /// The direction.
         along: Box<syn::Expr>,
+    },
+    /// `screw axis at point by pitch`.
+    Screw {
+        /// The direction.
+        axis: Box<syn::Expr>,
+        /// The point.
+        point: Box<syn::Expr>,
+        /// The way along the axis for every turn.
+        pitch: Box<syn::Expr>,
     },
     /// `ball at point`.
     Ball {
@@ -68,7 +78,7 @@ fn motion(piece: &Piece, is_alone: bool, faults: &mut Faults) -> Option<MotionSy
         Some(other) => {
             faults.at(
                 other,
-                "expected `turn axis at point`, `slide axis`, `ball at point` or `none`",
+                "expected `turn axis at point`, `slide axis`, `screw axis at point by pitch`, `ball at point` or `none`",
             );
             return None;
         }
@@ -80,6 +90,7 @@ fn motion(piece: &Piece, is_alone: bool, faults: &mut Faults) -> Option<MotionSy
     let kind = match word.to_string().as_str() {
         "turn" => turn(&word, &rest, faults),
         "slide" => slide(&word, &rest, faults),
+        "screw" => screw(&word, &rest, faults),
         "ball" => ball(&word, &rest, faults),
         "none" => {
             if !rest.tokens.is_empty() {
@@ -138,6 +149,28 @@ fn slide(word: &Ident, rest: &Piece, faults: &mut Faults) -> Option<MotionKind> 
     Some(MotionKind::Slide { along })
 }
 
+fn screw(word: &Ident, rest: &Piece, faults: &mut Faults) -> Option<MotionKind> {
+    let parts = around(rest, "at").and_then(|(axis, at, behind)| {
+        let (point, by, pitch) = around(&behind, "by")?;
+        Some((axis, at, point, by, pitch))
+    });
+    let Some((axis, at, point, by, pitch)) = parts else {
+        faults.at(
+            word,
+            "expected an axis, `at`, a point, `by` and a length behind it, as in `screw axis at point by pitch`",
+        );
+        return None;
+    };
+    let axis = operand(&axis, word, "an axis", faults);
+    let point = operand(&point, &at, "a point", faults);
+    let pitch = operand(&pitch, &by, "a length", faults);
+    Some(MotionKind::Screw {
+        axis: axis?,
+        point: point?,
+        pitch: pitch?,
+    })
+}
+
 fn ball(word: &Ident, rest: &Piece, faults: &mut Faults) -> Option<MotionKind> {
     let mut tokens = rest.tokens.clone().into_iter();
     match tokens.next() {
@@ -192,6 +225,7 @@ mod tests {
         let letters = found.iter().map(|motion| match motion.kind {
             MotionKind::Turn { .. } => 't',
             MotionKind::Slide { .. } => 's',
+            MotionKind::Screw { .. } => 'h',
             MotionKind::Ball { .. } => 'b',
         });
         let errors = faults.into_tokens().to_string();
@@ -207,6 +241,7 @@ mod tests {
             ("ssb".into(), 0)
         );
         assert_eq!(read(quote!(turn n.normal() at p)), ("t".into(), 0));
+        assert_eq!(read(quote!(screw a at p by h, slide a)), ("hs".into(), 0));
     }
 
     #[test]
@@ -215,5 +250,7 @@ mod tests {
         assert_eq!(read(spoilt), ("s".into(), 11));
         assert_eq!(read(quote!(slide a b)), (String::new(), 1));
         assert_eq!(read(quote!(none a)), (String::new(), 1));
+        let spoilt = quote!(screw, screw a, screw a at p, screw a by h, screw a at p by, screw a at by h, screw a at p by h h);
+        assert_eq!(read(spoilt), (String::new(), 7));
     }
 }

@@ -27,6 +27,7 @@ mod reading;
 mod reduced;
 mod redundancy;
 mod reference;
+mod screws;
 mod shrink;
 mod solutions;
 mod states;

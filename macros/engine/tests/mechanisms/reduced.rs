@@ -110,6 +110,18 @@ fn coordinate_rates(links: &Links, coordinates: &[f64], velocities: &[f64]) -> V
                 rates[2 * pair + 1] = c * velocities[u];
             }
             Freedom::Slide { rest, .. } => rates[2 * links.turns + rest] = velocities[u],
+            Freedom::Screw {
+                pair,
+                is_reversed,
+                counter,
+                ..
+            } => {
+                let (c, s) = (coordinates[2 * pair], coordinates[2 * pair + 1]);
+                rates[2 * pair] = -s * velocities[u];
+                rates[2 * pair + 1] = c * velocities[u];
+                let sign = if is_reversed { -1.0 } else { 1.0 };
+                rates[2 * links.turns + links.rest + counter] = sign * velocities[u];
+            }
             Freedom::Ball { rest } => {
                 let first = 2 * links.turns + rest;
                 let p = [0, 1, 2, 3].map(|k| coordinates[first + k]);

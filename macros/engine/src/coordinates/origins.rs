@@ -1,0 +1,69 @@
+//! Where origins of links are against those of their carriers, and how they move.
+
+use super::algebra::{add, scale};
+use super::freedom::Freedom;
+use super::links::Links;
+use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::vector::{Triple, ZERO};
+
+impl Links {
+    /// The origin of a link from that of its carrier, in the axes of the carrier's motion.
+    pub fn offset(&self, arena: &mut Arena, link: usize) -> Triple {
+        let own = &self.links[link];
+        let mut offset = own.offset;
+        match own.freedom {
+            Freedom::Slide { along, rest } => {
+                let x = arena.input(Input::Coordinate((2 * self.turns + rest) as u32));
+                let moved = scale(arena, x, along);
+                offset = add(arena, offset, moved);
+            }
+            Freedom::Screw { counter, .. } => {
+                let first = 2 * self.turns + self.rest;
+                let angle = arena.input(Input::Coordinate((first + counter) as u32));
+                let moved = self.advanced(arena, link, angle);
+                offset = add(arena, offset, moved);
+            }
+            Freedom::Turn { .. } | Freedom::Ball { .. } => {}
+        }
+        self.in_axes(arena, offset, own.carrier)
+    }
+
+    /// How far a screw moves by an angle of its joint, in the frame of its carrier; nothing else
+    /// does.
+    pub(super) fn advanced(&self, arena: &mut Arena, link: usize, angle: Expr) -> Triple {
+        let Freedom::Screw {
+            axis,
+            is_reversed,
+            advance,
+            ..
+        } = self.links[link].freedom
+        else {
+            return ZERO;
+        };
+        let way = arena.mul(advance, angle);
+        let along = self.axis_on_carrier(arena, link, axis);
+        scale(arena, if is_reversed { -way } else { way }, along)
+    }
+
+    /// The velocity of a link's origin against its carrier, per unit of the link's own, in the axes
+    /// of the carrier's motion; `None` of what turns on its place.
+    pub(super) fn origin_rate(&self, arena: &mut Arena, link: usize) -> Option<Triple> {
+        match self.links[link].freedom {
+            Freedom::Slide { .. } => self.slide(arena, link),
+            Freedom::Screw { axis, advance, .. } => {
+                let along = self.axis_on_carrier(arena, link, axis);
+                let along = scale(arena, advance, along);
+                Some(self.in_axes(arena, along, self.links[link].carrier))
+            }
+            Freedom::Turn { .. } | Freedom::Ball { .. } => None,
+        }
+    }
+
+    /// The direction of a slide in the axes of a link's motion.
+    pub fn slide(&self, arena: &mut Arena, link: usize) -> Option<Triple> {
+        let Freedom::Slide { along, .. } = self.links[link].freedom else {
+            return None;
+        };
+        Some(self.in_axes(arena, along, Some(link)))
+    }
+}

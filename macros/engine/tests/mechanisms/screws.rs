@@ -1,0 +1,146 @@
+//! Screws that carry bodies: in chains, in loops, beside slides, along tilted axes, and with the
+//! carrier named last.
+
+use holonom_engine::coordinates::candidates::Strategy;
+use holonom_engine::coordinates::freedom::Freedom;
+use holonom_engine::coordinates::system::Reduced;
+use holonom_engine::model::ElementKind;
+
+use crate::common::{delivered, tokens};
+use crate::comparison::Extent;
+use crate::library;
+use crate::text::{Outcome, Text};
+
+/// A nut on the ground carries a hinge about the same axis, that a left-handed screw which names it
+/// last, and that a ball.
+const CHAIN: &str = "
+    #[mechanism(gravity = [0.3, -9.7, 1.1])]
+    pub struct Screws {
+        #[body(mass = 0.7, inertia = [0.2, 0.3, 0.4], position = [0.3, 0.5, 0.1], orientation = rotation([0.1, 0.0, 1.0], 0.3))]
+        nut: Body,
+        #[body(mass = 1.9, inertia = [[0.5, 0.1, 0.0], [0.1, 0.7, 0.05], [0.0, 0.05, 0.4]], position = [1.2, 1.1, 0.25])]
+        arm: Body,
+        #[body(mass = 1.1, inertia = [0.4, 0.2, 0.5], position = [2.3, 0.8, 0.0], orientation = rotation([1.0, 0.5, 0.0], 1.1))]
+        probe: Body,
+        #[body(mass = 0.4, inertia = [0.1, 0.12, 0.15], position = [2.5, 1.3, 0.4])]
+        load: Body,
+        #[joint(between = [ground, nut], point = [0.1, 0.2, 0.0], axis = [0.3, 0.0, 1.0], pitch = 0.8)]
+        thread: Screw,
+        #[joint(between = [nut, arm], point = [0.6, 0.7, 0.2], axis = [0.3, 0.0, 1.0])]
+        hinge: Revolute,
+        #[joint(between = [probe, arm], point = [1.9, 1.4, 0.3], axis = [0.0, 1.0, 0.0], pitch = -1.7)]
+        drill: Screw,
+        #[joint(between = [probe, load], point = [2.4, 1.1, 0.2])]
+        hook: Spherical,
+    }";
+
+/// A boom on a hinge, which a screw jack lifts.
+const JACK: &str = "
+    #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = \"joints\", redundant = \"drop\")]
+    pub struct Screws {
+        #[body(mass = 20.0, inertia = [6.0, 6.0, 0.2], position = [0.9, 0.0, 0.5])]
+        boom: Body,
+        #[body(mass = 3.0, inertia = [0.1, 0.1, 0.02], position = [0.65, 0.0, 0.1])]
+        tube: Body,
+        #[body(mass = 2.0, inertia = [0.08, 0.08, 0.01], position = [0.8, 0.0, 0.3], orientation = rotation([0.0, 1.0, 0.0], 0.6))]
+        spindle: Body,
+        #[joint(between = [ground, boom], point = [0.0, 0.0, 0.5], axis = [0.0, 1.0, 0.0])]
+        shoulder: Revolute,
+        #[joint(between = [ground, tube], point = [0.6, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+        foot: Revolute,
+        #[joint(between = [tube, spindle], point = [0.6, 0.0, 0.0], axis = [0.3, 0.0, 0.4], pitch = 0.2)]
+        thread: Screw,
+        #[joint(between = [spindle, boom], point = [0.9, 0.0, 0.4])]
+        head: Spherical,
+    }";
+
+/// A carriage with two motions.
+const CARRIAGE: &str = "
+    #[mechanism(gravity = [0.3, -9.7, 1.1])]
+    pub struct Screws {
+        #[body(mass = 1.2, inertia = [0.2, 0.3, 0.4], position = [0.3, 0.5, 0.1])]
+        base: Body,
+        #[body(mass = 0.7, inertia = [0.3, 0.25, 0.2], position = [0.7, 0.6, 0.4])]
+        tool: Body,
+        #[joint(between = [ground, base], point = [0.0, 0.0, 0.0], axis = [0.2, 1.0, 0.0])]
+        bearing: Revolute,
+        #[joint(between = [base, tool], point = [0.5, 0.5, 0.5], axis = [0.0, 0.6, 0.8], side = [1.0, 0.0, 0.0], pitch = 0.9)]
+        carriage: Own,
+    }";
+
+const EQUATIONS: &str = "
+    Own(i, j; point: Point, axis: Axis, side: Axis, pitch: Length) {
+        let arm = j.point - i.point;
+        dot(i.axis.normals(), j.axis);
+        dot(cross(i.axis, i.side), arm);
+        dot(i.axis, arm) - pitch / TAU * angle(i, j, axis);";
+
+fn own(motion: &str) -> (String, ElementKind, String) {
+    let text = format!("{EQUATIONS} motion {motion}; }}");
+    ("Own".into(), ElementKind::Joint, text)
+}
+
+/// Screws in the tree, equations that remain, and velocities.
+fn shape(text: &Text) -> [usize; 3] {
+    let model = delivered(&tokens(&text.item), |name| {
+        let mut own = text.definitions.iter();
+        let own = own.find(|(known, ..)| known == name);
+        let own = own.map(|(_, kind, text)| (*kind, text.clone()));
+        let (kind, text) = own.or_else(|| library::definition(name))?;
+        Some((kind, tokens(&text)))
+    });
+    let reduced = Reduced::of(&model, Strategy::ALL[0]);
+    let links = &reduced.links.links;
+    let is_screw = |freedom: Freedom| matches!(freedom, Freedom::Screw { .. });
+    let screws = links.iter().filter(|link| is_screw(link.freedom)).count();
+    let rows = reduced.scene.constraints.iter();
+    let rows = rows.map(|constrained| constrained.equations()).sum();
+    [screws, rows, reduced.links.velocities]
+}
+
+fn assert_agrees(item: &str, definitions: &[(String, ElementKind, String)], wanted: [usize; 3]) {
+    let text = Text {
+        item: item.into(),
+        definitions: definitions.into(),
+    };
+    assert_eq!(shape(&text), wanted, "{text}");
+    for seed in 0..4 {
+        match text.check(&text, seed, Extent::Full) {
+            Ok(Outcome::Compared(_)) => {}
+            Ok(Outcome::Refused(why) | Outcome::RefusedOtherwise(why)) | Err(why) => {
+                panic!("{text}\n{why}")
+            }
+        }
+    }
+}
+
+#[test]
+fn screws_carry_bodies_in_chains() {
+    assert_agrees(CHAIN, &[], [2, 0, 6]);
+}
+
+/// The five equations of the screw are no longer among those of the loop.
+#[test]
+fn a_jack_is_closed_at_its_head() {
+    assert_agrees(JACK, &[], [1, 2, 3]);
+    let cut = JACK.replace("pitch = 0.2", "pitch = 0.2, cut");
+    assert_agrees(&cut, &[], [0, 4, 5]);
+}
+
+#[test]
+fn a_screw_may_stand_beside_a_slide() {
+    for motion in [
+        "slide side, screw axis at point by pitch",
+        "screw axis at point by pitch, slide side",
+    ] {
+        let is_carried = motion.starts_with("slide");
+        let wanted = if is_carried { [1, 0, 3] } else { [0, 4, 7] };
+        assert_agrees(CARRIAGE, &[own(motion)], wanted);
+    }
+    let reversed = CARRIAGE.replace("[base, tool]", "[tool, base]");
+    assert_agrees(
+        &reversed,
+        &[own("slide side, screw axis at point by pitch")],
+        [1, 0, 3],
+    );
+}
