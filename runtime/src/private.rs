@@ -169,9 +169,9 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 ///
 /// An axis is an `Axis` of the joint, or the `.normal()` or `.binormal()` of one, a point a
 /// `Point`, as they are in the reference configuration. The axis of a screw is an `Axis` itself,
-/// and an equation counts its turns by `angle(i, j, axis)` of it. Motions that are not those that the
-/// equations leave are refused, where that can be told without a mechanism. A joint connects one or
-/// more bodies; the `ground` of a mechanism may be any of them.
+/// and an equation counts its turns by `angle(i, j, axis)` of it. Motions that are not those that
+/// the equations leave are refused, where that can be told without a mechanism. A joint connects
+/// one or more bodies; the `ground` of a mechanism may be any of them.
 ///
 /// The joint's reaction is `-D^T lambda`, whatever the units of its equations are. What a good
 /// equation looks like, and a joint in use: [`guide::joint`](crate::guide::joint).

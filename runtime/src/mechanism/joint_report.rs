@@ -39,9 +39,9 @@ impl JointMotion {
 }
 
 impl JointReport {
-    /// The coordinate of the joint itself: an angle (rad, zero in the reference configuration; of a
-    /// turn from `-pi` to `pi`, of a screw over any number of turns), or a displacement (m) since
-    /// then. `None` for a ball, and where there is no such motion.
+    /// The coordinate of the joint itself, zero in the reference configuration: an angle (rad) or a
+    /// displacement (m). A turn is from `-pi` to `pi`, a screw counts all turns. `None` for a ball,
+    /// and where there is no such motion.
     ///
     /// ```text
     /// angle of the joint = +-((angle - zero) - (angle - zero of the motion that it is against))
@@ -99,7 +99,7 @@ impl JointReport {
         false
     }
 
-    /// Puts the counted angles of screws right: those of their pairs, of which rounding leaves more.
+    /// Puts the counted angles of screws right, which rounding takes away from their pairs.
     pub(crate) fn recount_screws<S: Real, X: JointParts<S>>(&self, state: &mut X) {
         for motion in self.motions {
             let Freedom::Screw { counter, .. } = motion.freedom else {

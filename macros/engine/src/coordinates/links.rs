@@ -280,7 +280,7 @@ impl Links {
     }
 
     /// A pair, and the frame of the next link, which turns by it about a coordinate axis of another
-    /// one, counted from where the vectors that are fixed on the link have the most zeros.
+    /// one. The angle counts from where the vectors that are fixed on the link have the most zeros.
     fn turned_frame(
         &mut self,
         arena: &mut Arena,

@@ -32,8 +32,8 @@ impl Links {
         let mut composites = vec![none; self.links.len()];
         for link in self.leaves_first() {
             let own = &self.links[link];
-            // Constant in the link's own frame unless something moves along it: augmented by what it
-            // carries, before it is turned.
+            // Constant in the link's own frame unless something moves along it: augmented by what
+            // it carries, before it is turned.
             let mut augmented = own.inertia;
             let mut carried = own.inertia.mass;
             let mut sliding = Inertia::NONE;
