@@ -79,6 +79,11 @@ impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
         Some(self.step)
     }
 
+    fn companion(&self, _duration: S) -> Option<Self> {
+        let step = self.step * S::constant(0.5);
+        Some(Self { step, ..*self })
+    }
+
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
     }

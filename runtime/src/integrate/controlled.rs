@@ -1,5 +1,7 @@
 //! Methods with control of their steps: what a user says of them.
 
+use crate::math::scalar::Real;
+
 /// What a step control is held to besides its tolerance. Nothing of it is set by default but the
 /// budget.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +34,21 @@ impl<S> StepLimits<S> {
             least: None,
             largest: None,
             evaluations: Self::EVALUATIONS,
+        }
+    }
+}
+
+impl<S: Real> StepLimits<S> {
+    /// The parts of an interval that a companion looks into at least.
+    const LOOKS: f64 = 256.0;
+
+    /// Those of a companion over an interval of so many seconds.
+    pub(super) fn of_companion(self, duration: S) -> Self {
+        let look = duration * S::constant(Self::LOOKS.recip());
+        Self {
+            first: None,
+            largest: Some(self.largest.map_or(look, |largest| largest.min(look))),
+            ..self
         }
     }
 }
@@ -131,6 +148,13 @@ macro_rules! controlled {
 
             fn tolerance(&self) -> Option<$crate::Tolerance<S>> {
                 Some(self.tolerance)
+            }
+
+            fn companion(&self, duration: S) -> Option<Self> {
+                Some(Self {
+                    tolerance: self.tolerance.of_companion(),
+                    limits: self.limits.of_companion(duration),
+                })
             }
         }
     };

@@ -21,6 +21,26 @@ pub struct Tolerance<S> {
     pub absolute: S,
 }
 
+impl<S: Real> Tolerance<S> {
+    /// That of a companion: a sixteenth, or sixteen times as much where the number type has no
+    /// digits for that.
+    pub(super) fn of_companion(self) -> Self {
+        /// What a control may be asked for, in units of round-off.
+        const LEAST: f64 = 256.0;
+        let sixteenth = S::constant(1.0 / 16.0);
+        let is_fine = self.relative * sixteenth < S::constant(LEAST) * S::EPSILON;
+        let factor = if is_fine {
+            S::constant(16.0)
+        } else {
+            sixteenth
+        };
+        Self {
+            relative: self.relative * factor,
+            absolute: self.absolute * factor,
+        }
+    }
+}
+
 /// `relative = 1e-6`, `absolute = 1e-9`.
 impl<S: Real> Default for Tolerance<S> {
     fn default() -> Self {

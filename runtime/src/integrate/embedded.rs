@@ -113,4 +113,12 @@ impl<S: Real, K: EmbeddedPair<S>> Integrator<S> for Adaptive<S, K> {
     fn tolerance(&self) -> Option<Tolerance<S>> {
         Some(self.tolerance)
     }
+
+    fn companion(&self, duration: S) -> Option<Self> {
+        Some(Self {
+            tolerance: self.tolerance.of_companion(),
+            limits: self.limits.of_companion(duration),
+            ..*self
+        })
+    }
 }

@@ -70,6 +70,11 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
         Some(self.step)
     }
 
+    fn companion(&self, _duration: S) -> Option<Self> {
+        let step = self.step * S::constant(0.5);
+        Some(Self { step, ..*self })
+    }
+
     fn turning_error(&self) -> f64 {
         self.scheme.turning_error()
     }

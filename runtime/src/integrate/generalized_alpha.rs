@@ -213,6 +213,11 @@ impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
         Some(self.step)
     }
 
+    fn companion(&self, _duration: S) -> Option<Self> {
+        let step = self.step * S::constant(0.5);
+        Some(Self { step, ..*self })
+    }
+
     /// `|p|` stays 1 and says nothing of the angle.
     fn turning_error(&self) -> f64 {
         1.0

@@ -284,6 +284,14 @@ pub trait Integrator<S: Real>: Copy + Debug {
     fn tolerance(&self) -> Option<Tolerance<S>> {
         None
     }
+
+    /// The same method for a second run over an interval of so many seconds, by which the error of
+    /// the first is estimated ([`Simulation::verified`](crate::Simulation::verified)): with half
+    /// the step, or with another tolerance and steps that pass over nothing longer than 1/256 of
+    /// the interval. `None` of a method that does not know.
+    fn companion(&self, _duration: S) -> Option<Self> {
+        None
+    }
 }
 
 /// The functions of an [`Integrator`] but `start`, each by that of another one, which a macro calls

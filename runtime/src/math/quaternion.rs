@@ -5,7 +5,7 @@
 //! (1988), chapter 6.
 
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::cross;
+use crate::math::vec3::{cross, square};
 
 /// `A(p) s = (e0^2 - e.e) s + 2 (e.s) e + 2 e0 e x s`.
 pub(crate) fn rotate<S: Scalar>(p: &[S; 4], s: &[S; 3]) -> [S; 3] {
@@ -126,6 +126,14 @@ pub(crate) fn to_unit_length<S: Real>(p: &[S; 4]) -> (S, Option<S>) {
 fn norm<S: Scalar>(p: &[S; 4]) -> S {
     let [e0, e1, e2, e3] = p.map(|e| e * e);
     (e0 + e1) + (e2 + e3)
+}
+
+/// The angle (rad), from 0 to `pi`, of the rotation between two orientations; the lengths of the
+/// Euler parameters do not matter.
+pub(crate) fn angle_between<S: Real>(p: &[S; 4], q: &[S; 4]) -> S {
+    let [cosine, axis @ ..] = product(&conjugate(p), q);
+    let half = square(&axis).sqrt().atan2(cosine.abs());
+    half + half
 }
 
 /// `|p|`.

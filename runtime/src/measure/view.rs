@@ -53,6 +53,19 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         }
     }
 
+    /// The same of another state at that time.
+    pub(crate) fn of_state<'b>(&self, state: &'b M::State<S>) -> View<'b, S, M>
+    where
+        'a: 'b,
+    {
+        View {
+            constants: self.constants,
+            time: self.time,
+            state,
+            normalised: self.normalised,
+        }
+    }
+
     /// The time (s).
     #[must_use]
     pub fn time(&self) -> S {

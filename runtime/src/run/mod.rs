@@ -17,6 +17,7 @@
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
+pub(crate) mod companion;
 pub(crate) mod direct;
 pub(crate) mod kinematics;
 pub(crate) mod output;
@@ -30,5 +31,6 @@ pub(crate) mod simulation;
 pub(crate) mod stepper;
 pub(crate) mod within;
 
+pub use companion::{BodyError, Verification};
 pub use direct::DirectCorrection;
 pub use post_step::{Treatment, TreeRecovery, VelocityProjection};

@@ -6,6 +6,7 @@ use crate::dynamics::Iterations;
 use crate::error::SimulationError;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::run::companion::Verification;
 use crate::watch::{Doubts, Watch};
 
 /// What a run came to, and whether it can be trusted.
@@ -29,6 +30,9 @@ pub struct RunReport<S: Real, M: Mechanism> {
     pub state: M::State<S>,
     /// Whether the observer stopped the run.
     pub stopped: bool,
+    /// The estimated errors of a run that is
+    /// [`verified`](crate::Simulation::verified); `None` of another.
+    pub verification: Option<Verification<S, M>>,
     /// What the watch saw; `None` where it was turned off.
     pub watch: Option<Watch<S, M>>,
 }
@@ -42,7 +46,8 @@ impl<S: Real, M: Mechanism> RunReport<S, M> {
     /// They tell a result that is off by more than about a hundredth: joints that open, energy that
     /// comes from nowhere, a singular configuration that was passed, tolerances, steps and
     /// penalties that do not suit the mechanism. Small errors of a chaotic motion, and laws that
-    /// are shorter than a step, are beyond them: compare two tolerances.
+    /// are shorter than a step, are beyond them: see
+    /// [`Simulation::verified`](crate::Simulation::verified).
     #[must_use]
     pub fn doubts(&self) -> Doubts {
         self.watch
@@ -93,6 +98,7 @@ impl<S: Real, M: Mechanism> fmt::Debug for RunReport<S, M> {
             .field("state", &self.state)
             .field("stopped", &self.stopped)
             .field("doubts", &self.doubts())
+            .field("verification", &self.verification)
             .finish()
     }
 }

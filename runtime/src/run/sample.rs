@@ -21,6 +21,7 @@ pub struct Sample<'a, S: Real, M: Mechanism> {
     view: View<'a, S, M>,
     dynamics: &'a dyn Evaluate<S, M>,
     evaluation: OnceCell<Result<Evaluation<S, M>, Fault>>,
+    companion: Option<M::State<S>>,
 }
 
 impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
@@ -29,6 +30,7 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
             view,
             dynamics,
             evaluation: OnceCell::new(),
+            companion: None,
         }
     }
 
@@ -42,7 +44,22 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
             view,
             dynamics,
             evaluation: OnceCell::from(Ok(evaluation)),
+            companion: None,
         }
+    }
+
+    /// The same with the bodies of a companion.
+    pub(crate) fn beside(self, companion: Option<M::State<S>>) -> Self {
+        Self { companion, ..self }
+    }
+
+    /// The estimated error of what is read of a state, by the companion of a run that is
+    /// [`verified`](crate::Simulation::verified): the difference between both. `None` without a
+    /// companion, and once it has ended.
+    pub fn error_of(&self, read: impl Fn(&View<'_, S, M>) -> S) -> Option<S> {
+        let companion = self.companion.as_ref()?;
+        let other = self.view.of_state(companion);
+        Some((read(&self.view) - read(&other)).abs())
     }
 
     /// Rates of the state, and multipliers.

@@ -11,6 +11,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::run::companion::Companion;
 use crate::run::output::Schedule;
 use crate::run::post_step::Treatment;
 use crate::run::report::RunReport;
@@ -74,6 +75,7 @@ where
     pub(crate) fn go<I: Integrator<S>>(
         mut self,
         integrator: &I,
+        mut companion: Option<Companion<S, M, F, A, C, I>>,
         (start, end): (S, S),
         last_good: &mut (S, M::State<S>),
     ) -> Result<RunReport<S, M>, Fault> {
@@ -82,7 +84,7 @@ where
             self.evaluate(start, &last_good.1)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
         }
-        self.show(start, &last_good.1);
+        self.show(start, &last_good.1, &mut companion);
         if let Some(watch) = self.watch.as_mut().filter(|_| from < end) {
             self.dynamics.begin(watch, start, &last_good.1);
         }
@@ -97,11 +99,16 @@ where
                 end: until,
                 first_output: self.schedule.first(from).min(until - from),
             };
-            self.segment(integrator, span, last_good)
+            if let Some(companion) = &mut companion {
+                companion.restart(&span, self.treatment);
+            }
+            self.segment(integrator, &mut companion, span, last_good)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
             from = until;
         }
-        Ok(self.report(*last_good))
+        let mut report = self.report(*last_good);
+        report.verification = companion.map(Companion::found);
+        Ok(report)
     }
 
     /// Evaluates the rates once: a run of no length is refused where any other would be.
@@ -116,6 +123,7 @@ where
     fn segment<I: Integrator<S>>(
         &mut self,
         integrator: &I,
+        companion: &mut Option<Companion<S, M, F, A, C, I>>,
         span: Span<S>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
@@ -150,7 +158,7 @@ where
                     state = self.treated(treatment, time, state)?;
                 }
                 *last_good = (time, state);
-                self.show(time, &last_good.1);
+                self.show(time, &last_good.1, companion);
                 if self.log.flow.is_break() {
                     self.counts = self.counts.plus(course.counts().without(of_watch));
                     return Ok(());
@@ -192,7 +200,7 @@ where
             *last_good = (time, state);
             self.log.unseen += 1;
             if self.schedule.at(time, self.log.unseen) {
-                self.show(time, &state);
+                self.show(time, &state, companion);
                 if self.log.flow.is_break() {
                     break;
                 }
@@ -228,12 +236,19 @@ where
         Ok(state)
     }
 
-    fn show(&mut self, time: S, state: &M::State<S>) {
+    fn show<I: Integrator<S>>(
+        &mut self,
+        time: S,
+        state: &M::State<S>,
+        companion: &mut Option<Companion<S, M, F, A, C, I>>,
+    ) {
+        let beside = companion.as_mut();
+        let beside = beside.and_then(|companion| companion.compare(time, state, self.treatment));
         let dynamics = &self.dynamics;
         let view = dynamics.view(time, state);
         let log = &mut self.log;
         log.worst_violation = log.worst_violation.max(view.violation());
-        log.flow = (log.observe)(&Sample::new(view, dynamics));
+        log.flow = (log.observe)(&Sample::new(view, dynamics).beside(beside));
         log.unseen = 0;
     }
 
@@ -252,6 +267,7 @@ where
             time,
             state,
             stopped: self.log.flow.is_break(),
+            verification: None,
             watch: self.watch,
         }
     }

@@ -1,0 +1,298 @@
+//! A second run beside the first, by which the error of the first is estimated.
+//!
+//! Indicators look at single steps. How errors grow over many steps (orbits, falls from the
+//! upright, chaos, closures that jump) only a second run tells. It has another tolerance or step
+//! and goes from report to report with the first. Their difference is about the error of the
+//! coarser one.
+
+use crate::dynamics::{Dynamics, RigidSteps};
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{Course, Integrator, Span};
+use crate::math::quaternion::angle_between;
+use crate::math::scalar::Real;
+use crate::math::vec3::{norm, read};
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::handle::BodyHandle;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::BodyKind;
+use crate::run::post_step::Treatment;
+use crate::state::vector::{Array, StateParts};
+
+/// The parts of the largest error whose times are kept.
+const PART: f64 = 0.1;
+
+/// The estimated errors of a run, by its difference from a companion at the reporting times; see
+/// [`Simulation::verified`](crate::Simulation::verified).
+///
+/// An estimate is about the error of the run where the companion is much more accurate. It is no
+/// bound: what both miss in the same way stays unseen.
+pub struct Verification<S: Real, M: Mechanism> {
+    /// By body: the largest distance (m) in the first place of its velocity, the largest angle
+    /// (rad) in the fourth.
+    largest: M::Velocities<S>,
+    /// When each became a tenth of its largest (s), in the same places.
+    grew: M::Velocities<S>,
+    /// Reporting times that were compared.
+    pub compared: usize,
+    /// Evaluations of the rates by the companion.
+    pub evaluations: usize,
+    /// Why the companion could not go on, and when (s): nothing is compared from then on.
+    pub ended: Option<(S, Fault)>,
+}
+
+/// The estimated error of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BodyError<S> {
+    /// The field of the body.
+    pub body: &'static str,
+    /// The largest distance (m) between the centres of mass.
+    pub position: S,
+    /// The largest angle (rad) between the orientations; zero for a particle.
+    pub rotation: S,
+    /// The first reporting time (s) at which the larger of the two, a radian counted as a metre,
+    /// was a tenth of what it became.
+    pub grew: S,
+}
+
+impl<S: Real, M: Mechanism> Verification<S, M> {
+    fn nothing() -> Self {
+        Self {
+            largest: Array::zeros(),
+            grew: Array::zeros(),
+            compared: 0,
+            evaluations: 0,
+            ended: None,
+        }
+    }
+
+    /// The estimated error of a body.
+    #[must_use]
+    pub fn body(&self, body: BodyHandle<M>) -> BodyError<S> {
+        self.of(body.index())
+    }
+
+    /// The body with the largest estimated error, a radian counted as a metre; `None` for a
+    /// mechanism without bodies.
+    #[must_use]
+    pub fn worst(&self) -> Option<BodyError<S>> {
+        let bodies = (0..M::REPORT.bodies.len()).map(|body| self.of(body));
+        let size = |error: &BodyError<S>| error.position.max(error.rotation);
+        bodies.reduce(|worst, next| {
+            if size(&next) > size(&worst) {
+                next
+            } else {
+                worst
+            }
+        })
+    }
+
+    fn of(&self, body: usize) -> BodyError<S> {
+        let Some(info) = M::REPORT.bodies.get(body) else {
+            let zero = S::zero();
+            return BodyError {
+                body: "",
+                position: zero,
+                rotation: zero,
+                grew: zero,
+            };
+        };
+        let [position]: [S; 1] = read(self.largest.as_slice(), info.velocity);
+        let [mut grew]: [S; 1] = read(self.grew.as_slice(), info.velocity);
+        let mut rotation = S::zero();
+        if info.kind == BodyKind::Rigid {
+            [rotation] = read(self.largest.as_slice(), info.velocity + 3);
+            if rotation > position {
+                [grew] = read(self.grew.as_slice(), info.velocity + 3);
+            }
+        }
+        BodyError {
+            body: info.name,
+            position,
+            rotation,
+            grew,
+        }
+    }
+
+    /// Compares the bodies of both runs at a time.
+    fn compare(&mut self, time: S, one: &M::State<S>, other: &M::State<S>) {
+        self.compared = self.compared.saturating_add(1);
+        let [a, b] = [one, other].map(|state| state.coordinates().as_slice());
+        for info in M::REPORT.bodies {
+            let [r, s]: [[S; 3]; 2] = [a, b].map(|x| read(x, info.coordinate));
+            let apart = norm(&[r[0] - s[0], r[1] - s[1], r[2] - s[2]]);
+            self.take(info.velocity, time, apart);
+            if info.kind == BodyKind::Rigid {
+                let [p, q]: [[S; 4]; 2] = [a, b].map(|x| read(x, info.coordinate + 3));
+                self.take(info.velocity + 3, time, angle_between(&p, &q));
+            }
+        }
+    }
+
+    fn take(&mut self, place: usize, time: S, error: S) {
+        let largest = self.largest.as_mut_slice().get_mut(place);
+        let (Some(largest), Some(grew)) = (largest, self.grew.as_mut_slice().get_mut(place)) else {
+            return;
+        };
+        if error > *largest {
+            // The time stays as long as what was largest then is a tenth of what is now.
+            if *largest < S::constant(PART) * error {
+                *grew = time;
+            }
+            *largest = error;
+        }
+    }
+}
+
+impl<S: Real, M: Mechanism> Clone for Verification<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Real, M: Mechanism> Copy for Verification<S, M> {}
+
+impl<S: Real, M: Mechanism> core::fmt::Debug for Verification<S, M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Verification")
+            .field("worst", &self.worst())
+            .field("compared", &self.compared)
+            .field("evaluations", &self.evaluations)
+            .field("ended", &self.ended)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The second run, under way.
+pub(crate) struct Companion<S, M, F, A, C, I>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+    I: Integrator<S>,
+{
+    dynamics: Dynamics<S, M, F, A, C>,
+    integrator: I,
+    course: Option<I::Course<C::State<S>>>,
+    /// How its bodies stood last.
+    bodies: M::State<S>,
+    found: Verification<S, M>,
+}
+
+impl<S, M, F, A, C, I> Companion<S, M, F, A, C, I>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: RigidSteps<M>,
+    I: Integrator<S>,
+{
+    pub(crate) fn new(
+        dynamics: Dynamics<S, M, F, A, C>,
+        integrator: I,
+        bodies: &M::State<S>,
+    ) -> Self {
+        Self {
+            dynamics,
+            integrator,
+            course: None,
+            bodies: *bodies,
+            found: Verification::nothing(),
+        }
+    }
+
+    /// Begins anew at a break, from where it is.
+    pub(crate) fn restart(&mut self, span: &Span<S>, treatment: Option<&dyn Treatment<S, M>>) {
+        if self.course.is_some() {
+            self.reach(span.start, treatment);
+        }
+        if self.found.ended.is_some() {
+            return;
+        }
+        self.count();
+        let start = self.dynamics.nearest(&self.bodies);
+        match self.integrator.start(&mut self.dynamics, *span, start) {
+            Ok(course) => self.course = Some(course),
+            Err(fault) => {
+                self.course = None;
+                self.found.ended = Some((span.start, fault));
+            }
+        }
+    }
+
+    /// Compares with the bodies of the first run at a time, which are those of the companion where
+    /// it stands beside it.
+    pub(crate) fn compare(
+        &mut self,
+        time: S,
+        bodies: &M::State<S>,
+        treatment: Option<&dyn Treatment<S, M>>,
+    ) -> Option<M::State<S>> {
+        self.reach(time, treatment);
+        if self.found.ended.is_some() {
+            return None;
+        }
+        self.found.compare(time, bodies, &self.bodies);
+        Some(self.bodies)
+    }
+
+    pub(crate) fn found(mut self) -> Verification<S, M> {
+        self.count();
+        self.found
+    }
+
+    /// Goes on to a time, unless it has ended.
+    fn reach(&mut self, time: S, treatment: Option<&dyn Treatment<S, M>>) {
+        if self.found.ended.is_none()
+            && let Err(fault) = self.go(time, treatment)
+        {
+            let reached = self.course.as_ref().map_or(time, Course::time);
+            self.found.ended = Some((reached, fault));
+        }
+    }
+
+    fn go(&mut self, time: S, treatment: Option<&dyn Treatment<S, M>>) -> Result<(), Fault> {
+        let Some(course) = &mut self.course else {
+            return Ok(());
+        };
+        let budget = self.integrator.budget().unwrap_or(usize::MAX);
+        let budget = budget.saturating_sub(self.found.evaluations);
+        while course.time() < time {
+            course.advance(&mut self.dynamics)?;
+            if course.time() <= time {
+                self.bodies = self.dynamics.bodies_near(course.state(), &self.bodies);
+                if let Some(treatment) = treatment {
+                    let constants = self.dynamics.constants();
+                    treatment.treat(constants, course.time(), &mut self.bodies)?;
+                    let state = self.dynamics.nearest_to(&self.bodies, course.state());
+                    course.replace(state);
+                }
+            }
+            if course.counts().evaluations > budget {
+                return Err(Fault::Budget {
+                    evaluations: course.counts().evaluations,
+                    joint: None,
+                });
+            }
+        }
+        if course.time() > time {
+            let state = course.at(&mut self.dynamics, time)?;
+            self.bodies = self.dynamics.bodies_near(&state, &self.bodies);
+            if let Some(treatment) = treatment {
+                treatment.treat(self.dynamics.constants(), time, &mut self.bodies)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn count(&mut self) {
+        if let Some(course) = &self.course {
+            let evaluations = course.counts().evaluations;
+            self.found.evaluations = self.found.evaluations.saturating_add(evaluations);
+        }
+    }
+}
