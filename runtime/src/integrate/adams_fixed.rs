@@ -81,7 +81,7 @@ impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
 
     fn companion(&self, _duration: S) -> Option<Self> {
         let step = self.step * S::constant(0.5);
-        Some(Self { step, ..*self })
+        Some(Self { step })
     }
 
     fn turning_error(&self) -> f64 {
