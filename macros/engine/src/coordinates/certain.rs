@@ -4,9 +4,10 @@
 //! nothing can move but by its drivers. The driver of a hinge determines the hinge's velocity, the
 //! closing joint of a slider-crank that of the slide.
 
-use super::dependent::STEADY;
+use super::dependent::{ROUND_OFF, STEADY};
 use crate::plan::Pivot;
-use crate::symbolic::arena::{Arena, Expr};
+use crate::symbolic::arena::{Arena, Expr, Input};
+use crate::symbolic::evaluate::evaluate;
 
 /// The velocities with the rows that determine them, in the order of elimination, and the entries.
 /// Velocities count from 0, rows from the number of velocities.
@@ -14,6 +15,7 @@ pub(super) fn certain(arena: &Arena, rows: &[Vec<Expr>]) -> (Vec<Pivot>, Vec<f64
     let mut left = Left {
         arena: arena.clone(),
         rows: rows.iter().cloned().map(Some).collect(),
+        made_of: rows.iter().map(|row| largest(arena, row)).collect(),
     };
     let (mut pivots, mut entries) = (Vec::new(), Vec::new());
     while let Some((row, velocity, entry)) = left.best() {
@@ -28,6 +30,9 @@ pub(super) fn certain(arena: &Arena, rows: &[Vec<Expr>]) -> (Vec<Pivot>, Vec<f64
 struct Left {
     arena: Arena,
     rows: Vec<Option<Vec<Expr>>>,
+    /// About the largest number that each row is made of. A number that is round-off may be the
+    /// only one of its row and its column.
+    made_of: Vec<f64>,
 }
 
 impl Left {
@@ -43,10 +48,11 @@ impl Left {
             let known = known.filter_map(|(k, number)| number.map(|number| size(k, number)));
             let largest = known.fold(0.0, f64::max);
             for (k, number) in numbers.iter().enumerate() {
-                let Some(number) = number.filter(|number| *number != 0.0) else {
-                    continue;
-                };
+                let Some(number) = *number else { continue };
                 // Round-off is a number as well.
+                if number.abs() <= ROUND_OFF * self.made_of[place] {
+                    continue;
+                }
                 if size(k, number) < STEADY * largest {
                     continue;
                 }
@@ -84,11 +90,13 @@ impl Left {
             return;
         };
         let arena = &mut self.arena;
-        for other in self.rows.iter_mut().flatten() {
-            if other[velocity] == Arena::ZERO {
+        for (place, other) in self.rows.iter_mut().enumerate() {
+            let Some(other) = other.as_mut().filter(|row| row[velocity] != Arena::ZERO) else {
                 continue;
-            }
+            };
             let share = arena.div(other[velocity], chosen[velocity]);
+            let taken = largest(arena, &[share]) * self.made_of[row];
+            self.made_of[place] = self.made_of[place].max(taken);
             for (entry, &by) in other.iter_mut().zip(&chosen) {
                 let change = arena.mul(share, by);
                 *entry = arena.sub(*entry, change);
@@ -96,4 +104,16 @@ impl Left {
             other[velocity] = Arena::ZERO;
         }
     }
+}
+
+/// About the size of the largest entry. Nothing need be known of the mechanism for that: the inputs
+/// are numbers without a pattern.
+fn largest(arena: &Arena, entries: &[Expr]) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let values = evaluate(arena, entries, |input| match input {
+        Input::Coordinate(place) => Some((GOLDEN * (f64::from(place) + 1.0)).fract()),
+        _ => Some(GOLDEN),
+    });
+    let sizes = values.into_iter().flatten().map(f64::abs);
+    sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
 }

@@ -23,7 +23,7 @@ pub(super) const STEADY: f64 = 0.1;
 /// singular position, and no choice is better than another.
 const SINGULAR: f64 = 1e-3;
 /// An entry below this fraction of the largest of its row is round-off.
-const ROUND_OFF: f64 = 1e-12;
+pub(super) const ROUND_OFF: f64 = 1e-12;
 /// A tour of fewer stops tells nothing.
 const STOPS: usize = 4;
 

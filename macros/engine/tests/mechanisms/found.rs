@@ -217,3 +217,40 @@ fn origins_stay_near_their_links() {
         );
     }
 }
+
+/// An axis across a slide, which is not led onto the constraints: the entry of the slide is a
+/// number, round-off, and was taken for a pivot because no other entry of its row or its column is
+/// a number.
+const ALONE: &str = "
+    pub struct Random {
+        #[body(mass = 2.1567257958917563, inertia = [[0.998707795724942, -0.09331865161134167, 0.13652342328043932], [-0.09331865161134167, 0.7952291840315027, -0.02692479473922186], [0.13652342328043932, -0.02692479473922186, 0.6269381540383152]], orientation = [0.1076359801668129, -0.8322248380505937, -0.4086159800390929, 0.35895584068501313], position = [-0.5, 1.0, 0.0], free)]
+        b2: Body,
+        #[joint(between = [b1, b2], p = local([-0.25, -1.0, -0.11413580343339036], [-0.5750650818846772, 1.6527305647819472, 0.016787847763110486]), q = [0.0, 0.0, 1.0], a = [0.0, 0.0, 1.0], b = [0.0, 0.0, 1.0], v = [0.0, 1.0, 0.0], size = -0.4283222707884937, ratio = 0.7962584156967711, law = x * smooth_step(2.0 * time) + exp(0.12291668350426876 * time) / (2.0 + cos(x)))]
+        j3: Own0,
+        #[joint(axis = [1.0, 0.0, 0.0], point = [0.2613077461401079, 1.0, 0.5], between = [ground, b2])]
+        j2: Cylindrical,
+        #[body(mass = 1.8270085741411612, inertia = [1.601875611072753, 1.5340769905271925, 1.2576509687615929], position = [0.5, 0.5, -0.38586419656660964], free)]
+        b1: Body,
+    }";
+
+#[test]
+fn round_off_determines_no_velocity_where_it_is_the_only_number() {
+    let own = "Own0(i, j; p: Point, q: Point, a: Axis, b: Axis, v: Vector, size: Length, ratio: Number, law: Law(x)) {
+        let part0 = (dot(i.b.normal(), j.b.normal()) * i.v - i.a.normal());
+        let part1 = i.a / (3.0 + cos(angle(i, j, a))) / (3.0 + cos(dot(i.origin, i.q)));
+        dot(j.b.normal(), j.p - i.q) + dot(j.b.binormal(), i.origin);
+        squared(part1 + j.p) * law(ratio / (2.0 + squared((i.q - i.q))));
+    }";
+    let text = Text {
+        item: ALONE.into(),
+        definitions: vec![("Own0".into(), ElementKind::Joint, own.into())],
+    };
+    for seed in 5980..5986 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}
