@@ -28,7 +28,8 @@ const STATES: usize = 2;
 pub(crate) enum Extent {
     /// All kernels.
     Full,
-    /// One kernel of motion by one plan; many mechanisms make up for that.
+    /// One kernel of motion by one plan, and one strategy at each state; many mechanisms make up for
+    /// that.
     Quick,
 }
 
@@ -191,8 +192,16 @@ impl<'a> Comparison<'a> {
                 position_gain: 9.0,
                 compliance: 1e-2,
             };
-            for (number, strategy) in Strategy::all(self.model).into_iter().enumerate() {
-                let terms = Terms::ALL[(seed as usize + place + number) % 3];
+            let all = Strategy::all(self.model);
+            let number = seed as usize + place;
+            if self.kernels.is_none() {
+                // Quickly, by another one at each state.
+                let terms = Terms::ALL[(number / all.len()) % 3];
+                self.reduced(state, all[number % all.len()], coefficients, terms)?;
+                continue;
+            }
+            for (place, strategy) in all.into_iter().enumerate() {
+                let terms = Terms::ALL[(number + place) % 3];
                 self.reduced(state, strategy, coefficients, terms)?;
             }
         }
