@@ -204,11 +204,10 @@ impl Comparison<'_> {
             return Ok(());
         };
         // Counted angles are those of that state, which may lie beyond half a turn from the first.
-        let counted = inputs.coordinates.iter_mut().rev();
-        let angles = cartesian(&exact, &equations.angles).coordinates;
-        for (own, angle) in counted.zip(angles.iter().rev().take(equations.angles.len())) {
-            *own = *angle;
-        }
+        let joint = cartesian(&exact, &equations.angles).values(&from, &outputs);
+        let coordinates = &joint[..joint.len() - velocities];
+        let counted = coordinates.len() - equations.angles.len();
+        inputs.coordinates[counted..].copy_from_slice(&coordinates[counted..]);
         // Joints of the tree hold by themselves, rigidly.
         let remains = |joint: usize| {
             let mut constraints = reduced.scene.constraints.iter();
