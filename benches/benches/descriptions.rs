@@ -1,8 +1,8 @@
 //! The two descriptions of a mechanism: an evaluation, and a step of Runge-Kutta in the time of one
 //! of its four evaluations, over states that do not depend on each other.
 //!
-//! - `bodies`, `joints`: [`System::rates`] of [`Dynamics`] in absolute and in relative coordinates, standard
-//!   multipliers;
+//! - `bodies`, `joints`: [`System::rates`] of [`Dynamics`] in absolute and in relative coordinates,
+//!   standard multipliers;
 //! - `step by bodies`, `step by joints`: [`Rk4`].
 
 use std::hint::black_box;

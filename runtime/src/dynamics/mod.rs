@@ -417,8 +417,8 @@ where
         self.evaluator().evaluate_into(time, state, evaluation)
     }
 
-    /// The kernel of an evaluation in one straight line, and its smallest relative pivot: nothing is
-    /// checked, a closure does not enter and nothing iterates. For measuring.
+    /// The kernel of an evaluation in one straight line, and its smallest relative pivot. Nothing
+    /// is checked, a closure does not enter and nothing iterates. For measuring.
     #[inline(always)]
     pub fn kernel(
         &self,

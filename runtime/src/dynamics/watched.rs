@@ -32,8 +32,8 @@ where
     /// Whether accelerations are off by what a compliance leaves.
     const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
 
-    /// Sees an evaluation, if it is one by the rows of all joints: in relative coordinates the watch
-    /// has the bodies evaluated at the end of a step.
+    /// Sees an evaluation, if it is one by the rows of all joints. In relative coordinates the
+    /// watch has the bodies evaluated at the end of a step.
     #[inline(always)]
     pub(super) fn look(&mut self, pivot: S, multipliers: &C::Multipliers<S>) {
         let Some(multipliers) = C::of_all_rows(multipliers) else {

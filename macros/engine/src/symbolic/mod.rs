@@ -25,9 +25,9 @@
 //! `D`. Module `kept` leaves equations out. Module `left_out` writes the omitted equations as a
 //! kernel, for a judgement at run time.
 //!
-//! Identities. `rotation.rs` declares what holds of rotation matrices: an entry is its own
-//! cofactor, rows have length 1 and are perpendicular. The same holds between two bodies. Kernels
-//! of motion use only what holds for any length of `p`. The forms of `A(p)`: `docs/decisions/001-euler-parameters.md`.
+//! Identities. `rotation.rs` declares that an entry of a rotation matrix is its own cofactor.
+//! Kernels of motion use only what holds for any length of `p`. The forms of `A(p)`:
+//! `docs/decisions/001-euler-parameters.md`.
 //!
 //! Scalars (`arena.rs`). Each node knows its stage: literal, parameter, input, coefficient, state,
 //! right-hand side. Stages split the code into `prepare`, `take_inputs`, `coefficients`, the

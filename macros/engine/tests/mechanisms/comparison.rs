@@ -28,8 +28,8 @@ const STATES: usize = 2;
 pub(crate) enum Extent {
     /// All kernels.
     Full,
-    /// One kernel of motion by one plan, and one strategy at each state; many mechanisms make up for
-    /// that.
+    /// One kernel of motion by one plan, and one strategy at each state; many mechanisms make up
+    /// for that.
     Quick,
 }
 
