@@ -49,7 +49,7 @@ use crate::mechanism::coordinates::{
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
 use crate::mechanism::orientations::check_state;
-use crate::state::vector::Vector;
+use crate::state::vector::{StateParts, Vector};
 use crate::watch::Seen;
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
@@ -473,7 +473,7 @@ where
         let Stabilisation { rate, position, .. } = self.stabilisation;
         let constants = self.constants();
         let gamma = stabilised::<S, M, F::Terms>(constants, [rate, position], time, read);
-        let accelerations = crate::state::vector::StateParts::velocities(&evaluation.rates);
+        let accelerations = evaluation.rates.velocities();
         let (row, size) =
             inconsistency::<S, M>(constants, (time, read), accelerations, &forces, &gamma);
         (size, M::REPORT.joint_of(row))

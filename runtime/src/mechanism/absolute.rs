@@ -64,25 +64,6 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     }
 
     #[inline(always)]
-    fn rates_into<S: Scalar, T: Terms>(
-        constants: &M::Constants<S>,
-        coefficients: &M::Coefficients<S>,
-        time: S,
-        state: &M::State<S>,
-        rates: &mut M::State<S>,
-        multipliers: &mut M::Multipliers<S>,
-    ) -> Pivot<S> {
-        <Self as Coordinates<M>>::evaluate_into::<S, T>(
-            constants,
-            coefficients,
-            time,
-            state,
-            rates,
-            multipliers,
-        )
-    }
-
-    #[inline(always)]
     fn begin<S: Scalar, T: Terms>(
         (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
         gains: [S; 2],

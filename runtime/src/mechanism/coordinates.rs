@@ -119,6 +119,7 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     ) -> Pivot<S>;
 
     /// The same for a step: multipliers may stay as they are where they cost more.
+    #[inline(always)]
     fn rates_into<S: Scalar, T: Terms>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,
@@ -126,7 +127,9 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
         state: &Self::State<S>,
         rates: &mut Self::State<S>,
         multipliers: &mut Self::Multipliers<S>,
-    ) -> Pivot<S>;
+    ) -> Pivot<S> {
+        Self::evaluate_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
+    }
 
     /// The first solution from parts, with forces and moments on bodies that `law` adds to those
     /// of the description, if it `is_loaded`. Leaves in `rates` what [`Coordinates::finish`] needs.

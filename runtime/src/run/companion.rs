@@ -20,8 +20,33 @@ use crate::mechanism::report::BodyKind;
 use crate::run::post_step::Treatment;
 use crate::state::vector::{Array, StateParts};
 
-/// The parts of the largest error whose times are kept.
-const PART: f64 = 0.1;
+/// The least error (m, rad) that is followed.
+const LEAST: f64 = 1e-15;
+
+/// The largest error so far, and when it passed the last two powers of ten. A history would not
+/// fit without a heap.
+#[derive(Clone, Copy)]
+struct Growth<S> {
+    largest: S,
+    /// The last power of ten that was passed.
+    power: S,
+    /// When (s).
+    passed: S,
+    /// When the power before was passed (s).
+    passed_before: S,
+}
+
+impl<S: Real> Growth<S> {
+    fn take(&mut self, time: S, error: S) {
+        self.largest = self.largest.max(error);
+        let ten = S::constant(10.0);
+        while self.largest >= ten * self.power && self.largest.is_finite() {
+            self.power = ten * self.power;
+            self.passed_before = self.passed;
+            self.passed = time;
+        }
+    }
+}
 
 /// The estimated errors of a run, by its difference from a companion at the reporting times; see
 /// [`Simulation::verified`](crate::Simulation::verified).
@@ -32,8 +57,10 @@ pub struct Verification<S: Real, M: Mechanism> {
     /// By body: the largest distance (m) in the first place of its velocity, the largest angle
     /// (rad) in the fourth.
     largest: M::Velocities<S>,
-    /// When each became a tenth of its largest (s), in the same places.
-    grew: M::Velocities<S>,
+    /// See [`Growth`], in the same places.
+    power: M::Velocities<S>,
+    passed: M::Velocities<S>,
+    passed_before: M::Velocities<S>,
     /// Reporting times that were compared.
     pub compared: usize,
     /// Evaluations of the rates by the companion.
@@ -52,16 +79,20 @@ pub struct BodyError<S> {
     pub position: S,
     /// The largest angle (rad) between the orientations; zero for a particle.
     pub rotation: S,
-    /// The first reporting time (s) at which the larger of the two, a radian counted as a metre,
-    /// was a tenth of what it became.
+    /// When it grew (s): the first reporting time at which the larger of the two, a radian counted
+    /// as a metre, was beyond a power of ten that is a tenth to a hundredth of what it became.
     pub grew: S,
 }
 
 impl<S: Real, M: Mechanism> Verification<S, M> {
     fn nothing() -> Self {
+        let mut power = M::Velocities::<S>::zeros();
+        power.as_mut_slice().fill(S::constant(LEAST));
         Self {
             largest: Array::zeros(),
-            grew: Array::zeros(),
+            power,
+            passed: Array::zeros(),
+            passed_before: Array::zeros(),
             compared: 0,
             evaluations: 0,
             ended: None,
@@ -100,12 +131,12 @@ impl<S: Real, M: Mechanism> Verification<S, M> {
             };
         };
         let [position]: [S; 1] = read(self.largest.as_slice(), info.velocity);
-        let [mut grew]: [S; 1] = read(self.grew.as_slice(), info.velocity);
+        let [mut grew]: [S; 1] = read(self.passed_before.as_slice(), info.velocity);
         let mut rotation = S::zero();
         if info.kind == BodyKind::Rigid {
             [rotation] = read(self.largest.as_slice(), info.velocity + 3);
             if rotation > position {
-                [grew] = read(self.grew.as_slice(), info.velocity + 3);
+                [grew] = read(self.passed_before.as_slice(), info.velocity + 3);
             }
         }
         BodyError {
@@ -132,17 +163,30 @@ impl<S: Real, M: Mechanism> Verification<S, M> {
     }
 
     fn take(&mut self, place: usize, time: S, error: S) {
-        let largest = self.largest.as_mut_slice().get_mut(place);
-        let (Some(largest), Some(grew)) = (largest, self.grew.as_mut_slice().get_mut(place)) else {
+        let parts = [
+            &mut self.largest,
+            &mut self.power,
+            &mut self.passed,
+            &mut self.passed_before,
+        ];
+        let [
+            Some(largest),
+            Some(power),
+            Some(passed),
+            Some(passed_before),
+        ] = parts.map(|part| part.as_mut_slice().get_mut(place))
+        else {
             return;
         };
-        if error > *largest {
-            // The time stays as long as what was largest then is a tenth of what is now.
-            if *largest < S::constant(PART) * error {
-                *grew = time;
-            }
-            *largest = error;
-        }
+        let mut growth = Growth {
+            largest: *largest,
+            power: *power,
+            passed: *passed,
+            passed_before: *passed_before,
+        };
+        growth.take(time, error);
+        (*largest, *power) = (growth.largest, growth.power);
+        (*passed, *passed_before) = (growth.passed, growth.passed_before);
     }
 }
 
@@ -294,5 +338,34 @@ where
             let evaluations = course.counts().evaluations;
             self.found.evaluations = self.found.evaluations.saturating_add(evaluations);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Growth, LEAST};
+
+    /// When an error `factor^k` at the times `k` grew.
+    fn grew(factor: f64, times: i32) -> f64 {
+        let mut growth = Growth {
+            largest: 0.0,
+            power: LEAST,
+            passed: 0.0,
+            passed_before: 0.0,
+        };
+        for k in 0..=times {
+            growth.take(f64::from(k), 1e-9 * factor.powi(k));
+        }
+        growth.passed_before
+    }
+
+    #[test]
+    fn slow_growth_and_jumps_are_dated() {
+        // 1e-9 2^30 is 1.07: beyond 0.1 from 2^27 on.
+        assert_eq!(grew(2.0, 30), 27.0);
+        // It stays at 1e-9, which the first report shows.
+        assert_eq!(grew(1.0, 30), 0.0);
+        // A jump over powers of ten passes all of them at once.
+        assert_eq!(grew(1e6, 1), 1.0);
     }
 }

@@ -31,7 +31,8 @@ pub struct RunReport<S: Real, M: Mechanism> {
     /// Whether the observer stopped the run.
     pub stopped: bool,
     /// The estimated errors of a run that is
-    /// [`verified`](crate::Simulation::verified); `None` of another.
+    /// [`verified`](crate::Simulation::verified); `None` of another,
+    /// and with an integrator that knows no companion.
     pub verification: Option<Verification<S, M>>,
     /// What the watch saw; `None` where it was turned off.
     pub watch: Option<Watch<S, M>>,

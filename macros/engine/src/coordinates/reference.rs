@@ -84,8 +84,8 @@ impl Reduced {
     }
 }
 
-/// The greatest of some values, without those that a stop near a singular point of the row itself
-/// gives, as where an angle about two axes is hardly defined: they are far beyond the median.
+/// The greatest of some values, outliers apart. A stop near a singular point of the row itself, as
+/// where an angle is hardly defined, gives one far beyond the median.
 fn size(mut values: Vec<f64>) -> Option<f64> {
     /// Times the median; rows that vanish at some stops are within it.
     const FAR_BEYOND: f64 = 1e4;
@@ -106,4 +106,16 @@ fn plus_squares(arena: &mut Arena, sum: Expr, v: Triple, masses: Triple) -> Expr
         sum = arena.add(sum, term);
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::size;
+
+    #[test]
+    fn an_outlier_is_no_size() {
+        assert_eq!(size(vec![2.0, 1.7e8, 0.5, 1.0]), Some(2.0));
+        assert_eq!(size(vec![3.0, 1e-3, 2.0]), Some(3.0));
+        assert_eq!(size(Vec::new()), None);
+    }
 }
