@@ -12,7 +12,7 @@ use holonom::prelude::*;
 use holonom::{
     JointCoordinates,
     dynamics::Dynamics,
-    integrate::{Scheme, System},
+    integrate::{OneStep, System},
 };
 use holonom_models::{Bricard, CartPole, FourBar, HeavyTop, Panda, RodPendulum, SliderCrank, Ur5};
 

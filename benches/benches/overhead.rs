@@ -14,7 +14,7 @@ use holonom::prelude::*;
 use holonom::{
     Formulation, Mechanism, Rk4, StandardLagrange, StateParts,
     dynamics::Dynamics,
-    integrate::{Scheme, System},
+    integrate::{OneStep, System},
     mechanism::{Normalised, Plain},
     state::Array,
 };

@@ -189,7 +189,7 @@ pub use run::output::{Reporting, every, every_step};
 pub use run::recorder::{RecordError, Recorder};
 pub use run::report::{RunReport, RunResult};
 pub use run::sample::Sample;
-pub use run::simulation::Simulation;
+pub use run::simulation::{Runs, Simulation};
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 pub use watch::{Doubt, Doubts, Watch};

@@ -11,7 +11,7 @@ use differential_equations::prelude::{IVP, ODE};
 use holonom::prelude::*;
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, DormandPrince853, RadauIIA,
-    integrate::{Course as _, Integrator, Span, System},
+    integrate::{Advance as _, Course as _, Integrator, Span, System},
 };
 use holonom_study::pendulum::RigidPendulum;
 
@@ -42,7 +42,7 @@ impl ODE<f64, [f64; 2]> for Swinging {
 /// Evaluations, and the error of the angle at the end (rad).
 type Point = (f64, f64);
 
-fn ours<I: Integrator<f64>>(method: I) -> Point {
+fn ours<I: Integrator<f64, Swinging>>(method: I) -> Point {
     let span = Span {
         start: 0.0,
         end: END,

@@ -4,10 +4,8 @@
 use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{
-    Formulation, ImplicitMidpoint, JointCoordinates, Midpoint, RadauIIA, Real,
-    integrate::Integrator,
-};
+use holonom::{Formulation, ImplicitMidpoint, JointCoordinates, Midpoint, RadauIIA, Real};
+use holonom_tests::RunsBoth;
 
 /// A rod that hangs still, from a hinge whose axis is not a coordinate axis.
 #[derive(Mechanism)]
@@ -54,7 +52,7 @@ where
     S: Real,
     M: JointCoordinates,
     F: Formulation<S>,
-    I: Integrator<S> + Copy,
+    I: RunsBoth<M, F, S>,
 {
     let end = S::constant(2.0);
     let simulation = || Simulation::<S, M, _, _>::new(mechanism, formulation, *integrator);

@@ -7,8 +7,9 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use holonom::prelude::*;
 use holonom::{
-    Adams, DormandPrince853, Heun, RadauIIA,
-    integrate::Integrator,
+    Adams, DormandPrince853, Heun, Loads, RadauIIA, Runs,
+    measure::ForceLaw,
+    mechanism::{Absolute, Relative},
     run::{BodyError, Verification},
 };
 use holonom_models::RodPendulum;
@@ -50,20 +51,31 @@ fn tells<M: Mechanism>(
     worst.grew
 }
 
+type Law = fn(f64, &<Point as Mechanism>::State<f64>, &mut Loads<'_, f64, Point>);
+
+fn attraction(
+    _time: f64,
+    state: &<Point as Mechanism>::State<f64>,
+    loads: &mut Loads<'_, f64, Point>,
+) {
+    let r = Point::pose(state, Point::HANDLES.mass).position;
+    let factor = -1.0 / r.norm().powi(3);
+    loads.force(Point::HANDLES.mass, [0, 1, 2].map(|k| factor * r[k]));
+}
+
 /// Ten turns about a centre that attracts by one over the square of the distance; the large axis is
 /// 2. It ends where it began, where it is fastest.
-fn orbit(eccentricity: f64, integrator: impl Integrator<f64>, least: f64) {
+fn orbit<I>(eccentricity: f64, integrator: I, least: f64)
+where
+    I: Runs<f64, Point, StandardLagrange, Absolute, ForceLaw<Law>>,
+{
     let near = 1.0 - eccentricity;
     let speed = ((1.0 + eccentricity) / near).sqrt();
     let start = point([near, 0.0, 0.0], [0.0, speed, 0.0]);
     let end = 10.0 * TAU;
     let report = Simulation::new(&Point::default(), StandardLagrange, integrator)
         .initial_state(start)
-        .forces(|_, state, loads| {
-            let r = Point::pose(state, Point::HANDLES.mass).position;
-            let factor = -1.0 / r.norm().powi(3);
-            loads.force(Point::HANDLES.mass, [0, 1, 2].map(|k| factor * r[k]));
-        })
+        .forces(attraction as Law)
         .verified()
         .run(0.0..=end, every(end / 10.0), |_| ControlFlow::Continue(()))
         .expect("it runs");
@@ -91,13 +103,21 @@ fn orbits() {
 /// `x'' = -sign x`, ten periods and a quarter: at zero, at full speed.
 #[test]
 fn closures_that_jump() {
-    fn with(integrator: impl Integrator<f64>, least: f64) {
+    fn jump(
+        _time: f64,
+        state: &<Point as Mechanism>::State<f64>,
+        loads: &mut Loads<'_, f64, Point>,
+    ) {
+        let x = Point::pose(state, Point::HANDLES.mass).position[0];
+        loads.force(Point::HANDLES.mass, [-x.signum(), 0.0, 0.0]);
+    }
+    fn with<I>(integrator: I, least: f64)
+    where
+        I: Runs<f64, Point, StandardLagrange, Absolute, ForceLaw<Law>>,
+    {
         let end = 41.0 * 2.0_f64.sqrt();
         let report = Simulation::new(&Point::default(), StandardLagrange, integrator)
-            .forces(|_, state, loads| {
-                let x = Point::pose(state, Point::HANDLES.mass).position[0];
-                loads.force(Point::HANDLES.mass, [-x.signum(), 0.0, 0.0]);
-            })
+            .forces(jump as Law)
             .verified()
             .run(0.0..=end, every(end / 41.0), |_| ControlFlow::Continue(()))
             .expect("it runs");
@@ -113,7 +133,10 @@ fn closures_that_jump() {
 }
 
 /// From a thousandth of a radian beside the upright, 6 s: the angle of the rod at the end.
-fn fallen(integrator: impl Integrator<f64>) -> (f64, RunReport<f64, RodPendulum>) {
+fn fallen<I>(integrator: I) -> (f64, RunReport<f64, RodPendulum>)
+where
+    I: Runs<f64, RodPendulum, StandardLagrange, Relative>,
+{
     let (rod, pivot) = (RodPendulum::default(), RodPendulum::HANDLES.pivot);
     let mut start = rod.described_state::<f64>().expect("described");
     // It is described lying; upright is a quarter of a turn up.

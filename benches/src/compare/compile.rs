@@ -199,7 +199,7 @@ fn program(scene: Scene, by_joints: bool) -> String {
     let steps = if by_joints {
         "    let mut dynamics = holonom::dynamics::Dynamics::<f64, _, _>::new(&Scene::default(), StandardLagrange)?.joint_coordinates();\n    \
          let mut state = dynamics.initial_state()?;\n    \
-         for step in 0..1000 {\n        holonom::integrate::Scheme::step(&Rk4, &mut dynamics, 1e-3 * f64::from(step), &mut state, 1e-3)?;\n    }\n    \
+         for step in 0..1000 {\n        holonom::integrate::OneStep::step(&Rk4, &mut dynamics, 1e-3 * f64::from(step), &mut state, 1e-3)?;\n    }\n    \
          println!(\"{:?}\", dynamics.bodies(&state));\n"
     } else {
         "    let scene = Scene::default();\n    let mut stepper = Stepper::<f64, _, _, _>::new(&scene, StandardLagrange, Rk4)?;\n    \

@@ -4,11 +4,11 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use holonom::{
-    Fault, Formulation, Mechanism, Real, Sample, Simulation,
+    Fault, Formulation, Mechanism, Real, Runs, Sample, Simulation,
     dynamics::Iterations,
     every,
-    integrate::{Counts, Course as _, Integrator, Span, System},
-    mechanism::Orientation,
+    integrate::{Advance as _, Counts, Course as _, Integrator, Span, System},
+    mechanism::{Absolute, Orientation},
 };
 
 use crate::error::StudyError;
@@ -45,7 +45,7 @@ where
     P: Orientation,
     M: Mechanism,
     F: Formulation<f64>,
-    I: Integrator<f64>,
+    I: Runs<f64, M, F, Absolute<P>>,
 {
     let stopped = |reason: String| StudyError::Run {
         name: name.to_owned(),
@@ -92,7 +92,7 @@ pub fn contestant<'a, S, Y, I>(
 where
     S: Real + 'a,
     Y: System<S> + 'a,
-    I: Integrator<S> + 'a,
+    I: Integrator<S, Y> + 'a,
 {
     let name = name.into();
     Contestant::new(name.clone(), move || {
@@ -129,7 +129,7 @@ pub fn integrate<S, Y, I>(
 where
     S: Real,
     Y: System<S>,
-    I: Integrator<S>,
+    I: Integrator<S, Y>,
 {
     report(span.start, &state);
     let mut course = integrator.start(system, span, state)?;

@@ -28,8 +28,6 @@ mod system;
 mod trial;
 mod watched;
 
-pub use on_constraints::RigidSteps;
-
 use core::marker::PhantomData;
 
 pub(crate) use evaluate::Evaluator;

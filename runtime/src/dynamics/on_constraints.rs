@@ -6,14 +6,13 @@ use crate::constraints::extent::extent;
 use crate::constraints::extent::farthest;
 use crate::error::Fault;
 use crate::formulation::{Formulation, add};
-use crate::integrate::{AlphaEnd, AlphaStep};
+use crate::integrate::{AlphaEnd, AlphaStep, RigidConstraints};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
 use crate::measure::load::AppliedForces;
 use crate::mechanism::blocks::add_product;
-use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
-use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::{Mechanism, Orientation, Terms};
+use crate::mechanism::coordinates::Absolute;
+use crate::mechanism::kernels::{Mechanism, Orientation, Rigid};
 use crate::state::vector::{Array, StateParts, Vector};
 
 /// Iterations that a step may take.
@@ -39,35 +38,20 @@ const TURNS: usize = 4;
 /// Below this power of `EPSILON` changes that no longer fall are round-off.
 const NOISE: f64 = 0.6;
 
-/// Coordinates in which [`GeneralizedAlpha`](crate::GeneralizedAlpha) has a step, or refuses it.
-pub trait RigidSteps<M: Mechanism>: Coordinates<M> {
-    /// One step, solved together with multipliers.
-    ///
-    /// # Errors
-    /// [`Fault::NoConstraints`] in coordinates without one, or of a formulation that lets
-    /// constraints yield; what keeps the step from being solved.
-    #[doc(hidden)]
-    fn step_on_constraints<S: Real, F: Formulation<S>, A: AppliedForces<S, M>>(
-        dynamics: &mut Dynamics<S, M, F, A, Self>,
-        asked: &AlphaStep<'_, S, Self::State<S>>,
-    ) -> Result<AlphaEnd<Self::State<S>>, Fault>;
-}
-
-impl<M: Mechanism, P: Orientation> RigidSteps<M> for Absolute<P> {
-    fn step_on_constraints<S: Real, F: Formulation<S>, A: AppliedForces<S, M>>(
-        dynamics: &mut Dynamics<S, M, F, A, Self>,
-        asked: &AlphaStep<'_, S, M::State<S>>,
+impl<S, M, F, A, P> RigidConstraints<S> for Dynamics<S, M, F, A, Absolute<P>>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    F::Terms: Rigid,
+    A: AppliedForces<S, M>,
+    P: Orientation,
+{
+    fn step_on_constraints(
+        &mut self,
+        asked: AlphaStep<'_, S, M::State<S>>,
     ) -> Result<AlphaEnd<M::State<S>>, Fault> {
-        dynamics.solved_on_constraints(asked)
-    }
-}
-
-impl<M: JointCoordinates> RigidSteps<M> for Relative {
-    fn step_on_constraints<S: Real, F: Formulation<S>, A: AppliedForces<S, M>>(
-        _dynamics: &mut Dynamics<S, M, F, A, Self>,
-        _asked: &AlphaStep<'_, S, M::JointState<S>>,
-    ) -> Result<AlphaEnd<M::JointState<S>>, Fault> {
-        Err(Fault::NoConstraints)
+        self.solved_on_constraints(&asked)
     }
 }
 
@@ -82,16 +66,13 @@ where
     /// See [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     ///
     /// # Errors
-    /// [`Fault::NoConstraints`] of a formulation that lets constraints yield, [`Fault::Singular`],
-    /// [`Fault::StepNotSolved`] where the iteration does not converge, what is not finite.
+    /// [`Fault::Singular`], [`Fault::StepNotSolved`] where the iteration does not converge, what is
+    /// not finite.
     #[inline(never)]
     pub(super) fn solved_on_constraints(
         &mut self,
         asked: &AlphaStep<'_, S, M::State<S>>,
     ) -> Result<AlphaEnd<M::State<S>>, Fault> {
-        if F::Terms::STABILISED || F::ITERATED {
-            return Err(Fault::NoConstraints);
-        }
         let mass = M::mass(self.constants());
         let first = M::jacobian(self.constants(), asked.end - asked.step, asked.state);
         let mut trial = Trial::<S, M>::new(asked, first);

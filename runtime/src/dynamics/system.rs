@@ -1,12 +1,12 @@
 //! The equations of motion as a system of ordinary differential equations.
 
-use super::{Dynamics, Evaluator, RigidSteps, vanishes};
+use super::{Dynamics, Evaluator, vanishes};
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{AlphaEnd, AlphaStep, System, by_differences};
+use crate::integrate::{SecondOrder, System, by_differences};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
-
+use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::{Array, MovingState, Vector};
 
@@ -16,7 +16,7 @@ where
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
+    C: Coordinates<M>,
 {
     type State = C::State<S>;
 
@@ -86,29 +86,30 @@ where
     }
 
     #[inline]
+    fn settle(&mut self, state: &mut C::State<S>, rates: Option<&mut C::State<S>>) {
+        let constants = &C::equations(&self.absolute, &self.own).constants;
+        if let Some(stretch) = C::normalise(&self.absolute, constants, state, rates) {
+            self.seen.stretch = stretch;
+        }
+    }
+}
+
+impl<S, M, F, A, C> SecondOrder<S> for Dynamics<S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    #[inline]
     fn with_new_velocities(
         &mut self,
         time: S,
         state: &C::State<S>,
         step: S,
         rates: &mut C::State<S>,
-    ) -> Result<(), Fault> {
+    ) {
         C::with_new_velocities(self.own_constants(), time, state, step, rates);
-        Ok(())
-    }
-
-    fn step_on_constraints(
-        &mut self,
-        asked: AlphaStep<'_, S, C::State<S>>,
-    ) -> Result<AlphaEnd<C::State<S>>, Fault> {
-        C::step_on_constraints(self, &asked)
-    }
-
-    #[inline]
-    fn settle(&mut self, state: &mut C::State<S>, rates: Option<&mut C::State<S>>) {
-        let constants = &C::equations(&self.absolute, &self.own).constants;
-        if let Some(stretch) = C::normalise(&self.absolute, constants, state, rates) {
-            self.seen.stretch = stretch;
-        }
     }
 }

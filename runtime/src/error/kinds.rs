@@ -54,11 +54,6 @@ impl core::error::Error for ParameterError {}
 pub enum Fault {
     /// The state holds NaN or infinity.
     StateNotFinite,
-    /// The state of a system is not made of coordinates and velocities, which the method needs.
-    NoVelocities,
-    /// The system is not solved with rigid constraints, which the method needs, see
-    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha).
-    NoConstraints,
     /// A spectral radius that is not from 0 to 1.
     SpectralRadius {
         /// Its value.

@@ -50,14 +50,6 @@ impl fmt::Debug for ParameterError {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::NoVelocities => write!(
-                f,
-                "the method moves coordinates by velocities, and the system does not say which are which (`System::with_new_velocities`)"
-            ),
-            Self::NoConstraints => write!(
-                f,
-                "the method solves for positions on rigid constraints: it takes a mechanism by its bodies with `StandardLagrange`, no other formulation and no joint coordinates"
-            ),
             Self::SpectralRadius { value } => write!(
                 f,
                 "the spectral radius of the generalized-alpha method is from 0 to 1, not {}",

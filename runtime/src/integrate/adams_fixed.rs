@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::record::{LastStep, Reached, reached};
 use super::tableau::terms;
 use super::{
-    Counted, Counts, Course, Integrator, NoStages, Rk4, Scheme as _, Span, Start, System, dense,
-    named,
+    Advance, Counts, Course, Integrator, Look, Method, NoStages, OneStep as _, Rk4, Slopes, Span,
+    Start, System, dense, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -55,10 +55,10 @@ const TURNING_ERROR: f64 = 1.0;
 /// next to `exp(i z)`.
 const TURNING_ERROR_OF_SHORT_STEPS: f64 = 0.33;
 
-impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
-    type Course<X: Vector<S>> = AdamsFixedCourse<S, X>;
+impl<S: Real, Y: System<S>> Integrator<S, Y> for AdamsBashforthMoulton4<S> {
+    type Course = AdamsFixedCourse<S, Y::State>;
 
-    fn start<Y: System<S>>(
+    fn start(
         &self,
         system: &mut Y,
         span: Span<S>,
@@ -74,7 +74,9 @@ impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
             reached,
         })
     }
+}
 
+impl<S: Real> Method<S> for AdamsBashforthMoulton4<S> {
     fn fixed_step(&self) -> Option<S> {
         Some(self.step)
     }
@@ -112,7 +114,11 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
     }
 
     /// The state after a step; not finite where a slope is not.
-    fn stride<Y: System<S, State = X>>(&self, system: &mut Y, step: S) -> Result<X, Fault> {
+    fn stride<Y: System<S, State = X>, L: Look<S, X>>(
+        &self,
+        system: &mut Slopes<'_, Y, L>,
+        step: S,
+    ) -> Result<X, Fault> {
         let Reached {
             time,
             state,
@@ -137,9 +143,9 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
     /// Why a step failed, or led to a state that is not finite.
     #[cold]
     #[inline(never)]
-    fn refused(
+    fn refused<Y: System<S, State = X>>(
         &self,
-        system: &mut dyn System<S, State = X>,
+        system: &mut Y,
         step: S,
         fault: Option<Fault>,
     ) -> Fault {
@@ -149,16 +155,15 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
 
 impl<S: Real, X: Vector<S>> Course<S, X> for AdamsFixedCourse<S, X> {
     reached!();
+}
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsFixedCourse<S, Y::State> {
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         let reached = &self.reached;
         let (step, end) = self.grid.next(reached.counts.accepted, reached.time)?;
         let mut counts = reached.counts;
-        let mut counted = Counted {
-            system,
-            counts: &mut counts,
-        };
+        let mut counted = Slopes::counted(system, &mut counts);
         let outcome = self.stride(&mut counted, step);
         self.reached.counts = counts;
         let mut state = match outcome {
@@ -173,7 +178,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdamsFixedCourse<S, X> {
         Ok(())
     }
 
-    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault> {
         self.reached.know_slope(system)?;
         let stride = self.last.stride(&self.reached, &NoStages);
         Ok(dense::cubic(&stride, self.last.theta(&self.reached, time)))

@@ -4,7 +4,10 @@ use core::mem::swap;
 
 use super::controller::{Controller, FIRST_SHARE};
 use super::record::{LastStep, Reached, reached};
-use super::{Adaptive, Counted, Counts, Course, EmbeddedPair, Span, Start, Stride, System, named};
+use super::{
+    Adaptive, Advance, Counts, Course, EmbeddedPair, OneStep, Slopes, Span, Start, Stride, System,
+    named,
+};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -67,12 +70,12 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         system: &mut Y,
         step: S,
         end: S,
-    ) -> Result<Trial<S, X>, Fault> {
+    ) -> Result<Trial<S, X>, Fault>
+    where
+        K: OneStep<S, Y>,
+    {
         let reached = &mut self.reached;
-        let mut counted = Counted {
-            system,
-            counts: &mut reached.counts,
-        };
+        let mut counted = Slopes::counted(system, &mut reached.counts);
         let start = Start {
             time: reached.time,
             state: &reached.state,
@@ -118,13 +121,16 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
     /// finite, and only their sums are not.
     #[cold]
     #[inline(never)]
-    fn refused(
+    fn refused<Y: System<S, State = X>>(
         &mut self,
-        system: &mut dyn System<S, State = X>,
+        system: &mut Y,
         step: S,
         end: S,
         fault: Option<Fault>,
-    ) -> Option<Fault> {
+    ) -> Option<Fault>
+    where
+        K: OneStep<S, Y>,
+    {
         named(fault, system, |system| {
             let start = Start {
                 time: self.reached.time,
@@ -139,8 +145,15 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
 
 impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<S, X, K> {
     reached!();
+}
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+impl<S, K, Y> Advance<S, Y> for AdaptiveCourse<S, Y::State, K>
+where
+    S: Real,
+    K: EmbeddedPair<S> + OneStep<S, Y>,
+    Y: System<S>,
+{
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         swap(&mut self.last.first, &mut self.reached.slope);
         let time = self.reached.time;
@@ -180,7 +193,7 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<
         }
     }
 
-    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault> {
         if !self.is_prepared {
             let (reached, stages) = (&mut self.reached, &mut self.stages);
             self.last.prepare(&self.pair, system, reached, stages)?;

@@ -7,7 +7,7 @@ use super::controller::{Controller, FIRST_SHARE};
 use super::linear::Factors;
 use super::newton::{Age, Newton, Progress};
 use super::record::{Reached, reached};
-use super::{Counted, Counts, Course, Span, System, named};
+use super::{Advance, Counts, Course, Slopes, Span, System, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -237,10 +237,7 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         if self.age == Age::Unknown {
             let predicted = self.reached.state.plus([(S::one(), &self.predicted())]);
             let slope = &mut self.reached.slope;
-            let mut counted = Counted {
-                system,
-                counts: &mut self.reached.counts,
-            };
+            let mut counted = Slopes::counted(system, &mut self.reached.counts);
             counted.stage(end, &predicted, slope)?;
             counted.jacobian(end, &predicted, slope, &mut self.jacobian)?;
             self.age = Age::Present;
@@ -258,9 +255,9 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
     /// Why a step led nowhere, if its rates are the reason.
     #[cold]
     #[inline(never)]
-    fn refused(
+    fn refused<Y: System<S, State = X>>(
         &self,
-        system: &mut dyn System<S, State = X>,
+        system: &mut Y,
         end: S,
         fault: Option<Fault>,
     ) -> Option<Fault> {
@@ -329,8 +326,10 @@ fn interpolation<S: Real>(factor: S) -> [[S; HIGHEST]; HIGHEST] {
 impl<S: Real, X: Vector<S>> Course<S, X> for BdfCourse<S, X> {
     // Where a state is replaced, those before are moved along: their differences stay.
     reached!();
+}
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for BdfCourse<S, Y::State> {
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         let time = self.reached.time;
         let smallest = self.controller.smallest(time);
         let remaining = self.controller.remaining(time);
@@ -344,10 +343,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for BdfCourse<S, X> {
             let outcome = match self.prepare(system, end) {
                 Ok(true) => {
                     let mut counts = self.reached.counts;
-                    let mut counted = Counted {
-                        system,
-                        counts: &mut counts,
-                    };
+                    let mut counted = Slopes::counted(system, &mut counts);
                     let outcome = self.attempt(&mut counted, end);
                     self.reached.counts = counts;
                     outcome
@@ -389,7 +385,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for BdfCourse<S, X> {
         }
     }
 
-    fn at<Y: System<S, State = X>>(&mut self, _system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at(&mut self, _system: &mut Y, time: S) -> Result<Y::State, Fault> {
         let mut power = S::one();
         let weights = (0..self.order).map(|k| {
             let steps = S::constant(k as f64);

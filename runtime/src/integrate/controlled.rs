@@ -130,10 +130,12 @@ macro_rules! controlled {
             }
         }
 
-        impl<S: $crate::Real> $crate::integrate::Integrator<S> for $method<S> {
-            type Course<X: $crate::state::Vector<S>> = $course<S, X>;
+        impl<S: $crate::Real, Y: $crate::integrate::System<S>> $crate::integrate::Integrator<S, Y>
+            for $method<S>
+        {
+            type Course = $course<S, Y::State>;
 
-            fn start<Y: $crate::integrate::System<S>>(
+            fn start(
                 &self,
                 system: &mut Y,
                 span: $crate::integrate::Span<S>,
@@ -141,7 +143,9 @@ macro_rules! controlled {
             ) -> Result<$course<S, Y::State>, $crate::Fault> {
                 $course::start(self, system, span, state)
             }
+        }
 
+        impl<S: $crate::Real> $crate::integrate::Method<S> for $method<S> {
             fn budget(&self) -> Option<usize> {
                 Some(self.limits.evaluations)
             }

@@ -3,7 +3,7 @@
 use super::controlled::step_limits;
 use super::{
     AdaptiveCourse, BogackiShampine3, DormandPrince5, DormandPrince8, FixedStep, Integrator,
-    Scheme, Span, StepLimits, Stride, System, Tolerance,
+    Method, OneStep, Scheme, Span, StepLimits, Stride, System, Tolerance,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -86,10 +86,15 @@ constructors!(BogackiShampine3);
 constructors!(DormandPrince5);
 constructors!(DormandPrince8);
 
-impl<S: Real, K: EmbeddedPair<S>> Integrator<S> for Adaptive<S, K> {
-    type Course<X: Vector<S>> = AdaptiveCourse<S, X, K>;
+impl<S, K, Y> Integrator<S, Y> for Adaptive<S, K>
+where
+    S: Real,
+    K: EmbeddedPair<S> + OneStep<S, Y>,
+    Y: System<S>,
+{
+    type Course = AdaptiveCourse<S, Y::State, K>;
 
-    fn start<Y: System<S>>(
+    fn start(
         &self,
         system: &mut Y,
         span: Span<S>,
@@ -97,7 +102,9 @@ impl<S: Real, K: EmbeddedPair<S>> Integrator<S> for Adaptive<S, K> {
     ) -> Result<AdaptiveCourse<S, Y::State, K>, Fault> {
         AdaptiveCourse::start(self, system, span, state)
     }
+}
 
+impl<S: Real, K: EmbeddedPair<S>> Method<S> for Adaptive<S, K> {
     fn budget(&self) -> Option<usize> {
         Some(self.limits.evaluations)
     }

@@ -49,7 +49,7 @@ macro_rules! explicit {
 
         const _: () = {
             use crate::error::Fault;
-            use crate::integrate::{Scheme, Start, System};
+            use crate::integrate::{Look, OneStep, Scheme, Slopes, Start, System};
             use crate::math::scalar::Real;
             use crate::state::vector::Vector;
 
@@ -58,28 +58,6 @@ macro_rules! explicit {
 
                 fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X> {
                     explicit!(@memory like $kept)
-                }
-
-                #[inline]
-                fn stride<Y: System<S>>(
-                    &self,
-                    system: &mut Y,
-                    start: Start<'_, S, Y::State>,
-                    step: S,
-                    kept: &mut Self::Stages<Y::State>,
-                ) -> Result<Y::State, Fault> {
-                    let Start { time, state, slope: $first } = start;
-                    let $kept = kept;
-                    $(
-                        let mut $inner = $first.clone();
-                        let $inner = &mut $inner;
-                    )*
-                    $(
-                        let terms = [$((S::constant($a) * step, &*$slope)),+];
-                        let at = S::constant($time).fused(step, time);
-                        system.stage(at, &state.plus(terms), $stage)?;
-                    )*
-                    Ok(state.plus([$((S::constant($b) * step, &*$end)),+]))
                 }
 
                 $(
@@ -99,6 +77,30 @@ macro_rules! explicit {
                 $($(#[$why])* fn $constant(&self) -> f64 { $value })*
 
                 $($($item)*)?
+            }
+
+            impl<S: Real, Y: System<S>> OneStep<S, Y> for $method {
+                #[inline]
+                fn stride<L: Look<S, Y::State>>(
+                    &self,
+                    system: &mut Slopes<'_, Y, L>,
+                    start: Start<'_, S, Y::State>,
+                    step: S,
+                    kept: &mut <Self as Scheme<S>>::Stages<Y::State>,
+                ) -> Result<Y::State, Fault> {
+                    let Start { time, state, slope: $first } = start;
+                    let $kept = kept;
+                    $(
+                        let mut $inner = $first.clone();
+                        let $inner = &mut $inner;
+                    )*
+                    $(
+                        let terms = [$((S::constant($a) * step, &*$slope)),+];
+                        let at = S::constant($time).fused(step, time);
+                        system.stage(at, &state.plus(terms), $stage)?;
+                    )*
+                    Ok(state.plus([$((S::constant($b) * step, &*$end)),+]))
+                }
             }
 
             $(

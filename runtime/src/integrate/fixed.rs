@@ -3,8 +3,8 @@
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Counted, Counts, Course, Heun, ImplicitMidpoint, Integrator, Kutta3, Midpoint, Rk4, Scheme,
-    SemiImplicitEuler, Span, Start, System, refused,
+    Advance, Counts, Course, Heun, ImplicitMidpoint, Integrator, Kutta3, Method, Midpoint, OneStep,
+    Rk4, Scheme, SemiImplicitEuler, Slopes, Span, Start, System, refused,
 };
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -45,10 +45,10 @@ constructors!(
     Rk4
 );
 
-impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
-    type Course<X: Vector<S>> = FixedCourse<S, X, K>;
+impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Integrator<S, Y> for FixedStep<S, K> {
+    type Course = FixedCourse<S, Y::State, K>;
 
-    fn start<Y: System<S>>(
+    fn start(
         &self,
         system: &mut Y,
         span: Span<S>,
@@ -65,7 +65,9 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
             reached,
         })
     }
+}
 
+impl<S: Real, K: Scheme<S>> Method<S> for FixedStep<S, K> {
     fn fixed_step(&self) -> Option<S> {
         Some(self.step)
     }
@@ -143,15 +145,14 @@ pub struct FixedCourse<S: Real, X: Vector<S>, K: Scheme<S>> {
 
 impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> {
     reached!();
+}
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedCourse<S, Y::State, K> {
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         let reached = &mut self.reached;
         let (step, end) = self.grid.next(reached.counts.accepted, reached.time)?;
-        let mut counted = Counted {
-            system,
-            counts: &mut reached.counts,
-        };
+        let mut counted = Slopes::counted(system, &mut reached.counts);
         let start = Start {
             time: reached.time,
             state: &reached.state,
@@ -173,7 +174,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
         Ok(())
     }
 
-    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault> {
         self.reached.know_slope(system)?;
         if !self.is_prepared {
             let (reached, stages) = (&mut self.reached, &mut self.stages);
@@ -185,7 +186,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
         Ok(self.scheme.interpolate(stride, theta))
     }
 
-    fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
+    fn better_end(&self, system: &mut Y) -> Result<Option<Y::State>, Fault> {
         if self.scheme.silent_phase() == 0.0 {
             return Ok(None);
         }

@@ -5,7 +5,7 @@ use core::mem::replace;
 use super::fixed::Grid;
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
-use super::{Counted, Counts, Course, Integrator, NoStages, Span, System, dense};
+use super::{Advance, Counts, Course, Integrator, Method, NoStages, RigidConstraints, Span, dense};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -53,11 +53,10 @@ use crate::state::vector::Vector;
 /// [`Fault::StepNotSolved`], and time and state are those before the step. Many different stiff
 /// springs at once, as of a finite element mesh, are beyond it.
 ///
-/// **What it needs** is a mechanism by its bodies with
-/// [`StandardLagrange`](crate::StandardLagrange). With another formulation, by joint coordinates (a
-/// tree has no constraints: any method keeps its joints closed) and for a [`System`] of one's own
-/// that does not offer [`System::step_on_constraints`] a run ends with [`Fault::NoConstraints`];
-/// where equations depend on each other with [`Fault::Singular`].
+/// **What it needs** is a system with [`RigidConstraints`]: a mechanism in absolute coordinates with
+/// [`StandardLagrange`](crate::StandardLagrange). With another formulation and in joint coordinates
+/// (a tree has no constraints: any method keeps its joints closed) a run does not compile. Where
+/// equations depend on each other it ends with [`Fault::Singular`].
 ///
 /// `a0` begins as `u0'`, and so it does after a break. Energy: kept for `rho = 1` but for a swing
 /// of the order of `h^2`; a motion of `x` radians a step loses `((1 - rho) / (1 + rho))^3 x^4 / 2`
@@ -158,7 +157,7 @@ impl<S: Real> AlphaWeights<S> {
     }
 }
 
-/// A step that is asked for, see [`System::step_on_constraints`].
+/// A step that is asked for, see [`RigidConstraints::step_on_constraints`].
 #[derive(Clone, Copy, Debug)]
 pub struct AlphaStep<'a, S, X> {
     /// Its coefficients.
@@ -188,10 +187,10 @@ pub struct AlphaEnd<X> {
     pub evaluations: usize,
 }
 
-impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
-    type Course<X: Vector<S>> = GeneralizedAlphaCourse<S, X>;
+impl<S: Real, Y: RigidConstraints<S>> Integrator<S, Y> for GeneralizedAlpha<S> {
+    type Course = GeneralizedAlphaCourse<S, Y::State>;
 
-    fn start<Y: System<S>>(
+    fn start(
         &self,
         system: &mut Y,
         span: Span<S>,
@@ -208,7 +207,9 @@ impl<S: Real> Integrator<S> for GeneralizedAlpha<S> {
             reached,
         })
     }
+}
 
+impl<S: Real> Method<S> for GeneralizedAlpha<S> {
     fn fixed_step(&self) -> Option<S> {
         Some(self.step)
     }
@@ -243,16 +244,18 @@ pub struct GeneralizedAlphaCourse<S: Real, X: Vector<S>> {
 
 impl<S: Real, X: Vector<S>> Course<S, X> for GeneralizedAlphaCourse<S, X> {
     reached!();
+}
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+impl<S, Y> Advance<S, Y> for GeneralizedAlphaCourse<S, Y::State>
+where
+    S: Real,
+    Y: RigidConstraints<S>,
+{
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         let reached = &mut self.reached;
         let (step, time) = self.grid.next(reached.counts.accepted, reached.time)?;
-        let mut end = Counted {
-            system,
-            counts: &mut reached.counts,
-        }
-        .step_on_constraints(AlphaStep {
+        let mut end = system.step_on_constraints(AlphaStep {
             weights: self.weights,
             end: time,
             step,
@@ -260,6 +263,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for GeneralizedAlphaCourse<S, X> {
             slope: &reached.slope,
             auxiliary: &self.auxiliary,
         })?;
+        reached.counts.evaluations += end.evaluations;
         system.settle(&mut end.state, Some(&mut end.slope));
         self.last.first = replace(&mut reached.slope, end.slope);
         self.auxiliary = end.auxiliary;
@@ -267,12 +271,12 @@ impl<S: Real, X: Vector<S>> Course<S, X> for GeneralizedAlphaCourse<S, X> {
         Ok(())
     }
 
-    fn at<Y: System<S, State = X>>(&mut self, _system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at(&mut self, _system: &mut Y, time: S) -> Result<Y::State, Fault> {
         let stride = self.last.stride(&self.reached, &NoStages);
         Ok(dense::cubic(&stride, self.last.theta(&self.reached, time)))
     }
 
-    fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
+    fn better_end(&self, system: &mut Y) -> Result<Option<Y::State>, Fault> {
         better_end(system, &self.last, &self.reached).map(Some)
     }
 }

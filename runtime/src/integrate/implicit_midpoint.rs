@@ -2,7 +2,7 @@
 
 use core::mem::swap;
 
-use super::{NoStages, Scheme, Start, System};
+use super::{Look, NoStages, OneStep, Scheme, Slopes, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -53,10 +53,22 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
         NoStages
     }
 
+    /// `|p|` stays what it is and says nothing of the angle, which is off by `z^3 / 12` after a
+    /// step, with `z` the angle of the step.
+    fn turning_error(&self) -> f64 {
+        1.0
+    }
+
+    fn silent_phase(&self) -> f64 {
+        1.0 / 12.0
+    }
+}
+
+impl<S: Real, Y: System<S>> OneStep<S, Y> for ImplicitMidpoint {
     #[inline]
-    fn stride<Y: System<S>>(
+    fn stride<L: Look<S, Y::State>>(
         &self,
-        system: &mut Y,
+        system: &mut Slopes<'_, Y, L>,
         Start { time, state, slope }: Start<'_, S, Y::State>,
         step: S,
         _stages: &mut NoStages,
@@ -107,15 +119,5 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
             changes = [last, change];
         }
         Err(too_long(ITERATIONS))
-    }
-
-    /// `|p|` stays what it is and says nothing of the angle, which is off by `z^3 / 12` after a
-    /// step, with `z` the angle of the step.
-    fn turning_error(&self) -> f64 {
-        1.0
-    }
-
-    fn silent_phase(&self) -> f64 {
-        1.0 / 12.0
     }
 }

@@ -18,9 +18,11 @@
 //! | [`Bdf::new(tolerance)`](Bdf::new) | backward differentiation of order 1 to 5 for stiff systems, order and step control of MATLAB's `ode15s` | 1 an iteration; the Jacobian besides |
 //! | [`Adams::new(tolerance)`](Adams::new) | Adams of order 1 to 12 in divided differences, the step and order control of MATLAB's `ode113` | 2 a step, 1 a rejected trial, and 1 |
 //!
-//! [`Scheme::step`] takes one step at a time, for loops that somebody else owns;
+//! [`OneStep::step`] takes one step at a time, for loops that somebody else owns;
 //! [`Integrator::start`] begins a [`Course`] over an interval, with output at any time within the
-//! last step.
+//! last step. What a method is, whatever it moves, is a [`Method`] or a [`Scheme`]; that it moves a
+//! system of some type is an [`Integrator`] or a [`OneStep`] with that type, so that a method with
+//! a system that lacks what it needs does not compile.
 //!
 //! Structure. An explicit Runge-Kutta method is its table (`explicit.rs`). An embedded pair
 //! (`embedded.rs`) is a scheme with error weights, their power of the step and an interpolant. The
@@ -41,7 +43,6 @@ mod adams_fixed;
 mod adaptive;
 mod bdf;
 mod bogacki_shampine;
-mod checked;
 mod controlled;
 mod controller;
 mod counted;
@@ -62,6 +63,7 @@ mod rk2;
 mod rk3;
 mod rk4;
 mod semi_implicit;
+mod slopes;
 mod tableau;
 mod tableau_853;
 mod tableau_radau;
@@ -89,13 +91,13 @@ pub use rk2::{Heun, Midpoint};
 pub use rk3::Kutta3;
 pub use rk4::Rk4;
 pub use semi_implicit::SemiImplicitEuler;
+pub use slopes::{Checking, Counting, Look, Slopes, Unlooked};
 
 use core::fmt::Debug;
 
 pub(crate) use self::newton::by_differences;
 
-use self::checked::named;
-use self::counted::Counted;
+use self::slopes::named;
 use crate::error::Fault;
 use crate::error::setting::interval;
 use crate::math::scalar::Real;
@@ -104,7 +106,7 @@ use crate::state::vector::Vector;
 /// A system of ordinary differential equations of first order: `y' = f(t, y)`.
 ///
 /// ```
-/// use holonom::{Fault, Rk4, integrate::{Scheme, System}};
+/// use holonom::{Fault, Rk4, integrate::{OneStep, System}};
 ///
 /// /// y' = -y
 /// struct Decay;
@@ -185,36 +187,6 @@ pub trait System<S: Real> {
         })
     }
 
-    /// Puts the rates of the coordinates at the velocities at the end of a step in the place of
-    /// those at its start: at the velocities that the other rates lead to.
-    ///
-    /// # Errors
-    /// [`Fault::NoVelocities`] of a system whose state is not made of coordinates and velocities,
-    /// which is what stands here.
-    #[inline(always)]
-    fn with_new_velocities(
-        &mut self,
-        _time: S,
-        _state: &Self::State,
-        _step: S,
-        _rates: &mut Self::State,
-    ) -> Result<(), Fault> {
-        Err(Fault::NoVelocities)
-    }
-
-    /// One step of [`GeneralizedAlpha`], solved together with multipliers: only the system knows
-    /// masses and constraints.
-    ///
-    /// # Errors
-    /// [`Fault::NoConstraints`] of a system that is not solved with rigid constraints, which is
-    /// what stands here; what keeps the step from being solved.
-    fn step_on_constraints(
-        &mut self,
-        _asked: AlphaStep<'_, S, Self::State>,
-    ) -> Result<AlphaEnd<Self::State>, Fault> {
-        Err(Fault::NoConstraints)
-    }
-
     /// Brings a state that a step has led to into its normal form, and its rates, where they are
     /// known, with it.
     ///
@@ -224,28 +196,49 @@ pub trait System<S: Real> {
     fn settle(&mut self, _state: &mut Self::State, _rates: Option<&mut Self::State>) {}
 }
 
-/// A method that integrates over an interval and decides on its steps.
+/// A system whose state is made of coordinates and velocities.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not tell velocities from coordinates",
+    label = "no system of second order",
+    note = "`SemiImplicitEuler` takes coordinates by the velocities at the end of a step: a mechanism has them, a `System` of one's own implements `integrate::SecondOrder`"
+)]
+pub trait SecondOrder<S: Real>: System<S> {
+    /// Puts the rates of the coordinates at the velocities at the end of a step in the place of
+    /// those at its start: at the velocities that the other rates lead to.
+    fn with_new_velocities(
+        &mut self,
+        time: S,
+        state: &Self::State,
+        step: S,
+        rates: &mut Self::State,
+    );
+}
+
+/// A system that is solved with rigid constraints, its positions and velocities with it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not solved with rigid constraints",
+    label = "no constraints that `GeneralizedAlpha` could solve for",
+    note = "`GeneralizedAlpha` moves a mechanism in absolute coordinates with `StandardLagrange`; in joint coordinates, with another formulation and for a `System` of one's own any other method does"
+)]
+pub trait RigidConstraints<S: Real>: System<S> {
+    /// One step of [`GeneralizedAlpha`], solved together with multipliers: only the system knows
+    /// masses and constraints.
+    ///
+    /// # Errors
+    /// What keeps the step from being solved.
+    fn step_on_constraints(
+        &mut self,
+        asked: AlphaStep<'_, S, Self::State>,
+    ) -> Result<AlphaEnd<Self::State>, Fault>;
+}
+
+/// What a method that integrates over an interval is, whatever it moves: see [`Integrator`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not integrate over an interval",
     label = "no integrator: it does not know its steps",
     note = "a run takes a method with its steps: `Rk4::every(h)`, `DormandPrince::every(h)` or `DormandPrince::new(tolerance)`"
 )]
-pub trait Integrator<S: Real>: Copy + Debug {
-    /// An integration under way, with all the memory that it needs.
-    type Course<X: Vector<S>>: Course<S, X>;
-
-    /// Begins an integration.
-    ///
-    /// # Errors
-    /// A setting that is not finite and positive, an interval without a length; a fault of the
-    /// system at the start.
-    fn start<Y: System<S>>(
-        &self,
-        system: &mut Y,
-        span: Span<S>,
-        state: Y::State,
-    ) -> Result<Self::Course<Y::State>, Fault>;
-
+pub trait Method<S: Real>: Copy + Debug {
     /// How many evaluations a run may take, where there is a limit.
     fn budget(&self) -> Option<usize> {
         None
@@ -294,13 +287,29 @@ pub trait Integrator<S: Real>: Copy + Debug {
     }
 }
 
-/// The functions of an [`Integrator`] but `start`, each by that of another one, which a macro calls
-/// an expression with. It is beside the trait, so that no function is forgotten.
+/// A method that integrates a system over an interval and decides on its steps.
+///
+/// Most methods move any [`System`]. [`SemiImplicitEuler`] needs a [`SecondOrder`] one, and
+/// [`GeneralizedAlpha`] one with [`RigidConstraints`]: another does not compile.
+pub trait Integrator<S: Real, Y: System<S>>: Method<S> {
+    /// An integration under way, with all the memory that it needs.
+    type Course: Advance<S, Y>;
+
+    /// Begins an integration.
+    ///
+    /// # Errors
+    /// A setting that is not finite and positive, an interval without a length; a fault of the
+    /// system at the start.
+    fn start(&self, system: &mut Y, span: Span<S>, state: Y::State) -> Result<Self::Course, Fault>;
+}
+
+/// The functions of a [`Method`], each by that of another one, which a macro calls an expression
+/// with. It is beside the trait, so that no function is forgotten.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __hooks_of_integrator {
+macro_rules! __hooks_of_method {
     ($with:ident) => {
-        $crate::__hooks_of_integrator! { $with:
+        $crate::__hooks_of_method! { $with:
             budget -> Option<usize>;
             fixed_step -> Option<S>;
             turning_error -> f64;
@@ -312,12 +321,12 @@ macro_rules! __hooks_of_integrator {
     };
     ($with:ident: $($hook:ident -> $of:ty;)*) => {$(
         fn $hook(&self) -> $of {
-            $with!(self, own => $crate::integrate::Integrator::<S>::$hook(&own))
+            $with!(self, own => $crate::integrate::Method::<S>::$hook(&own))
         }
     )*};
 }
 
-/// An integration under way.
+/// Where an integration is.
 pub trait Course<S: Real, X: Vector<S>> {
     /// The time that was reached.
     fn time(&self) -> S;
@@ -325,30 +334,8 @@ pub trait Course<S: Real, X: Vector<S>> {
     /// The state at that time.
     fn state(&self) -> &X;
 
-    /// Goes on by one accepted step, at most to the end of the interval.
-    ///
-    /// # Errors
-    /// Why it cannot go on. Time and state are then as before; the course is over.
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault>;
-
-    /// The state at a time within the last step, by the interpolant of the method.
-    ///
-    /// # Errors
-    /// A fault of the system, where the interpolant needs an evaluation at the end of the step.
-    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault>;
-
-    /// Where the last step would have led by the rule of Lobatto of order 4, from slopes at its
-    /// ends and in its middle, each evaluated anew and counted nowhere; `None` for methods that
-    /// control their errors, or whose energy tells of them.
-    ///
-    /// # Errors
-    /// A fault of the system.
-    fn better_end<Y: System<S, State = X>>(&self, _system: &mut Y) -> Result<Option<X>, Fault> {
-        Ok(None)
-    }
-
     /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a
-    /// method that looks back at former steps goes on with these. Call [`Course::at`] before, not
+    /// method that looks back at former steps goes on with these. Call [`Advance::at`] before, not
     /// after.
     fn replace(&mut self, state: X);
 
@@ -356,11 +343,36 @@ pub trait Course<S: Real, X: Vector<S>> {
     fn counts(&self) -> Counts;
 }
 
+/// An integration under way.
+pub trait Advance<S: Real, Y: System<S>>: Course<S, Y::State> {
+    /// Goes on by one accepted step, at most to the end of the interval.
+    ///
+    /// # Errors
+    /// Why it cannot go on. Time and state are then as before; the course is over.
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault>;
+
+    /// The state at a time within the last step, by the interpolant of the method.
+    ///
+    /// # Errors
+    /// A fault of the system, where the interpolant needs an evaluation at the end of the step.
+    fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault>;
+
+    /// Where the last step would have led by the rule of Lobatto of order 4, from slopes at its
+    /// ends and in its middle, each evaluated anew and counted nowhere; `None` for methods that
+    /// control their errors, or whose energy tells of them.
+    ///
+    /// # Errors
+    /// A fault of the system.
+    fn better_end(&self, _system: &mut Y) -> Result<Option<Y::State>, Fault> {
+        Ok(None)
+    }
+}
+
 /// With `z` half the angle of a step, the classical Runge-Kutta method leaves `|p|` by `z^6 / 144`
 /// and an angle by `z^5 / 60`: this is their ratio for steps of half a radian.
 const TURNING_ERROR: f64 = 10.0;
 
-/// A one-step method of fixed coefficients.
+/// What a one-step method of fixed coefficients is, whatever it moves: see [`OneStep`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not take single steps",
     label = "no one-step method",
@@ -373,36 +385,23 @@ pub trait Scheme<S: Real>: Copy + Debug {
     /// Memory for states like this one.
     fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X>;
 
-    /// The state after one step, from the slope at its start; not finite where a slope at a stage
-    /// is not, see [`System::stage`].
-    ///
-    /// # Errors
-    /// A fault of the system at a stage.
-    fn stride<Y: System<S>>(
-        &self,
-        system: &mut Y,
-        start: Start<'_, S, Y::State>,
-        step: S,
-        stages: &mut Self::Stages<Y::State>,
-    ) -> Result<Y::State, Fault>;
-
-    /// See [`Integrator::turning_error`].
+    /// See [`Method::turning_error`].
     fn turning_error(&self) -> f64 {
         TURNING_ERROR
     }
 
-    /// See [`Integrator::turning_error_of_short_steps`].
+    /// See [`Method::turning_error_of_short_steps`].
     fn turning_error_of_short_steps(&self) -> f64 {
         0.0
     }
 
-    /// See [`Integrator::silent_phase`]. Where it is not zero, [`Course::better_end`] judges the
+    /// See [`Method::silent_phase`]. Where it is not zero, [`Advance::better_end`] judges the
     /// steps of this method.
     fn silent_phase(&self) -> f64 {
         0.0
     }
 
-    /// See [`Integrator::velocity_lead`].
+    /// See [`Method::velocity_lead`].
     fn velocity_lead(&self) -> f64 {
         0.0
     }
@@ -428,19 +427,29 @@ pub trait Scheme<S: Real>: Copy + Debug {
     fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X {
         dense::cubic(&stride, theta)
     }
+}
+
+/// A one-step method with a system that it moves: most move any [`System`].
+pub trait OneStep<S: Real, Y: System<S>>: Scheme<S> {
+    /// The state after one step, from the slope at its start; not finite where a slope at a stage
+    /// is not, see [`System::stage`].
+    ///
+    /// # Errors
+    /// A fault of the system at a stage.
+    fn stride<L: Look<S, Y::State>>(
+        &self,
+        system: &mut Slopes<'_, Y, L>,
+        start: Start<'_, S, Y::State>,
+        step: S,
+        stages: &mut Self::Stages<Y::State>,
+    ) -> Result<Y::State, Fault>;
 
     /// One step of the size `step` from `time`, without control of the error.
     ///
     /// # Errors
     /// A fault of the system. The state is then as before.
     #[inline]
-    fn step<Y: System<S>>(
-        &self,
-        system: &mut Y,
-        time: S,
-        state: &mut Y::State,
-        step: S,
-    ) -> Result<(), Fault> {
+    fn step(&self, system: &mut Y, time: S, state: &mut Y::State, step: S) -> Result<(), Fault> {
         attempt(self, system, (time, state), step)
             .map_err(|fault| refused(self, system, (time, state), step, fault))
     }
@@ -518,7 +527,7 @@ impl<S: Real> Span<S> {
 /// A step, if it leads to a state that is finite; else why not, if that is known. No part of its
 /// caller: its stack is free again where a step is looked into that was refused.
 #[inline(never)]
-fn attempt<S: Real, K: Scheme<S>, Y: System<S>>(
+fn attempt<S: Real, K: OneStep<S, Y>, Y: System<S>>(
     scheme: &K,
     system: &mut Y,
     (time, state): (S, &mut Y::State),
@@ -531,7 +540,8 @@ fn attempt<S: Real, K: Scheme<S>, Y: System<S>>(
         state,
         slope: &slope,
     };
-    let next = scheme.stride(system, start, step, &mut scheme.stages(&slope))?;
+    let unlooked = &mut Slopes::new(system);
+    let next = scheme.stride(unlooked, start, step, &mut scheme.stages(&slope))?;
     if !next.is_finite() {
         return Err(None);
     }
@@ -543,10 +553,10 @@ fn attempt<S: Real, K: Scheme<S>, Y: System<S>>(
 /// Why a step failed, or led to a state that is not finite.
 #[cold]
 #[inline(never)]
-fn refused<S: Real, K: Scheme<S>, X: Vector<S>>(
+fn refused<S: Real, K: OneStep<S, Y>, Y: System<S>>(
     scheme: &K,
-    system: &mut dyn System<S, State = X>,
-    (time, state): (S, &X),
+    system: &mut Y,
+    (time, state): (S, &Y::State),
     step: S,
     fault: Option<Fault>,
 ) -> Fault {

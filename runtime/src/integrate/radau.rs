@@ -8,7 +8,7 @@ use super::linear::{ComplexColumn, Factors};
 use super::newton::{Age, Newton, Progress};
 use super::record::{Reached, reached};
 use super::tableau_radau as tableau;
-use super::{Counted, Counts, Course, Span, System, Tolerance, named};
+use super::{Advance, Counts, Course, Slopes, Span, System, Tolerance, named};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::math::scalar::Real;
@@ -156,10 +156,7 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
     /// none.
     fn prepare<Y: System<S, State = X>>(&mut self, system: &mut Y, step: S) -> Result<bool, Fault> {
         if self.age == Age::Unknown {
-            let mut counted = Counted {
-                system,
-                counts: &mut self.reached.counts,
-            };
+            let mut counted = Slopes::counted(system, &mut self.reached.counts);
             counted.jacobian(
                 self.reached.time,
                 &self.reached.state,
@@ -317,9 +314,9 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
     /// Why a trial led nowhere, if its rates are the reason.
     #[cold]
     #[inline(never)]
-    fn refused(
+    fn refused<Y: System<S, State = X>>(
         &self,
-        system: &mut dyn System<S, State = X>,
+        system: &mut Y,
         step: (S, S),
         fault: Option<Fault>,
     ) -> Option<Fault> {
@@ -354,8 +351,10 @@ struct Trial<S, X> {
 
 impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
     reached!();
+}
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for RadauCourse<S, Y::State> {
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         let time = self.reached.time;
         let smallest = self.controller.smallest(time);
@@ -366,10 +365,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
             let outcome = match self.prepare(system, size) {
                 Ok(true) => {
                     let mut counts = self.reached.counts;
-                    let mut counted = Counted {
-                        system,
-                        counts: &mut counts,
-                    };
+                    let mut counted = Slopes::counted(system, &mut counts);
                     let outcome = self.attempt(&mut counted, (size, end), rejected);
                     self.reached.counts = counts;
                     outcome
@@ -413,7 +409,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
     }
 
     /// A step of its own, for the polynomial of collocation is of order 3 and steps are long.
-    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault> {
         let step = time - self.start;
         let theta = step.quotient(self.step);
         let polynomial = |node: f64| self.polynomial(S::constant(node) * theta);
@@ -421,10 +417,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
         if step > S::zero() && step < self.step && self.factorise(step) {
             let mut solved = increments.clone();
             let mut counts = self.reached.counts;
-            let mut counted = Counted {
-                system,
-                counts: &mut counts,
-            };
+            let mut counted = Slopes::counted(system, &mut counts);
             let from = (self.start, &self.from, step);
             let outcome = self.collocate(&mut counted, from, &mut solved);
             self.reached.counts = counts;

@@ -2,7 +2,7 @@
 
 use core::mem::{replace, swap};
 
-use super::{Counted, Counts, Ends, Scheme, Span, Stride, System, named};
+use super::{Counts, Ends, Scheme, Slopes, Span, Stride, System, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -26,10 +26,7 @@ impl<S: Real, X: Vector<S>> Reached<S, X> {
         state: X,
     ) -> Result<Self, Fault> {
         let mut counts = Counts::default();
-        let counted = &mut Counted {
-            system,
-            counts: &mut counts,
-        };
+        let counted = &mut Slopes::counted(system, &mut counts);
         Ok(Self {
             slope: counted.rates(span.start, &state)?,
             counts,
@@ -50,7 +47,7 @@ impl<S: Real, X: Vector<S>> Reached<S, X> {
         }
         let counts = &mut self.counts;
         let (time, state) = (self.time, &self.state);
-        let outcome = Counted { system, counts }.stage(time, state, &mut self.slope);
+        let outcome = Slopes::counted(system, counts).stage(time, state, &mut self.slope);
         if outcome.is_err() || !self.slope.is_finite() {
             let fault = named(outcome.err(), system, |system| system.rates(time, state));
             return Err(fault.unwrap_or(Fault::StateNotFinite));
@@ -146,6 +143,7 @@ impl<S: Real, X: Vector<S>> LastStep<S, X> {
     pub(super) fn theta(&self, reached: &Reached<S, X>, time: S) -> S {
         (time - self.start).quotient(reached.time - self.start)
     }
+
     /// Evaluates what the interpolant of a scheme needs besides the slopes.
     pub(super) fn prepare<K: Scheme<S>, Y: System<S, State = X>>(
         &self,
@@ -160,10 +158,7 @@ impl<S: Real, X: Vector<S>> LastStep<S, X> {
             first: &self.first,
             last: &reached.slope,
         };
-        let mut counted = Counted {
-            system,
-            counts: &mut reached.counts,
-        };
+        let mut counted = Slopes::counted(system, &mut reached.counts);
         scheme.prepare(&mut counted, self.start, ends, stages)
     }
 }

@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method.
 
-use super::{NoStages, Scheme, Start, System};
+use super::{Look, NoStages, OneStep, Scheme, Slopes, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -22,10 +22,18 @@ impl<S: Real> Scheme<S> for Rk4 {
         NoStages
     }
 
+    /// The ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`, and
+    /// `z^6 / 144`, by which `|p|` is.
+    fn turning_error_of_short_steps(&self) -> f64 {
+        2.4
+    }
+}
+
+impl<S: Real, Y: System<S>> OneStep<S, Y> for Rk4 {
     #[inline]
-    fn stride<Y: System<S>>(
+    fn stride<L: Look<S, Y::State>>(
         &self,
-        system: &mut Y,
+        system: &mut Slopes<'_, Y, L>,
         start: Start<'_, S, Y::State>,
         step: S,
         _stages: &mut NoStages,
@@ -66,11 +74,5 @@ impl<S: Real> Scheme<S> for Rk4 {
         at = state.plus([(step, &slope)]);
         system.stage(time + step, &at, &mut slope)?;
         Ok(next.plus([(sixth, &slope)]))
-    }
-
-    /// The ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`, and
-    /// `z^6 / 144`, by which `|p|` is.
-    fn turning_error_of_short_steps(&self) -> f64 {
-        2.4
     }
 }

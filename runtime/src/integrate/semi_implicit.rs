@@ -1,6 +1,6 @@
 //! The semi-implicit Euler method.
 
-use super::{NoStages, Scheme, Start, System};
+use super::{Look, NoStages, OneStep, Scheme, SecondOrder, Slopes, Start};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -12,9 +12,8 @@ use crate::state::vector::Vector;
 /// The energy of a conservative mechanism swings with an amplitude of the order of the step, but
 /// does not drift as with the explicit method of Euler, where neither forces nor masses depend on
 /// velocities: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, (I.1.9). It moves
-/// states of coordinates and velocities alone: a [`System`] of one's own offers
-/// [`System::with_new_velocities`], or is refused with [`Fault::NoVelocities`]. Output within a
-/// step is by the cubic through states and slopes at both ends.
+/// states of coordinates and velocities alone: a system of one's own implements [`SecondOrder`].
+/// Output within a step is by the cubic through states and slopes at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SemiImplicitEuler;
 
@@ -23,19 +22,6 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
 
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
         NoStages
-    }
-
-    #[inline]
-    fn stride<Y: System<S>>(
-        &self,
-        system: &mut Y,
-        Start { time, state, slope }: Start<'_, S, Y::State>,
-        step: S,
-        _stages: &mut NoStages,
-    ) -> Result<Y::State, Fault> {
-        let mut slope = slope.clone();
-        system.with_new_velocities(time, state, step, &mut slope)?;
-        Ok(state.plus([(step, &slope)]))
     }
 
     /// `|p|` grows by `z^2 / 2` and an angle is off by `z^3 / 3`: less than `|p|`, for steps below
@@ -48,5 +34,20 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
     /// step on.
     fn velocity_lead(&self) -> f64 {
         0.5
+    }
+}
+
+impl<S: Real, Y: SecondOrder<S>> OneStep<S, Y> for SemiImplicitEuler {
+    #[inline]
+    fn stride<L: Look<S, Y::State>>(
+        &self,
+        system: &mut Slopes<'_, Y, L>,
+        Start { time, state, slope }: Start<'_, S, Y::State>,
+        step: S,
+        _stages: &mut NoStages,
+    ) -> Result<Y::State, Fault> {
+        let mut slope = slope.clone();
+        system.with_new_velocities(time, state, step, &mut slope);
+        Ok(state.plus([(step, &slope)]))
     }
 }

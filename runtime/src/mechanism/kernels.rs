@@ -423,6 +423,16 @@ pub trait Terms: Copy + Debug + 'static {
     const COMPLIANT: bool;
 }
 
+/// Terms under which constraints neither yield nor may be violated.
+#[diagnostic::on_unimplemented(
+    message = "with the terms `{Self}` of this formulation constraints yield, or are violated for a while",
+    label = "no rigid constraints",
+    note = "`GeneralizedAlpha` solves for positions on rigid constraints: it takes `StandardLagrange`"
+)]
+pub trait Rigid: Terms {}
+
+impl Rigid for Plain {}
+
 /// Neither stabilisation nor compliance.
 #[derive(Clone, Copy, Debug)]
 pub struct Plain;

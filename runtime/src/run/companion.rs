@@ -5,10 +5,10 @@
 //! and goes from report to report with the first. Their difference is about the error of the
 //! coarser one.
 
-use crate::dynamics::{Dynamics, RigidSteps};
+use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{Course, Integrator, Span};
+use crate::integrate::{Advance as _, Course, Integrator, Span};
 use crate::math::quaternion::angle_between;
 use crate::math::scalar::Real;
 use crate::math::vec3::{norm, read};
@@ -215,12 +215,13 @@ where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
+    A: AppliedForces<S, M>,
     C: Coordinates<M>,
-    I: Integrator<S>,
+    I: Integrator<S, Dynamics<S, M, F, A, C>>,
 {
     dynamics: Dynamics<S, M, F, A, C>,
     integrator: I,
-    course: Option<I::Course<C::State<S>>>,
+    course: Option<I::Course>,
     /// How its bodies stood last.
     bodies: M::State<S>,
     found: Verification<S, M>,
@@ -232,8 +233,8 @@ where
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
-    I: Integrator<S>,
+    C: Coordinates<M>,
+    I: Integrator<S, Dynamics<S, M, F, A, C>>,
 {
     pub(crate) fn new(
         dynamics: Dynamics<S, M, F, A, C>,

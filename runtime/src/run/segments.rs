@@ -3,10 +3,10 @@
 
 use core::ops::ControlFlow;
 
-use crate::dynamics::{Dynamics, RigidSteps};
+use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{Counts, Course, Integrator, Span, System as _};
+use crate::integrate::{Advance as _, Counts, Course as _, Integrator, Method, Span, System as _};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
@@ -69,10 +69,10 @@ where
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
+    C: Coordinates<M>,
 {
     /// Goes from a state to the end; keeps the last good state.
-    pub(crate) fn go<I: Integrator<S>>(
+    pub(crate) fn go<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
         mut self,
         integrator: &I,
         mut companion: Option<Companion<S, M, F, A, C, I>>,
@@ -120,7 +120,7 @@ where
     }
 
     /// Integrates over an interval without breaks.
-    fn segment<I: Integrator<S>>(
+    fn segment<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         integrator: &I,
         companion: &mut Option<Companion<S, M, F, A, C, I>>,
@@ -236,7 +236,7 @@ where
         Ok(state)
     }
 
-    fn show<I: Integrator<S>>(
+    fn show<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         time: S,
         state: &M::State<S>,
@@ -274,7 +274,7 @@ where
 
     /// A fault with what the run knows of its cause.
     #[cold]
-    fn explained<I: Integrator<S>>(
+    fn explained<I: Method<S>>(
         &self,
         integrator: &I,
         fault: Fault,

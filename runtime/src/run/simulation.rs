@@ -6,10 +6,10 @@ use core::ops::{ControlFlow, RangeInclusive};
 use crate::assembly::assembled;
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::projection::Projection;
-use crate::dynamics::{Dynamics, RigidSteps};
+use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
-use crate::integrate::{Counts, Integrator};
+use crate::integrate::{Counts, Integrator, Method};
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
@@ -45,7 +45,7 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, A = NoForces, C = Absolut
     coordinates: PhantomData<C>,
 }
 
-impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<'a, S, M, F, I> {
+impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Method<S>> Simulation<'a, S, M, F, I> {
     /// A simulation from the state that the attributes describe, with Euler parameters normalised
     /// inside the evaluation, without further forces and without corrections.
     #[must_use]
@@ -73,7 +73,7 @@ where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    I: Integrator<S>,
+    I: Method<S>,
     C: Coordinates<M>,
 {
     /// Starts from this state.
@@ -252,9 +252,9 @@ where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    I: Integrator<S>,
+    I: Method<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
+    C: Coordinates<M>,
 {
     /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the
     /// reporting times and at the end; `ControlFlow::Break(())` stops the run, so an observer that
@@ -274,6 +274,7 @@ where
         mut observe: O,
     ) -> RunResult<S, M>
     where
+        I: Runs<S, M, F, C, A>,
         O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
     {
         let (start, end) = interval.into_inner();
@@ -296,7 +297,10 @@ where
         reporting: Reporting<S>,
         observe: &mut Observer<'_, S, M>,
         last_good: &mut (S, M::State<S>),
-    ) -> Result<RunReport<S, M>, Fault> {
+    ) -> Result<RunReport<S, M>, Fault>
+    where
+        I: Runs<S, M, F, C, A>,
+    {
         let dynamics = Dynamics::new(self.mechanism, self.formulation)?
             .with_forces(&self.forces)
             .coordinates::<C>();
@@ -339,4 +343,39 @@ where
         };
         run.go(&self.integrator, companion, (start, end), last_good)
     }
+}
+
+/// Methods that run a mechanism `M` by a formulation `F`, with forces `A` of a closure and in the
+/// coordinates `C`. It is implemented by every [`Integrator`] of such a system; a function that is
+/// generic over methods asks for it.
+///
+/// ```
+/// use holonom::{Runs, prelude::*};
+///
+/// fn evaluations<M: Mechanism>(mechanism: &M, method: impl Runs<f64, M, StandardLagrange>) -> usize {
+///     let simulation = Simulation::new(mechanism, StandardLagrange, method);
+///     let run = simulation.run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()));
+///     run.map_or(0, |report| report.evaluations)
+/// }
+/// ```
+pub trait Runs<S, M, F, C = Absolute, A = NoForces>:
+    for<'f> Integrator<S, Dynamics<S, M, F, &'f A, C>>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+    A: AppliedForces<S, M>,
+{
+}
+
+impl<I, S, M, F, A, C> Runs<S, M, F, C, A> for I
+where
+    I: for<'f> Integrator<S, Dynamics<S, M, F, &'f A, C>>,
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+    A: AppliedForces<S, M>,
+{
 }

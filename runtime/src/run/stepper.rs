@@ -1,11 +1,11 @@
 //! Steps for a loop that somebody else owns.
 
 use crate::constraints::projection::Projection;
-use crate::dynamics::{Dynamics, Iterations, RigidSteps};
+use crate::dynamics::{Dynamics, Iterations};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::formulation::Formulation;
-use crate::integrate::Scheme;
+use crate::integrate::{OneStep, Scheme};
 use crate::math::clock::Clock;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
@@ -250,9 +250,9 @@ where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    K: Scheme<S>,
+    K: OneStep<S, Dynamics<S, M, F, A, C>>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
+    C: Coordinates<M>,
 {
     /// Moves the state by one step of `dt` (s).
     ///

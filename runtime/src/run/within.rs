@@ -1,10 +1,10 @@
 //! What the ends of a step do not tell: singular configurations between them, and what a method of
 //! low order misses.
 
-use crate::dynamics::{Dynamics, RigidSteps};
+use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::Course;
+use crate::integrate::Advance;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
@@ -36,8 +36,8 @@ where
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
-    K: Course<S, C::State<S>>,
+    C: Coordinates<M>,
+    K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
     if !watch.judges() {
         return None;
@@ -65,8 +65,8 @@ pub(crate) fn look_within<S, M, F, A, C, K>(
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
-    K: Course<S, C::State<S>>,
+    C: Coordinates<M>,
+    K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
     let (start, end) = (watch.time(), course.time());
     if !watch.may_have_passed(end - start) {
@@ -105,7 +105,7 @@ where
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
+    C: Coordinates<M>,
 {
     let pivot = dynamics.pivot_within(time, bodies);
     watch.nearness(dynamics.constants(), (time, bodies), pivot)
@@ -127,8 +127,8 @@ where
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    C: RigidSteps<M>,
-    K: Course<S, C::State<S>>,
+    C: Coordinates<M>,
+    K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
     fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
         let state = self.course.at(self.dynamics, time)?;

@@ -186,10 +186,6 @@ fn numbers_are_those_of_a_person() {
             "the spectral radius of the generalized-alpha method is from 0 to 1, not 1.5",
         ),
         (
-            Fault::NoConstraints,
-            "the method solves for positions on rigid constraints: it takes a mechanism by its bodies with `StandardLagrange`, no other formulation and no joint coordinates",
-        ),
-        (
             Fault::Undetermined { share: 0.123_45 },
             "the equations leave a motion free here (0.123 of a trial motion): they depend on each other, or a driver is missing",
         ),

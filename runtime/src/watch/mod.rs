@@ -60,7 +60,7 @@ use self::singular::Approach;
 use self::worst::Worst;
 use crate::constraints::extent::resolution;
 use crate::constraints::side::wrong;
-use crate::integrate::Integrator;
+use crate::integrate::Method;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
 use crate::math::vec3::square;
@@ -278,7 +278,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     /// The watch over a run with this method.
-    pub(crate) fn over<I: Integrator<S>>(mut self, integrator: &I) -> Self {
+    pub(crate) fn over<I: Method<S>>(mut self, integrator: &I) -> Self {
         let tolerance = integrator.tolerance();
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
         self.turning_error = S::constant(integrator.turning_error());

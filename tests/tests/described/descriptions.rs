@@ -9,7 +9,7 @@ use holonom::joints::{
 use holonom::prelude::*;
 use holonom::{
     JointCoordinates, ParameterError, SimulationError, StateParts, dynamics::Dynamics,
-    error::Quantity, integrate::Scheme, state::Array,
+    error::Quantity, integrate::OneStep, state::Array,
 };
 use nalgebra::Vector3;
 

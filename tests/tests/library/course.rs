@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use holonom::{
     DormandPrince, Fault, StateParts, Tolerance,
     error::NotFinite,
-    integrate::{Course, Integrator, Span, System},
+    integrate::{Advance as _, Course, Integrator, Span, System},
     state::{State, Vector},
 };
 

@@ -2,7 +2,7 @@
 //! written.
 
 use holonom::prelude::*;
-use holonom::{JointCoordinates, StateParts, dynamics::Dynamics, integrate::Scheme, state::Array};
+use holonom::{JointCoordinates, StateParts, dynamics::Dynamics, integrate::OneStep, state::Array};
 
 /// Positions and velocities of rigid bodies after some steps from the assembled start, by bodies
 /// and by joints.

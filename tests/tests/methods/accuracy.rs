@@ -7,7 +7,7 @@ use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{
     JointCoordinates,
-    integrate::{Scheme, System},
+    integrate::{OneStep, System},
     state::JointState,
 };
 use holonom_models::RodPendulum;

@@ -5,7 +5,6 @@ use holonom::prelude::*;
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince853, ImplicitMidpoint,
     JointCoordinates, RadauIIA, StateParts,
-    integrate::Integrator,
     state::{Array, Vector},
 };
 use holonom_models::{
@@ -13,10 +12,11 @@ use holonom_models::{
     SqueezingMechanism, Ur5, VariableLengthPendulum,
 };
 use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::RunsBoth;
 
 /// The state of the bodies at the end, by them and by their joints.
 fn ends<M: JointCoordinates + Default>(
-    method: impl Integrator<f64>,
+    method: impl RunsBoth<M, StandardLagrange>,
     end: f64,
 ) -> [M::State<f64>; 2] {
     let mechanism = M::default();

@@ -1,11 +1,10 @@
-//! Generalized-alpha on constraints: its order, what it keeps, what it damps, and what it refuses.
+//! Generalized-alpha on constraints: its order, what it keeps, what it damps.
 
 use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
 use holonom::{
-    DormandPrince853, GeneralizedAlpha, RadauIIA,
-    integrate::{Course, Integrator, Span, System},
+    DormandPrince853, GeneralizedAlpha, RadauIIA, Runs,
     state::{Array, Vector},
 };
 use holonom_models::{
@@ -50,7 +49,7 @@ fn it_has_order_2_on_the_pendulum_with_any_damping() {
 
 fn end<M: Mechanism>(
     model: &M,
-    integrator: impl Integrator<f64>,
+    integrator: impl Runs<f64, M, StandardLagrange>,
     time: f64,
 ) -> (M::State<f64>, usize, usize) {
     let report = Simulation::new(model, StandardLagrange, integrator)
@@ -397,55 +396,6 @@ fn dependent_equations_are_refused_by_name() {
         matches!(error.fault, Fault::Singular { name: "upper", .. }),
         "{error}"
     );
-}
-
-fn refused<F: Formulation<f64>>(formulation: F) -> Fault {
-    Simulation::new(
-        &FourBar::default(),
-        formulation,
-        GeneralizedAlpha::every(1e-3),
-    )
-    .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
-    .expect_err("yields")
-    .fault
-}
-
-#[test]
-fn what_has_no_rigid_constraints_is_refused() {
-    assert_eq!(refused(Baumgarte::default()), Fault::NoConstraints);
-    assert_eq!(refused(Penalty::default()), Fault::NoConstraints);
-    assert_eq!(
-        refused(AugmentedLagrangian::default()),
-        Fault::NoConstraints
-    );
-    let error = Simulation::new(
-        &FourBar::default(),
-        StandardLagrange,
-        GeneralizedAlpha::every(1e-3),
-    )
-    .joint_coordinates()
-    .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
-    .expect_err("joints");
-    println!("{error}");
-    assert_eq!((error.fault, error.time), (Fault::NoConstraints, 0.0));
-
-    struct Decay;
-    impl System<f64> for Decay {
-        type State = [f64; 1];
-        fn rates(&mut self, _: f64, state: &[f64; 1]) -> Result<[f64; 1], Fault> {
-            Ok([-state[0]])
-        }
-    }
-    let span = Span {
-        start: 0.0,
-        end: 1.0,
-        first_output: 1.0,
-    };
-    let mut course = GeneralizedAlpha::every(0.1)
-        .start(&mut Decay, span, [1.0])
-        .expect("a start");
-    assert_eq!(course.advance(&mut Decay), Err(Fault::NoConstraints));
-    assert_eq!((course.time(), *course.state()), (0.0, [1.0]));
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use holonom::prelude::*;
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince853, Heun, ImplicitMidpoint,
-    Kutta3, Midpoint, RadauIIA, SemiImplicitEuler, integrate::Integrator, mechanism::Orientation,
+    Kutta3, Midpoint, RadauIIA, Runs, SemiImplicitEuler,
+    mechanism::{Absolute, Orientation},
 };
-use holonom_models::HeavyTop;
+use holonom_models::{HeavyTop, RodPendulum};
 use nalgebra::Vector4;
 
 use crate::pendulum::{SWINGS, Swing, final_swing};
@@ -39,9 +40,9 @@ const fn halved(step: f64) -> [f64; 4] {
 /// The error of the pendulum at an instant against the closed form: of angle and rate, the latter
 /// over the frequency of small oscillations. The angle alone would not do, close to where the rod
 /// turns back.
-fn of_the_pendulum<P: Orientation>(
-    method: impl Formulation<f64>,
-    integrator: impl Integrator<f64>,
+fn of_the_pendulum<P: Orientation, F: Formulation<f64>>(
+    method: F,
+    integrator: impl Runs<f64, RodPendulum, F, Absolute<P>>,
     swing: Swing,
 ) -> f64 {
     const FREQUENCY: f64 = 3.8356;
@@ -50,14 +51,14 @@ fn of_the_pendulum<P: Orientation>(
 }
 
 fn rk4<P: Orientation>(method: impl Formulation<f64>) {
-    let error = |step| of_the_pendulum::<P>(method, Rk4::every(step), SWINGS[0]);
+    let error = |step| of_the_pendulum::<P, _>(method, Rk4::every(step), SWINGS[0]);
     has_order(4.0, orders(halved(1.0 / 128.0), error));
 }
 
 /// At 5 s: earlier the error of order 5 is so small that, with stabilising terms, that of order 6
 /// hides it.
 fn dormand_prince<P: Orientation>(method: impl Formulation<f64>) -> [f64; 3] {
-    let error = |step| of_the_pendulum::<P>(method, DormandPrince::every(step), SWINGS[1]);
+    let error = |step| of_the_pendulum::<P, _>(method, DormandPrince::every(step), SWINGS[1]);
     orders(halved(1.0 / 50.0), error)
 }
 
@@ -91,12 +92,12 @@ const TOP: [f64; 4] = [
 ];
 
 /// The error of the top's Euler parameters, up to their sign.
-fn of_the_top(integrator: impl Integrator<f64>) -> f64 {
+fn of_the_top(integrator: impl Runs<f64, HeavyTop, StandardLagrange>) -> f64 {
     top_and_steps(integrator).0
 }
 
 /// The same with the steps that it took.
-fn top_and_steps(integrator: impl Integrator<f64>) -> (f64, usize) {
+fn top_and_steps(integrator: impl Runs<f64, HeavyTop, StandardLagrange>) -> (f64, usize) {
     let top = HeavyTop::default();
     let report = Simulation::new(&top, StandardLagrange, integrator)
         .run(
@@ -131,8 +132,9 @@ fn dormand_prince_has_order_5_on_the_heavy_top() {
 /// A method of fixed steps on both, from these steps (s) on.
 macro_rules! has_its_order_on_both {
     ($method:ident, $order:literal, $of_pendulum:expr, $of_top:expr) => {{
-        let swing =
-            |step| of_the_pendulum::<Normalised>(StandardLagrange, $method::every(step), SWINGS[1]);
+        let swing = |step| {
+            of_the_pendulum::<Normalised, _>(StandardLagrange, $method::every(step), SWINGS[1])
+        };
         has_order($order, orders(halved($of_pendulum), swing));
         let top = |step| of_the_top($method::every(step));
         has_order($order, orders(halved($of_top), top));
@@ -151,7 +153,7 @@ fn methods_of_fixed_steps_have_their_order_on_the_pendulum_and_on_the_heavy_top(
     // turns with it.
     let swing = |step| {
         let method = AdamsBashforthMoulton4::every(step);
-        of_the_pendulum::<Normalised>(StandardLagrange, method, SWINGS[0])
+        of_the_pendulum::<Normalised, _>(StandardLagrange, method, SWINGS[0])
     };
     let observed: f64 = orders(halved(1.0 / 256.0), swing).iter().sum();
     assert!(observed / 3.0 > 4.0 - SLACK, "{observed}");
@@ -163,7 +165,7 @@ fn methods_of_fixed_steps_have_their_order_on_the_pendulum_and_on_the_heavy_top(
 #[test]
 fn dormand_prince_has_order_8_on_the_pendulum_and_on_the_heavy_top() {
     let swing = |step| {
-        of_the_pendulum::<Normalised>(StandardLagrange, DormandPrince853::every(step), SWINGS[1])
+        of_the_pendulum::<Normalised, _>(StandardLagrange, DormandPrince853::every(step), SWINGS[1])
     };
     let top = |step| of_the_top(DormandPrince853::every(step));
     let errors = [[0.1, 0.05].map(swing), [4e-3, 2e-3].map(top)];
@@ -181,7 +183,10 @@ fn tolerance(relative: f64) -> Tolerance<f64> {
 }
 
 /// The order at which errors fall with the number of steps.
-fn order_of_steps<I: Integrator<f64>>(method: impl Fn(f64) -> I, tolerances: [f64; 2]) -> f64 {
+fn order_of_steps<I: Runs<f64, HeavyTop, StandardLagrange>>(
+    method: impl Fn(f64) -> I,
+    tolerances: [f64; 2],
+) -> f64 {
     let [(coarse, few), (fine, many)] = tolerances.map(|relative| top_and_steps(method(relative)));
     println!("{few} steps {coarse:e}, {many} steps {fine:e}");
     (coarse / fine).ln() / (many as f64 / few as f64).ln()

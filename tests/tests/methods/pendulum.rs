@@ -4,9 +4,8 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use holonom::prelude::*;
 use holonom::{
-    JointHandle, Real, View,
-    integrate::Integrator,
-    mechanism::{HasAngle, Orientation},
+    JointHandle, Real, Runs, View,
+    mechanism::{Absolute, HasAngle, Orientation},
 };
 use holonom_models::RodPendulum;
 
@@ -48,7 +47,11 @@ pub(crate) fn angle<S: Real, M: Mechanism, J: HasAngle>(
 }
 
 /// `phi` and `phi'` at the end of a run from 0 to `end`.
-pub(crate) fn final_swing<F: Formulation<f64>, I: Integrator<f64>, P: Orientation>(
+pub(crate) fn final_swing<
+    F: Formulation<f64>,
+    I: Runs<f64, RodPendulum, F, Absolute<P>>,
+    P: Orientation,
+>(
     method: F,
     integrator: I,
     end: f64,

@@ -1,7 +1,7 @@
 //! Long runs: right to a hundredth, or doubted.
 
 use holonom::prelude::*;
-use holonom::{Doubt, integrate::Integrator};
+use holonom::{Doubt, Runs};
 use holonom_models::{RodPendulum, SimplePendulum};
 
 use holonom_tests::IS_EXHAUSTIVE;
@@ -15,7 +15,7 @@ struct Spinning {
 
 /// Whether a run is doubted, and the largest change of energy (of what it exchanges) that the
 /// observer saw.
-fn long<M: Mechanism, F: Formulation<f64>, I: Integrator<f64>>(
+fn long<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
     model: &M,
     (method, integrator, projected): (F, I, bool),
     duration: f64,

@@ -7,7 +7,10 @@
 use holonom::prelude::*;
 use holonom::{
     Heun, Midpoint, SemiImplicitEuler, StateParts, Stepper,
-    integrate::{BogackiShampine3, DormandPrince5, Scheme, System},
+    dynamics::Dynamics,
+    integrate::{BogackiShampine3, DormandPrince5, OneStep, SecondOrder, System},
+    measure::NoForces,
+    mechanism::{Absolute, Relative},
     mechanism::{Orientation, Raw},
 };
 
@@ -116,17 +119,11 @@ impl System<f64> for Turning {
     fn rates(&mut self, _time: f64, &p: &[f64; 4]) -> Result<[f64; 4], Fault> {
         Ok(along(p, self.axis).map(|rate| 0.5 * self.speed * rate))
     }
+}
 
+impl SecondOrder<f64> for Turning {
     /// Velocities stay.
-    fn with_new_velocities(
-        &mut self,
-        _time: f64,
-        _state: &[f64; 4],
-        _step: f64,
-        _rates: &mut [f64; 4],
-    ) -> Result<(), Fault> {
-        Ok(())
-    }
+    fn with_new_velocities(&mut self, _: f64, _: &[f64; 4], _: f64, _: &mut [f64; 4]) {}
 }
 
 /// A body on which nothing acts, turning about a principal axis.
@@ -157,7 +154,27 @@ fn euler_parameters(state: &<Free as Mechanism>::State<f64>) -> [f64; 4] {
     core::array::from_fn(|k| coordinates[3 + k])
 }
 
-fn of_a_system<K: Scheme<f64>>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4] {
+/// The equations of the body in some coordinates.
+type OfTheBody<C> = Dynamics<f64, Free, StandardLagrange, NoForces, C>;
+
+/// Methods that move all of these.
+trait Steps:
+    OneStep<f64, Turning>
+    + OneStep<f64, OfTheBody<Absolute<Raw>>>
+    + OneStep<f64, OfTheBody<Absolute>>
+    + OneStep<f64, OfTheBody<Relative>>
+{
+}
+
+impl<K> Steps for K where
+    K: OneStep<f64, Turning>
+        + OneStep<f64, OfTheBody<Absolute<Raw>>>
+        + OneStep<f64, OfTheBody<Absolute>>
+        + OneStep<f64, OfTheBody<Relative>>
+{
+}
+
+fn of_a_system<K: OneStep<f64, Turning>>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4] {
     let (mut p, mut system) = (START, Turning { axis, speed });
     for step in 0..STEPS {
         let time = STEP * f64::from(step);
@@ -168,7 +185,10 @@ fn of_a_system<K: Scheme<f64>>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4
     p
 }
 
-fn of_a_body<K: Scheme<f64>, P: Orientation>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4] {
+fn of_a_body<K, P: Orientation>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4]
+where
+    K: OneStep<f64, OfTheBody<Absolute<P>>>,
+{
     let mut stepper = Stepper::new(&Free::default(), StandardLagrange, scheme)
         .expect("acceptable")
         .orientation::<P>();
@@ -179,7 +199,11 @@ fn of_a_body<K: Scheme<f64>, P: Orientation>(scheme: K, axis: [f64; 3], speed: f
     euler_parameters(&state)
 }
 
-fn of_a_ball<K: Scheme<f64>>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4] {
+fn of_a_ball<K: OneStep<f64, OfTheBody<Relative>>>(
+    scheme: K,
+    axis: [f64; 3],
+    speed: f64,
+) -> [f64; 4] {
     let mut stepper = Stepper::<f64, _, _, _>::new(&Free::default(), StandardLagrange, scheme)
         .expect("acceptable")
         .joint_coordinates();
@@ -193,7 +217,7 @@ fn of_a_ball<K: Scheme<f64>>(scheme: K, axis: [f64; 3], speed: f64) -> [f64; 4] 
 /// Ten seconds about every axis: Euler parameters alone and of a body, as they are and brought to
 /// length 1 after every step, against `|p|^2 - 1` and the error of half the angle (rad) that are
 /// returned.
-fn drifts<K: Scheme<f64>>(scheme: K, polynomial: &Polynomial, speed: f64) -> [f64; 2] {
+fn drifts<K: Steps>(scheme: K, polynomial: &Polynomial, speed: f64) -> [f64; 2] {
     let steps = f64::from(STEPS);
     let z = 0.5 * speed * STEP;
     let gain = (steps * (polynomial.gain)(z).ln_1p()).exp_m1();

@@ -1,7 +1,7 @@
 //! A02: the four-bar and the double four-bar against the motion of a parallelogram.
 
 use holonom::prelude::*;
-use holonom::{BodyHandle, JointCoordinates, integrate::Integrator};
+use holonom::{BodyHandle, JointCoordinates, Runs};
 use holonom_models::{DoubleFourBar, FourBar};
 use holonom_tests::IS_EXHAUSTIVE;
 use nalgebra::Vector3;
@@ -104,7 +104,7 @@ fn the_energy_stays() {
 
 /// Position (m) and velocity (m/s) of the pin after five turns in 10 s and ten times on a line, and
 /// the largest change of the energy (J) on the way.
-fn five_turns<M: Mechanism, F: Formulation<f64>, I: Integrator<f64> + Copy>(
+fn five_turns<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
     model: &M,
     (left, reference): (BodyHandle<M>, [f64; 4]),
     method: F,

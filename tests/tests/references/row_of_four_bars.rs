@@ -1,12 +1,12 @@
 //! A02 with five windows: ten times through a singular configuration with six ways to go on, in
 //! both descriptions.
 
-use holonom::integrate::Integrator;
 use holonom::prelude::*;
 use holonom_models::QuintupleFourBar;
 use holonom_models::problems::QuintupleParallelogram;
 use holonom_study::trade::Problem;
 use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::RunsBoth;
 use nalgebra::Vector3;
 
 use super::{change_of_energy, tight};
@@ -23,7 +23,7 @@ const PARALLEL: f64 = 1e-10;
 /// With a projection after every step: without one a violation decides which way the mechanism goes
 /// on, and standard multipliers, penalty and augmented Lagrangian of most settings leave the way of
 /// the parallelograms or are refused (the run is doubted, or ends with a fault).
-fn error<F: Formulation<f64>, I: Integrator<f64> + Copy>(
+fn error<F: Formulation<f64>, I: RunsBoth<QuintupleFourBar, F>>(
     by_joints: bool,
     method: F,
     integrator: I,

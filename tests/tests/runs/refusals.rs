@@ -72,7 +72,7 @@ fn a_coefficient_must_be_positive() {
     names(&refused(method), "max_iterations", 0.0);
 }
 
-fn run<I: holonom::integrate::Integrator<f64>>(
+fn run<I: holonom::Runs<f64, RodPendulum, StandardLagrange>>(
     integrator: I,
     interval: core::ops::RangeInclusive<f64>,
     reporting: holonom::Reporting<f64>,

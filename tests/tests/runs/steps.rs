@@ -2,8 +2,9 @@
 
 use holonom::prelude::*;
 use holonom::{
-    Fault,
-    integrate::{DormandPrince5, FixedStep, Scheme},
+    Fault, Runs,
+    dynamics::Dynamics,
+    integrate::{DormandPrince5, OneStep},
 };
 use holonom_assembler::accuracy::assert_close;
 use holonom_models::{DrivenSliderCrank, RodPendulum};
@@ -13,7 +14,11 @@ use crate::flat::flat;
 /// Adds up without rounding.
 const STEP: f64 = 1.0 / 128.0;
 
-fn by_steps<F: Formulation<f64>, K: Scheme<f64>>(method: F, scheme: K) -> Vec<f64> {
+fn by_steps<F, K>(method: F, scheme: K) -> Vec<f64>
+where
+    F: Formulation<f64>,
+    K: OneStep<f64, Dynamics<f64, RodPendulum, F>>,
+{
     let rod = RodPendulum::default();
     let mut stepper = Stepper::new(&rod, method, scheme).expect("acceptable");
     let mut state = rod.described_state().expect("described");
@@ -24,10 +29,11 @@ fn by_steps<F: Formulation<f64>, K: Scheme<f64>>(method: F, scheme: K) -> Vec<f6
     flat::<f64, RodPendulum>(&state)
 }
 
-fn by_a_run<F: Formulation<f64>, K: Scheme<f64>>(
-    method: F,
-    integrator: FixedStep<f64, K>,
-) -> Vec<f64> {
+fn by_a_run<F, I>(method: F, integrator: I) -> Vec<f64>
+where
+    F: Formulation<f64>,
+    I: Runs<f64, RodPendulum, F>,
+{
     let rod = RodPendulum::default();
     let report = Simulation::new(&rod, method, integrator)
         .run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()))

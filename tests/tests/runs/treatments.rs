@@ -75,7 +75,7 @@ fn the_direct_correction_is_as_exact_as_that_by_the_mass() {
 
 /// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and
 /// by how much its bearing, a joint of the tree, was open (m).
-fn cranked<I: holonom::integrate::Integrator<f64>>(
+fn cranked<I: holonom::Runs<f64, SliderCrank, StandardLagrange>>(
     treatment: &dyn Treatment<f64, SliderCrank>,
     integrator: I,
 ) -> [f64; 3] {

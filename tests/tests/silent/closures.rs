@@ -5,7 +5,11 @@ use core::cell::Cell;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Loads, Stepper, integrate::Integrator};
+use holonom::{
+    Loads, Runs, Stepper,
+    measure::ForceLaw,
+    mechanism::{Absolute, Relative},
+};
 
 /// An arm of 1 m about x, whose motor takes an input.
 #[derive(Mechanism)]
@@ -25,11 +29,12 @@ type Inputs = <Arm as Mechanism>::Inputs<f64>;
 type State = <Arm as Mechanism>::State<f64>;
 
 /// What a run of a second says under a law.
-fn run<I: Integrator<f64>>(
-    integrator: I,
-    law: impl Fn(f64, &State, &mut Loads<'_, f64, Arm>),
-    joints: bool,
-) -> Result<State, Fault> {
+fn run<I, L>(integrator: I, law: L, joints: bool) -> Result<State, Fault>
+where
+    L: Fn(f64, &State, &mut Loads<'_, f64, Arm>),
+    I: Runs<f64, Arm, StandardLagrange, Absolute, ForceLaw<L>>
+        + Runs<f64, Arm, StandardLagrange, Relative, ForceLaw<L>>,
+{
     let arm = Arm::default();
     let simulation = Simulation::new(&arm, StandardLagrange, integrator).forces(law);
     let nothing = |_: &Sample<'_, f64, Arm>| ControlFlow::Continue(());

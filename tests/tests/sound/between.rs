@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 use holonom::joints::{AngleDriver, Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    Adams, AdamsBashforthMoulton4, DormandPrince853, Doubt, Heun, Midpoint, RadauIIA, Sample,
-    integrate::Integrator,
+    Adams, AdamsBashforthMoulton4, DormandPrince853, Doubt, Heun, Midpoint, RadauIIA, Runs, Sample,
 };
+use holonom_tests::RunsBoth;
 
 /// An arm that is swung to and fro.
 #[derive(Mechanism)]
@@ -48,7 +48,7 @@ fn reports_within_steps_do_not_disturb_the_balance_of_energy() {
         relative: 1e-10,
         absolute: 1e-11,
     };
-    fn check<I: Integrator<f64> + Copy>(integrator: I) {
+    fn check<I: RunsBoth<Driven, StandardLagrange>>(integrator: I) {
         let arm = Driven::default();
         let motor = Driven::HANDLES.motor;
         let run = |at_steps: bool, by_joints: bool| {
@@ -106,7 +106,7 @@ fn orientations_that_lag_are_doubted_in_both_descriptions() {
 
 #[test]
 fn short_steps_that_lag_are_doubted_by_as_much() {
-    fn check<I: Integrator<f64>>(integrator: I, until: f64) {
+    fn check<I: Runs<f64, Wheel, StandardLagrange>>(integrator: I, until: f64) {
         let wheel = Wheel::default();
         let mut off = 0.0;
         let report = Simulation::new(&wheel, StandardLagrange, integrator)

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use holonom::forces::{Actuator, ConstantMoment, SpringDamper, TorsionalActuator};
 use holonom::joints::{AngleDriver, Prismatic, Revolute};
+use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::{
-    Doubt, Doubts, GeneralizedAlpha, Heun, ImplicitMidpoint, Midpoint, integrate::Integrator,
-};
+use holonom::{Doubt, Doubts, GeneralizedAlpha, Heun, ImplicitMidpoint, Midpoint, Runs};
+use holonom_tests::RunsBoth;
 
 /// A cart on a spring and a damper, 1 rad/s, drawn out by a metre.
 #[derive(Mechanism)]
@@ -38,27 +38,20 @@ fn exact(ratio: f64, time: f64) -> f64 {
 }
 
 /// What the cart is off by at the worst (m), and what is doubted; `None` where the step is refused.
-fn oscillation(
-    ratio: f64,
-    integrator: impl Integrator<f64>,
-    is_by_joints: bool,
-) -> Option<(f64, Doubts)> {
+fn oscillation<I, C>(ratio: f64, integrator: I) -> Option<(f64, Doubts)>
+where
+    I: Runs<f64, Oscillator, StandardLagrange, C>,
+    C: Coordinates<Oscillator>,
+{
     let oscillator = Oscillator::new(2.0 * ratio).expect("acceptable");
-    let simulation = Simulation::new(&oscillator, StandardLagrange, integrator);
     let mut off = 0.0_f64;
-    let observe = |sample: &Sample<'_, f64, Oscillator>| {
-        let place = sample.displacement(Oscillator::HANDLES.track) + 1.0;
-        off = off.max((place - exact(ratio, sample.time())).abs());
-        ControlFlow::Continue(())
-    };
-    let span = 0.0..=30.0;
-    let report = if is_by_joints {
-        simulation
-            .joint_coordinates()
-            .run(span, every_step(), observe)
-    } else {
-        simulation.run(span, every_step(), observe)
-    };
+    let report = Simulation::new(&oscillator, StandardLagrange, integrator)
+        .coordinates::<C>()
+        .run(0.0..=30.0, every_step(), |sample| {
+            let place = sample.displacement(Oscillator::HANDLES.track) + 1.0;
+            off = off.max((place - exact(ratio, sample.time())).abs());
+            ControlFlow::Continue(())
+        });
     Some((off, report.ok()?.doubts()))
 }
 
@@ -70,14 +63,14 @@ fn oscillations_that_are_off_are_doubted() {
         for step in [0.01, 0.03, 0.1, 0.2, 0.3, 0.5] {
             let alpha = GeneralizedAlpha::every(step);
             let damped = alpha.spectral_radius(0.0);
-            let implicit = ImplicitMidpoint::every(step);
+            let (implicit, midpoint) = (ImplicitMidpoint::every(step), Midpoint::every(step));
             let runs = [
-                ("Heun", oscillation(ratio, Heun::every(step), true)),
-                ("Midpoint", oscillation(ratio, Midpoint::every(step), true)),
-                ("bodies", oscillation(ratio, Midpoint::every(step), false)),
-                ("implicit", oscillation(ratio, implicit, true)),
-                ("alpha", oscillation(ratio, alpha, false)),
-                ("damped alpha", oscillation(ratio, damped, false)),
+                ("Heun", oscillation::<_, Relative>(ratio, Heun::every(step))),
+                ("Midpoint", oscillation::<_, Relative>(ratio, midpoint)),
+                ("bodies", oscillation::<_, Absolute>(ratio, midpoint)),
+                ("implicit", oscillation::<_, Relative>(ratio, implicit)),
+                ("alpha", oscillation::<_, Absolute>(ratio, alpha)),
+                ("damped alpha", oscillation::<_, Absolute>(ratio, damped)),
             ];
             for (name, run) in runs {
                 let Some((off, doubts)) = run else {
@@ -158,7 +151,12 @@ macro_rules! doubts {
     };
 }
 
-fn doubts_of_exact_motions(integrator: impl Integrator<f64>) -> [Doubts; 5] {
+fn doubts_of_exact_motions<I>(integrator: I) -> [Doubts; 5]
+where
+    I: Runs<f64, Thrown, StandardLagrange>
+        + RunsBoth<Wheel, StandardLagrange>
+        + RunsBoth<Driven, StandardLagrange>,
+{
     let thrown = Thrown::default();
     let [free, pushed] = [0.0, 0.1].map(|moment| Wheel::new(moment).expect("acceptable"));
     let driven = Driven::default();
@@ -253,7 +251,10 @@ struct Weight {
 /// steps tells.
 #[test]
 fn what_is_no_lag_is_doubted() {
-    fn with(integrator: impl Integrator<f64>) {
+    fn with<I>(integrator: I)
+    where
+        I: Runs<f64, Across, StandardLagrange> + Runs<f64, Weight, StandardLagrange>,
+    {
         let (across, weight) = (Across::default(), Weight::default());
         for found in [
             doubts!(Simulation::new(&across, StandardLagrange, integrator)),
@@ -289,7 +290,7 @@ struct Late {
 /// Of what rests nothing lags behind.
 #[test]
 fn a_late_start_is_not_doubted() {
-    fn with(integrator: impl Integrator<f64>) {
+    fn with(integrator: impl RunsBoth<Late, StandardLagrange>) {
         let late = Late::default();
         let simulation = Simulation::new(&late, StandardLagrange, integrator).joint_coordinates();
         let report = simulation.run(0.0..=200.0, every(1.0), |_| ControlFlow::Continue(()));

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{integrate::Integrator, state::Array};
+use holonom::{Runs, state::Array};
 
 /// A body that nothing holds, at 20 rad/s about a principal axis.
 #[derive(Mechanism)]
@@ -45,7 +45,7 @@ fn off(p: &[f64], turned: f64) -> f64 {
 fn errors<M, I>(mechanism: &M, rate: f64, integrator: I, duration: f64) -> [f64; 2]
 where
     M: Mechanism,
-    I: Integrator<f64>,
+    I: Runs<f64, M, StandardLagrange>,
 {
     let mut worst = [0.0_f64; 2];
     Simulation::new(mechanism, StandardLagrange, integrator)

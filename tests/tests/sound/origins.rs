@@ -3,7 +3,7 @@
 use holonom::forces::SpringDamper;
 use holonom::joints::{AngleDriver, PointOnLine, Revolute};
 use holonom::prelude::*;
-use holonom::{error::NotFinite, integrate::Integrator};
+use holonom::{Runs, error::NotFinite, measure::ForceLaw, mechanism::Absolute};
 
 /// A bead on a wire, and a spring that has no length where the bead passes its end.
 #[derive(Mechanism)]
@@ -33,11 +33,19 @@ struct Wild {
     motor: AngleDriver,
 }
 
-fn origin<F: Formulation<f64>, I: Integrator<f64>>(
-    method: F,
-    integrator: I,
-    closure: bool,
-) -> NotFinite {
+type Law = fn(f64, &<Bead as Mechanism>::State<f64>, &mut Loads<'_, f64, Bead>);
+
+fn law(time: f64, _: &<Bead as Mechanism>::State<f64>, loads: &mut Loads<'_, f64, Bead>) {
+    loads.force(Bead::HANDLES.bead, [0.1, 0.0, 0.0]);
+    let moment = if time < 0.05 { 0.0 } else { f64::NAN };
+    loads.moment(Bead::HANDLES.other, [moment, 0.0, 0.0]);
+}
+
+fn origin<F, I>(method: F, integrator: I, closure: bool) -> NotFinite
+where
+    F: Formulation<f64>,
+    I: Runs<f64, Bead, F> + Runs<f64, Bead, F, Absolute, ForceLaw<Law>>,
+{
     let bead = Bead::default();
     let handles = Bead::HANDLES;
     let mut state = bead.described_state().expect("described");
@@ -49,11 +57,7 @@ fn origin<F: Formulation<f64>, I: Integrator<f64>>(
     let simulation = Simulation::new(&bead, method, integrator).initial_state(state);
     let error = if closure {
         simulation
-            .forces(|time, _, loads| {
-                loads.force(handles.bead, [0.1, 0.0, 0.0]);
-                let moment = if time < 0.05 { 0.0 } else { f64::NAN };
-                loads.moment(handles.other, [moment, 0.0, 0.0]);
-            })
+            .forces(law as Law)
             .run(0.0..=0.2, every(0.1), |_| ControlFlow::Continue(()))
     } else {
         simulation.run(0.0..=0.2, every(0.1), |_| ControlFlow::Continue(()))

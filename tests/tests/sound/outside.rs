@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use holonom::forces::{Actuator, ConstantMoment, PointForce};
 use holonom::joints::{AngleDriver, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, ImplicitMidpoint, Real, SemiImplicitEuler, integrate::Integrator};
+use holonom::{Doubt, ImplicitMidpoint, Real, Runs, SemiImplicitEuler};
 use holonom_models::RodPendulum;
 
 holonom::force! {
@@ -77,7 +77,7 @@ struct Far {
     hinge: Revolute,
 }
 
-fn doubts<S: Real, M: Mechanism, I: Integrator<S>>(
+fn doubts<S: Real, M: Mechanism, I: Runs<S, M, StandardLagrange>>(
     mechanism: &M,
     integrator: I,
     duration: S,

@@ -3,7 +3,8 @@
 
 use holonom::joints::{ConstantVelocity, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, Heun, JointCoordinates, Rk4, Sample, integrate::Integrator};
+use holonom::{Doubt, Heun, JointCoordinates, Rk4, Sample};
+use holonom_tests::RunsBoth;
 
 use holonom_tests::IS_EXHAUSTIVE;
 
@@ -61,7 +62,7 @@ fn is_told<M, F, I>(
 where
     M: JointCoordinates,
     F: Formulation<f64>,
-    I: Integrator<f64> + Copy,
+    I: RunsBoth<M, F>,
 {
     let mut simulation = Simulation::new(model, method, integrator);
     if is_projected {

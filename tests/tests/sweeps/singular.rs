@@ -6,9 +6,10 @@ use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
     Adams, Bdf, BodyHandle, BogackiShampine, DormandPrince853, Doubt, Heun, JointCoordinates,
-    RadauIIA, Rk4, Sample, SemiImplicitEuler, dynamics::Dynamics, integrate::Integrator,
+    RadauIIA, Rk4, Runs, Sample, SemiImplicitEuler, dynamics::Dynamics, mechanism::Relative,
 };
 use holonom_models::FourBar;
+use holonom_tests::RunsBoth;
 use nalgebra::Vector3;
 
 use holonom_tests::IS_EXHAUSTIVE;
@@ -185,7 +186,7 @@ const BUDGET: usize = if IS_EXHAUSTIVE { 500_000 } else { 50_000 };
 /// What a step or a report may take beyond what is left of the budget.
 const OVER: usize = 100;
 
-fn run<M: JointCoordinates, F: Formulation<f64>, I: Integrator<f64>>(
+fn run<M: JointCoordinates, F: Formulation<f64>, I: RunsBoth<M, F>>(
     model: &M,
     mark: &Mark<M>,
     (method, integrator): (F, I),
@@ -464,7 +465,7 @@ fn equations_that_are_kept_hide_nothing_by_joints() {
 /// each.
 #[test]
 fn what_the_watch_looks_at_is_no_part_of_a_run() {
-    fn check(integrator: impl Integrator<f64>) {
+    fn check(integrator: impl Runs<f64, Rhombus, StandardLagrange, Relative>) {
         let model = Rhombus::default();
         for (is_projected, step) in [(false, 0.013), (true, 0.013), (false, 2.0), (true, 2.0)] {
             let run = |is_watched: bool| {

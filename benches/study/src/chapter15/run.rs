@@ -2,10 +2,10 @@
 
 use holonom::{
     AugmentedLagrangian, Baumgarte, BodyHandle, DormandPrince, Fault, Formulation, JointHandle,
-    Mechanism, Penalty, Sample, StandardLagrange, Tolerance,
+    Mechanism, Penalty, Runs, Sample, StandardLagrange, Tolerance,
     dynamics::Dynamics,
-    integrate::{Integrator, Span},
-    mechanism::{Chapter15, HasAngle},
+    integrate::Span,
+    mechanism::{Absolute, Chapter15, HasAngle},
 };
 
 use super::outcome::{Instant, Outcome, Prices};
@@ -204,7 +204,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
     ///
     /// # Errors
     /// [`StudyError::Run`] where the run stops.
-    pub fn record<F: Formulation<f64>, I: Integrator<f64>>(
+    pub fn record<F: Formulation<f64>, I: Runs<f64, M, F, Absolute<Chapter15>>>(
         &self,
         method: Method,
         formulation: F,

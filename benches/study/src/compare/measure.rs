@@ -9,8 +9,8 @@ use std::time::Instant;
 use holonom::{
     AugmentedLagrangian, Baumgarte, Fault, Formulation, JointCoordinates, Mechanism, Penalty, Real,
     Rk4, Scalar as _, StandardLagrange, StateParts as _,
-    dynamics::{Dynamics, RigidSteps},
-    integrate::{Scheme as _, System},
+    dynamics::Dynamics,
+    integrate::{OneStep as _, System},
     measure::NoForces,
     mechanism::{Absolute, Coordinates as Kernels, Evaluation, Kernel, Operations, Relative},
     state::{Array as _, Vector as _},
@@ -78,7 +78,7 @@ impl<S: Real, M: Mechanism + Default, F: Formulation<S>, C: Kernels<M>> Solved<S
     }
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, C: RigidSteps<M>> Subject<S> for Solved<S, M, F, C> {
+impl<S: Real, M: Mechanism, F: Formulation<S>, C: Kernels<M>> Subject<S> for Solved<S, M, F, C> {
     type System = Dynamics<S, M, F, NoForces, C>;
     type Evaluation = Evaluation<S, M, C>;
 

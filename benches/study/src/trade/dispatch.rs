@@ -3,17 +3,18 @@
 use std::ops::ControlFlow;
 
 use holonom::{
-    AugmentedLagrangian, Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, Projection,
-    Real, Sample, Simulation, StandardLagrange,
-    dynamics::{Dynamics, RigidSteps},
+    AugmentedLagrangian, Baumgarte, JointCoordinates, Mechanism, Penalty, Projection, Real, Sample,
+    Simulation, StandardLagrange,
+    dynamics::Dynamics,
     every,
-    integrate::{Span, System},
+    integrate::Span,
     measure::NoForces,
     mechanism::Kernel,
     run::{DirectCorrection, TreeRecovery, VelocityProjection},
 };
 
 use super::integration::{Integration, with_own_type};
+use super::offered::{Described, Offered, Studied};
 use super::problem::{InBoth, Problem};
 use super::setting::{Formulated, Setting, Treatment, augmented_lagrangian, baumgarte, penalty};
 use super::subject::{Observation, Start, state, stopped};
@@ -27,13 +28,13 @@ use crate::timing::Contestant;
 pub(super) trait Task<'a, P: Problem + 'a> {
     type Outcome;
 
-    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
+    fn by_bodies<S: Real + 'static, F: Studied<S> + 'static>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
     ) -> Result<Self::Outcome, StudyError>;
 
-    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
+    fn by_joints<S: Real + 'static, F: Studied<S> + 'static>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -55,7 +56,7 @@ pub(super) trait JointsOf<P: Problem> {
         problem: &'a P,
     ) -> Result<Treated<'a, S, P::Mechanism>, StudyError>;
 
-    fn run<'a, S: Real + 'static, F: Formulation<S> + 'static, T: Task<'a, P>>(
+    fn run<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         task: T,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -84,7 +85,7 @@ impl<P: InBoth> JointsOf<P> for WithJoints {
         }
     }
 
-    fn run<'a, S: Real + 'static, F: Formulation<S> + 'static, T: Task<'a, P>>(
+    fn run<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         task: T,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -108,7 +109,7 @@ impl<P: Problem> JointsOf<P> for WithoutJoints {
         Err(without_joints())
     }
 
-    fn run<'a, S: Real + 'static, F: Formulation<S> + 'static, T: Task<'a, P>>(
+    fn run<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         _task: T,
         _formulation: F,
         _treated: Treated<'a, S, P::Mechanism>,
@@ -179,7 +180,7 @@ where
     J: JointsOf<P>,
     P: Problem + 'a,
     T: Task<'a, P>,
-    F: Formulation<S> + 'static,
+    F: Studied<S> + 'static,
 {
     match by {
         Coordinates::Bodies => task.by_bodies::<S, F>(formulation, treated),
@@ -196,7 +197,7 @@ fn span_of<S: Real>(span: &Span<f64>) -> Span<S> {
 }
 
 /// A simulation, before it is told its description.
-fn simulation<'a, S: Real, P: Problem, F: Formulation<S> + 'static>(
+fn simulation<'a, S: Real, P: Problem, F: Studied<S> + 'static>(
     problem: &'a P,
     formulation: F,
     (integration, start): (Integration, <P::Mechanism as Mechanism>::State<S>),
@@ -220,7 +221,7 @@ pub(super) struct Observe<'a, P> {
 impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
     type Outcome = Observation;
 
-    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
+    fn by_bodies<S: Real + 'static, F: Studied<S> + 'static>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -233,7 +234,7 @@ impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
         observed(self.problem, &run)
     }
 
-    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
+    fn by_joints<S: Real + 'static, F: Studied<S> + 'static>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -252,12 +253,12 @@ impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
 
 type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, Integration, NoForces, C>;
 
-fn observed<S: Real, P: Problem, F: Formulation<S>, C>(
+fn observed<S: Real, P: Problem, F: Studied<S>, C>(
     problem: &P,
     run: &Run<'_, S, P::Mechanism, F, C>,
 ) -> Result<Observation, StudyError>
 where
-    C: RigidSteps<P::Mechanism>,
+    C: Described<P::Mechanism>,
 {
     let span = span_of::<S>(&problem.span());
     let mut seen = Observation::default();
@@ -294,7 +295,11 @@ pub(super) struct Time<'a, 's, P> {
 }
 
 impl<'a, P: Problem> Time<'a, '_, P> {
-    fn bare<S: Real + 'a, Y: System<S> + 'a>(&self, system: Y, start: Y::State) -> Contestant<'a> {
+    fn bare<S, Y>(&self, system: Y, start: Y::State) -> Contestant<'a>
+    where
+        S: Real + 'a,
+        Y: Offered<S> + 'a,
+    {
         let (span, name) = (span_of::<S>(&self.problem.span()), self.setting.name());
         let integration = self.setting.integration;
         if P::IS_INLINED {
@@ -310,12 +315,12 @@ impl<'a, P: Problem> Time<'a, '_, P> {
 }
 
 /// A run without watch and readings; its evaluations.
-fn bare_run<S: Real, P: Problem, F: Formulation<S>, C>(
+fn bare_run<S: Real, P: Problem, F: Studied<S>, C>(
     problem: &P,
     run: Run<'_, S, P::Mechanism, F, C>,
 ) -> Result<u64, StudyError>
 where
-    C: RigidSteps<P::Mechanism>,
+    C: Described<P::Mechanism>,
 {
     let span = span_of::<S>(&problem.span());
     let report = run
@@ -331,7 +336,7 @@ where
 impl<'a, P: Problem> Task<'a, P> for Time<'a, '_, P> {
     type Outcome = Contestant<'a>;
 
-    fn by_bodies<S: Real + 'static, F: Formulation<S> + 'static>(
+    fn by_bodies<S: Real + 'static, F: Studied<S> + 'static>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -351,7 +356,7 @@ impl<'a, P: Problem> Task<'a, P> for Time<'a, '_, P> {
         Ok(self.bare(dynamics, start))
     }
 
-    fn by_joints<S: Real + 'static, F: Formulation<S> + 'static>(
+    fn by_joints<S: Real + 'static, F: Studied<S> + 'static>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,

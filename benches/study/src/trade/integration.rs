@@ -4,15 +4,17 @@
 use holonom::{
     Fault, Heun, ImplicitMidpoint, Kutta3, Midpoint, Real, Rk4, SemiImplicitEuler, Tolerance,
     integrate::{
-        AdamsCourse, AdamsFixedCourse, AdaptiveCourse, AlphaEnd, AlphaStep, BdfCourse,
+        AdamsCourse, AdamsFixedCourse, AdaptiveCourse, Advance, AlphaEnd, AlphaStep, BdfCourse,
         BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, FixedCourse,
-        GeneralizedAlphaCourse, Integrator, RadauCourse, Span, System,
+        GeneralizedAlphaCourse, Integrator, Method, RadauCourse, RigidConstraints, SecondOrder,
+        Span, System,
     },
     state::Vector,
 };
 
 use super::grid::two_digits;
-use crate::chapter15::Method;
+use super::offered::Offered;
+use crate::chapter15::Method as Formulated;
 use crate::compare::Coordinates;
 
 /// The integrators: one row is all that this study knows of one.
@@ -74,12 +76,12 @@ macro_rules! integrators {
         }
 
         impl Integration {
-            fn begin<S: Real, Y: System<S>>(
+            fn begin<S: Real, X: Vector<S>>(
                 self,
-                system: &mut Y,
+                system: &mut Behind<'_, S, X>,
                 span: Span<S>,
-                state: Y::State,
-            ) -> Result<AnyCourse<S, Y::State>, Fault> {
+                state: X,
+            ) -> Result<AnyCourse<S, X>, Fault> {
                 type Of<S, X> = AnyCourse<S, X>;
                 Ok(match self.family {
                     $(Family::$family => {
@@ -185,11 +187,11 @@ impl Family {
     /// Whether it moves what is described and formulated so: all methods do, but those that solve
     /// for rigid constraints themselves.
     #[must_use]
-    pub const fn moves(self, coordinates: Coordinates, method: Method) -> bool {
+    pub const fn moves(self, coordinates: Coordinates, formulation: Formulated) -> bool {
         !matches!(self, Self::GeneralizedAlpha)
             || matches!(
-                (coordinates, method),
-                (Coordinates::Bodies, Method::Standard)
+                (coordinates, formulation),
+                (Coordinates::Bodies, Formulated::Standard)
             )
     }
 }
@@ -233,10 +235,14 @@ impl Integration {
     }
 }
 
-impl<S: Real> Integrator<S> for Integration {
-    type Course<X: Vector<S>> = AnyCourse<S, X>;
+impl<S: Real> Method<S> for Integration {
+    holonom::__hooks_of_method!(with_own_type);
+}
 
-    fn start<Y: System<S>>(
+impl<S: Real, Y: Offered<S>> Integrator<S, Y> for Integration {
+    type Course = AnyCourse<S, Y::State>;
+
+    fn start(
         &self,
         system: &mut Y,
         span: Span<S>,
@@ -244,8 +250,6 @@ impl<S: Real> Integrator<S> for Integration {
     ) -> Result<AnyCourse<S, Y::State>, Fault> {
         self.begin(&mut Behind { system }, span, state)
     }
-
-    holonom::__hooks_of_integrator!(with_own_type);
 }
 
 impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
@@ -257,27 +261,29 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
         on_course!(self, course => course.state())
     }
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
-        let system = &mut Behind { system };
-        on_course!(self, course => course.advance(system))
-    }
-
-    fn at<Y: System<S, State = X>>(&mut self, system: &mut Y, time: S) -> Result<X, Fault> {
-        let system = &mut Behind { system };
-        on_course!(self, course => course.at(system, time))
-    }
-
-    fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
-        let system = &mut Behind { system };
-        on_course!(self, course => course.better_end(system))
-    }
-
     fn replace(&mut self, state: X) {
         on_course!(self, course => course.replace(state));
     }
 
     fn counts(&self) -> Counts {
         on_course!(self, course => course.counts())
+    }
+}
+
+impl<S: Real, Y: Offered<S>> Advance<S, Y> for AnyCourse<S, Y::State> {
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
+        let system = &mut Behind { system };
+        on_course!(self, course => course.advance(system))
+    }
+
+    fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault> {
+        let system = &mut Behind { system };
+        on_course!(self, course => course.at(system, time))
+    }
+
+    fn better_end(&self, system: &mut Y) -> Result<Option<Y::State>, Fault> {
+        let system = &mut Behind { system };
+        on_course!(self, course => course.better_end(system))
     }
 }
 
@@ -288,7 +294,7 @@ struct Behind<'a, S: Real, X: Vector<S>> {
 }
 
 /// A system whose Jacobian is part of its object.
-trait WithJacobian<S: Real>: System<S> {
+trait WithJacobian<S: Real>: Offered<S> {
     fn jacobian_of(
         &mut self,
         time: S,
@@ -298,7 +304,7 @@ trait WithJacobian<S: Real>: System<S> {
     ) -> Result<usize, Fault>;
 }
 
-impl<S: Real, Y: System<S>> WithJacobian<S> for Y {
+impl<S: Real, Y: Offered<S>> WithJacobian<S> for Y {
     fn jacobian_of(
         &mut self,
         time: S,
@@ -335,21 +341,22 @@ impl<S: Real, X: Vector<S>> System<S> for Behind<'_, S, X> {
         self.system.jacobian_of(time, state, rates, columns)
     }
 
-    fn with_new_velocities(
-        &mut self,
-        time: S,
-        state: &X,
-        step: S,
-        rates: &mut X,
-    ) -> Result<(), Fault> {
-        self.system.with_new_velocities(time, state, step, rates)
-    }
-
-    fn step_on_constraints(&mut self, asked: AlphaStep<'_, S, X>) -> Result<AlphaEnd<X>, Fault> {
-        self.system.step_on_constraints(asked)
-    }
-
     fn settle(&mut self, state: &mut X, rates: Option<&mut X>) {
         self.system.settle(state, rates);
+    }
+}
+
+impl<S: Real, X: Vector<S>> SecondOrder<S> for Behind<'_, S, X> {
+    fn with_new_velocities(&mut self, time: S, state: &X, step: S, rates: &mut X) {
+        self.system.with_new_velocities(time, state, step, rates);
+    }
+}
+
+impl<S: Real, X: Vector<S>> RigidConstraints<S> for Behind<'_, S, X> {
+    /// # Panics
+    /// Where [`Family::moves`] is not so: nothing asks for such a run.
+    fn step_on_constraints(&mut self, asked: AlphaStep<'_, S, X>) -> Result<AlphaEnd<X>, Fault> {
+        let solved = self.system.on_constraints(asked);
+        solved.expect("generalized-alpha is asked for bodies with standard multipliers alone")
     }
 }

@@ -8,7 +8,7 @@ use super::coefficients::{Coefficients, HIGHEST, Row};
 use crate::error::Fault;
 use crate::integrate::controller::Controller;
 use crate::integrate::record::{Reached, reached};
-use crate::integrate::{Counted, Counts, Course, Span, System, named};
+use crate::integrate::{Advance, Counts, Course, Slopes, Span, System, named};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
@@ -149,10 +149,7 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         end: S,
     ) -> Result<Trial<S, X>, Fault> {
         let predicted = self.predict(step);
-        let mut counted = Counted {
-            system,
-            counts: &mut self.reached.counts,
-        };
+        let mut counted = Slopes::counted(system, &mut self.reached.counts);
         if let Err(fault) = counted.stage(end, &predicted, &mut self.reached.slope) {
             return Err(refused(system, end, &predicted, Some(fault)).unwrap_or(fault));
         }
@@ -169,10 +166,7 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         }
         let weight = step * self.coefficients.g[self.order + 1];
         let state = predicted.plus([(weight, &surprise)]);
-        let mut counted = Counted {
-            system,
-            counts: &mut self.reached.counts,
-        };
+        let mut counted = Slopes::counted(system, &mut self.reached.counts);
         if let Err(fault) = counted.stage(end, &state, &mut self.reached.slope) {
             return Err(refused(system, end, &state, Some(fault)).unwrap_or(fault));
         }
@@ -214,8 +208,10 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
 
 impl<S: Real, X: Vector<S>> Course<S, X> for AdamsCourse<S, X> {
     reached!();
+}
 
-    fn advance<Y: System<S, State = X>>(&mut self, system: &mut Y) -> Result<(), Fault> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsCourse<S, Y::State> {
+    fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         if !self.reached.is_known {
             self.renew(system)?;
         }
@@ -262,7 +258,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdamsCourse<S, X> {
         }
     }
 
-    fn at<Y: System<S, State = X>>(&mut self, _system: &mut Y, time: S) -> Result<X, Fault> {
+    fn at(&mut self, _system: &mut Y, time: S) -> Result<Y::State, Fault> {
         let back = time - self.reached.time;
         let weights = self.coefficients.within(back);
         let mut slope = zero(&self.reached.slope);
@@ -277,8 +273,8 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdamsCourse<S, X> {
 /// Why a trial failed at a state, or why rates there are not finite; `None` where they are.
 #[cold]
 #[inline(never)]
-fn refused<S: Real, X: Vector<S>>(
-    system: &mut dyn System<S, State = X>,
+fn refused<S: Real, X: Vector<S>, Y: System<S, State = X>>(
+    system: &mut Y,
     time: S,
     state: &X,
     fault: Option<Fault>,

@@ -4,7 +4,7 @@ use super::pairs::{Spinning, pairs, starts};
 use super::{Spring, curve, curved, distance, equation, errors, order, span};
 use crate::Fault;
 use crate::integrate::{
-    AdamsBashforthMoulton4, Counts, Course as _, Integrator as _, Rk4, Span, System,
+    AdamsBashforthMoulton4, Advance as _, Counts, Course as _, Integrator as _, Rk4, Span, System,
 };
 
 #[test]
@@ -49,6 +49,7 @@ fn it_is_exact_for_polynomials_and_ends_at_the_end() {
         );
         course.at(&mut system, 0.99 * end).unwrap();
         assert_eq!(course.counts().evaluations, evaluations);
+        drop(system);
         assert_eq!(calls, evaluations);
     }
 }
@@ -142,7 +143,7 @@ fn a_corrected_state_keeps_the_slopes_before() {
     );
 }
 
-/// What a run takes from [`crate::integrate::Integrator::turning_error`]: with `z` half the angle
+/// What a run takes from [`crate::integrate::Method::turning_error`]: with `z` half the angle
 /// of a step, an angle is off by less than `|p|`.
 #[test]
 fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
@@ -158,7 +159,7 @@ fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
     let length = a.hypot(b) - 1.0;
     let (sine, cosine) = 25.0_f64.sin_cos();
     let angle = 2.0 * (b * cosine - a * sine).atan2(a * cosine + b * sine);
-    let allowed = crate::integrate::Integrator::<f64>::turning_error(&method);
+    let allowed = crate::integrate::Method::<f64>::turning_error(&method);
     assert!(
         angle.abs() < allowed * length.abs(),
         "{angle:e} {length:e} {}",

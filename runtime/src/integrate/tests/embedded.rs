@@ -1,9 +1,8 @@
 //! The embedded pairs besides that of `ode45`.
 
-use super::{curve, curved, distance, equation, errors, order, span};
+use super::{Moves, curve, curved, distance, equation, errors, order, span};
 use crate::integrate::{
-    Adaptive, BogackiShampine, Course as _, DormandPrince853, EmbeddedPair, Integrator as _,
-    Tolerance,
+    Advance as _, BogackiShampine, Course as _, DormandPrince853, Integrator as _, Tolerance,
 };
 
 #[test]
@@ -30,10 +29,7 @@ fn dormand_and_prince_have_order_eight_and_an_interpolant_of_order_seven() {
 }
 
 /// Evaluations, accepted and rejected steps, and the largest error at ends and in middles of steps.
-fn run<K: EmbeddedPair<f64>>(
-    method: Adaptive<f64, K>,
-    is_looked_into: bool,
-) -> (usize, usize, usize, f64) {
+fn run(method: impl Moves<2>, is_looked_into: bool) -> (usize, usize, usize, f64) {
     let mut system = equation(curved);
     let mut course = method
         .start(&mut system, span(5.0, 5.0), curve(0.0))

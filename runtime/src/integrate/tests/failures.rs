@@ -4,7 +4,7 @@ use super::*;
 use crate::error::NotFinite;
 
 /// How an integration from 1 towards two seconds ends: the fault, and the last good time and state.
-fn ended<I: Integrator<f64>, Y: System<f64, State = [f64; 1]>>(
+fn ended<I: Integrator<f64, Y>, Y: System<f64, State = [f64; 1]>>(
     method: I,
     system: &mut Y,
 ) -> (Fault, f64, [f64; 1]) {

@@ -2,7 +2,8 @@
 
 use super::{Equation, Spring, curve, curved, distance, equation, errors, order, span};
 use crate::integrate::{
-    Course as _, ImplicitMidpoint, Integrator as _, NoStages, Scheme as _, Start, System,
+    Advance as _, Course as _, ImplicitMidpoint, Integrator as _, NoStages, OneStep as _, Slopes,
+    Start, System,
 };
 use crate::{Fault, JointState};
 
@@ -68,7 +69,7 @@ fn a_way_back_leads_to_the_start() {
             slope,
         };
         ImplicitMidpoint
-            .stride(system, start, step, &mut NoStages)
+            .stride(&mut Slopes::new(system), start, step, &mut NoStages)
             .unwrap()
     }
     let start = JointState::from_parts([[2.0_f64.cos(), 2.0_f64.sin()]], [], [0.3]);
@@ -177,7 +178,7 @@ fn where_rates_end_the_system_says_why() {
     assert!(matches!(refused, Err(Fault::NotDriven { .. })) && state == [1.0]);
     let refused = ImplicitMidpoint.step(&mut Until(-1.0), 0.0, &mut state, 0.1);
     assert!(matches!(refused, Err(Fault::NotDriven { .. })) && state == [1.0]);
-    let mut system: Equation<_> = equation(|_: f32, &[y]: &[f32; 1]| [-y]);
+    let mut system: Equation<'_, _, 1> = equation(|_: f32, &[y]: &[f32; 1]| [-y]);
     let mut single = [1.0];
     ImplicitMidpoint
         .step(&mut system, 0.0, &mut single, 0.1)

@@ -94,7 +94,7 @@ pub(super) fn starts<S: Real, const N: usize>(rates: [S; N]) -> (Turned<S, N>, P
 }
 
 /// The end of an integration, and what it has cost.
-fn end<S: Real, I: Integrator<S>, Y: System<S>>(
+fn end<S: Real, I: Integrator<S, Y>, Y: System<S>>(
     method: I,
     mut system: Y,
     duration: S,
@@ -133,12 +133,15 @@ fn tight() -> DormandPrince<f64> {
 
 /// Errors (rad) of the angles after a time: of the pairs, of the numbers, with the worst length of
 /// the pairs.
-pub(super) fn compared<I: Integrator<f64>, L: Law<f64, N> + Copy, const N: usize>(
+pub(super) fn compared<I, L: Law<f64, N> + Copy, const N: usize>(
     method: I,
     law: L,
     rates: [f64; N],
     duration: f64,
-) -> ([f64; N], [f64; N], f64) {
+) -> ([f64; N], [f64; N], f64)
+where
+    I: Integrator<f64, Pairs<(L, [f64; N])>> + Integrator<f64, Angles<(L, [f64; N])>>,
+{
     let (turned, plain) = starts(rates);
     let (exact, _) = end(tight(), angles(law), duration, plain);
     let (turned, _) = end(method, pairs(law), duration, turned);
@@ -209,7 +212,7 @@ fn a_wheel_turns_by_many_turns_in_a_step() {
             [0.0]
         }
     }
-    fn check<I: Integrator<f64>>(method: I) {
+    fn check<I: Integrator<f64, Pairs<(Wheel, [f64; 1])>>>(method: I) {
         let mut system = pairs(Wheel);
         let (start, _) = starts([100.0]);
         let mut course = method.start(&mut system, span(10.0, 10.0), start).unwrap();
@@ -232,7 +235,10 @@ fn a_wheel_turns_by_many_turns_in_a_step() {
 
 /// The worst difference (rad) between angles from pairs and from numbers, at ends of steps and
 /// within; the worst error of pairs at ends, and within.
-fn within<K: Scheme<f64>>(method: FixedStep<f64, K>, speed: f64) -> [f64; 3] {
+fn within<K>(method: FixedStep<f64, K>, speed: f64) -> [f64; 3]
+where
+    K: OneStep<f64, Pairs<(Spinning, [f64; 1])>> + OneStep<f64, Angles<(Spinning, [f64; 1])>>,
+{
     let (mut of_pairs, mut of_angles) = (pairs(Spinning), angles(Spinning));
     let (turned, plain) = starts([speed]);
     let mut course = method.start(&mut of_pairs, span(3.0, 3.0), turned).unwrap();

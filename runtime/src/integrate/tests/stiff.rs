@@ -4,9 +4,11 @@ use std::boxed::Box;
 use std::vec;
 use std::vec::Vec;
 
-use super::{curve, curved, distance, equation, span};
+use super::{Moves, curve, curved, distance, equation, span};
 use crate::error::Fault;
-use crate::integrate::{Bdf, Counts, Course as _, Integrator, RadauIIA, System, Tolerance};
+use crate::integrate::{
+    Advance as _, Bdf, Counts, Course as _, Integrator, RadauIIA, System, Tolerance,
+};
 use crate::state::joint_state::JointState;
 use crate::state::vector::Vector;
 
@@ -26,7 +28,7 @@ fn bdf(relative: f64) -> Bdf<f64> {
 }
 
 /// Counts, and the largest error at and within steps.
-fn run(method: impl Integrator<f64>) -> (Counts, f64, f64) {
+fn run(method: impl Moves<2>) -> (Counts, f64, f64) {
     let mut system = equation(curved);
     let mut course = method
         .start(&mut system, span(5.0, 5.0), curve(0.0))
@@ -80,7 +82,7 @@ fn backward_differentiation_keeps_its_tolerance_at_and_within_steps() {
     }
 }
 
-fn evaluations_are_counted(method: impl Integrator<f64>) {
+fn evaluations_are_counted(method: impl Moves<2>) {
     let mut calls = 0;
     let mut system = equation(|time, state: &[f64; 2]| {
         calls += 1;
@@ -94,6 +96,7 @@ fn evaluations_are_counted(method: impl Integrator<f64>) {
     }
     assert_eq!(course.time(), 5.0);
     let counts = course.counts();
+    drop((course, system));
     assert_eq!(counts.evaluations, calls);
 }
 
@@ -117,7 +120,7 @@ fn robertson(time: f64, &[a, b, c]: &[f64; 3]) -> [f64; 3] {
     [-first, first - second, second]
 }
 
-fn relaxation(method: impl Integrator<f64>, asked: f64, most: Counts) {
+fn relaxation(method: impl Moves<2>, asked: f64, most: Counts) {
     let mut system = equation(van_der_pol);
     let mut course = method
         .start(&mut system, span(2.0, 2.0), [2.0, -0.66])
@@ -164,7 +167,7 @@ fn relaxation_oscillations_come_out_as_published() {
     relaxation(Bdf::new(even), 1e-3, most(3000, 6000));
 }
 
-fn slow_reactions(method: impl Integrator<f64>, accepted: usize) {
+fn slow_reactions(method: impl Moves<3>, accepted: usize) {
     let mut system = equation(robertson);
     let mut course = method
         .start(&mut system, span(40.0, 0.4), [1.0, 0.0, 0.0])
@@ -213,7 +216,7 @@ impl System<f64> for Pair {
     }
 }
 
-fn angles_turn(method: impl Integrator<f64>, (asked, accepted): (f64, usize)) {
+fn angles_turn(method: impl Integrator<f64, Pair>, (asked, accepted): (f64, usize)) {
     // Beyond the top, so that angles count turns.
     let start = JointState::from_parts([[1.0, 0.0]; 2], [], [2.5; 2]);
     let mut course = method.start(&mut Pair, span(20.0, 20.0), start).unwrap();
@@ -239,7 +242,7 @@ fn angles_on_a_circle_turn_in_implicit_steps() {
     angles_turn(bdf(1e-9), (1e-5, 6000));
 }
 
-fn replaced(method: impl Integrator<f64>) {
+fn replaced(method: impl Moves<1>) {
     let mut system = equation(|_: f64, &[y]: &[f64; 1]| [-1e4 * (y - 1.0)]);
     let mut course = method.start(&mut system, span(1.0, 1.0), [1.0]).unwrap();
     while course.time() < 1.0 {
@@ -263,7 +266,7 @@ fn a_state_that_is_replaced_is_gone_on_from() {
 }
 
 /// A motion that is corrected after every step, here onto `|state| = 1`.
-fn corrected(method: impl Integrator<f64>, asked: f64) {
+fn corrected(method: impl Moves<2>, asked: f64) {
     let mut system = equation(|_: f64, &[x, y]: &[f64; 2]| [-y, x]);
     let mut course = method
         .start(&mut system, span(10.0, 10.0), [1.0, 0.0])
@@ -306,7 +309,7 @@ impl System<f64> for Hole {
     }
 }
 
-fn held_up(method: impl Integrator<f64>) {
+fn held_up(method: impl Integrator<f64, Hole>) {
     for told in [true, false] {
         let mut system = Hole(told);
         let mut course = method.start(&mut system, span(1.0, 1.0), [1.0]).unwrap();
@@ -327,7 +330,7 @@ fn what_cannot_be_gone_on_from_is_told_and_the_last_state_kept() {
     held_up(bdf(1e-8));
 }
 
-fn single_precision(method: impl Integrator<f32>) {
+fn single_precision(method: impl Moves<1, f32>) {
     let mut system = equation(|time: f32, &[y]: &[f32; 1]| [-1e4 * (y - time.cos()) - time.sin()]);
     let span = crate::integrate::Span {
         start: 0.0,
@@ -375,7 +378,7 @@ impl System<f64> for Boxed {
 
 #[test]
 fn states_of_ones_own_kind_move_as_arrays_do() {
-    fn moves(method: impl Integrator<f64>) {
+    fn moves(method: impl Moves<3> + Integrator<f64, Boxed>) {
         let span = span(40.0, 0.4);
         let mut array = equation(robertson);
         let mut plain = method.start(&mut array, span, [1.0, 0.0, 0.0]).unwrap();

@@ -31,7 +31,7 @@ impl System<f64> for Reader {
 }
 
 /// Times and rows of the stages, that at the start among them, and the weights of the result.
-fn tableau<K: Scheme<f64>>(scheme: K) -> (Vec<f64>, Vec<[f64; MOST]>, [f64; MOST]) {
+fn tableau<K: OneStep<f64, Reader>>(scheme: K) -> (Vec<f64>, Vec<[f64; MOST]>, [f64; MOST]) {
     let nothing = [0.0; MOST];
     let mut reader = Reader {
         times: vec![0.0],
@@ -43,14 +43,16 @@ fn tableau<K: Scheme<f64>>(scheme: K) -> (Vec<f64>, Vec<[f64; MOST]>, [f64; MOST
         slope: &slope(0),
     };
     let mut stages = scheme.stages(&nothing);
-    let result = scheme.stride(&mut reader, start, 1.0, &mut stages).unwrap();
+    let result = scheme
+        .stride(&mut Slopes::new(&mut reader), start, 1.0, &mut stages)
+        .unwrap();
     (reader.times, reader.rows, result)
 }
 
 /// By how much the conditions of an order are missed, at most: of the trees of up to four nodes and
 /// of quadrature (Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, table
 /// II.2.1).
-fn missed<K: Scheme<f64>>(scheme: K, order: i32) -> f64 {
+fn missed<K: OneStep<f64, Reader>>(scheme: K, order: i32) -> f64 {
     let (c, a, b) = tableau(scheme);
     let stages = c.len();
     let sum = |of: &dyn Fn(usize) -> f64| (0..stages).map(of).sum::<f64>();
@@ -76,7 +78,7 @@ fn missed<K: Scheme<f64>>(scheme: K, order: i32) -> f64 {
 
 #[test]
 fn tableaus_meet_the_conditions_of_their_order_and_not_of_the_next() {
-    fn check<K: Scheme<f64>>(scheme: K, order: i32, stages: usize) {
+    fn check<K: OneStep<f64, Reader>>(scheme: K, order: i32, stages: usize) {
         assert_eq!(tableau(scheme).0.len(), stages, "{scheme:?}");
         let (met, next) = (missed(scheme, order), missed(scheme, order + 1));
         assert!(met < 1e-14, "{scheme:?}: {met}");

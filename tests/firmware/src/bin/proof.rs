@@ -10,7 +10,10 @@ use core::hint::black_box;
 use holonom::prelude::*;
 use holonom::{
     Heun, Kutta3, Midpoint, Scalar, SemiImplicitEuler,
-    integrate::{DormandPrince5, Scheme},
+    dynamics::Dynamics,
+    integrate::{DormandPrince5, OneStep},
+    measure::NoForces,
+    mechanism::{Absolute, Relative},
 };
 use holonom_firmware::Number;
 use holonom_firmware::trials::{
@@ -18,11 +21,15 @@ use holonom_firmware::trials::{
 };
 use panic_never as _;
 
+/// The equations of a four-bar in some coordinates.
+type Of<F, C> = Dynamics<Number, Swing, F, NoForces, C>;
+
 /// Steps and read-outs of a four-bar by its bodies.
-fn by_bodies<F: Formulation<Number>, K: Scheme<Number>>(
-    formulation: F,
-    scheme: K,
-) -> Result<(), Fault> {
+fn by_bodies<F, K>(formulation: F, scheme: K) -> Result<(), Fault>
+where
+    F: Formulation<Number>,
+    K: OneStep<Number, Of<F, Absolute>>,
+{
     let plant = Swing::default();
     let mut stepper = Stepper::new(&plant, formulation, scheme)?;
     let mut state = plant.described_state()?;
@@ -43,10 +50,11 @@ fn by_bodies<F: Formulation<Number>, K: Scheme<Number>>(
 }
 
 /// The same by its joints.
-fn by_joints<F: Formulation<Number>, K: Scheme<Number>>(
-    formulation: F,
-    scheme: K,
-) -> Result<(), Fault> {
+fn by_joints<F, K>(formulation: F, scheme: K) -> Result<(), Fault>
+where
+    F: Formulation<Number>,
+    K: OneStep<Number, Of<F, Relative>>,
+{
     let plant = Swing::default();
     let mut stepper =
         Stepper::<Number, Swing, _, _>::new(&plant, formulation, scheme)?.joint_coordinates();
@@ -68,7 +76,13 @@ fn by_joints<F: Formulation<Number>, K: Scheme<Number>>(
     Ok(())
 }
 
-fn formulations<K: Scheme<Number>>(scheme: K) -> Result<(), Fault> {
+fn formulations<K>(scheme: K) -> Result<(), Fault>
+where
+    K: Moves<StandardLagrange>
+        + Moves<Baumgarte<Number>>
+        + Moves<Penalty<Number>>
+        + Moves<AugmentedLagrangian<Number>>,
+{
     by_bodies(StandardLagrange, scheme)?;
     by_bodies(Baumgarte::default(), scheme)?;
     by_bodies(Penalty::default(), scheme)?;
@@ -77,6 +91,17 @@ fn formulations<K: Scheme<Number>>(scheme: K) -> Result<(), Fault> {
     by_joints(Baumgarte::default(), scheme)?;
     by_joints(Penalty::default(), scheme)?;
     by_joints(AugmentedLagrangian::default(), scheme)
+}
+
+/// Methods that take steps of the four-bar in both coordinates.
+trait Moves<F: Formulation<Number>>:
+    OneStep<Number, Of<F, Absolute>> + OneStep<Number, Of<F, Relative>>
+{
+}
+
+impl<F: Formulation<Number>, K> Moves<F> for K where
+    K: OneStep<Number, Of<F, Absolute>> + OneStep<Number, Of<F, Relative>>
+{
 }
 
 fn all() -> Result<(), Fault> {

@@ -35,7 +35,7 @@ fn momenta<M: Mechanism>(
     sums
 }
 
-fn changes<M: JointCoordinates, I: Integrator<f64>>(
+fn changes<M: JointCoordinates, I: RunsBoth<M, StandardLagrange>>(
     mechanism: &M,
     state: M::State<f64>,
     bodies: &[(BodyHandle<M>, f64, [f64; 3])],
@@ -59,14 +59,22 @@ fn changes<M: JointCoordinates, I: Integrator<f64>>(
     worst
 }
 
-fn of_linkage<I: Integrator<f64>>(data: &Data, integrator: I, by_joints: bool) -> Changes {
+fn of_linkage<I: RunsBoth<Linkage, StandardLagrange>>(
+    data: &Data,
+    integrator: I,
+    by_joints: bool,
+) -> Changes {
     let linkage = Linkage::new(data.heavy, data.arm, data.lean, data.stiffness).expect("fine");
     let handles = Linkage::HANDLES;
     let state = start(&linkage, &[handles.upper, handles.lower, handles.tip], data);
     changes(&linkage, state, &[], (integrator, by_joints))
 }
 
-fn of_floating<I: Integrator<f64>>(data: &Data, integrator: I, by_joints: bool) -> Changes {
+fn of_floating<I: RunsBoth<Floating, StandardLagrange>>(
+    data: &Data,
+    integrator: I,
+    by_joints: bool,
+) -> Changes {
     let heavy = data.heavy;
     let floating = Floating::new(heavy, data.arm, data.lean, data.stiffness).expect("fine");
     let handles = Floating::HANDLES;

@@ -7,7 +7,8 @@ mod mechanisms;
 mod reversal;
 
 use holonom::prelude::*;
-use holonom::{BodyHandle, JointCoordinates, integrate::Integrator};
+use holonom::{BodyHandle, JointCoordinates};
+use holonom_tests::RunsBoth;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -62,7 +63,7 @@ fn start<M: Mechanism>(mechanism: &M, bodies: &[BodyHandle<M>], data: &Data) -> 
 }
 
 /// Shows every sample of a run of one second, by bodies or by joints, and returns its end.
-fn run<M: JointCoordinates, I: Integrator<f64>>(
+fn run<M: JointCoordinates, I: RunsBoth<M, StandardLagrange>>(
     mechanism: &M,
     integrator: I,
     by_joints: bool,

@@ -1,7 +1,8 @@
 //! A motion that is run backwards comes to where it began, by a method that is symmetric.
 
 use holonom::{
-    Heun, ImplicitMidpoint, dynamics::Dynamics, integrate::Scheme, state::Array, state::MovingState,
+    Heun, ImplicitMidpoint, dynamics::Dynamics, integrate::OneStep, measure::NoForces,
+    mechanism::Relative, state::Array, state::MovingState,
 };
 use holonom::{StateParts, integrate::System};
 
@@ -11,7 +12,7 @@ use super::*;
 /// A second of motion there, and one back.
 fn there_and_back<Y: System<f64>>(
     system: &mut Y,
-    scheme: impl Scheme<f64>,
+    scheme: impl OneStep<f64, Y>,
     state: &mut Y::State,
     reverse: impl Fn(&mut Y::State),
 ) {
@@ -28,12 +29,16 @@ fn there_and_back<Y: System<f64>>(
 
 /// How far a motion there and back ends from where it began, by bodies and by joints: places (m)
 /// and velocities (m/s, rad/s).
-fn return_errors<M: JointCoordinates>(
+fn return_errors<M: JointCoordinates, K>(
     mechanism: &M,
     bodies: &[BodyHandle<M>],
     start: M::State<f64>,
-    scheme: impl Scheme<f64>,
-) -> [f64; 2] {
+    scheme: K,
+) -> [f64; 2]
+where
+    K: OneStep<f64, Dynamics<f64, M, StandardLagrange>>
+        + OneStep<f64, Dynamics<f64, M, StandardLagrange, NoForces, Relative>>,
+{
     let negative = |velocities: &mut [f64]| {
         for velocity in velocities {
             *velocity = -*velocity;
