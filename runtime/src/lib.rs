@@ -202,7 +202,7 @@ pub use crate::{
         Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
         Driven, Evaluation, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
         HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointParts, JointReport,
-        Kernel, Operations, Orientation, Pivot, Rank, RedundantRow, Stabilisation, Terms,
+        Kernel, Operations, Orientation, Pivot, Rank, RedundantRow, Relative, Stabilisation, Terms,
     },
     state::{Array, JointState, State},
 };

@@ -302,6 +302,7 @@ macro_rules! __stub_mechanism {
                 type Constants<__S: $crate::Scalar> = [__S; 0];
                 type Coefficients<__S: $crate::Scalar> = [__S; 0];
                 type Factors<__S: $crate::Scalar> = [__S; 0];
+                type Coordinates = $crate::mechanism::Absolute;
                 type Handles = __Handles<Self>;
                 const HANDLES: __Handles<Self> = __Handles {
                     $($field: $crate::__stub_mechanism!(@value $([$length])? $kind $($path)?),)*

@@ -87,7 +87,7 @@ pub struct Dynamics<
     M: Mechanism,
     F: Formulation<S>,
     A = NoForces,
-    C: Coordinates<M> = Absolute,
+    C: Coordinates<M> = <M as Mechanism>::Coordinates,
 > {
     parameters: M::Parameters<S>,
     absolute: AbsoluteEquations<S, M>,
@@ -135,8 +135,9 @@ fn equations<S: Real, M: Mechanism, F: Formulation<S>>(
     })
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
-    /// Prepares the kernels, without forces beyond the description.
+impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F, NoForces, M::Coordinates> {
+    /// Prepares the kernels in the coordinates that the attribute of the mechanism names, without
+    /// forces beyond the description.
     ///
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
@@ -144,9 +145,10 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F> {
         let stabilisation = formulation.stabilisation()?;
         let parameters = parameters(mechanism)?;
         mechanism.check_likes::<S>(None)?;
+        let absolute = equations::<S, M, F>(&parameters, &formulation, &stabilisation)?;
         Ok(Self {
-            absolute: equations::<S, M, F>(&parameters, &formulation, &stabilisation)?,
-            own: (),
+            own: M::Coordinates::own(&parameters, &stabilisation, &absolute),
+            absolute,
             parameters,
             stabilisation,
             formulation,

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use crate::error::ParameterError;
 use crate::math::scalar::{Real, Scalar};
-use crate::mechanism::coordinates::Evaluation;
+use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::mechanism::report::Report;
 use crate::state::vector::{Array, StateParts};
@@ -41,6 +41,10 @@ pub trait Mechanism: Sized + 'static {
     type Velocities<S: Scalar>: Array<S>;
     /// One number per constraint equation: multipliers, `Phi`, `Phi'`, `gamma`.
     type Multipliers<S: Scalar>: Array<S>;
+    /// The coordinates in which its equations of motion are solved where nothing else is said:
+    /// [`Relative`](crate::mechanism::Relative) with `#[mechanism(coordinates = "joints")]`, else
+    /// [`Absolute`](crate::mechanism::Absolute).
+    type Coordinates: Coordinates<Self>;
     /// The blocks of the Jacobian one after the other, see [`Report::blocks`].
     type Jacobian<S: Scalar>: Array<S>;
     /// Values that are set once per mechanism, and inputs.

@@ -188,7 +188,9 @@ where
         observe: &mut impl FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<KinematicReport<S, M::State<S>>, Fault> {
-        let dynamics = Dynamics::new(self.mechanism, self.formulation)?.with_forces(&self.forces);
+        let dynamics = Dynamics::new(self.mechanism, self.formulation)?
+            .with_forces(&self.forces)
+            .absolute_coordinates();
         let state = self
             .initial
             .unwrap_or_else(|| M::initial_state(dynamics.constants()));

@@ -29,7 +29,15 @@ use crate::watch::Watch;
 ///
 /// `A` says which forces come on top of those of the description, `C` in which coordinates the
 /// equations of motion are solved.
-pub struct Simulation<'a, S: Real, M: Mechanism, F, I, A = NoForces, C = Absolute> {
+pub struct Simulation<
+    'a,
+    S: Real,
+    M: Mechanism,
+    F,
+    I,
+    A = NoForces,
+    C = <M as Mechanism>::Coordinates,
+> {
     mechanism: &'a M,
     formulation: F,
     integrator: I,
@@ -45,9 +53,15 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, A = NoForces, C = Absolut
     coordinates: PhantomData<C>,
 }
 
-impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Method<S>> Simulation<'a, S, M, F, I> {
-    /// A simulation from the state that the attributes describe, with Euler parameters normalised
-    /// inside the evaluation, without further forces and without corrections.
+impl<'a, S, M, F, I> Simulation<'a, S, M, F, I, NoForces, M::Coordinates>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Method<S>,
+{
+    /// A simulation from the state that the attributes describe, in the coordinates that the
+    /// attribute of the mechanism names, without further forces and without corrections.
     #[must_use]
     pub fn new(mechanism: &'a M, formulation: F, integrator: I) -> Self {
         Self {
@@ -358,7 +372,7 @@ where
 ///     run.map_or(0, |report| report.evaluations)
 /// }
 /// ```
-pub trait Runs<S, M, F, C = Absolute, A = NoForces>:
+pub trait Runs<S, M, F, C = <M as Mechanism>::Coordinates, A = NoForces>:
     for<'f> Integrator<S, Dynamics<S, M, F, &'f A, C>>
 where
     S: Real,

@@ -59,7 +59,7 @@ pub struct Stepper<
     F: Formulation<S>,
     K,
     A = NoForces,
-    C: Coordinates<M> = Absolute,
+    C: Coordinates<M> = <M as Mechanism>::Coordinates,
 > {
     dynamics: Dynamics<S, M, F, A, C>,
     scheme: K,
@@ -80,8 +80,15 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, A: Clone, C: Coordinates
     }
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, K: Scheme<S>> Stepper<S, M, F, K> {
-    /// Prepares the kernels; the time begins at zero.
+impl<S, M, F, K> Stepper<S, M, F, K, NoForces, M::Coordinates>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K: Scheme<S>,
+{
+    /// Prepares the kernels in the coordinates that the attribute of the mechanism names; the time
+    /// begins at zero.
     ///
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.

@@ -63,6 +63,7 @@ fn and<S: Copy>(rows: [S; 5], last: S) -> [S; 6] {
 }
 
 impl Mechanism for Crank {
+    type Coordinates = Absolute;
     type State<S: Scalar> = State<S, 8, 6>;
     type Velocities<S: Scalar> = [S; 6];
     type Multipliers<S: Scalar> = [S; 6];

@@ -57,6 +57,7 @@ const AXIS: [f64; 3] = [1.0, 0.0, 0.0];
 const NORMALS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Mechanism for Rod {
+    type Coordinates = Absolute;
     type State<S: Scalar> = State<S, 7, 6>;
     type Velocities<S: Scalar> = [S; 6];
     type Multipliers<S: Scalar> = [S; 5];

@@ -15,7 +15,7 @@ use super::store::Store;
 use super::straight_line::{Given, StraightLine};
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
-use crate::model::Model;
+use crate::model::{Coordinates, Model};
 use crate::plan::kernels::Kernels;
 use crate::symbolic::equations::Kernel;
 use crate::syntax::words::local;
@@ -81,6 +81,10 @@ impl Writer<'_> {
         let construction = parameters::construction(model, facade);
         let vector_rows = &kernels.vector_rows;
         let joints = self.in_joint_coordinates();
+        let default_coordinates = match model.coordinates {
+            Coordinates::Joints => quote!(#facade::Relative),
+            Coordinates::Bodies | Coordinates::Both => quote!(#facade::Absolute),
+        };
         let parts = &self.parts;
         quote! {
             #[allow(
@@ -102,6 +106,7 @@ impl Writer<'_> {
                 #documentation
                 impl #facade::Mechanism for #name {
                     #types
+                    type Coordinates = #default_coordinates;
                     type Handles = __Handles;
 
                     const HANDLES: __Handles = #handles;

@@ -11,7 +11,7 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Evaluation;
+use crate::mechanism::coordinates::{Absolute, Evaluation};
 use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
 use crate::state::vector::{Array, StateParts};
 use crate::watch::Passage;
@@ -56,7 +56,7 @@ impl<S: Real, M: Mechanism> Copy for Found<S, M> {}
 
 /// The motion under way.
 pub(super) struct Motion<S: Real, M: Mechanism, F: Formulation<S>, A> {
-    pub(super) dynamics: Dynamics<S, M, F, A>,
+    pub(super) dynamics: Dynamics<S, M, F, A, Absolute>,
     projection: Projection<S>,
     pub(super) strides: usize,
     pub(super) shortened: usize,
@@ -77,7 +77,7 @@ where
     A: AppliedForces<S, M>,
 {
     pub(super) fn new(
-        dynamics: Dynamics<S, M, F, A>,
+        dynamics: Dynamics<S, M, F, A, Absolute>,
         projection: Projection<S>,
         start: S,
         state: &M::State<S>,
