@@ -4,9 +4,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::coordinates::Writer;
 use super::report::{evaluation_name, kernel, terms_name};
-use crate::coordinates::kernels::Meaning;
+use super::writer::Writer;
+use crate::coordinates::kernels::{JointKernels, Meaning};
 use crate::symbolic::arena::Stage;
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
@@ -20,7 +20,7 @@ fn option(index: Option<usize>) -> TokenStream {
     }
 }
 
-impl Writer<'_> {
+impl Writer<'_, JointKernels> {
     /// The coordinates, what remains of the joints, and what an evaluation costs.
     pub(super) fn documentation(&self) -> TokenStream {
         let (model, kernels) = (self.model, self.kernels);

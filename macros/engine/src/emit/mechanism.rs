@@ -9,9 +9,7 @@ use super::inputs::{Inputs, inputs_of, taken};
 use super::parameters;
 use super::parts::Frame;
 use super::report::report;
-use super::rows;
-use super::solution::is_short;
-use super::store::Store;
+use super::solver::is_short;
 use super::straight_line::{Given, StraightLine};
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
@@ -24,14 +22,7 @@ use crate::syntax::words::local;
 #[must_use]
 pub fn emit(model: &Model, facade: &TokenStream) -> TokenStream {
     let kernels = Kernels::new(model);
-    let writer = Writer {
-        model,
-        kernels: &kernels,
-        facade,
-        store: Store::default(),
-        parts: TokenStream::new(),
-    };
-    writer.write()
+    Writer::new(model, &kernels, facade).write()
 }
 
 /// What a kernel returns.
@@ -59,6 +50,7 @@ impl Writer<'_> {
         let state_kernels = self.state_kernels();
         let evaluations = self.evaluations();
         let dispatch = self.dispatch();
+        let solving = self.solving();
         let (solvers, factors) = self.solvers();
         let readouts = self.readouts();
         let initial = self.initial_state();
@@ -114,6 +106,7 @@ impl Writer<'_> {
                     #stages
                     #state_kernels
                     #dispatch
+                    #solving
                     #initial
                     #readouts
                 }
@@ -191,18 +184,6 @@ impl Writer<'_> {
                 [#(#coefficient_outputs),*]
             }
         }
-    }
-
-    /// Factorisations and back-substitutions, and the array that passes between them.
-    fn solvers(&mut self) -> (TokenStream, TokenStream) {
-        let mut solvers = TokenStream::new();
-        let mut most = 0;
-        for solver in &self.kernels.solvers {
-            let (tokens, factors) = self.solver(solver);
-            solvers.extend(tokens);
-            most = most.max(factors);
-        }
-        (solvers, rows::array(most))
     }
 
     /// What is read of bodies, joints and forces.
