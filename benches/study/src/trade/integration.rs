@@ -11,9 +11,9 @@ use holonom::{
     state::Vector,
 };
 
-use super::grid::two_digits;
 use crate::chapter15::Method;
 use crate::compare::Coordinates;
+use crate::format::two_digits;
 
 /// The integrators: one row is all that this study knows of one.
 ///
