@@ -57,6 +57,14 @@ mod tests;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
+/// What the study compares with, and no interface: a correction and a reading of Euler parameters of
+/// the literature. Both are made of what the corrections and the kernels of this crate are made of,
+/// which would have to be public if they stood in the study.
+#[doc(hidden)]
+pub mod __study {
+    pub use crate::mechanism::kernels::Chapter15;
+    pub use crate::run::direct::DirectCorrection;
+}
 pub mod forces;
 #[cfg(any(doc, doctest))]
 pub mod guide;
@@ -162,15 +170,14 @@ pub mod joints;
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
 
-pub use constraints::projection::{Correction, Projection};
-pub use constraints::scales::Scales;
+pub use constraints::projection::Projection;
 pub use error::{Fault, ParameterError, SimulationError};
 pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, StandardLagrange};
 pub use forward::Forward;
 pub use integrate::{
     Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince, DormandPrince853,
     GeneralizedAlpha, Heun, ImplicitMidpoint, Kutta3, Midpoint, RadauIIA, Rk4, SemiImplicitEuler,
-    StepLimits, Tolerance,
+    Tolerance,
 };
 pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
@@ -183,10 +190,10 @@ pub use mechanism::joint_kernels::JointCoordinates;
 pub use mechanism::kernels::Mechanism;
 pub use mechanism::report::Report;
 pub use nalgebra;
-pub use run::kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
-pub use run::output::{Reporting, every, every_step};
+pub use run::kinematics::{KinematicAnalysis, KinematicReport};
+pub use run::output::{every, every_step};
 #[cfg(feature = "recorder")]
-pub use run::recorder::{RecordError, Recorder};
+pub use run::recorder::Recorder;
 pub use run::report::{RunReport, RunResult};
 pub use run::sample::Sample;
 pub use run::simulation::Simulation;

@@ -97,7 +97,7 @@ pub enum Fault {
         alpha: Option<f64>,
     },
     /// The step control found no step with an error within the tolerance, down to what the time's
-    /// own digits resolve, or to [`StepLimits::least`](crate::StepLimits::least).
+    /// own digits resolve, or to [`StepLimits::least`](crate::integrate::StepLimits::least).
     StepSizeUnderflow {
         /// The last step that was tried (s).
         step: f64,
@@ -167,7 +167,7 @@ pub enum Fault {
         largest: f64,
     },
     /// A run has taken as many evaluations as it may, see
-    /// [`StepLimits::evaluations`](crate::StepLimits::evaluations).
+    /// [`StepLimits::evaluations`](crate::integrate::StepLimits::evaluations).
     Budget {
         /// How many it has taken.
         evaluations: usize,

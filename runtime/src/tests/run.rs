@@ -1,8 +1,9 @@
 //! Runs: chapter 15 of Flores, reports, failures.
 
+use crate::__study::Chapter15;
 use crate::dynamics::Iterations;
 use crate::error::NotFinite;
-use crate::mechanism::{Chapter15, Normalised, Raw};
+use crate::mechanism::{Normalised, Raw};
 use core::ops::ControlFlow;
 
 use super::rod::{PIVOT, ROD, Rod, rod};

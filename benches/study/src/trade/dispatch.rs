@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use holonom::{
+    __study::DirectCorrection,
     AugmentedLagrangian, Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, Projection,
     Real, Sample, Simulation, StandardLagrange,
     dynamics::{Dynamics, RigidSteps},
@@ -10,7 +11,7 @@ use holonom::{
     integrate::{Span, System},
     measure::NoForces,
     mechanism::{Absolute, Kernel, Relative},
-    run::{DirectCorrection, TreeRecovery, VelocityProjection},
+    run::{TreeRecovery, VelocityProjection},
 };
 
 use super::integration::{Integration, with_own_type};
