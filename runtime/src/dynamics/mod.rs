@@ -30,6 +30,7 @@ mod watched;
 
 pub use on_constraints::RigidSteps;
 
+use core::fmt;
 use core::marker::PhantomData;
 
 pub(crate) use evaluate::Evaluator;
@@ -175,6 +176,18 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clon
             seen: self.seen,
             coordinates: PhantomData,
         }
+    }
+}
+
+/// The name of the mechanism, and how often a formulation has solved.
+impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> fmt::Debug
+    for Dynamics<S, M, F, A, C>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Dynamics")
+            .field("mechanism", &M::REPORT.name)
+            .field("iterations", &self.iterations)
+            .finish_non_exhaustive()
     }
 }
 

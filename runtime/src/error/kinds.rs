@@ -16,6 +16,7 @@ pub struct ParameterError {
 
 /// What is wrong with a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ParameterFault {
     /// NaN or infinite.
     NotFinite,
@@ -51,6 +52,7 @@ impl core::error::Error for ParameterError {}
 ///
 /// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
 #[derive(Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Fault {
     /// The state holds NaN or infinity.
     StateNotFinite,
@@ -304,6 +306,7 @@ pub enum NotFinite {
 
 /// What a joint's equations are about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Quantity {
     /// A length (m).
     Length,
@@ -334,7 +337,14 @@ impl From<ParameterError> for Fault {
     }
 }
 
-impl core::error::Error for Fault {}
+impl core::error::Error for Fault {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Parameter(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 /// A run or a step that could not go on: when, why, and the last good state.
 ///
@@ -350,4 +360,8 @@ pub struct SimulationError<X> {
     pub state: X,
 }
 
-impl<X> core::error::Error for SimulationError<X> {}
+impl<X> core::error::Error for SimulationError<X> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        Some(&self.fault)
+    }
+}

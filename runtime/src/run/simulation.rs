@@ -1,5 +1,6 @@
 //! A run of a mechanism over an interval of time.
 
+use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 use core::ops::{ControlFlow, RangeInclusive};
 
@@ -43,6 +44,30 @@ pub struct Simulation<'a, S: Real, M: Mechanism, F, I, A = NoForces, C = Absolut
     is_watched: bool,
     is_verified: bool,
     coordinates: PhantomData<C>,
+}
+
+impl<S: Real, M: Mechanism, F: Clone, I: Clone, A: Clone, C> Clone
+    for Simulation<'_, S, M, F, I, A, C>
+{
+    fn clone(&self) -> Self {
+        Self {
+            formulation: self.formulation.clone(),
+            integrator: self.integrator.clone(),
+            forces: self.forces.clone(),
+            ..*self
+        }
+    }
+}
+
+/// The name of the mechanism, the formulation and the integrator.
+impl<S: Real, M: Mechanism, F: Debug, I: Debug, A, C> Debug for Simulation<'_, S, M, F, I, A, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulation")
+            .field("mechanism", &M::REPORT.name)
+            .field("formulation", &self.formulation)
+            .field("integrator", &self.integrator)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a, S: Real, M: Mechanism, F: Formulation<S>, I: Integrator<S>> Simulation<'a, S, M, F, I> {

@@ -1,5 +1,7 @@
 //! Steps for a loop that somebody else owns.
 
+use core::fmt::{self, Debug};
+
 use crate::constraints::projection::Projection;
 use crate::dynamics::{Dynamics, Iterations, RigidSteps};
 use crate::error::Fault;
@@ -77,6 +79,18 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, A: Clone, C: Coordinates
             clock: self.clock,
             projection: self.projection,
         }
+    }
+}
+
+/// The name of the mechanism, and the method.
+impl<S: Real, M: Mechanism, F: Formulation<S>, K: Debug, A, C: Coordinates<M>> Debug
+    for Stepper<S, M, F, K, A, C>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stepper")
+            .field("mechanism", &M::REPORT.name)
+            .field("method", &self.scheme)
+            .finish_non_exhaustive()
     }
 }
 

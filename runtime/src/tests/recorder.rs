@@ -9,6 +9,7 @@ use std::vec::Vec;
 
 use super::crank::{CRANK, Crank, MOTOR, crank};
 use super::rod::{ROD, rod};
+use crate::run::RecordError;
 use crate::*;
 
 fn follow(speed: f64, mut observe: impl FnMut(&Sample<'_, f64, Crank>)) {
