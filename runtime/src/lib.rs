@@ -20,7 +20,7 @@
 //! | samples as lines of a CSV file | `Recorder`, with the feature `recorder` |
 //! | correction onto the constraints | [`Projection`] |
 //! | the kernels themselves, sizes and operation counts | [`trait@Mechanism`], [`Report`] |
-//! | states of an integrator's [`System`](integrate::System) | arrays, [`State`], [`JointState`] |
+//! | states of an integrator's [`System`](integrate::System) | arrays, [`State`](state::State), [`JointState`](state::JointState) |
 //! | numbers, and numbers that carry derivatives along | [`Scalar`], [`Real`], [`Forward`] |
 //!
 //! Units are SI, angles are in radians. The crate needs no heap and no standard library: with
@@ -122,9 +122,10 @@ pub mod joints;
 /// `#[mechanism(gravity = [x, y, z])]` on the struct: the acceleration of free fall (m/s^2,
 /// global); none if left out. `redundant = "drop"` or `"keep"` beside it says what is to be done
 /// with equations that follow from others (a door on two hinges), which are refused otherwise: see
-/// [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the motion is
-/// the same, reactions are those of the joints without these equations. Keep them, and only
-/// formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
+/// [`Rank`](crate::mechanism::Rank) and [`Report::redundant`]. Leave them out, and every
+/// formulation applies; the motion is the same, reactions are those of the joints without these
+/// equations. Keep them, and only formulations with a compliance apply ([`Penalty`],
+/// [`AugmentedLagrangian`]).
 /// `coordinates = "joints"` adds the equations of motion in joint coordinates,
 /// [`JointCoordinates`], and has those of the bodies only to be read; `"both"` has both as one
 /// kernel each, see [`guide::coordinates`]. `recursion_limit = 256` repeats what stands at the top
@@ -200,19 +201,6 @@ pub use run::simulation::Simulation;
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 pub use watch::{Doubt, Doubts, Watch};
-
-/// What generated code names.
-#[doc(hidden)]
-pub use crate::{
-    error::ParameterFault,
-    mechanism::{
-        Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
-        Driven, Evaluation, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
-        HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointParts, JointReport,
-        Kernel, Operations, Orientation, Pivot, Rank, RedundantRow, Stabilisation, Terms,
-    },
-    state::{Array, JointState, State},
-};
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in
 /// `holonom::joints`, by name.

@@ -5,6 +5,11 @@ use core::array::from_fn;
 
 use super::dense;
 use super::rod::Rod;
+use crate::mechanism::{
+    AngleParts, Block, DisplacementParts, Driven, ExplicitTime, HasAngle, HasDisplacement, Joint,
+    JointInfo, Orientation, Pivot, Stabilisation, Terms,
+};
+use crate::state::State;
 use crate::*;
 
 /// The angle is `start + speed t + acceleration t^2 / 2`.

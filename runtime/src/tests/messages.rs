@@ -2,7 +2,9 @@
 
 extern crate std;
 
+use crate::error::ParameterFault;
 use crate::error::Quantity;
+use crate::state::State;
 use core::ops::ControlFlow;
 use std::boxed::Box;
 use std::error::Error;

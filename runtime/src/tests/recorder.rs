@@ -2,6 +2,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::mechanism::Raw;
+use crate::state::State;
 use core::ops::ControlFlow;
 use std::io::{self, Write};
 use std::string::String;

@@ -7,9 +7,14 @@
 use core::array::from_fn;
 
 use super::dense;
+use crate::error::ParameterFault;
 use crate::math::quaternion::{self, rotate, rotate_back};
 use crate::math::vec3::cross;
-use crate::mechanism::orientations;
+use crate::mechanism::{
+    AngleParts, Block, BodyInfo, BodyKind, Carrier, ExplicitTime, HasAngle, Joint, JointInfo,
+    Orientation, Pivot, Rank, Stabilisation, Terms, orientations,
+};
+use crate::state::State;
 use crate::*;
 
 /// The rod; its mass is a parameter.

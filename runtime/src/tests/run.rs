@@ -3,7 +3,8 @@
 use crate::__study::Chapter15;
 use crate::dynamics::Iterations;
 use crate::error::NotFinite;
-use crate::mechanism::{Normalised, Raw};
+use crate::mechanism::{Normalised, Orientation, Raw};
+use crate::state::State;
 use core::ops::ControlFlow;
 
 use super::rod::{PIVOT, ROD, Rod, rod};

@@ -57,7 +57,7 @@ impl Writer<'_, JointKernels> {
             #[automatically_derived]
             #documentation
             impl #facade::JointCoordinates for #name {
-                type JointState<__S: #facade::Scalar> = #facade::JointState<__S, #turns, #rest, #velocities>;
+                type JointState<__S: #facade::Scalar> = #facade::__private::JointState<__S, #turns, #rest, #velocities>;
                 type ClosingMultipliers<__S: #facade::Scalar> = [__S; #rows];
                 type JointConstants<__S: #facade::Scalar> = [__S; #c];
                 type JointCoefficients<__S: #facade::Scalar> = [__S; #k];
@@ -65,7 +65,7 @@ impl Writer<'_, JointKernels> {
                 type JointFactors<__S: #facade::Scalar> = #factors;
                 type JointVelocities<__S: #facade::Scalar> = [__S; #velocities];
 
-                const JOINT_REPORT: #facade::JointReport = #report;
+                const JOINT_REPORT: #facade::__private::JointReport = #report;
 
                 fn prepare_joints<__S: #facade::Scalar>(
                     #given: &Self::Parameters<__S>,
@@ -84,7 +84,7 @@ impl Writer<'_, JointKernels> {
 
                 fn joint_coefficients<__S: #facade::Scalar>(
                     #constants: &Self::JointConstants<__S>,
-                    #stabilisation: &#facade::Stabilisation<__S>,
+                    #stabilisation: &#facade::__private::Stabilisation<__S>,
                     #compliances: &Self::ClosingMultipliers<__S>,
                 ) -> Self::JointCoefficients<__S> {
                     #coefficient_statements
@@ -174,7 +174,7 @@ impl Writer<'_, JointKernels> {
             ) -> Self::JointState<__S> {
                 #unpack
                 #statements
-                #facade::JointState::from_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
+                #facade::__private::JointState::from_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
             }
         }
     }

@@ -80,7 +80,7 @@ impl Described for JointKernels {
         let (angles, others) = outputs.split_at(self.turns);
         let (coordinates, velocities) = others.split_at(self.rest);
         quote! {
-            #facade::JointState::from_parts(
+            #facade::__private::JointState::from_parts(
                 [#([#angles, __S::constant(0.0)]),*],
                 [#(#coordinates),*],
                 [#(#velocities),*],
@@ -152,13 +152,13 @@ impl Writer<'_, JointKernels> {
             let rows = self.kernels.rows.len();
             quote! {
                 #[inline(always)]
-                fn joint_rates_into<__S: #facade::Scalar, __T: #facade::Terms>(
+                fn joint_rates_into<__S: #facade::Scalar, __T: #facade::__private::Terms>(
                     #constants: &Self::JointConstants<__S>,
                     #coefficients: &Self::JointCoefficients<__S>,
                     #time: __S,
                     #state: &Self::JointState<__S>,
                     #rates: &mut Self::JointState<__S>,
-                ) -> #facade::Pivot<__S> {
+                ) -> #facade::__private::Pivot<__S> {
                     let #multipliers = &mut [__S::constant(0.0); #rows];
                     #body
                 }
@@ -168,14 +168,14 @@ impl Writer<'_, JointKernels> {
             #rates_alone
 
             #[inline(always)]
-            fn evaluate_joints_into<__S: #facade::Scalar, __T: #facade::Terms>(
+            fn evaluate_joints_into<__S: #facade::Scalar, __T: #facade::__private::Terms>(
                 #constants: &Self::JointConstants<__S>,
                 #coefficients: &Self::JointCoefficients<__S>,
                 #time: __S,
                 #state: &Self::JointState<__S>,
                 #rates: &mut Self::JointState<__S>,
                 #multipliers: &mut Self::ClosingMultipliers<__S>,
-            ) -> #facade::Pivot<__S> {
+            ) -> #facade::__private::Pivot<__S> {
                 #body
             }
         }
@@ -215,7 +215,7 @@ impl Writer<'_, JointKernels> {
             ) -> Self::JointState<__S> {
                 #unpack
                 #statements
-                #facade::JointState::from_parts(
+                #facade::__private::JointState::from_parts(
                     [#([#angles, __S::constant(0.0)]),*],
                     [#(#others),*],
                     [__S::constant(0.0); #velocities],

@@ -84,7 +84,8 @@ impl Writer<'_> {
                 // Types of the same names may stand beside the struct.
                 use ::core::primitive::{f64, usize};
                 use ::core::assert as __holonom_assert;
-                use #facade::{Array as _, Scalar as _, StateParts as _};
+                use #facade::__private::Array as _;
+                use #facade::{Scalar as _, StateParts as _};
 
                 #handles_type
                 #inputs_type
@@ -135,7 +136,7 @@ impl Writer<'_> {
         let jacobian_size = self.kernels.jacobian.outputs.len();
         let (c, k) = (self.store.constants(), self.store.coefficients());
         quote! {
-            type State<__S: #facade::Scalar> = #facade::State<__S, #q, #u>;
+            type State<__S: #facade::Scalar> = #facade::__private::State<__S, #q, #u>;
             type Velocities<__S: #facade::Scalar> = [__S; #u];
             type Multipliers<__S: #facade::Scalar> = [__S; #m];
             type Jacobian<__S: #facade::Scalar> = [__S; #jacobian_size];
@@ -177,7 +178,7 @@ impl Writer<'_> {
             #[inline]
             fn coefficients_by_row<__S: #facade::Scalar>(
                 #constants: &Self::Constants<__S>,
-                #stabilisation: &#facade::Stabilisation<__S>,
+                #stabilisation: &#facade::__private::Stabilisation<__S>,
                 #compliances: &Self::Multipliers<__S>,
             ) -> Self::Coefficients<__S> {
                 #coefficient_statements
@@ -311,7 +312,7 @@ impl Writer<'_> {
         quote! {
             fn initial_state<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> Self::State<__S> {
                 #statements
-                #facade::State::from_parts([#(#coordinates),*], [#(#velocities),*])
+                #facade::__private::State::from_parts([#(#coordinates),*], [#(#velocities),*])
             }
         }
     }

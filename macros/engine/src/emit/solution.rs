@@ -50,7 +50,7 @@ impl Described for Kernels {
 
     fn rates(&self, facade: &TokenStream, outputs: &[TokenStream]) -> TokenStream {
         let (coordinates, velocities) = outputs.split_at(outputs.len() - self.velocities());
-        quote!(#facade::State::from_parts([#(#coordinates),*], [#(#velocities),*]))
+        quote!(#facade::__private::State::from_parts([#(#coordinates),*], [#(#velocities),*]))
     }
 
     fn multipliers(&self) -> Range<usize> {
@@ -159,7 +159,7 @@ impl Writer<'_> {
         let results = self.results();
         quote! {
             #[inline]
-            fn #function<__S: #facade::Scalar>(#arguments #results) -> #facade::Pivot<__S> {
+            fn #function<__S: #facade::Scalar>(#arguments #results) -> #facade::__private::Pivot<__S> {
                 #of_rotations(#passed &#rotations(#passed), #rates, #multipliers)
             }
         }
@@ -228,14 +228,14 @@ impl Writer<'_> {
         });
         quote! {
             #[inline(always)]
-            fn evaluate_into<__S: #facade::Scalar, __T: #facade::Terms, __P: #facade::Orientation>(
+            fn evaluate_into<__S: #facade::Scalar, __T: #facade::__private::Terms, __P: #facade::__private::Orientation>(
                 #constants: &Self::Constants<__S>,
                 #coefficients: &Self::Coefficients<__S>,
                 #time: __S,
                 #state: &Self::State<__S>,
                 #rates: &mut Self::State<__S>,
                 #multipliers: &mut Self::Multipliers<__S>,
-            ) -> #facade::Pivot<__S> {
+            ) -> #facade::__private::Pivot<__S> {
                 #evaluate
             }
         }

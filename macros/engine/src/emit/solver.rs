@@ -64,7 +64,7 @@ impl<K: Described> Writer<'_, K> {
         }
         quote! {
             #inline
-            fn #function<__S: #facade::Scalar #generic>(#arguments #results) -> #facade::Pivot<__S> {
+            fn #function<__S: #facade::Scalar #generic>(#arguments #results) -> #facade::__private::Pivot<__S> {
                 #unpack
                 #statements
                 *#rates = #rates_of_state;
@@ -211,7 +211,7 @@ impl<K: Described> Writer<'_, K> {
         let (kind, _) = judged::<K>(facade, &of_factors, &factored, &factored);
         quote! {
             #[inline(always)]
-            fn #factor<__S: #facade::Scalar, __T: #facade::Terms>(
+            fn #factor<__S: #facade::Scalar, __T: #facade::__private::Terms>(
                 #constants: &#of_constants,
                 #coefficients: &#of_coefficients,
                 #time: __S,
@@ -221,7 +221,7 @@ impl<K: Described> Writer<'_, K> {
             }
 
             #[inline(always)]
-            fn #solve<__S: #facade::Scalar, __T: #facade::Terms>(
+            fn #solve<__S: #facade::Scalar, __T: #facade::__private::Terms>(
                 #constants: &#of_constants,
                 #coefficients: &#of_coefficients,
                 #factors: &#of_factors,
@@ -244,7 +244,7 @@ fn judged<K: Described>(
 ) -> (TokenStream, TokenStream) {
     if K::IS_JUDGED {
         (
-            quote!((#of_factors, #facade::Pivot<__S>)),
+            quote!((#of_factors, #facade::__private::Pivot<__S>)),
             quote!((#factors, #pivot)),
         )
     } else {
@@ -267,7 +267,7 @@ pub(super) fn is_short(arena: &Arena, outputs: &[Expr]) -> bool {
 
 /// The verdict on recorded pivots.
 fn verdict(facade: &TokenStream, checks: &[PivotCheck], values: &[TokenStream]) -> TokenStream {
-    let mut pivot = quote!(#facade::Pivot::unchecked());
+    let mut pivot = quote!(#facade::__private::Pivot::unchecked());
     for (check, value) in checks.iter().zip(values) {
         pivot = match check {
             PivotCheck::Relative(joint) => quote!(#pivot.and(__S::abs(#value), #joint)),
