@@ -65,8 +65,9 @@ struct HingeChain {
 }
 
 fn overhead<M: Mechanism + Default>(criterion: &mut Criterion, name: &str) {
-    let mut dynamics =
-        Dynamics::new(&M::default(), StandardLagrange).expect("the mechanism is sound");
+    let mut dynamics = Dynamics::new(&M::default(), StandardLagrange)
+        .expect("the mechanism is sound")
+        .absolute_coordinates();
     let constants = *dynamics.constants();
     let stabilisation = StandardLagrange
         .stabilisation()

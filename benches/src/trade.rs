@@ -9,7 +9,7 @@ use holonom_models::problems::{Parallelogram, Pendulum};
 use holonom_study::StudyError;
 use holonom_study::compare::measure::contestants;
 use holonom_study::timing::Contestant;
-use holonom_study::trade::{Both, Subject};
+use holonom_study::trade::{Posed, Subject};
 
 use crate::opponents::START;
 use crate::yardstick::Written;
@@ -19,30 +19,30 @@ use crate::yardstick::Written;
 #[must_use]
 pub fn problems() -> Vec<Box<dyn Subject>> {
     vec![
-        Box::new(Both(Pendulum::default())),
-        Box::new(Both(Parallelogram::default())),
+        Box::new(Posed::in_both(Pendulum::default())),
+        Box::new(Posed::in_both(Parallelogram::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(DoubleParallelogram::default())),
+        Box::new(Posed::in_both(DoubleParallelogram::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(QuintupleParallelogram::default())),
+        Box::new(Posed::in_both(QuintupleParallelogram::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(LongPendulum::default())),
+        Box::new(Posed::in_both(LongPendulum::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Squeezer::default())),
+        Box::new(Posed::in_both(Squeezer::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Ring::default())),
+        Box::new(Posed::in_both(Ring::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Governor::default())),
+        Box::new(Posed::in_both(Governor::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Top::default())),
+        Box::new(Posed::in_both(Top::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Slide::default())),
+        Box::new(Posed::in_both(Slide::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Crank::default())),
+        Box::new(Posed::in_both(Crank::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Chain::default())),
+        Box::new(Posed::in_both(Chain::default())),
         #[cfg(feature = "large")]
-        Box::new(Both(Leaf::default())),
+        Box::new(Posed::in_both(Leaf::default())),
     ]
 }
 

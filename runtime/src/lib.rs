@@ -20,7 +20,7 @@
 //! | samples as lines of a CSV file | `Recorder`, with the feature `recorder` |
 //! | correction onto the constraints | [`Projection`] |
 //! | the kernels themselves, sizes and operation counts | [`trait@Mechanism`], [`Report`] |
-//! | states of an integrator's [`System`](integrate::System) | arrays, [`State`], [`JointState`] |
+//! | states of an integrator's [`System`](integrate::System) | arrays, [`State`](state::State), [`JointState`](state::JointState) |
 //! | numbers, and numbers that carry derivatives along | [`Scalar`], [`Real`], [`Forward`] |
 //!
 //! Units are SI, angles are in radians. The crate needs no heap and no standard library: with
@@ -57,6 +57,14 @@ mod tests;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
+/// What the study compares with, and no interface: a correction and a reading of Euler parameters of
+/// the literature. Both are made of what the corrections and the kernels of this crate are made of,
+/// which would have to be public if they stood in the study.
+#[doc(hidden)]
+pub mod __study {
+    pub use crate::mechanism::kernels::Chapter15;
+    pub use crate::run::direct::DirectCorrection;
+}
 pub mod forces;
 #[cfg(any(doc, doctest))]
 pub mod guide;
@@ -114,12 +122,14 @@ pub mod joints;
 /// `#[mechanism(gravity = [x, y, z])]` on the struct: the acceleration of free fall (m/s^2,
 /// global); none if left out. `redundant = "drop"` or `"keep"` beside it says what is to be done
 /// with equations that follow from others (a door on two hinges), which are refused otherwise: see
-/// [`Rank`] and [`Report::redundant`]. Leave them out, and every formulation applies; the motion is
-/// the same, reactions are those of the joints without these equations. Keep them, and only
-/// formulations with a compliance apply ([`Penalty`], [`AugmentedLagrangian`]).
-/// `coordinates = "joints"` adds the equations of motion in joint coordinates,
+/// [`Rank`](crate::mechanism::Rank) and [`Report::redundant`]. Leave them out, and every
+/// formulation applies; the motion is the same, reactions are those of the joints without these
+/// equations. Keep them, and only formulations with a compliance apply ([`Penalty`],
+/// [`AugmentedLagrangian`]).
+/// `coordinates = "joints"` solves the equations of motion in joint coordinates,
 /// [`JointCoordinates`], and has those of the bodies only to be read; `"both"` has both as one
-/// kernel each, see [`guide::coordinates`]. `recursion_limit = 256` repeats what stands at the top
+/// kernel each, and solves those of the bodies where nothing else is said, see
+/// [`guide::coordinates`]. `recursion_limit = 256` repeats what stands at the top
 /// of the crate, `#![recursion_limit = "256"]`: more than a hundred kinds of bodies, joints and
 /// forces in one mechanism need both.
 ///
@@ -162,15 +172,14 @@ pub mod joints;
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
 
-pub use constraints::projection::{Correction, Projection};
-pub use constraints::scales::Scales;
+pub use constraints::projection::Projection;
 pub use error::{Fault, ParameterError, SimulationError};
 pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, StandardLagrange};
 pub use forward::Forward;
 pub use integrate::{
     Adams, AdamsBashforthMoulton4, Bdf, BogackiShampine, DormandPrince, DormandPrince853,
     GeneralizedAlpha, Heun, ImplicitMidpoint, Kutta3, Midpoint, RadauIIA, Rk4, SemiImplicitEuler,
-    StepLimits, Tolerance,
+    Tolerance,
 };
 pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
@@ -183,29 +192,16 @@ pub use mechanism::joint_kernels::JointCoordinates;
 pub use mechanism::kernels::Mechanism;
 pub use mechanism::report::Report;
 pub use nalgebra;
-pub use run::kinematics::{KinematicAnalysis, KinematicReport, KinematicResult};
-pub use run::output::{Reporting, every, every_step};
+pub use run::kinematics::{KinematicAnalysis, KinematicReport};
+pub use run::output::{every, every_step};
 #[cfg(feature = "recorder")]
-pub use run::recorder::{RecordError, Recorder};
+pub use run::recorder::Recorder;
 pub use run::report::{RunReport, RunResult};
 pub use run::sample::Sample;
 pub use run::simulation::{Runs, Simulation};
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 pub use watch::{Doubt, Doubts, Watch};
-
-/// What generated code names.
-#[doc(hidden)]
-pub use crate::{
-    error::ParameterFault,
-    mechanism::{
-        Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
-        Driven, Evaluation, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
-        HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointParts, JointReport,
-        Kernel, Operations, Orientation, Pivot, Rank, RedundantRow, Relative, Stabilisation, Terms,
-    },
-    state::{Array, JointState, State},
-};
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in
 /// `holonom::joints`, by name.

@@ -3,11 +3,19 @@
 pub use holonom_macros::{assemble, force_impl, joint_impl};
 
 pub use crate::dynamics::likes::{Like, check_likes};
+pub use crate::error::ParameterFault;
+pub use crate::mechanism::{
+    Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
+    Driven, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle, HasDisplacement, Joint,
+    JointCounter, JointInfo, JointMotion, JointReport, Kernel, Operations, Orientation, Pivot,
+    Rank, RedundantRow, Relative, Stabilisation, Terms,
+};
+pub use crate::state::{Array, JointState, State};
 
-use crate::error::{ParameterError, ParameterFault};
+use crate::error::ParameterError;
 use crate::math::scalar::{Real, Scalar, elementary};
 use crate::mechanism::absolute::stabilised;
-use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Terms};
+use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::{scale_euler_rates, with_unit_orientations};
 use crate::state::vector::StateParts;
 

@@ -2,14 +2,17 @@
 
 #![forbid(unsafe_code)]
 
-use holonom::{Formulation, JointCoordinates, Real, Runs, mechanism::Relative};
+use holonom::{
+    Formulation, JointCoordinates, Real, Runs,
+    mechanism::{Absolute, Relative},
+};
 
 /// Whether nothing is left out of sweeps and long runs (feature `exhaustive`), or some of each is
 /// tried.
 pub const IS_EXHAUSTIVE: bool = cfg!(feature = "exhaustive");
 
 /// Methods that run a mechanism by a formulation in both coordinates.
-pub trait RunsBoth<M, F, S = f64>: Runs<S, M, F> + Runs<S, M, F, Relative>
+pub trait RunsBoth<M, F, S = f64>: Runs<S, M, F, Absolute> + Runs<S, M, F, Relative>
 where
     M: JointCoordinates,
     F: Formulation<S>,
@@ -19,7 +22,7 @@ where
 
 impl<I, M, F, S> RunsBoth<M, F, S> for I
 where
-    I: Runs<S, M, F> + Runs<S, M, F, Relative>,
+    I: Runs<S, M, F, Absolute> + Runs<S, M, F, Relative>,
     M: JointCoordinates,
     F: Formulation<S>,
     S: Real,

@@ -57,7 +57,9 @@ where
     let end = S::constant(2.0);
     let simulation = || Simulation::<S, M, _, _>::new(mechanism, formulation, *integrator);
     let run = [
-        simulation().run(S::zero()..=end, every(end), |_| ControlFlow::Continue(())),
+        simulation()
+            .absolute_coordinates()
+            .run(S::zero()..=end, every(end), |_| ControlFlow::Continue(())),
         simulation()
             .joint_coordinates()
             .run(S::zero()..=end, every(end), |_| ControlFlow::Continue(())),

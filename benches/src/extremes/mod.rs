@@ -10,7 +10,7 @@ use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::extremes::{Axis, Cell, Motion};
 use holonom_study::trade::{
-    Both, Choice, Family, Formulated, Integration, Setting, Subject, Treatment,
+    Choice, Family, Formulated, Integration, Posed, Setting, Subject, Treatment,
 };
 
 use case::{Case, ClosedForm};
@@ -124,8 +124,8 @@ impl Map {
             .rsplit("::")
             .next()
             .unwrap_or_default();
-        let made = settings(&Both(case), ways, integrations, scalar);
-        self.add_subject(place, model, made, move || Box::new(Both(case)));
+        let made = settings(&Posed::in_both(case), ways, integrations, scalar);
+        self.add_subject(place, model, made, move || Box::new(Posed::in_both(case)));
     }
 
     fn add_subject<B>(
@@ -461,7 +461,7 @@ fn loops(map: &mut Map) {
             scale: 6.0,
         };
         let ways = map.coefficients.ways_of_loop(&Treatment::ALL);
-        let subject = || Both(holonom_models::problems::Parallelogram::default());
+        let subject = || Posed::in_both(holonom_models::problems::Parallelogram::default());
         let made = BOTH
             .into_iter()
             .flat_map(|scalar| settings(&subject(), &ways, &[dormand_prince(tolerance)], scalar));

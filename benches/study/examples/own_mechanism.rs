@@ -13,7 +13,7 @@ use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{Real, View, integrate::Span};
 use holonom_study::trade::{
-    Both, Grid, Problem, Processor, Quantity, Timing, Wish, measure, recommend, report,
+    Grid, Posed, Problem, Processor, Quantity, Timing, Wish, measure, recommend, report,
 };
 
 #[derive(Mechanism)]
@@ -76,7 +76,7 @@ impl Problem for Falling {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let subject = Both(Falling(Arm::default()));
+    let subject = Posed::in_both(Falling(Arm::default()));
     let directory = Path::new("target/study/trade");
     let journal = directory.join("arm.journal");
     let grid = Grid {

@@ -44,6 +44,25 @@ fn superscript(integer: &str) -> String {
         .collect()
 }
 
+/// A positive number to two digits, as one would write it.
+#[cfg(feature = "trade")]
+pub(crate) fn two_digits(value: f64) -> f64 {
+    digits(value, 2)
+}
+
+/// A positive number to so many digits.
+#[cfg(feature = "trade")]
+pub(crate) fn digits(value: f64, count: i32) -> f64 {
+    let exponent = value.log10().floor() as i32 + 1 - count;
+    let digits = (value / 10.0_f64.powi(exponent)).round();
+    // Powers of ten that are no numbers of the machine go into the divisor.
+    if exponent < 0 {
+        digits / 10.0_f64.powi(-exponent)
+    } else {
+        digits * 10.0_f64.powi(exponent)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{fixed, power_of_ten, scientific};
@@ -63,5 +82,15 @@ mod tests {
     fn what_is_no_number_says_so() {
         assert_eq!(scientific(f64::NAN, 1), "not finite");
         assert_eq!(fixed(f64::INFINITY, 1), "not finite");
+    }
+
+    #[cfg(feature = "trade")]
+    #[test]
+    fn numbers_of_two_digits_are_those_that_one_would_write() {
+        assert_eq!(super::two_digits(0.483_388), 0.48);
+        assert_eq!(super::two_digits(3.162_277e-7), 3.2e-7);
+        assert_eq!(super::two_digits(0.001), 0.001);
+        assert_eq!(super::two_digits(9.96), 10.0);
+        assert_eq!(super::two_digits(1234.0), 1200.0);
     }
 }

@@ -11,12 +11,15 @@
 //! motion that the constraints forbid has no gradient there and stays.
 //!
 //! `set_joint.rs` sets angles and displacements in the state of the bodies and needs no generated
-//! code. The tree is the table `REPORT.carriers`. Axes are gradients of the joint's own readings,
-//! which are linear in the velocities.
+//! code. It moves what hangs on a joint (`subtree.rs`) along what the joint leaves free
+//! (`free_motion.rs`). The tree is the table `REPORT.carriers`. Axes are gradients of the joint's
+//! own readings, which are linear in the velocities.
 
 pub(crate) mod consistent_start;
+mod free_motion;
 mod set;
-pub(crate) mod set_joint;
+mod set_joint;
+pub(crate) mod subtree;
 mod way;
 
 use self::set::Set;

@@ -24,4 +24,5 @@ pub(crate) mod scales;
 pub(crate) mod self_stress;
 pub(crate) mod side;
 
-pub use projection::Moved;
+pub use projection::{Correction, Moved};
+pub use scales::Scales;

@@ -78,8 +78,7 @@ pub struct Correction<S> {
     pub velocity_violation_after: S,
     /// The largest `|Phi|` or `|Phi'|` beyond the tolerance that was kept as nearly a state of
     /// self-stress, in sizes of its row; zero where all is within. A run may keep some,
-    /// [`Projection::correct`] keeps none. Of a [`DirectCorrection`](crate::run::DirectCorrection)
-    /// also what its one application left.
+    /// [`Projection::correct`] keeps none.
     pub excused: S,
     /// How far an assembly moved; `None` of a correction of another kind.
     pub moved: Option<Moved<S>>,

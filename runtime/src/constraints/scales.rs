@@ -27,7 +27,7 @@ use crate::state::vector::{Array, StateParts};
 /// ```
 /// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
-/// use holonom::Scales;
+/// use holonom::constraints::Scales;
 ///
 /// #[derive(Mechanism)]
 /// #[mechanism(gravity = [0.0, 0.0, -9.81])]

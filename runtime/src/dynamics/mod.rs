@@ -28,6 +28,7 @@ mod system;
 mod trial;
 mod watched;
 
+use core::fmt;
 use core::marker::PhantomData;
 
 pub(crate) use evaluate::Evaluator;
@@ -60,7 +61,7 @@ use crate::watch::Seen;
 /// ```
 /// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
-/// use holonom::{dynamics::Dynamics, integrate::Scheme};
+/// use holonom::{dynamics::Dynamics, integrate::OneStep};
 ///
 /// #[derive(Mechanism)]
 /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
@@ -71,8 +72,7 @@ use crate::watch::Seen;
 ///     hinge: Revolute,
 /// }
 ///
-/// let dynamics = Dynamics::<f64, _, _>::new(&Rod::default(), StandardLagrange)?;
-/// let mut dynamics = dynamics.joint_coordinates();
+/// let mut dynamics = Dynamics::<f64, _, _>::new(&Rod::default(), StandardLagrange)?;
 /// let mut state = dynamics.initial_state()?;
 /// for step in 0..100 {
 ///     Rk4.step(&mut dynamics, 0.01 * f64::from(step), &mut state, 0.01)?;
@@ -175,6 +175,18 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clon
             seen: self.seen,
             coordinates: PhantomData,
         }
+    }
+}
+
+/// The name of the mechanism, and how often a formulation has solved.
+impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> fmt::Debug
+    for Dynamics<S, M, F, A, C>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Dynamics")
+            .field("mechanism", &M::REPORT.name)
+            .field("iterations", &self.iterations)
+            .finish_non_exhaustive()
     }
 }
 

@@ -16,6 +16,7 @@ pub struct ParameterError {
 
 /// What is wrong with a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ParameterFault {
     /// NaN or infinite.
     NotFinite,
@@ -51,6 +52,7 @@ impl core::error::Error for ParameterError {}
 ///
 /// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
 #[derive(Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Fault {
     /// The state holds NaN or infinity.
     StateNotFinite,
@@ -92,7 +94,7 @@ pub enum Fault {
         alpha: Option<f64>,
     },
     /// The step control found no step with an error within the tolerance, down to what the time's
-    /// own digits resolve, or to [`StepLimits::least`](crate::StepLimits::least).
+    /// own digits resolve, or to [`StepLimits::least`](crate::integrate::StepLimits::least).
     StepSizeUnderflow {
         /// The last step that was tried (s).
         step: f64,
@@ -162,7 +164,7 @@ pub enum Fault {
         largest: f64,
     },
     /// A run has taken as many evaluations as it may, see
-    /// [`StepLimits::evaluations`](crate::StepLimits::evaluations).
+    /// [`StepLimits::evaluations`](crate::integrate::StepLimits::evaluations).
     Budget {
         /// How many it has taken.
         evaluations: usize,
@@ -299,6 +301,7 @@ pub enum NotFinite {
 
 /// What a joint's equations are about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Quantity {
     /// A length (m).
     Length,
@@ -329,7 +332,14 @@ impl From<ParameterError> for Fault {
     }
 }
 
-impl core::error::Error for Fault {}
+impl core::error::Error for Fault {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Parameter(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 /// A run or a step that could not go on: when, why, and the last good state.
 ///
@@ -345,4 +355,8 @@ pub struct SimulationError<X> {
     pub state: X,
 }
 
-impl<X> core::error::Error for SimulationError<X> {}
+impl<X> core::error::Error for SimulationError<X> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        Some(&self.fault)
+    }
+}

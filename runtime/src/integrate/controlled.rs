@@ -71,7 +71,7 @@ macro_rules! step_limits {
             }
 
             /// Takes no step shorter than this (s); see
-            /// [`StepLimits::least`](crate::StepLimits::least).
+            /// [`StepLimits::least`](crate::integrate::StepLimits::least).
             #[must_use]
             pub fn least_step(mut self, step: S) -> Self {
                 self.limits.least = Some(step);
@@ -79,7 +79,7 @@ macro_rules! step_limits {
             }
 
             /// Takes no step longer than this (s); see
-            /// [`StepLimits::largest`](crate::StepLimits::largest).
+            /// [`StepLimits::largest`](crate::integrate::StepLimits::largest).
             #[must_use]
             pub fn largest_step(mut self, step: S) -> Self {
                 self.limits.largest = Some(step);
@@ -87,7 +87,7 @@ macro_rules! step_limits {
             }
 
             /// Lets a run take so many evaluations; see
-            /// [`StepLimits::evaluations`](crate::StepLimits::evaluations).
+            /// [`StepLimits::evaluations`](crate::integrate::StepLimits::evaluations).
             #[must_use]
             pub fn budget(mut self, evaluations: usize) -> Self {
                 self.limits.evaluations = evaluations;
@@ -107,7 +107,7 @@ macro_rules! controlled {
             /// The error to be allowed in a step.
             pub tolerance: $crate::Tolerance<S>,
             /// What steps are held to besides.
-            pub limits: $crate::StepLimits<S>,
+            pub limits: $crate::integrate::StepLimits<S>,
         }
 
         $crate::integrate::controlled::step_limits!($method<S>);
@@ -118,7 +118,7 @@ macro_rules! controlled {
             pub const fn new(tolerance: $crate::Tolerance<S>) -> Self {
                 Self {
                     tolerance,
-                    limits: $crate::StepLimits::new(),
+                    limits: $crate::integrate::StepLimits::new(),
                 }
             }
         }

@@ -3,7 +3,7 @@
 use nalgebra::{Quaternion, Vector3};
 
 use crate::assembly::assembled;
-use crate::assembly::set_joint::Carrying;
+use crate::assembly::subtree::Subtree;
 use crate::constraints::projection::{Correction, Projection};
 use crate::error::{Fault, ParameterError};
 use crate::math::quaternion::{
@@ -195,7 +195,7 @@ pub trait MechanismExt: Mechanism {
         angle: S,
     ) -> Result<(), Fault> {
         let constants = self.constants::<S>()?;
-        *state = Carrying::<S, Self>::of(&constants, state, joint.index())?.set_angle(angle)?;
+        *state = Subtree::<S, Self>::of(&constants, state, joint.index())?.set_angle(angle)?;
         Ok(())
     }
 
@@ -212,7 +212,7 @@ pub trait MechanismExt: Mechanism {
         rate: S,
     ) -> Result<(), Fault> {
         let constants = self.constants::<S>()?;
-        *state = Carrying::<S, Self>::of(&constants, state, joint.index())?.set_angle_rate(rate)?;
+        *state = Subtree::<S, Self>::of(&constants, state, joint.index())?.set_angle_rate(rate)?;
         Ok(())
     }
 
@@ -229,8 +229,8 @@ pub trait MechanismExt: Mechanism {
         displacement: S,
     ) -> Result<(), Fault> {
         let constants = self.constants::<S>()?;
-        let carrying = Carrying::<S, Self>::of(&constants, state, joint.index())?;
-        *state = carrying.set_displacement(displacement)?;
+        let subtree = Subtree::<S, Self>::of(&constants, state, joint.index())?;
+        *state = subtree.set_displacement(displacement)?;
         Ok(())
     }
 
@@ -247,8 +247,8 @@ pub trait MechanismExt: Mechanism {
         rate: S,
     ) -> Result<(), Fault> {
         let constants = self.constants::<S>()?;
-        let carrying = Carrying::<S, Self>::of(&constants, state, joint.index())?;
-        *state = carrying.set_displacement_rate(rate)?;
+        let subtree = Subtree::<S, Self>::of(&constants, state, joint.index())?;
+        *state = subtree.set_displacement_rate(rate)?;
         Ok(())
     }
 
@@ -271,8 +271,8 @@ pub trait MechanismExt: Mechanism {
     ) -> Result<(), Fault> {
         let constants = self.constants::<S>()?;
         let [x, y, z, w] = orientation.coords.into();
-        let carrying = Carrying::<S, Self>::of(&constants, state, joint.index())?;
-        *state = carrying.set_orientation(&[w, x, y, z])?;
+        let subtree = Subtree::<S, Self>::of(&constants, state, joint.index())?;
+        *state = subtree.set_orientation(&[w, x, y, z])?;
         Ok(())
     }
 

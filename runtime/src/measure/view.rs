@@ -1,10 +1,12 @@
 //! A state at a time, to be read.
 
-use crate::math::vec3::square;
+use core::fmt::{self, Debug};
+
 use nalgebra::Vector3;
 
 use crate::error::Fault;
 use crate::math::scalar::Scalar;
+use crate::math::vec3::square;
 use crate::measure::access::{MechanismExt, Pose};
 use crate::measure::reaction::{Wrench, wrench};
 use crate::mechanism::handle::{
@@ -30,6 +32,17 @@ impl<S: Scalar, M: Mechanism> Clone for View<'_, S, M> {
 }
 
 impl<S: Scalar, M: Mechanism> Copy for View<'_, S, M> {}
+
+/// The name of the mechanism, the time and the state.
+impl<S: Scalar, M: Mechanism> Debug for View<'_, S, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("View")
+            .field("mechanism", &M::REPORT.name)
+            .field("time", &self.time)
+            .field("state", self.state)
+            .finish_non_exhaustive()
+    }
+}
 
 impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// A view of a state; for the kernels it is read with Euler parameters of length 1.

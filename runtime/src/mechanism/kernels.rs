@@ -468,7 +468,8 @@ impl Terms for Compliant {
 pub trait Orientation: Copy + Debug + Default + 'static {
     /// Whether `A(p)` is evaluated at `p / |p|`.
     const NORMALISED: bool;
-    /// Whether the rates of Euler parameters are those of `p / |p|` too, see [`Chapter15`].
+    /// Whether the rates of Euler parameters are those of `p / |p|` too.
+    #[doc(hidden)]
     const NORMALISED_RATES: bool = false;
 }
 

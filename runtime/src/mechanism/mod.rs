@@ -24,8 +24,7 @@ pub use coordinates::{
 pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint};
 pub use joint_kernels::{Freedom, JointCounter, JointMotion, JointParts, JointReport};
 pub use kernels::{
-    Chapter15, Compliant, Normalised, Orientation, Pivot, Plain, Raw, Rigid, Stabilisation,
-    Stabilised, Terms,
+    Compliant, Normalised, Orientation, Pivot, Plain, Raw, Rigid, Stabilisation, Stabilised, Terms,
 };
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{

@@ -3,6 +3,7 @@
 
 mod motion;
 
+use core::fmt::{self, Debug};
 use core::ops::{ControlFlow, RangeInclusive};
 
 use self::motion::Motion;
@@ -50,6 +51,26 @@ pub struct KinematicAnalysis<'a, S: Real, M: Mechanism, F, A = NoForces> {
     forces: A,
     initial: Option<M::State<S>>,
     projection: Projection<S>,
+}
+
+impl<S: Real, M: Mechanism, F: Clone, A: Clone> Clone for KinematicAnalysis<'_, S, M, F, A> {
+    fn clone(&self) -> Self {
+        Self {
+            formulation: self.formulation.clone(),
+            forces: self.forces.clone(),
+            ..*self
+        }
+    }
+}
+
+/// The name of the mechanism, and the formulation.
+impl<S: Real, M: Mechanism, F: Debug, A> Debug for KinematicAnalysis<'_, S, M, F, A> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("KinematicAnalysis")
+            .field("mechanism", &M::REPORT.name)
+            .field("formulation", &self.formulation)
+            .finish_non_exhaustive()
+    }
 }
 
 /// What a kinematic analysis came to.

@@ -5,7 +5,7 @@
 //! more than a call, and runs need no type for each. The treatment `TreeRecovery` goes from bodies
 //! to joint coordinates and back by the kernels of starts.
 //!
-//! `direct.rs` is the correction by the pseudo-inverse of `D`. The generated factors, of the
+//! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The generated factors, of the
 //! matrix with the masses, precondition its conjugate gradients, so no kernel is generated for it.
 //!
 //! `kinematics/motion.rs` goes in strides that the motion bounds. It accepts a pose whose position
@@ -32,5 +32,8 @@ pub(crate) mod stepper;
 pub(crate) mod within;
 
 pub use companion::{BodyError, Verification};
-pub use direct::DirectCorrection;
+pub use kinematics::KinematicResult;
+pub use output::Reporting;
 pub use post_step::{Treatment, TreeRecovery, VelocityProjection};
+#[cfg(feature = "recorder")]
+pub use recorder::RecordError;

@@ -7,6 +7,7 @@ use crate::math::scalar::Real;
 
 /// When a run shows its state to the observer; the start and the end are always among the times.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Reporting<S> {
     /// At `t0 + k dt` (s) and at the end.
     Every(S),

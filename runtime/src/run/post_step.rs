@@ -14,7 +14,6 @@ use crate::run::direct::DirectCorrection;
 /// | treatment | what it corrects | what it costs |
 /// |---|---|---|
 /// | [`Projection`] | positions and velocities, by the least movement in the metric of the mass | as much as 22 evaluations of a pendulum, 15 of a four-bar, by their bodies; more where steps are long |
-/// | [`DirectCorrection`] | the same by the pseudo-inverse of the Jacobian: by the least movement whatever the masses are, once | as much as 48 and 37 |
 /// | [`VelocityProjection`] | velocities alone | as much as 15 and 9 |
 /// | [`TreeRecovery`] | whatever the joints of a spanning tree allow: positions and velocities of bodies follow from their orientations and from each other, without an iteration | as much as 7 and 1; closing joints keep their violation |
 ///

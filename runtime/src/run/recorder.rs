@@ -38,7 +38,7 @@ use crate::run::sample::Sample;
 /// ```
 /// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
-/// use holonom::{RecordError, Recorder};
+/// use holonom::{Recorder, run::RecordError};
 ///
 /// #[derive(Mechanism)]
 /// #[mechanism(gravity = [0.0, 0.0, -9.81])]

@@ -1,6 +1,7 @@
 //! What an observer of a run sees.
 
 use core::cell::OnceCell;
+use core::fmt::{self, Debug};
 use core::ops::Deref;
 
 use crate::dynamics::evaluate::Evaluate;
@@ -22,6 +23,13 @@ pub struct Sample<'a, S: Real, M: Mechanism> {
     dynamics: &'a dyn Evaluate<S, M>,
     evaluation: OnceCell<Result<Evaluation<S, M>, Fault>>,
     companion: Option<M::State<S>>,
+}
+
+/// As the view of the state at hand.
+impl<S: Real, M: Mechanism> Debug for Sample<'_, S, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Debug::fmt(&self.view, f)
+    }
 }
 
 impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {

@@ -1,5 +1,6 @@
 //! A run of a mechanism over an interval of time.
 
+use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 use core::ops::{ControlFlow, RangeInclusive};
 
@@ -28,7 +29,8 @@ use crate::watch::Watch;
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
 /// `A` says which forces come on top of those of the description, `C` in which coordinates the
-/// equations of motion are solved.
+/// equations of motion are solved: those that the attribute of the mechanism names, or others that
+/// are asked for.
 pub struct Simulation<
     'a,
     S: Real,
@@ -51,6 +53,30 @@ pub struct Simulation<
     is_watched: bool,
     is_verified: bool,
     coordinates: PhantomData<C>,
+}
+
+impl<S: Real, M: Mechanism, F: Clone, I: Clone, A: Clone, C> Clone
+    for Simulation<'_, S, M, F, I, A, C>
+{
+    fn clone(&self) -> Self {
+        Self {
+            formulation: self.formulation.clone(),
+            integrator: self.integrator.clone(),
+            forces: self.forces.clone(),
+            ..*self
+        }
+    }
+}
+
+/// The name of the mechanism, the formulation and the integrator.
+impl<S: Real, M: Mechanism, F: Debug, I: Debug, A, C> Debug for Simulation<'_, S, M, F, I, A, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulation")
+            .field("mechanism", &M::REPORT.name)
+            .field("formulation", &self.formulation)
+            .field("integrator", &self.integrator)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a, S, M, F, I> Simulation<'a, S, M, F, I, NoForces, M::Coordinates>
@@ -170,7 +196,6 @@ where
     /// # }
     /// let rod = Rod::default();
     /// let report = Simulation::new(&rod, StandardLagrange, Rk4::every(0.01))
-    ///     .joint_coordinates()
     ///     .verified()
     ///     .run(0.0..=10.0, every(0.1), |sample| {
     ///         let error = sample.error_of(|view| view.angle(Rod::HANDLES.hinge));

@@ -1,5 +1,7 @@
 //! Steps for a loop that somebody else owns.
 
+use core::fmt::{self, Debug};
+
 use crate::constraints::projection::Projection;
 use crate::dynamics::{Dynamics, Iterations};
 use crate::error::Fault;
@@ -19,7 +21,8 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 /// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
 /// [`DormandPrince5`](crate::integrate::DormandPrince5) 6), allocates nothing and does not panic.
 ///
-/// `C` says in which coordinates the equations of motion are solved. In absolute coordinates a
+/// `C` says in which coordinates the equations of motion are solved: those that the attribute of the
+/// mechanism names, or others that are asked for. In absolute coordinates a
 /// state is one of the bodies. In relative ones it is a [`JointCoordinates::JointState`]: a start
 /// is set in a state of the bodies, by handle as ever, and [`Stepper::state_of`] takes it over;
 /// what is to be read is read of [`Stepper::bodies`]. Joints of the tree cannot open there;
@@ -40,8 +43,7 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 ///
 /// let rod = Rod::default();
 /// let hinge = Rod::HANDLES.hinge;
-/// let stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
-/// let mut stepper = stepper.joint_coordinates();
+/// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
 /// let mut start = rod.described_state()?;
 /// rod.set_angle(&mut start, hinge, 0.5)?;
 /// let mut state = stepper.state_of(&start)?;
@@ -77,6 +79,18 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, A: Clone, C: Coordinates
             clock: self.clock,
             projection: self.projection,
         }
+    }
+}
+
+/// The name of the mechanism, and the method.
+impl<S: Real, M: Mechanism, F: Formulation<S>, K: Debug, A, C: Coordinates<M>> Debug
+    for Stepper<S, M, F, K, A, C>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stepper")
+            .field("mechanism", &M::REPORT.name)
+            .field("method", &self.scheme)
+            .finish_non_exhaustive()
     }
 }
 

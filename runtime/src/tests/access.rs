@@ -3,6 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::rod::{PIVOT, ROD, Rod, rod};
+use crate::state::State;
 use crate::*;
 
 fn state() -> State<f64, 7, 6> {

@@ -1,6 +1,7 @@
 //! The correction of a state onto the constraints.
 
 use super::rod::{ROD, Rod, rod};
+use crate::state::State;
 use crate::*;
 
 #[test]

@@ -6,6 +6,7 @@ use core::ops::ControlFlow;
 use nalgebra::{Quaternion, Vector3};
 
 use super::crank::{CRANK, Crank, MOTOR, crank};
+use crate::state::State;
 use crate::*;
 
 type CrankState = State<f64, 8, 6>;

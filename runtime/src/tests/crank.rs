@@ -5,6 +5,11 @@ use core::array::from_fn;
 
 use super::dense;
 use super::rod::Rod;
+use crate::mechanism::{
+    AngleParts, Block, DisplacementParts, Driven, ExplicitTime, HasAngle, HasDisplacement, Joint,
+    JointInfo, Orientation, Pivot, Stabilisation, Terms,
+};
+use crate::state::State;
 use crate::*;
 
 /// The angle is `start + speed t + acceleration t^2 / 2`.
@@ -63,7 +68,7 @@ fn and<S: Copy>(rows: [S; 5], last: S) -> [S; 6] {
 }
 
 impl Mechanism for Crank {
-    type Coordinates = Absolute;
+    type Coordinates = crate::mechanism::Absolute;
     type State<S: Scalar> = State<S, 8, 6>;
     type Velocities<S: Scalar> = [S; 6];
     type Multipliers<S: Scalar> = [S; 6];

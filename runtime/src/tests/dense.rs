@@ -3,7 +3,8 @@
 
 use core::array::from_fn;
 
-use crate::{Pivot, Scalar};
+use crate::Scalar;
+use crate::mechanism::Pivot;
 
 /// `D` with its `D = 6 M` elements, and Cholesky's factor.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,7 @@ use core::ops::ControlFlow;
 
 use super::crank::{CRANK, Crank, MOTOR, crank};
 use super::rod::{GRAVITY, Rod, rod};
+use crate::state::State;
 use crate::*;
 
 /// About the hinge: of the rod about its centre of mass, and `m s^2`.

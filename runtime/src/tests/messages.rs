@@ -2,7 +2,9 @@
 
 extern crate std;
 
+use crate::error::ParameterFault;
 use crate::error::Quantity;
+use crate::state::State;
 use core::ops::ControlFlow;
 use std::boxed::Box;
 use std::error::Error;
@@ -271,4 +273,40 @@ fn what_is_not_there_is_not_read_as_zero() {
         fault.to_string(),
         "joint `pivot` has 2 bodies, counted from 0: there is none at 2"
     );
+}
+
+#[test]
+fn what_stopped_a_run_is_the_source_of_its_error() {
+    let error = SimulationError {
+        time: 1.5,
+        fault: Fault::Parameter(ParameterError {
+            field: "mass",
+            attribute: "value",
+            fault: ParameterFault::NotPositive,
+        }),
+        state: (),
+    };
+    let fault = error.source().expect("a fault");
+    assert_eq!(fault.to_string(), error.fault.to_string());
+    let parameter = fault.source().expect("a parameter");
+    assert!(parameter.downcast_ref::<ParameterError>().is_some());
+    assert!(parameter.source().is_none());
+}
+
+#[test]
+fn what_runs_can_be_shown() {
+    let rod = rod();
+    let run = Simulation::new(&rod, StandardLagrange, Rk4::every(0.125));
+    let shown = "Simulation { mechanism: \"Rod\", formulation: StandardLagrange, integrator: ";
+    assert!(format!("{:?}", run.clone()).starts_with(shown), "{run:?}");
+    let stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4).unwrap();
+    assert_eq!(
+        format!("{stepper:?}"),
+        "Stepper { mechanism: \"Rod\", method: Rk4, .. }"
+    );
+    let constants = rod.constants().unwrap();
+    let state = rod.described_state().unwrap();
+    let view = View::<f64, Rod>::new(&constants, 0.5, &state);
+    let shown = "View { mechanism: \"Rod\", time: 0.5, state: State {";
+    assert!(format!("{view:?}").starts_with(shown), "{view:?}");
 }

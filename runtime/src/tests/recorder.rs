@@ -2,6 +2,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::mechanism::Raw;
+use crate::state::State;
 use core::ops::ControlFlow;
 use std::io::{self, Write};
 use std::string::String;
@@ -9,6 +10,7 @@ use std::vec::Vec;
 
 use super::crank::{CRANK, Crank, MOTOR, crank};
 use super::rod::{ROD, rod};
+use crate::run::RecordError;
 use crate::*;
 
 fn follow(speed: f64, mut observe: impl FnMut(&Sample<'_, f64, Crank>)) {

@@ -7,9 +7,14 @@
 use core::array::from_fn;
 
 use super::dense;
+use crate::error::ParameterFault;
 use crate::math::quaternion::{self, rotate, rotate_back};
 use crate::math::vec3::cross;
-use crate::mechanism::orientations;
+use crate::mechanism::{
+    AngleParts, Block, BodyInfo, BodyKind, Carrier, ExplicitTime, HasAngle, Joint, JointInfo,
+    Orientation, Pivot, Rank, Stabilisation, Terms, orientations,
+};
+use crate::state::State;
 use crate::*;
 
 /// The rod; its mass is a parameter.
@@ -57,7 +62,7 @@ const AXIS: [f64; 3] = [1.0, 0.0, 0.0];
 const NORMALS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Mechanism for Rod {
-    type Coordinates = Absolute;
+    type Coordinates = crate::mechanism::Absolute;
     type State<S: Scalar> = State<S, 7, 6>;
     type Velocities<S: Scalar> = [S; 6];
     type Multipliers<S: Scalar> = [S; 5];

@@ -1,8 +1,10 @@
 //! Runs: chapter 15 of Flores, reports, failures.
 
+use crate::__study::Chapter15;
 use crate::dynamics::Iterations;
 use crate::error::NotFinite;
-use crate::mechanism::{Chapter15, Normalised, Raw};
+use crate::mechanism::{Normalised, Orientation, Raw};
+use crate::state::State;
 use core::ops::ControlFlow;
 
 use super::rod::{PIVOT, ROD, Rod, rod};

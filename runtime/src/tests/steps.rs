@@ -4,6 +4,7 @@ use super::crank::crank;
 use super::rod::{PIVOT, ROD, Rod, rod};
 use crate::error::NotFinite;
 use crate::integrate::DormandPrince5;
+use crate::state::State;
 use crate::*;
 
 #[test]

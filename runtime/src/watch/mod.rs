@@ -133,13 +133,11 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     acceleration: S,
 }
 
-/// What was accepted although it did not converge, near a singular configuration or after one
-/// application of a pseudo-inverse.
+/// What was accepted although it did not converge, near a singular configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excused<S> {
-    /// Corrections of a [`Projection`](crate::Projection), or of a
-    /// [`DirectCorrection`](crate::run::DirectCorrection), which also counts where one application
-    /// left more than its tolerance.
+    /// Corrections of a [`Projection`](crate::Projection), or of another
+    /// [`Treatment`](crate::run::Treatment) that left more than its tolerance.
     pub corrections: usize,
     /// Evaluations of the augmented Lagrangian.
     pub evaluations: usize,

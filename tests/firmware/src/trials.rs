@@ -3,7 +3,11 @@
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{JointCoordinates, Real, View, measure::NoForces, mechanism::Relative};
+use holonom::{
+    JointCoordinates, Real, View,
+    measure::NoForces,
+    mechanism::{Absolute, Relative},
+};
 
 // Not by the crate of the models, which has many more to compile.
 #[path = "../../../models/src/rod_pendulum.rs"]
@@ -186,7 +190,7 @@ pub const PERIOD: f64 = 1e-3;
 
 /// By its bodies.
 pub struct ByBodies<S: Real, M: Plant, F: Tried<S>> {
-    stepper: Stepper<S, M, F, Rk4>,
+    stepper: Stepper<S, M, F, Rk4, NoForces, Absolute>,
 }
 
 impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
@@ -197,7 +201,7 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
 
     fn new() -> Result<(Self, Self::State), Fault> {
         let plant = M::default();
-        let stepper = Stepper::new(&plant, F::tried(), Rk4)?;
+        let stepper = Stepper::new(&plant, F::tried(), Rk4)?.absolute_coordinates();
         let state = plant.described_state()?;
         Ok((Self { stepper }, state))
     }

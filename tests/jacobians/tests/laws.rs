@@ -5,11 +5,8 @@ use holonom::forces::{Actuator, TorsionalActuator};
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    AugmentedLagrangian,
-    dynamics::Dynamics,
-    integrate::System,
-    mechanism::{Chapter15, Orientation},
-    state::Vector,
+    __study::Chapter15, AugmentedLagrangian, dynamics::Dynamics, integrate::System,
+    mechanism::Orientation, state::Vector,
 };
 use nalgebra::DMatrix;
 

@@ -251,7 +251,9 @@ fn next<X: Vector<f64>>(state: &X) -> X {
 
 fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulation: F) {
     let name = format!("{} {formulation:?}", M::REPORT.name);
-    let mut bodies = Dynamics::<f64, M, F>::new(mechanism, formulation).expect("sound");
+    let mut bodies = Dynamics::<f64, M, F>::new(mechanism, formulation)
+        .expect("sound")
+        .absolute_coordinates();
     let start = M::initial_state(bodies.constants());
     for (size, seed) in [(0.01, 1), (0.1, 2)] {
         // Off the constraints, and `p` off length 1.

@@ -1,7 +1,7 @@
 //! What is set by `set_angle` is kept by `assemble`, on the branch of the description.
 
 use holonom::joints::{Cylindrical, Distance, Revolute, Spherical};
-use holonom::{Correction, View};
+use holonom::{View, constraints::Correction};
 
 use holonom::prelude::*;
 

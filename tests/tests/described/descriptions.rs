@@ -277,7 +277,10 @@ pub(crate) fn both<M: JointCoordinates, F: Formulation<f64>>(
     compared(
         (start, tolerance),
         read,
-        |observe| simulation().run(0.0..=1.0, every(0.1), observe),
+        |observe| {
+            let by_bodies = simulation().absolute_coordinates();
+            by_bodies.run(0.0..=1.0, every(0.1), observe)
+        },
         |observe| {
             let by_joints = simulation().joint_coordinates();
             by_joints.run(0.0..=1.0, every(0.1), observe)
@@ -295,15 +298,19 @@ pub(crate) fn both_under<M: JointCoordinates, F: Formulation<f64>>(
 ) {
     println!("{method:?}, with forces");
     let simulation = || Simulation::new(mechanism, method, tight()).initial_state(start);
-    let free = simulation().run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
+    let free = simulation()
+        .absolute_coordinates()
+        .run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
     let free = free.expect("solvable").state;
     compared(
         (start, 1e-7),
         read,
         |observe| {
-            let report = simulation()
-                .forces(&law)
-                .run(0.0..=1.0, every(0.1), observe)?;
+            let report = simulation().forces(&law).absolute_coordinates().run(
+                0.0..=1.0,
+                every(0.1),
+                observe,
+            )?;
             assert!(compare::<M>(&free, &report.state) > 0.1, "they do nothing");
             Ok(report)
         },
@@ -438,7 +445,9 @@ fn single_precision_in_both_descriptions() {
     let simulation =
         || Simulation::new(&crane, StandardLagrange, Rk4::every(2e-3_f32)).initial_state(start);
     let ignore = |_: &Sample<'_, f32, Crane>| ControlFlow::Continue(());
-    let by_bodies = simulation().run(0.0..=1.0, every(1.0), ignore);
+    let by_bodies = simulation()
+        .absolute_coordinates()
+        .run(0.0..=1.0, every(1.0), ignore);
     let by_joints = simulation()
         .joint_coordinates()
         .run(0.0..=1.0, every(1.0), ignore);
@@ -497,7 +506,8 @@ fn descriptions_take_turns() {
         .expect("acceptable")
         .joint_coordinates();
     let mut bodies = holonom::dynamics::Dynamics::<f64, _, _>::new(&loose, StandardLagrange)
-        .expect("acceptable");
+        .expect("acceptable")
+        .absolute_coordinates();
     let mut alone = joints.state_of(&start).expect("consistent");
     let mut state = start;
     let step = 1e-3;

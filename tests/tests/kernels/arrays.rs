@@ -144,6 +144,7 @@ fn arrays_move_as_single_fields_do_in_both_descriptions() {
     };
     let mut angles = Vec::new();
     Simulation::new(&given, StandardLagrange, ode45)
+        .absolute_coordinates()
         .run(0.0..=1.0, every(0.25), |sample| {
             angles.push(handles.pins.map(|pin| sample.angle(pin)));
             ControlFlow::Continue(())

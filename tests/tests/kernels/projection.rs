@@ -2,7 +2,7 @@
 //! mass, or not at all.
 
 use holonom::prelude::*;
-use holonom::{Correction, Fault, state::Array};
+use holonom::{Fault, constraints::Correction, state::Array};
 use holonom_assembler::assembler::Assembler;
 use holonom_assembler::bodies::Kind;
 use holonom_assembler::jacobi::SingularValues;

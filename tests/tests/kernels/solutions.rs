@@ -224,7 +224,9 @@ fn with_a_compliance<M: Scene>() {
 fn augmented_lagrangian<M: Scene>() {
     let scene = M::read_as(bodies::Orientation::Normalised);
     let method = AugmentedLagrangian::<f64>::default();
-    let dynamics = Dynamics::<f64, M, _>::new(&M::default(), method).expect("acceptable");
+    let dynamics = Dynamics::<f64, M, _>::new(&M::default(), method)
+        .expect("acceptable")
+        .absolute_coordinates();
     let mut worst = Worst::default();
     let mut most = 0;
     for x in states::<M, f64>() {

@@ -32,7 +32,9 @@ fn deviation<M: Scene, F: Formulation<f64>>(
     textbook: formulation::Formulation,
 ) -> (f64, f64) {
     let scene = M::read_as(Orientation::Normalised);
-    let dynamics = Dynamics::<f64, M, F>::new(&M::default(), method).expect("acceptable");
+    let dynamics = Dynamics::<f64, M, F>::new(&M::default(), method)
+        .expect("acceptable")
+        .absolute_coordinates();
     let mut evaluator = Evaluator::new(scene.clone(), textbook);
     let (mut accelerations, mut multipliers) = (Worst::default(), Worst::default());
     let mut states = consistent(&scene, 200, 5);

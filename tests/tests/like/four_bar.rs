@@ -205,7 +205,9 @@ fn a_thousand_linkages_move_as_freudenstein_says() {
                 .projection(projection)
         };
         let ignore = |_: &Sample<'_, f64, FourBar>| ControlFlow::Continue(());
-        let by_bodies = simulation().run(0.0..=0.3, every(0.3), ignore);
+        let by_bodies = simulation()
+            .absolute_coordinates()
+            .run(0.0..=0.3, every(0.3), ignore);
         let by_joints = simulation()
             .joint_coordinates()
             .run(0.0..=0.3, every(0.3), ignore);

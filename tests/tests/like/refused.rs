@@ -129,7 +129,7 @@ fn a_field_that_was_changed_is_looked_at_again() -> Result<(), Fault> {
     let mut linkage = leaning(LENGTHS, 0.0, 0.0)?;
     let mut state = linkage.described_state::<f64>()?;
     linkage.assemble(0.0, &mut state)?;
-    let mut stepper = Stepper::new(&linkage, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::new(&linkage, StandardLagrange, Rk4)?.absolute_coordinates();
     stepper.step(&mut state, 1e-3)?;
     // Inputs and masses are no business of the constraints.
     linkage.wind = 1.0;

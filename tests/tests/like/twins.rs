@@ -12,7 +12,7 @@ pub(crate) fn runs<M: JointCoordinates>(
 ) -> Result<[Vec<f64>; 2], Fault> {
     let mut start = mechanism.described_state::<f64>()?;
     mechanism.assemble(0.0, &mut start)?;
-    let mut by_bodies = Dynamics::new(mechanism, StandardLagrange)?;
+    let mut by_bodies = Dynamics::new(mechanism, StandardLagrange)?.absolute_coordinates();
     let mut by_joints = Dynamics::new(mechanism, StandardLagrange)?.joint_coordinates();
     let (mut bodies, mut joints) = (start, by_joints.state_of(&start)?);
     for number in 0..steps {

@@ -26,7 +26,9 @@ fn ends<M: JointCoordinates + Default>(
             .assembled()
     };
     let look = |_: &Sample<'_, f64, M>| ControlFlow::Continue(());
-    let bodies = run().run(0.0..=end, every(end), look);
+    let bodies = run()
+        .absolute_coordinates()
+        .run(0.0..=end, every(end), look);
     let joints = run().joint_coordinates().run(0.0..=end, every(end), look);
     [bodies, joints].map(|report| report.expect("solvable").state)
 }

@@ -3,7 +3,7 @@
 
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
-use holonom::{Real, mechanism::BodyKind, run::DirectCorrection, state::Array};
+use holonom::{__study::DirectCorrection, Real, mechanism::BodyKind, state::Array};
 use holonom_models::{Bricard, FlyballGovernor, FourBar, HeavyTop, SliderCrank};
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};

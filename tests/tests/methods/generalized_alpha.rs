@@ -5,6 +5,7 @@ use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
 use holonom::{
     DormandPrince853, GeneralizedAlpha, RadauIIA, Runs,
+    mechanism::Absolute,
     state::{Array, Vector},
 };
 use holonom_models::{
@@ -49,10 +50,11 @@ fn it_has_order_2_on_the_pendulum_with_any_damping() {
 
 fn end<M: Mechanism>(
     model: &M,
-    integrator: impl Runs<f64, M, StandardLagrange>,
+    integrator: impl Runs<f64, M, StandardLagrange, Absolute>,
     time: f64,
 ) -> (M::State<f64>, usize, usize) {
     let report = Simulation::new(model, StandardLagrange, integrator)
+        .absolute_coordinates()
         .run(0.0..=time, every(time), |_| ControlFlow::Continue(()))
         .expect("solvable");
     (report.state, report.evaluations, report.accepted)
@@ -64,6 +66,7 @@ fn exact<M: Mechanism>(model: &M, time: f64) -> M::State<f64> {
         absolute: 1e-14,
     });
     let report = Simulation::new(model, StandardLagrange, method)
+        .absolute_coordinates()
         .projection(Projection::default())
         .run(0.0..=time, every(time), |_| ControlFlow::Continue(()));
     report.expect("solvable").state
@@ -102,6 +105,7 @@ fn violations<S: holonom::Real, M: Mechanism>(
     let mut largest = [0.0_f64; 2];
     let (end, interval) = (S::constant(time), S::constant(time / 50.0));
     let report = Simulation::new(model, StandardLagrange, method)
+        .absolute_coordinates()
         .run(S::zero()..=end, holonom::every(interval), |_| {
             ControlFlow::Continue(())
         })

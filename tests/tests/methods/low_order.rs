@@ -69,7 +69,9 @@ fn moves_by_new_velocities<M: JointCoordinates + Default>() {
     let mut start = mechanism.described_state::<f64>().expect("described");
     mechanism.assemble(0.0, &mut start).expect("regular");
     let (time, step) = (0.3, 0.01);
-    let mut bodies = Dynamics::<f64, M, _>::new(&mechanism, Penalty::default()).expect("fine");
+    let mut bodies = Dynamics::<f64, M, _>::new(&mechanism, Penalty::default())
+        .expect("fine")
+        .absolute_coordinates();
     let mut rates = bodies.rates(time, &start).expect("regular");
     let mut end = start;
     for (velocity, rate) in end

@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use holonom::forces::{ConstantMoment, SpringDamper};
 use holonom::joints::{AngleDriver, Distance, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Real, Scales, dynamics::Dynamics};
+use holonom::{Real, constraints::Scales, dynamics::Dynamics};
 use holonom_models::{Door, RodPendulum, SimplePendulum};
 
 /// A rod on a hinge with a bob on a link and a spring, and a wheel that is driven, in units of its

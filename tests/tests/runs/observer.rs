@@ -1,7 +1,7 @@
 //! When a run reports, and how it is stopped.
 
-use holonom::Reporting;
 use holonom::prelude::*;
+use holonom::run::Reporting;
 use holonom_models::RodPendulum;
 
 use crate::flat::flat;

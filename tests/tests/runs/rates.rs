@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 
 use holonom::prelude::*;
-use holonom::{DormandPrince853, Runs, Scales, state::Array};
+use holonom::{DormandPrince853, Runs, constraints::Scales, state::Array};
 use holonom_models::{
     Bricard, Door, HeavyTop, RodPendulum, SliderCrank, SqueezingMechanism, VariableLengthPendulum,
 };

@@ -75,7 +75,7 @@ fn a_coefficient_must_be_positive() {
 fn run<I: holonom::Runs<f64, RodPendulum, StandardLagrange>>(
     integrator: I,
     interval: core::ops::RangeInclusive<f64>,
-    reporting: holonom::Reporting<f64>,
+    reporting: holonom::run::Reporting<f64>,
 ) -> Fault {
     let rod = RodPendulum::default();
     let described = rod.described_state().expect("described");

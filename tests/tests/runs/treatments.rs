@@ -4,8 +4,9 @@ use core::f64::consts::FRAC_PI_2;
 
 use holonom::prelude::*;
 use holonom::{
+    __study::DirectCorrection,
     JointCoordinates,
-    run::{DirectCorrection, Treatment, TreeRecovery, VelocityProjection},
+    run::{Treatment, TreeRecovery, VelocityProjection},
 };
 use holonom_models::{FourBar, RodPendulum, SliderCrank, VariableLengthPendulum};
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};

@@ -42,6 +42,7 @@ where
         let simulation = simulation.joint_coordinates();
         simulation.run(0.0..=1.0, every(0.1), nothing)
     } else {
+        let simulation = simulation.absolute_coordinates();
         simulation.run(0.0..=1.0, every(0.1), nothing)
     };
     run.map(|report| report.state).map_err(|error| error.fault)
@@ -146,6 +147,7 @@ fn a_controller_is_called_once_a_period() {
         let start = PERIOD * f64::from(k);
         state = Simulation::new(&arm, StandardLagrange, DormandPrince::default())
             .initial_state(state)
+            .absolute_coordinates()
             .run(start..=start + PERIOD, every_step(), |_| {
                 ControlFlow::Continue(())
             })
@@ -159,7 +161,9 @@ fn a_controller_is_called_once_a_period() {
         integral += error * PERIOD;
         30.0 * error + 40.0 * integral - 6.0 * rate
     };
-    let mut stepper = Stepper::new(&arm, StandardLagrange, Rk4).expect("parameters");
+    let mut stepper = Stepper::new(&arm, StandardLagrange, Rk4)
+        .expect("parameters")
+        .absolute_coordinates();
     let mut stepped = arm.described_state().expect("parameters");
     for _ in 0..4000 {
         let view = stepper.view(&stepped);

@@ -63,7 +63,9 @@ fn run<F: Formulation<f64>>(
             .joint_coordinates()
             .run(0.0..=end, every(0.02), see)
     } else {
-        simulation.run(0.0..=end, every(0.02), see)
+        simulation
+            .absolute_coordinates()
+            .run(0.0..=end, every(0.02), see)
     };
     run.ok().map(|report| (report.doubts(), off))
 }
@@ -153,7 +155,9 @@ fn a_loop_that_is_never_singular_is_not() {
                 .joint_coordinates()
                 .run(0.0..=3.0, every(1.0), nothing)
         } else {
-            simulation.run(0.0..=3.0, every(1.0), nothing)
+            simulation
+                .absolute_coordinates()
+                .run(0.0..=3.0, every(1.0), nothing)
         };
         run.expect("it runs").doubts()
     };

@@ -58,6 +58,7 @@ fn a_spring_of_free_length_zero_passes_its_anchor() {
         ControlFlow::Continue(())
     };
     let dynamics = Simulation::new(&zero, StandardLagrange, DormandPrince::new(ACCURATE));
+    let dynamics = dynamics.absolute_coordinates();
     let report = dynamics.run(0.0..=2.0, every(0.01), see).expect("it runs");
     assert!(report.doubts().is_empty(), "{}", report.doubts());
     Simulation::new(&zero, StandardLagrange, Rk4::every(5e-4))
@@ -78,7 +79,9 @@ fn a_spring_without_direction_is_named() {
                 .joint_coordinates()
                 .run(0.0..=1.0, every(1.0), nothing)
         } else {
-            simulation.run(0.0..=1.0, every(1.0), nothing)
+            simulation
+                .absolute_coordinates()
+                .run(0.0..=1.0, every(1.0), nothing)
         }
     };
     for joints in [false, true] {
@@ -104,7 +107,8 @@ fn a_step_that_is_too_long_is_named() {
     let shaft = Shaft::default();
     let simulation = || Simulation::new(&shaft, StandardLagrange, Rk4::every(0.01));
     let nothing = |_: &Sample<'_, f64, Shaft>| ControlFlow::Continue(());
-    let bodies = simulation().run(0.0..=10.0, every(10.0), nothing);
+    let bodies = simulation().absolute_coordinates();
+    let bodies = bodies.run(0.0..=10.0, every(10.0), nothing);
     let joints = simulation().joint_coordinates();
     let joints = joints.run(0.0..=10.0, every(10.0), nothing);
     for run in [bodies, joints] {

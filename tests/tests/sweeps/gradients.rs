@@ -73,6 +73,7 @@ where
         let simulation = simulation.joint_coordinates();
         simulation.run(0.0..=duration, every(duration), seen)
     } else {
+        let simulation = simulation.absolute_coordinates();
         simulation.run(0.0..=duration, every(duration), seen)
     };
     let what =

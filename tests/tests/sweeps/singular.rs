@@ -205,6 +205,7 @@ fn run<M: JointCoordinates, F: Formulation<f64>, I: RunsBoth<M, F>>(
         let simulation = simulation.joint_coordinates();
         simulation.run(0.0..=mark.duration, every(mark.duration), observe)
     } else {
+        let simulation = simulation.absolute_coordinates();
         simulation.run(0.0..=mark.duration, every(mark.duration), observe)
     };
     let what =
@@ -418,7 +419,9 @@ flat! {
 fn links_in_line_are_singular_in_both_descriptions() {
     fn is_singular<M: JointCoordinates>(model: &M) -> [bool; 3] {
         let bodies = model.described_state().expect("acceptable");
-        let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange).expect("acceptable");
+        let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange)
+            .expect("acceptable")
+            .absolute_coordinates();
         let by_bodies = dynamics.evaluate(0.0, &bodies).map(|_| ());
         let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange);
         let dynamics = dynamics.expect("acceptable").joint_coordinates();

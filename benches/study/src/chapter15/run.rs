@@ -1,11 +1,12 @@
 //! The four runs, and the race that times them.
 
 use holonom::{
+    __study::Chapter15,
     AugmentedLagrangian, Baumgarte, BodyHandle, DormandPrince, Fault, Formulation, JointHandle,
     Mechanism, Penalty, Runs, Sample, StandardLagrange, Tolerance,
     dynamics::Dynamics,
     integrate::Span,
-    mechanism::{Absolute, Chapter15, HasAngle},
+    mechanism::{Absolute, HasAngle},
 };
 
 use super::outcome::{Instant, Outcome, Prices};

@@ -190,7 +190,8 @@ impl Scene {
         n: usize,
         step: f64,
     ) -> Result<Self, Fault> {
-        let mut dynamics = Dynamics::<f64, M, _>::new(&M::default(), StandardLagrange)?;
+        let mut dynamics =
+            Dynamics::<f64, M, _>::new(&M::default(), StandardLagrange)?.absolute_coordinates();
         let start = M::initial_state(dynamics.constants());
         let states = states(&mut dynamics, start, step)?;
         let rates = states.iter().map(|state| dynamics.rates(0.0, state));
@@ -307,7 +308,8 @@ fn counted_by_bodies<M: Mechanism + Default>(
         formulation: F,
         states: &[Vec<f64>],
     ) -> Result<Operations, Fault> {
-        let dynamics = Dynamics::<Counted, M, _>::new(&M::default(), formulation)?;
+        let dynamics =
+            Dynamics::<Counted, M, _>::new(&M::default(), formulation)?.absolute_coordinates();
         let state = counted_state::<M>(dynamics.constants(), states);
         let (operations, outcome) =
             counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));

@@ -3,9 +3,9 @@
 use super::front::{front, front_by};
 use super::integration::Family;
 use super::measure::Trade;
+use super::observation::Observation;
 use super::record::Row;
 use super::setting::Treatment;
-use super::subject::Observation;
 use crate::chapter15::Method;
 use crate::chart::{Axis, Chart, Mark, SLOTS, Series};
 use crate::compare::{Coordinates, Precision};

@@ -3,51 +3,46 @@
 use std::ops::ControlFlow;
 
 use holonom::{
+    __study::DirectCorrection,
     AugmentedLagrangian, Baumgarte, JointCoordinates, Mechanism, Penalty, Projection, Real, Sample,
     Simulation, StandardLagrange,
     dynamics::Dynamics,
     every,
     integrate::Span,
     measure::NoForces,
-    mechanism::Kernel,
-    run::{DirectCorrection, TreeRecovery, VelocityProjection},
+    mechanism::{Absolute, Kernel, Relative},
+    run::{TreeRecovery, VelocityProjection},
 };
 
 use super::integration::{Integration, with_own_type};
-use super::offered::{Described, Offered, Studied};
-use super::problem::{InBoth, Problem};
+use super::movable::{Described, Movable, Studied};
+use super::observation::{Observation, Start, state, stopped};
+use super::problem::Problem;
 use super::setting::{Formulated, Setting, Treatment, augmented_lagrangian, baumgarte, penalty};
-use super::subject::{Observation, Start, state, stopped};
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
 use crate::run::contestant;
 use crate::timing::Contestant;
 
 /// Something to be done with a mechanism, once it is known with which numbers, which formulation,
-/// which treatment and which description.
+/// which treatment and which coordinates.
 pub(super) trait Task<'a, P: Problem + 'a> {
     type Outcome;
 
-    fn by_bodies<S: Real + 'static, F: Studied<S> + 'static>(
+    fn run<S: Real + 'static, F: Studied<S> + 'static, C: Described<P::Mechanism>>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
     ) -> Result<Self::Outcome, StudyError>;
-
-    fn by_joints<S: Real + 'static, F: Studied<S> + 'static>(
-        self,
-        formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
-    ) -> Result<Self::Outcome, StudyError>
-    where
-        P: InBoth;
 }
 
 /// What is done to states after steps.
 pub(super) type Treated<'a, S, M> = Option<Box<dyn holonom::run::Treatment<S, M> + 'a>>;
 
-/// Whether a problem can be run by its joints.
-pub(super) trait JointsOf<P: Problem> {
+/// The coordinates that a mechanism offers: those in which it has the fewest equations, and
+/// absolute ones.
+pub(super) trait Offered<P: Problem> {
+    /// Equations that remain in joint coordinates, where there are any.
     const CLOSING: Option<usize>;
     const KERNELS: &'static [Kernel];
 
@@ -56,7 +51,8 @@ pub(super) trait JointsOf<P: Problem> {
         problem: &'a P,
     ) -> Result<Treated<'a, S, P::Mechanism>, StudyError>;
 
-    fn run<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
+    /// Runs a task in joint coordinates.
+    fn by_joints<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         task: T,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -65,15 +61,9 @@ pub(super) trait JointsOf<P: Problem> {
         P: 'a;
 }
 
-pub(super) struct WithJoints;
-
-impl<P: InBoth> JointsOf<P> for WithJoints {
-    const CLOSING: Option<usize> = Some(
-        <P::Mechanism as JointCoordinates>::JOINT_REPORT
-            .closing
-            .len(),
-    );
-    const KERNELS: &'static [Kernel] = <P::Mechanism as JointCoordinates>::JOINT_REPORT.kernels;
+impl<P: Problem<Mechanism: JointCoordinates>> Offered<P> for Relative {
+    const CLOSING: Option<usize> = Some(P::Mechanism::JOINT_REPORT.closing.len());
+    const KERNELS: &'static [Kernel] = P::Mechanism::JOINT_REPORT.kernels;
 
     fn recovery<'a, S: Real + 'static>(
         problem: &'a P,
@@ -85,7 +75,7 @@ impl<P: InBoth> JointsOf<P> for WithJoints {
         }
     }
 
-    fn run<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
+    fn by_joints<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         task: T,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -93,13 +83,11 @@ impl<P: InBoth> JointsOf<P> for WithJoints {
     where
         P: 'a,
     {
-        task.by_joints::<S, F>(formulation, treated)
+        task.run::<S, F, Self>(formulation, treated)
     }
 }
 
-pub(super) struct WithoutJoints;
-
-impl<P: Problem> JointsOf<P> for WithoutJoints {
+impl<P: Problem> Offered<P> for Absolute {
     const CLOSING: Option<usize> = None;
     const KERNELS: &'static [Kernel] = &[];
 
@@ -109,7 +97,7 @@ impl<P: Problem> JointsOf<P> for WithoutJoints {
         Err(without_joints())
     }
 
-    fn run<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
+    fn by_joints<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         _task: T,
         _formulation: F,
         _treated: Treated<'a, S, P::Mechanism>,
@@ -128,7 +116,7 @@ fn without_joints() -> StudyError {
     }
 }
 
-pub(super) fn with_formulation<'a, J: JointsOf<P>, P: Problem, T: Task<'a, P>>(
+pub(super) fn with_formulation<'a, J: Offered<P>, P: Problem, T: Task<'a, P>>(
     problem: &'a P,
     task: T,
     setting: &Setting,
@@ -139,7 +127,7 @@ pub(super) fn with_formulation<'a, J: JointsOf<P>, P: Problem, T: Task<'a, P>>(
     }
 }
 
-fn with_numbers<'a, S: Real + 'static, J: JointsOf<P>, P: Problem, T: Task<'a, P>>(
+fn with_numbers<'a, S: Real + 'static, J: Offered<P>, P: Problem, T: Task<'a, P>>(
     problem: &'a P,
     task: T,
     setting: &Setting,
@@ -177,14 +165,14 @@ fn described<'a, S, J, P, T, F>(
 ) -> Result<T::Outcome, StudyError>
 where
     S: Real + 'static,
-    J: JointsOf<P>,
+    J: Offered<P>,
     P: Problem + 'a,
     T: Task<'a, P>,
     F: Studied<S> + 'static,
 {
     match by {
-        Coordinates::Bodies => task.by_bodies::<S, F>(formulation, treated),
-        Coordinates::Joints => J::run::<S, F, T>(task, formulation, treated),
+        Coordinates::Bodies => task.run::<S, F, Absolute>(formulation, treated),
+        Coordinates::Joints => J::by_joints::<S, F, T>(task, formulation, treated),
     }
 }
 
@@ -196,14 +184,15 @@ fn span_of<S: Real>(span: &Span<f64>) -> Span<S> {
     }
 }
 
-/// A simulation, before it is told its description.
+/// A simulation, in absolute coordinates.
 fn simulation<'a, S: Real, P: Problem, F: Studied<S> + 'static>(
     problem: &'a P,
     formulation: F,
     (integration, start): (Integration, <P::Mechanism as Mechanism>::State<S>),
     treated: &'a Treated<'_, S, P::Mechanism>,
-) -> Simulation<'a, S, P::Mechanism, F, Integration> {
-    let simulation = Simulation::new(problem.mechanism(), formulation, integration);
+) -> Simulation<'a, S, P::Mechanism, F, Integration, NoForces, Absolute> {
+    let simulation =
+        Simulation::new(problem.mechanism(), formulation, integration).absolute_coordinates();
     let simulation = simulation.initial_state(start);
     match treated {
         Some(treatment) => simulation.treatment(&**treatment),
@@ -221,7 +210,7 @@ pub(super) struct Observe<'a, P> {
 impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
     type Outcome = Observation;
 
-    fn by_bodies<S: Real + 'static, F: Studied<S> + 'static>(
+    fn run<S: Real + 'static, F: Studied<S> + 'static, C: Described<P::Mechanism>>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -231,23 +220,7 @@ impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
             state::<S, P::Mechanism>(self.start),
         );
         let run = simulation::<S, P, F>(self.problem, formulation, with, &treated);
-        observed(self.problem, &run)
-    }
-
-    fn by_joints<S: Real + 'static, F: Studied<S> + 'static>(
-        self,
-        formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
-    ) -> Result<Observation, StudyError>
-    where
-        P: InBoth,
-    {
-        let with = (
-            self.setting.integration,
-            state::<S, P::Mechanism>(self.start),
-        );
-        let run = simulation::<S, P, F>(self.problem, formulation, with, &treated);
-        observed(self.problem, &run.joint_coordinates())
+        observed(self.problem, &run.coordinates::<C>())
     }
 }
 
@@ -298,7 +271,7 @@ impl<'a, P: Problem> Time<'a, '_, P> {
     fn bare<S, Y>(&self, system: Y, start: Y::State) -> Contestant<'a>
     where
         S: Real + 'a,
-        Y: Offered<S> + 'a,
+        Y: Movable<S> + 'a,
     {
         let (span, name) = (span_of::<S>(&self.problem.span()), self.setting.name());
         let integration = self.setting.integration;
@@ -336,7 +309,7 @@ where
 impl<'a, P: Problem> Task<'a, P> for Time<'a, '_, P> {
     type Outcome = Contestant<'a>;
 
-    fn by_bodies<S: Real + 'static, F: Studied<S> + 'static>(
+    fn run<S: Real + 'static, F: Studied<S> + 'static, C: Described<P::Mechanism>>(
         self,
         formulation: F,
         treated: Treated<'a, S, P::Mechanism>,
@@ -345,36 +318,13 @@ impl<'a, P: Problem> Task<'a, P> for Time<'a, '_, P> {
         if treated.is_some() {
             let with = (self.setting.integration, start);
             return Ok(Contestant::new(self.setting.name(), move || {
-                bare_run(
-                    problem,
-                    simulation::<S, P, F>(problem, formulation, with, &treated),
-                )
-            }));
-        }
-        let dynamics = Dynamics::<S, _, _>::new(problem.mechanism(), formulation);
-        let dynamics = dynamics.map_err(|fault| stopped(problem, &fault))?;
-        Ok(self.bare(dynamics, start))
-    }
-
-    fn by_joints<S: Real + 'static, F: Studied<S> + 'static>(
-        self,
-        formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
-    ) -> Result<Contestant<'a>, StudyError>
-    where
-        P: InBoth,
-    {
-        let (problem, start) = (self.problem, state::<S, P::Mechanism>(self.start));
-        if treated.is_some() {
-            let with = (self.setting.integration, start);
-            return Ok(Contestant::new(self.setting.name(), move || {
                 let run = simulation::<S, P, F>(problem, formulation, with, &treated);
-                bare_run(problem, run.joint_coordinates())
+                bare_run(problem, run.coordinates::<C>())
             }));
         }
         let dynamics = Dynamics::<S, _, _>::new(problem.mechanism(), formulation);
         let dynamics = dynamics.map_err(|fault| stopped(problem, &fault))?;
-        let dynamics = dynamics.joint_coordinates();
+        let dynamics = dynamics.coordinates::<C>();
         let start = dynamics
             .state_of(&start)
             .map_err(|fault| stopped(problem, &fault))?;

@@ -6,6 +6,7 @@ use super::subject::{Facts, Subject};
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
+use crate::format::{digits, two_digits};
 
 /// Which settings: every combination of these, but those that are the same.
 #[derive(Clone, Debug, PartialEq)]
@@ -200,26 +201,9 @@ fn dividing(reporting: f64, step: f64) -> f64 {
         .unwrap_or(step)
 }
 
-/// A positive number to two digits, as one would write it.
-pub(super) fn two_digits(value: f64) -> f64 {
-    digits(value, 2)
-}
-
-/// A positive number to so many digits.
-fn digits(value: f64, count: i32) -> f64 {
-    let exponent = value.log10().floor() as i32 + 1 - count;
-    let digits = (value / 10.0_f64.powi(exponent)).round();
-    // Powers of ten that are no numbers of the machine go into the divisor.
-    if exponent < 0 {
-        digits / 10.0_f64.powi(-exponent)
-    } else {
-        digits * 10.0_f64.powi(exponent)
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{dividing, two_digits};
+    use super::dividing;
 
     #[test]
     fn steps_end_where_reports_are_wanted_if_such_a_step_is_near() {
@@ -230,14 +214,5 @@ mod tests {
         // for.
         assert_eq!(dividing(0.5, 0.17), 0.17);
         assert_eq!(dividing(0.1, 0.25), 0.25);
-    }
-
-    #[test]
-    fn steps_are_numbers_that_one_would_write() {
-        assert_eq!(two_digits(0.483_388), 0.48);
-        assert_eq!(two_digits(3.162_277e-7), 3.2e-7);
-        assert_eq!(two_digits(0.001), 0.001);
-        assert_eq!(two_digits(9.96), 10.0);
-        assert_eq!(two_digits(1234.0), 1200.0);
     }
 }

@@ -12,10 +12,10 @@ use holonom::{
     state::Vector,
 };
 
-use super::grid::two_digits;
-use super::offered::Offered;
+use super::movable::Movable;
 use crate::chapter15::Method as Formulated;
 use crate::compare::Coordinates;
+use crate::format::two_digits;
 
 /// The integrators: one row is all that this study knows of one.
 ///
@@ -239,7 +239,7 @@ impl<S: Real> Method<S> for Integration {
     holonom::__hooks_of_method!(with_own_type);
 }
 
-impl<S: Real, Y: Offered<S>> Integrator<S, Y> for Integration {
+impl<S: Real, Y: Movable<S>> Integrator<S, Y> for Integration {
     type Course = AnyCourse<S, Y::State>;
 
     fn start(
@@ -270,7 +270,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
     }
 }
 
-impl<S: Real, Y: Offered<S>> Advance<S, Y> for AnyCourse<S, Y::State> {
+impl<S: Real, Y: Movable<S>> Advance<S, Y> for AnyCourse<S, Y::State> {
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         let system = &mut Behind { system };
         on_course!(self, course => course.advance(system))
@@ -294,7 +294,7 @@ struct Behind<'a, S: Real, X: Vector<S>> {
 }
 
 /// A system whose Jacobian is part of its object.
-trait WithJacobian<S: Real>: Offered<S> {
+trait WithJacobian<S: Real>: Movable<S> {
     fn jacobian_of(
         &mut self,
         time: S,
@@ -304,7 +304,7 @@ trait WithJacobian<S: Real>: Offered<S> {
     ) -> Result<usize, Fault>;
 }
 
-impl<S: Real, Y: Offered<S>> WithJacobian<S> for Y {
+impl<S: Real, Y: Movable<S>> WithJacobian<S> for Y {
     fn jacobian_of(
         &mut self,
         time: S,

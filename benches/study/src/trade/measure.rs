@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use super::grid::{Grid, Planned};
 use super::journal::Journal;
+use super::observation::{Observation, Start};
 use super::record::{Entry, Key, Row, Stopped, Time};
 use super::reference::{Reference, observed};
 use super::setting::{Setting, Treatment};
-use super::subject::{Facts, Observation, Start, Subject};
+use super::subject::{Facts, Subject};
 use crate::compare::Coordinates;
 use crate::error::StudyError;
 use crate::target::Target;

@@ -2,9 +2,9 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | a motion, what is read of it and what that should be | [`Problem`], [`Both`], [`BodiesAlone`] |
+//! | a motion, what is read of it and what that should be | [`Problem`] |
 //! | description, formulation, treatment, integrator and number type as values | [`Setting`], [`Grid`] |
-//! | the same without the mechanism in the type | [`Subject`] |
+//! | a problem in one or two kinds of coordinates, without the mechanism in the type | [`Posed`], [`Subject`] |
 //! | the runs, and what came of them | [`measure`], [`Trade`], [`Row`] |
 //! | the setting that does what is asked for | [`recommend`] |
 //! | what is shown of it | [`tables`], [`charts`], [`report`] |
@@ -16,7 +16,8 @@ mod grid;
 mod integration;
 mod journal;
 mod measure;
-mod offered;
+mod movable;
+mod observation;
 mod problem;
 mod recommend;
 mod record;
@@ -33,10 +34,11 @@ pub use grid::{Grid, Planned};
 pub use integration::{AnyCourse, FLOOR, Family, Integration};
 pub use journal::Journal;
 pub use measure::{Timing, Trade, measure};
-pub use offered::{Described, Offered, OnConstraints, Studied};
-pub use problem::{BodiesAlone, Both, Problem, Quantity};
+pub use movable::{Described, Movable, OnConstraints, Studied};
+pub use observation::{Observation, Start};
+pub use problem::{Problem, Quantity};
 pub use recommend::{MARGIN, NEARBY, Processor, Recommendation, STARTS, Wish, recommend};
 pub use record::{Entry, Key, Row, Stopped, Time, csv, json};
 pub use reference::{Reference, Source};
 pub use setting::{Choice, Formulated, Setting, Treatment};
-pub use subject::{Facts, Observation, Start, Subject};
+pub use subject::{Facts, Posed, Subject};

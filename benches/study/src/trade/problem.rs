@@ -1,6 +1,6 @@
 //! A motion to measure a trade on.
 
-use holonom::{Fault, JointCoordinates, Mechanism, MechanismExt as _, Real, View, integrate::Span};
+use holonom::{Fault, Mechanism, MechanismExt as _, Real, View, integrate::Span};
 
 /// A motion of a mechanism: what is moved, for how long, what is read of it, and what that should
 /// be.
@@ -9,7 +9,7 @@ use holonom::{Fault, JointCoordinates, Mechanism, MechanismExt as _, Real, View,
 /// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
 /// use holonom::{Real, View, integrate::Span};
-/// use holonom_study::trade::{Both, Problem, Quantity, Subject};
+/// use holonom_study::trade::{Posed, Problem, Quantity, Subject};
 ///
 /// #[derive(Mechanism)]
 /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
@@ -45,7 +45,7 @@ use holonom::{Fault, JointCoordinates, Mechanism, MechanismExt as _, Real, View,
 ///     }
 /// }
 ///
-/// let subject = Both(Swing(Arm::default()));
+/// let subject = Posed::in_both(Swing(Arm::default()));
 /// assert_eq!(subject.facts().name, "arm");
 /// ```
 pub trait Problem {
@@ -114,16 +114,3 @@ pub struct Quantity {
     /// Its unit.
     pub unit: &'static str,
 }
-
-/// A problem by its bodies and by its joints.
-#[derive(Clone, Copy, Debug)]
-pub struct Both<P>(pub P);
-
-/// A problem by its bodies alone, for a mechanism without joint coordinates.
-#[derive(Clone, Copy, Debug)]
-pub struct BodiesAlone<P>(pub P);
-
-/// A mechanism of both descriptions.
-pub(super) trait InBoth: Problem<Mechanism: JointCoordinates> {}
-
-impl<P: Problem<Mechanism: JointCoordinates>> InBoth for P {}

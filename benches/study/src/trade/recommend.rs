@@ -1,14 +1,15 @@
 //! The cheapest setting for an error, or the most exact one for a time, tried where the grid was
 //! not.
 
-use super::grid::two_digits;
 use super::integration::Integration;
 use super::measure::{Timing, Trade, measured};
+use super::observation::Start;
 use super::record::{Entry, Row};
 use super::reference::Reference;
 use super::setting::Setting;
-use super::subject::{Start, Subject};
+use super::subject::Subject;
 use crate::error::StudyError;
+use crate::format::two_digits;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]

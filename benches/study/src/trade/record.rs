@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::observation::Observation;
 use super::setting::Setting;
-use super::subject::Observation;
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
 

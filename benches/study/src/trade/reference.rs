@@ -1,8 +1,9 @@
 //! What readings are compared with.
 
 use super::integration::{Family, Integration};
+use super::observation::{Observation, Start};
 use super::setting::{Choice, Setting, Treatment};
-use super::subject::{Facts, Observation, Start, Subject};
+use super::subject::{Facts, Subject};
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;

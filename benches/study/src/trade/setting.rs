@@ -34,7 +34,7 @@ impl Formulated {
     /// run with, and for the integrator.
     ///
     /// # Errors
-    /// Why none follow, see [`holonom::Scales::of`].
+    /// Why none follow, see [`holonom::constraints::Scales::of`].
     pub fn of<M: Mechanism>(
         method: Method,
         mechanism: &M,
@@ -197,8 +197,8 @@ pub enum Treatment {
     None,
     /// Positions and velocities are corrected onto the constraints, see [`holonom::Projection`].
     Projection,
-    /// The same by the pseudo-inverse of the Jacobian, once, see
-    /// [`holonom::run::DirectCorrection`].
+    /// The same by the pseudo-inverse of the Jacobian, once: the method of the literature without
+    /// weights (Marques, Souto and Flores 2017), to compare with.
     DirectCorrection,
     /// Velocities alone are, see [`holonom::run::VelocityProjection`].
     VelocityProjection,
@@ -316,9 +316,9 @@ impl Setting {
         };
         let treatment = match self.treatment {
             Treatment::None | Treatment::Projection => String::new(),
-            Treatment::DirectCorrection => name("DirectCorrection"),
-            Treatment::VelocityProjection => name("VelocityProjection"),
-            Treatment::TreeRecovery => name("TreeRecovery"),
+            Treatment::DirectCorrection => name("__study::DirectCorrection"),
+            Treatment::VelocityProjection => name("run::VelocityProjection"),
+            Treatment::TreeRecovery => name("run::TreeRecovery"),
         };
         [integrator, treatment]
     }

@@ -1,16 +1,19 @@
 //! A problem without its mechanism in the type: what all the rest of the study is about.
 
+use std::marker::PhantomData;
+
 use holonom::{
-    AugmentedLagrangian, Fault, Mechanism, Projection, Real, StateParts,
+    AugmentedLagrangian, Fault, JointCoordinates, Mechanism, Projection, StateParts,
     dynamics::Dynamics,
     integrate::Span,
-    mechanism::{BodyInfo, BodyKind},
+    mechanism::{Absolute, BodyInfo, BodyKind, Relative},
     state::Array as _,
 };
 
-use super::dispatch::{JointsOf, Observe, Time, WithJoints, WithoutJoints, with_formulation};
+use super::dispatch::{Observe, Offered, Time, with_formulation};
 use super::integration::Integration;
-use super::problem::{BodiesAlone, Both, InBoth, Problem, Quantity};
+use super::observation::{Observation, Start, flat, stopped};
+use super::problem::{Problem, Quantity};
 use super::setting::{Formulated, Setting, Treatment};
 use crate::chapter15::Method;
 use crate::compare::measure::reported;
@@ -76,33 +79,6 @@ impl Facts {
     }
 }
 
-/// A state in `f64`: coordinates, then velocities, as [`Mechanism::State`] has them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Start(pub Vec<f64>);
-
-/// What was read of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Observation {
-    /// Evaluations of the equations of motion.
-    pub evaluations: u64,
-    /// Steps that were accepted.
-    pub accepted: u64,
-    /// Steps that were tried and rejected.
-    pub rejected: u64,
-    /// The reporting times (s).
-    pub times: Vec<f64>,
-    /// What [`Problem::read`] says at these.
-    pub values: Vec<Vec<f64>>,
-    /// `|Phi|` at these, all rows together, in m and rad.
-    pub violations: Vec<f64>,
-    /// Kinetic and potential energy (J) at these.
-    pub energies: Vec<f64>,
-    /// The largest change of energy (J) that no force accounts for.
-    pub energy_drift: f64,
-    /// What the run's watch doubts, in words.
-    pub doubts: Vec<String>,
-}
-
 /// A problem without its mechanism in the type.
 pub trait Subject {
     /// What is known of it.
@@ -158,74 +134,98 @@ pub trait Subject {
     fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError>;
 }
 
-macro_rules! subject {
-    ($([$($bound:tt)*] $own:ident => $joints:ident;)*) => {$(
-        impl<P: $($bound)*> Subject for $own<P> {
-            fn facts(&self) -> Facts {
-                facts::<P, $joints>(&self.0)
-            }
+/// A problem in the coordinates of its mechanism: in absolute and in joint coordinates, if `C` is
+/// [`Relative`], else in absolute ones alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Posed<P, C = Relative> {
+    problem: P,
+    coordinates: PhantomData<C>,
+}
 
-            fn reference(&self, time: f64) -> Option<Vec<f64>> {
-                self.0.reference(time)
-            }
-
-            fn difference(&self, read: &[f64], reference: &[f64]) -> f64 {
-                self.0.difference(read, reference)
-            }
-
-            fn start(&self) -> Result<Start, StudyError> {
-                let named = |fault: Fault| stopped(&self.0, &fault);
-                Ok(flat::<P::Mechanism>(&self.0.start().map_err(named)?))
-            }
-
-            fn start_near(&self, size: f64, number: u64) -> Result<Start, StudyError> {
-                let at = |size| start_near(&self.0, size, number);
-                // Where a mechanism cannot be put together so far away, nearer by.
-                let nearer = |fault| at(0.1 * size).or_else(|_| at(0.01 * size)).map_err(|_| fault);
-                let found = at(size).or_else(nearer);
-                found.map_err(|fault| stopped(&self.0, &fault))
-            }
-
-            fn derived(
-                &self,
-                method: Method,
-                scalar: Precision,
-                integration: Integration,
-            ) -> Result<Formulated, StudyError> {
-                let derived = Formulated::of(method, self.0.mechanism(), scalar, integration);
-                derived.map_err(|fault| stopped(&self.0, &fault))
-            }
-
-            fn operations(&self, setting: &Setting) -> Option<usize> {
-                operations::<P, $joints>(setting)
-            }
-
-            fn observe(&self, setting: &Setting, start: &Start) -> Result<Observation, StudyError> {
-                let observe = Observe { problem: &self.0, setting, start };
-                with_formulation::<$joints, P, _>(&self.0, observe, setting)
-            }
-
-            fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError> {
-                let time = Time { problem: &self.0, setting: *setting, start };
-                with_formulation::<$joints, P, _>(&self.0, time, setting)
-            }
+impl<P: Problem<Mechanism: JointCoordinates>> Posed<P> {
+    /// In absolute and in joint coordinates.
+    pub const fn in_both(problem: P) -> Self {
+        Self {
+            problem,
+            coordinates: PhantomData,
         }
-    )*};
-}
-
-subject! {
-    [InBoth] Both => WithJoints;
-    [Problem] BodiesAlone => WithoutJoints;
-}
-
-pub(super) fn stopped<P: Problem>(problem: &P, reason: &dyn std::fmt::Display) -> StudyError {
-    StudyError::Run {
-        name: problem.name().into(),
-        reason: reason.to_string(),
     }
 }
 
-fn facts<P: Problem, J: JointsOf<P>>(problem: &P) -> Facts {
+impl<P: Problem> Posed<P, Absolute> {
+    /// In absolute coordinates alone, for a mechanism that has no others.
+    pub const fn in_absolute(problem: P) -> Self {
+        Self {
+            problem,
+            coordinates: PhantomData,
+        }
+    }
+}
+
+impl<P: Problem, C: Offered<P>> Subject for Posed<P, C> {
+    fn facts(&self) -> Facts {
+        facts::<P, C>(&self.problem)
+    }
+
+    fn reference(&self, time: f64) -> Option<Vec<f64>> {
+        self.problem.reference(time)
+    }
+
+    fn difference(&self, read: &[f64], reference: &[f64]) -> f64 {
+        self.problem.difference(read, reference)
+    }
+
+    fn start(&self) -> Result<Start, StudyError> {
+        let named = |fault: Fault| stopped(&self.problem, &fault);
+        Ok(flat::<P::Mechanism>(&self.problem.start().map_err(named)?))
+    }
+
+    fn start_near(&self, size: f64, number: u64) -> Result<Start, StudyError> {
+        let at = |size| start_near(&self.problem, size, number);
+        // Where a mechanism cannot be put together so far away, nearer by.
+        let nearer = |fault| {
+            at(0.1 * size)
+                .or_else(|_| at(0.01 * size))
+                .map_err(|_| fault)
+        };
+        let found = at(size).or_else(nearer);
+        found.map_err(|fault| stopped(&self.problem, &fault))
+    }
+
+    fn derived(
+        &self,
+        method: Method,
+        scalar: Precision,
+        integration: Integration,
+    ) -> Result<Formulated, StudyError> {
+        let derived = Formulated::of(method, self.problem.mechanism(), scalar, integration);
+        derived.map_err(|fault| stopped(&self.problem, &fault))
+    }
+
+    fn operations(&self, setting: &Setting) -> Option<usize> {
+        operations::<P, C>(setting)
+    }
+
+    fn observe(&self, setting: &Setting, start: &Start) -> Result<Observation, StudyError> {
+        let observe = Observe {
+            problem: &self.problem,
+            setting,
+            start,
+        };
+        with_formulation::<C, P, _>(&self.problem, observe, setting)
+    }
+
+    fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError> {
+        let time = Time {
+            problem: &self.problem,
+            setting: *setting,
+            start,
+        };
+        with_formulation::<C, P, _>(&self.problem, time, setting)
+    }
+}
+
+fn facts<P: Problem, C: Offered<P>>(problem: &P) -> Facts {
     Facts {
         name: problem.name().into(),
         title: problem.title(),
@@ -233,44 +233,24 @@ fn facts<P: Problem, J: JointsOf<P>>(problem: &P) -> Facts {
         time_scale: problem.time_scale(),
         quantity: problem.quantity(),
         equations: P::Mechanism::REPORT.equations,
-        closing: J::CLOSING,
+        closing: C::CLOSING,
     }
 }
 
-fn operations<P: Problem, J: JointsOf<P>>(setting: &Setting) -> Option<usize> {
+fn operations<P: Problem, C: Offered<P>>(setting: &Setting) -> Option<usize> {
     if setting.treatment != Treatment::None {
         return None;
     }
     let method = setting.formulation.method();
     let kernels = match setting.coordinates {
         Coordinates::Bodies => P::Mechanism::REPORT.kernels,
-        Coordinates::Joints => J::KERNELS,
+        Coordinates::Joints => C::KERNELS,
     };
     let stage = format!("rates {}", method.key());
     let stage = kernels.iter().find(|kernel| kernel.name == stage);
     let operations = stage.map(|kernel| kernel.operations);
     let operations = operations.or_else(|| reported(kernels, method));
     operations.map(|operations| operations.total())
-}
-
-fn flat<M: Mechanism>(state: &M::State<f64>) -> Start {
-    let (q, u) = (state.coordinates(), state.velocities());
-    Start(q.as_slice().iter().chain(u.as_slice()).copied().collect())
-}
-
-pub(super) fn state<S: Real, M: Mechanism>(start: &Start) -> M::State<S> {
-    let mut state = M::State::<S>::from_parts(
-        holonom::state::Array::zeros(),
-        holonom::state::Array::zeros(),
-    );
-    let mut numbers = start.0.iter();
-    for place in state.coordinates_mut().as_mut_slice() {
-        *place = S::constant(numbers.next().copied().unwrap_or(f64::NAN));
-    }
-    for place in state.velocities_mut().as_mut_slice() {
-        *place = S::constant(numbers.next().copied().unwrap_or(f64::NAN));
-    }
-    state
 }
 
 fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, Fault> {
@@ -308,8 +288,9 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
     let (length, speed) = (places.fold(0.0, f64::max), linear(u));
     let spin = spins.fold(1.0 / scale, f64::max);
     let formulation = AugmentedLagrangian::of(mechanism);
-    let dynamics =
-        formulation.and_then(|formulation| Dynamics::<f64, _, _>::new(mechanism, formulation));
+    let dynamics = formulation
+        .and_then(|formulation| Dynamics::<f64, _, _>::new(mechanism, formulation))
+        .map(Dynamics::absolute_coordinates);
     let evaluation = dynamics.and_then(|dynamics| dynamics.evaluate(time, &state));
     let gained = evaluation.map_or(0.0, |(evaluation, _)| {
         linear(evaluation.rates.velocities().as_slice())

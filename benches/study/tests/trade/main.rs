@@ -14,7 +14,7 @@ use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::timing::Schedule;
 use holonom_study::trade::{
-    Both, Choice, Entry, Family, Formulated, Grid, Integration, Journal, Problem, Processor,
+    Choice, Entry, Family, Formulated, Grid, Integration, Journal, Posed, Problem, Processor,
     Quantity, Reference, Setting, Source, Subject, Timing, Treatment, Wish, measure, recommend,
     report,
 };
@@ -74,8 +74,8 @@ impl Problem for Falling {
     }
 }
 
-fn falling() -> Both<Falling> {
-    Both(Falling(Arm::default()))
+fn falling() -> Posed<Falling> {
+    Posed::in_both(Falling(Arm::default()))
 }
 
 /// Short, because nothing depends on how long it takes.

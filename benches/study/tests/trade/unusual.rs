@@ -87,7 +87,14 @@ fn another_mechanism_or_another_reference_is_measured_anew() {
     let directory = scratch("stale");
     let path = directory.join("journal");
     let errors = |hanging: Hanging| -> Vec<f64> {
-        let trade = measure(&Both(hanging), &grid(), timing(), &path, |_, _| ()).unwrap();
+        let trade = measure(
+            &Posed::in_both(hanging),
+            &grid(),
+            timing(),
+            &path,
+            |_, _| (),
+        )
+        .unwrap();
         trade.rows.iter().map(|row| row.error).collect()
     };
     let soft = errors(Hanging::new(40.0));
@@ -106,7 +113,13 @@ fn problems_that_nothing_can_be_made_of_are_refused() {
     let directory = scratch("refused");
     let reason = |hanging: Hanging| {
         let path = directory.join("journal");
-        let outcome = measure(&Both(hanging), &grid(), timing(), &path, |_, _| ());
+        let outcome = measure(
+            &Posed::in_both(hanging),
+            &grid(),
+            timing(),
+            &path,
+            |_, _| (),
+        );
         outcome.unwrap_err().to_string()
     };
     let new = || Hanging::new(40.0);
@@ -205,13 +218,13 @@ fn problems_that_nothing_can_be_made_of_are_refused() {
         },
     ] {
         let path = directory.join("journal");
-        assert!(measure(&Both(new()), &endless, timing(), &path, |_, _| ()).is_err());
+        assert!(measure(&Posed::in_both(new()), &endless, timing(), &path, |_, _| ()).is_err());
     }
 }
 
 #[test]
 fn a_block_in_the_origin_starts_nearby_too_and_is_not_doubted() {
-    let subject = Both(Hanging::new(40.0));
+    let subject = Posed::in_both(Hanging::new(40.0));
     let own = subject.start().unwrap();
     let near = subject.start_near(0.01, 1).unwrap();
     let moved = own.0.iter().zip(&near.0).map(|(a, b)| (a - b).abs());
@@ -294,7 +307,7 @@ impl Problem for Shutting {
 #[test]
 fn equations_that_are_kept_are_studied_with_a_compliance() {
     let directory = scratch("kept");
-    let subject = Both(Shutting(Door::default()));
+    let subject = Posed::in_both(Shutting(Door::default()));
     let reference = Reference::of(&subject, None).unwrap();
     assert!(reference.error < 1e-9, "{:e}", reference.error);
     let grid = Grid {

@@ -5,7 +5,7 @@ use super::freedom::Freedom;
 use super::from_bodies::from_bodies;
 use super::system::Reduced;
 use crate::model::{BodyKind, Model};
-use crate::plan::kernels::{PivotCheck, relative};
+use crate::plan::kernels::{PivotCheck, Solver, relative};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::equations::{Kernel, euler_rates, turning};
@@ -21,16 +21,6 @@ pub struct Evaluation {
     pub kernel: Kernel,
     /// The pivots to check.
     pub checks: Vec<PivotCheck>,
-}
-
-/// What forces and moments on the bodies, and right-hand sides of the rows, make of rates and
-/// multipliers: factorisation and back-substitution over one arena.
-#[derive(Clone, Debug)]
-pub struct Solver {
-    /// The terms of the formulation: plain or compliant.
-    pub terms: Terms,
-    /// Rates of the velocities, then multipliers.
-    pub solution: Kernel,
 }
 
 /// What a coordinate or a velocity of the reduced system is.
@@ -234,14 +224,16 @@ fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {
     }
 }
 
+/// What forces and moments on the bodies, and right-hand sides of the rows, make of rates and
+/// multipliers. Pivots are checked by the evaluation of the same state.
 fn solver(mut reduced: Reduced, terms: Terms) -> Solver {
     let solution = reduced.solve_given(terms);
     Solver {
         terms,
-        solution: Kernel {
-            arena: reduced.scene.space.arena,
-            outputs: [solution.accelerations, solution.multipliers].concat(),
-        },
+        arena: reduced.scene.space.arena,
+        pivots: Vec::new(),
+        checks: Vec::new(),
+        solution: [solution.accelerations, solution.multipliers].concat(),
     }
 }
 

@@ -1,60 +1,17 @@
 //! The implementation of a mechanism in joint coordinates.
 
-use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::TokenStream;
+use quote::quote;
 
 use super::inputs::taken;
 use super::parts::{Frame, write_in_parts};
-use super::rows::{WIDTH, array, pack};
-use super::solution::{inline, name, verdict};
-use super::store::{BackSubstitution, Store, load_input};
-use super::straight_line::{Environment, Given, StraightLine, Value};
-use crate::coordinates::kernels::{Evaluation, JointKernels, Solver};
+use super::store;
+use super::straight_line::{Given, StraightLine};
+use super::writer::Writer;
+use crate::coordinates::kernels::JointKernels;
 use crate::model::Model;
-use crate::plan::system::Terms;
-use crate::symbolic::arena::{Arena, Expr, Input, Stage};
-use crate::symbolic::equations::Kernel;
+use crate::symbolic::arena::Stage;
 use crate::syntax::words::local;
-
-/// The environment of a kernel that reads a state in joint coordinates.
-struct Arguments<'a> {
-    store: &'a mut Store,
-    turns: usize,
-}
-
-impl Environment for Arguments<'_> {
-    fn input(&mut self, input: Input) -> TokenStream {
-        let (pairs, rest, rates) = (local("pairs"), local("rest"), local("velocities"));
-        match input {
-            Input::Coordinate(place) if (place as usize) < 2 * self.turns => {
-                let (pair, element) = (place as usize / 2, place as usize % 2);
-                quote!(#pairs[#pair][#element])
-            }
-            Input::Coordinate(place) => {
-                let place = place as usize - 2 * self.turns;
-                quote!(#rest[#place])
-            }
-            Input::Velocity(place) => {
-                let place = place as usize;
-                quote!(#rates[#place])
-            }
-            other => load_input(other),
-        }
-    }
-
-    fn earlier(&mut self, arena: &Arena, value: Expr) -> Value {
-        Value::Expression(self.store.load(arena, value))
-    }
-}
-
-pub(super) struct Writer<'a> {
-    pub(super) model: &'a Model,
-    pub(super) kernels: &'a JointKernels,
-    pub(super) facade: &'a TokenStream,
-    store: Store,
-    /// The functions that long kernels are written in.
-    parts: TokenStream,
-}
 
 /// The implementation, and the functions beside it.
 pub(super) fn implementation(
@@ -62,17 +19,10 @@ pub(super) fn implementation(
     kernels: &JointKernels,
     facade: &TokenStream,
 ) -> TokenStream {
-    let writer = Writer {
-        model,
-        kernels,
-        facade,
-        store: Store::default(),
-        parts: TokenStream::new(),
-    };
-    writer.write()
+    Writer::new(model, kernels, facade).write()
 }
 
-impl Writer<'_> {
+impl Writer<'_, JointKernels> {
     fn write(mut self) -> TokenStream {
         let (model, facade, kernels) = (self.model, self.facade, self.kernels);
         let name = &model.name;
@@ -84,20 +34,9 @@ impl Writer<'_> {
         } = *kernels;
         let rows = kernels.rows.len();
         let read = kernels.bodies.outputs.len();
-        let evaluations: TokenStream = kernels
-            .evaluations
-            .iter()
-            .map(|evaluation| self.evaluation(evaluation))
-            .collect();
+        let evaluations = self.evaluations();
         let dispatch = self.dispatch();
-        let mut factors = 0;
-        let mut solvers = TokenStream::new();
-        for solver in &kernels.solvers {
-            let (tokens, size) = self.solver(solver);
-            solvers.extend(tokens);
-            factors = factors.max(size);
-        }
-        let factors = array(factors);
+        let (solvers, factors) = self.solvers();
         let solving = self.solving();
         let bodies = self.bodies();
         let joints = self.joints();
@@ -118,7 +57,7 @@ impl Writer<'_> {
             #[automatically_derived]
             #documentation
             impl #facade::JointCoordinates for #name {
-                type JointState<__S: #facade::Scalar> = #facade::JointState<__S, #turns, #rest, #velocities>;
+                type JointState<__S: #facade::Scalar> = #facade::__private::JointState<__S, #turns, #rest, #velocities>;
                 type ClosingMultipliers<__S: #facade::Scalar> = [__S; #rows];
                 type JointConstants<__S: #facade::Scalar> = [__S; #c];
                 type JointCoefficients<__S: #facade::Scalar> = [__S; #k];
@@ -126,7 +65,7 @@ impl Writer<'_> {
                 type JointFactors<__S: #facade::Scalar> = #factors;
                 type JointVelocities<__S: #facade::Scalar> = [__S; #velocities];
 
-                const JOINT_REPORT: #facade::JointReport = #report;
+                const JOINT_REPORT: #facade::__private::JointReport = #report;
 
                 fn prepare_joints<__S: #facade::Scalar>(
                     #given: &Self::Parameters<__S>,
@@ -145,7 +84,7 @@ impl Writer<'_> {
 
                 fn joint_coefficients<__S: #facade::Scalar>(
                     #constants: &Self::JointConstants<__S>,
-                    #stabilisation: &#facade::Stabilisation<__S>,
+                    #stabilisation: &#facade::__private::Stabilisation<__S>,
                     #compliances: &Self::ClosingMultipliers<__S>,
                 ) -> Self::JointCoefficients<__S> {
                     #coefficient_statements
@@ -165,358 +104,21 @@ impl Writer<'_> {
         }
     }
 
-    fn line(&mut self, kernel: &Kernel, frame: &Frame) -> StraightLine {
-        let turns = self.kernels.turns;
-        let (line, parts) = write_in_parts(
-            (&kernel.arena, &kernel.outputs),
-            Stage::State,
-            &Given::default(),
-            &mut Arguments {
-                store: &mut self.store,
-                turns,
-            },
-            frame,
-        );
-        self.parts.extend(parts);
-        line
-    }
-
-    fn unpack() -> TokenStream {
-        let state = local("state");
-        let (pairs, rest, rates) = (local("pairs"), local("rest"), local("velocities"));
-        quote! {
-            let #pairs = #state.pairs();
-            let #rest = #state.rest();
-            let #rates = #state.rates();
-        }
-    }
-
-    fn arguments(&self) -> TokenStream {
-        let (name, facade) = (&self.model.name, self.facade);
-        let (constants, coefficients, state) =
-            (local("constants"), local("coefficients"), local("state"));
-        let time = local("time");
-        quote! {
-            #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
-            #coefficients: &<#name as #facade::JointCoordinates>::JointCoefficients<__S>,
-            #time: __S,
-            #state: &<#name as #facade::JointCoordinates>::JointState<__S>,
-        }
-    }
-
-    fn evaluation(&mut self, evaluation: &Evaluation) -> TokenStream {
-        let (model, facade, kernels) = (&self.model.name, self.facade, self.kernels);
-        let function = function(evaluation.terms);
-        let arguments = self.arguments();
-        let names = ["constants", "coefficients", "time", "state"].map(local);
-        let frame = Frame {
-            name: function.to_string(),
-            facade: facade.clone(),
-            declared: arguments.clone(),
-            passed: quote!(#(#names,)*),
-            unpack: Self::unpack(),
-        };
-        let StraightLine {
-            statements,
-            outputs,
-        } = self.line(&evaluation.kernel, &frame);
-        let (angles, others) = outputs.split_at(kernels.turns);
-        let (coordinates, others) = others.split_at(kernels.rest);
-        let (velocities, others) = others.split_at(kernels.velocities);
-        let (multipliers, recorded) = others.split_at(kernels.rows.len());
-        let pivot = verdict(facade, &evaluation.checks, recorded);
-        let inline = inline(&evaluation.kernel.arena, &evaluation.kernel.outputs);
-        let unpack = Self::unpack();
-        let (rates, forces) = (local("rates"), local("multipliers"));
-        let (generic, wanted) = if multipliers.is_empty() {
-            (TokenStream::new(), TokenStream::new())
-        } else {
-            // What they alone need is then left out by the compiler.
-            (
-                quote!(, const __MULTIPLIERS: bool),
-                quote!(if __MULTIPLIERS),
-            )
-        };
-        quote! {
-            #inline
-            fn #function<__S: #facade::Scalar #generic>(
-                #arguments
-                #rates: &mut <#model as #facade::JointCoordinates>::JointState<__S>,
-                #forces: &mut <#model as #facade::JointCoordinates>::ClosingMultipliers<__S>,
-            ) -> #facade::Pivot<__S> {
-                #unpack
-                #statements
-                *#rates = #facade::JointState::from_parts(
-                    [#([#angles, __S::constant(0.0)]),*],
-                    [#(#coordinates),*],
-                    [#(#velocities),*],
-                );
-                #wanted {
-                    *#forces = [#(#multipliers),*];
-                }
-                #pivot
-            }
-        }
-    }
-
-    fn dispatch(&self) -> TokenStream {
-        let facade = self.facade;
-        let names = [
-            "constants",
-            "coefficients",
-            "time",
-            "state",
-            "rates",
-            "multipliers",
-        ];
-        let [constants, coefficients, time, state, rates, multipliers] = names.map(local);
-        let passed = quote!(#constants, #coefficients, #time, #state, #rates, #multipliers);
-        let [plain, stabilised, compliant] = Terms::ALL.map(function);
-        let has_rows = !self.kernels.rows.is_empty();
-        let choice = |wanted: bool| {
-            quote! {
-                match (__T::STABILISED, __T::COMPLIANT) {
-                    (_, true) => #compliant::<__S, #wanted>(#passed),
-                    (true, false) => #stabilised::<__S, #wanted>(#passed),
-                    (false, false) => #plain::<__S, #wanted>(#passed),
-                }
-            }
-        };
-        let body = if has_rows {
-            choice(true)
-        } else {
-            quote!(#plain(#passed))
-        };
-        let rates_alone = has_rows.then(|| {
-            let body = choice(false);
-            let rows = self.kernels.rows.len();
-            quote! {
-                #[inline(always)]
-                fn joint_rates_into<__S: #facade::Scalar, __T: #facade::Terms>(
-                    #constants: &Self::JointConstants<__S>,
-                    #coefficients: &Self::JointCoefficients<__S>,
-                    #time: __S,
-                    #state: &Self::JointState<__S>,
-                    #rates: &mut Self::JointState<__S>,
-                ) -> #facade::Pivot<__S> {
-                    let #multipliers = &mut [__S::constant(0.0); #rows];
-                    #body
-                }
-            }
-        });
-        quote! {
-            #rates_alone
-
-            #[inline(always)]
-            fn evaluate_joints_into<__S: #facade::Scalar, __T: #facade::Terms>(
-                #constants: &Self::JointConstants<__S>,
-                #coefficients: &Self::JointCoefficients<__S>,
-                #time: __S,
-                #state: &Self::JointState<__S>,
-                #rates: &mut Self::JointState<__S>,
-                #multipliers: &mut Self::ClosingMultipliers<__S>,
-            ) -> #facade::Pivot<__S> {
-                #body
-            }
-        }
-    }
-
-    /// The rates of the coordinates alone, which a method needs that moves them by velocities of
-    /// the end of a step.
-    fn coordinate_rates(&mut self) -> TokenStream {
-        let (name, facade, kernels) = (&self.model.name, self.facade, self.kernels);
-        let [constants, time, state] = ["constants", "time", "state"].map(local);
-        let [plain, ..] = &kernels.evaluations[..] else {
-            unreachable!("there is an evaluation without stabilisation")
-        };
-        let kernel = Kernel {
-            arena: plain.kernel.arena.clone(),
-            outputs: plain.kernel.outputs[..kernels.turns + kernels.rest].to_vec(),
-        };
-        let unpack = Self::unpack();
-        let frame = Frame {
-            name: "__joint_coordinate_rates".into(),
-            facade: facade.clone(),
-            declared: quote! {
-                #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
-                #time: __S,
-                #state: &<#name as #facade::JointCoordinates>::JointState<__S>,
-            },
-            passed: quote!(#constants, #time, #state,),
-            unpack: unpack.clone(),
-        };
-        let StraightLine {
-            statements,
-            outputs,
-        } = self.line(&kernel, &frame);
-        let (angles, others) = outputs.split_at(kernels.turns);
-        let velocities = kernels.velocities;
-        quote! {
-            #[inline]
-            fn joint_coordinate_rates<__S: #facade::Scalar>(
-                #constants: &Self::JointConstants<__S>,
-                #time: __S,
-                #state: &Self::JointState<__S>,
-            ) -> Self::JointState<__S> {
-                #unpack
-                #statements
-                #facade::JointState::from_parts(
-                    [#([#angles, __S::constant(0.0)]),*],
-                    [#(#others),*],
-                    [__S::constant(0.0); #velocities],
-                )
-            }
-        }
-    }
-
-    /// The arguments of a back-substitution.
-    fn given(&self) -> TokenStream {
-        let (name, facade) = (&self.model.name, self.facade);
-        let names = ["constants", "coefficients", "factors", "upper", "lower"];
-        let [constants, coefficients, factors, upper, lower] = names.map(local);
-        quote! {
-            #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
-            #coefficients: &<#name as #facade::JointCoordinates>::JointCoefficients<__S>,
-            #factors: &<#name as #facade::JointCoordinates>::JointFactors<__S>,
-            #upper: &<#name as #facade::Mechanism>::Velocities<__S>,
-            #lower: &<#name as #facade::JointCoordinates>::ClosingMultipliers<__S>,
-        }
-    }
-
-    /// Factorisation and back-substitution, and the number of values that pass between them.
-    fn solver(&mut self, solver: &Solver) -> (TokenStream, usize) {
-        let (name, facade) = (&self.model.name, self.facade);
-        let (factor_name, solve_name) = (factor(solver.terms), solve(solver.terms));
-        let Kernel { arena, outputs } = &solver.solution;
-        let passed = ["constants", "coefficients", "factors", "upper", "lower"].map(local);
-        let given = self.given();
-        let mut back = BackSubstitution::new(&mut self.store);
-        let (line, parts) = write_in_parts(
-            (arena, outputs),
-            Stage::RightHandSide,
-            &Given::default(),
-            &mut back,
-            &Frame {
-                name: solve_name.to_string(),
-                facade: facade.clone(),
-                declared: given.clone(),
-                passed: quote!(#(#passed,)*),
-                unpack: TokenStream::new(),
-            },
-        );
-        let factors = Kernel {
-            arena: arena.clone(),
-            outputs: back.factors,
-        };
-        self.parts.extend(parts);
-        let arguments = self.arguments();
-        let names = ["constants", "coefficients", "time", "state"].map(local);
-        let unpack = Self::unpack();
-        let frame = Frame {
-            name: factor_name.to_string(),
-            facade: facade.clone(),
-            declared: arguments.clone(),
-            passed: quote!(#(#names,)*),
-            unpack: unpack.clone(),
-        };
-        let factored = self.line(&factors, &frame);
-        let packed = pack(&factored.outputs);
-        let rows = 0..packed.len();
-        let (factor_statements, solve_statements) = (factored.statements, line.statements);
-        let (accelerations, multipliers) = line.outputs.split_at(self.kernels.velocities);
-        let factors_name = local("factors");
-        let tokens = quote! {
-            #[inline(never)]
-            fn #factor_name<__S: #facade::Scalar>(
-                #arguments
-            ) -> <#name as #facade::JointCoordinates>::JointFactors<__S> {
-                #unpack
-                #factor_statements
-                let mut #factors_name: <#name as #facade::JointCoordinates>::JointFactors<__S> = [[__S::constant(0.0); #WIDTH]; _];
-                #( #factors_name[#rows] = #packed; )*
-                #factors_name
-            }
-
-            #[inline(never)]
-            fn #solve_name<__S: #facade::Scalar>(
-                #given
-            ) -> (
-                <#name as #facade::JointCoordinates>::JointVelocities<__S>,
-                <#name as #facade::JointCoordinates>::ClosingMultipliers<__S>,
-            ) {
-                #solve_statements
-                ([#(#accelerations),*], [#(#multipliers),*])
-            }
-        };
-        (tokens, factors.outputs.len())
-    }
-
-    /// The choice among factorisations and back-substitutions.
-    fn solving(&self) -> TokenStream {
-        let facade = self.facade;
-        let names = ["constants", "coefficients", "time", "state"];
-        let [constants, coefficients, time, state] = names.map(local);
-        let [factors, upper, lower] = ["factors", "upper", "lower"].map(local);
-        let choose = |function: fn(Terms) -> Ident, passed: &TokenStream| {
-            let [plain, compliant] = [Terms::Plain, Terms::Compliant].map(function);
-            if self.kernels.rows.is_empty() {
-                quote!(#plain(#passed))
-            } else {
-                quote! {
-                    if __T::COMPLIANT {
-                        #compliant(#passed)
-                    } else {
-                        #plain(#passed)
-                    }
-                }
-            }
-        };
-        let factored = choose(factor, &quote!(#constants, #coefficients, #time, #state));
-        let passed = quote!(#constants, #coefficients, #factors, #upper, #lower);
-        let solved = choose(solve, &passed);
-        quote! {
-            #[inline(always)]
-            fn factor_joints<__S: #facade::Scalar, __T: #facade::Terms>(
-                #constants: &Self::JointConstants<__S>,
-                #coefficients: &Self::JointCoefficients<__S>,
-                #time: __S,
-                #state: &Self::JointState<__S>,
-            ) -> Self::JointFactors<__S> {
-                #factored
-            }
-
-            #[inline(always)]
-            fn solve_joints<__S: #facade::Scalar, __T: #facade::Terms>(
-                #constants: &Self::JointConstants<__S>,
-                #coefficients: &Self::JointCoefficients<__S>,
-                #factors: &Self::JointFactors<__S>,
-                #upper: &Self::Velocities<__S>,
-                #lower: &Self::ClosingMultipliers<__S>,
-            ) -> (Self::JointVelocities<__S>, Self::ClosingMultipliers<__S>) {
-                #solved
-            }
-        }
-    }
-
     fn bodies(&mut self) -> TokenStream {
-        let (name, facade) = (&self.model.name, self.facade);
+        let facade = self.facade;
         let (constants, state) = (local("constants"), local("state"));
         let unpack = Self::unpack();
-        let frame = Frame {
-            name: "__body_motions".into(),
-            facade: facade.clone(),
-            declared: quote! {
-                #constants: &<#name as #facade::JointCoordinates>::JointConstants<__S>,
-                #state: &<#name as #facade::JointCoordinates>::JointState<__S>,
-            },
-            passed: quote!(#constants, #state,),
-            unpack: unpack.clone(),
-        };
+        let [of_state, of_constants, ..] = self.types_outside();
+        let frame = self.frame(
+            "__body_motions".into(),
+            quote!(#constants: &#of_constants, #state: &#of_state,),
+            quote!(#constants, #state,),
+        );
         let kernels = self.kernels;
         let StraightLine {
             statements,
             outputs,
-        } = self.line(&kernels.bodies, &frame);
+        } = self.line_of(&kernels.bodies, &Given::default(), &frame);
         quote! {
             fn body_motions<__S: #facade::Scalar>(
                 #constants: &Self::JointConstants<__S>,
@@ -552,7 +154,7 @@ impl Writer<'_> {
             (&kernels.joints.arena, &kernels.joints.outputs),
             Stage::State,
             &Given::default(),
-            &mut super::store::Kernel {
+            &mut store::Kernel {
                 store: &mut self.store,
             },
             &frame,
@@ -572,20 +174,8 @@ impl Writer<'_> {
             ) -> Self::JointState<__S> {
                 #unpack
                 #statements
-                #facade::JointState::from_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
+                #facade::__private::JointState::from_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
             }
         }
     }
-}
-
-fn function(terms: Terms) -> Ident {
-    format_ident!("__evaluate_joints_{}", name(terms))
-}
-
-fn factor(terms: Terms) -> Ident {
-    format_ident!("__factor_joints_{}", name(terms))
-}
-
-fn solve(terms: Terms) -> Ident {
-    format_ident!("__solve_joints_{}", name(terms))
 }

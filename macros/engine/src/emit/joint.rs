@@ -27,12 +27,13 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStre
     let fingerprint = Literal::u64_suffixed(fingerprint);
     let has = |wanted: fn(&Statement) -> bool| syntax.statements.iter().any(wanted);
     let marker = |present: bool, marker: TokenStream| {
-        present.then(|| quote!(#[automatically_derived] impl #facade::#marker for #name {}))
+        present
+            .then(|| quote!(#[automatically_derived] impl #facade::__private::#marker for #name {}))
     };
     let traits = match syntax.kind {
         ElementKind::Force => quote! {
             #[automatically_derived]
-            impl #facade::Force for #name {
+            impl #facade::__private::Force for #name {
                 const NAME: &'static ::core::primitive::str = #text;
                 const BODIES: ::core::primitive::usize = #bodies;
                 const FINGERPRINT: ::core::primitive::u64 = #fingerprint;
@@ -47,12 +48,12 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStre
                 let row = joint.and_then(|joint| joint.drive).unwrap_or_default();
                 quote! {
                     #[automatically_derived]
-                    impl #facade::Driven for #name { const ROW: ::core::primitive::usize = #row; }
+                    impl #facade::__private::Driven for #name { const ROW: ::core::primitive::usize = #row; }
                 }
             });
             quote! {
                 #[automatically_derived]
-                impl #facade::Joint for #name {
+                impl #facade::__private::Joint for #name {
                     const NAME: &'static ::core::primitive::str = #text;
                     const EQUATIONS: ::core::primitive::usize = #equations;
                     const BODIES: ::core::primitive::usize = #bodies;
@@ -176,7 +177,7 @@ fn motion(joint: &ElementDef, motion: Motion) -> String {
 #[must_use]
 pub fn kind(kind: BodyKind, facade: &TokenStream) -> TokenStream {
     match kind {
-        BodyKind::Rigid => quote!(#facade::BodyKind::Rigid),
-        BodyKind::Particle => quote!(#facade::BodyKind::Particle),
+        BodyKind::Rigid => quote!(#facade::__private::BodyKind::Rigid),
+        BodyKind::Particle => quote!(#facade::__private::BodyKind::Particle),
     }
 }

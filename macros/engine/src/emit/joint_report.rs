@@ -4,9 +4,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::coordinates::Writer;
 use super::report::{evaluation_name, kernel, terms_name};
-use crate::coordinates::kernels::Meaning;
+use super::writer::Writer;
+use crate::coordinates::kernels::{JointKernels, Meaning};
 use crate::symbolic::arena::Stage;
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
@@ -20,7 +20,7 @@ fn option(index: Option<usize>) -> TokenStream {
     }
 }
 
-impl Writer<'_> {
+impl Writer<'_, JointKernels> {
     /// The coordinates, what remains of the joints, and what an evaluation costs.
     pub(super) fn documentation(&self) -> TokenStream {
         let (model, kernels) = (self.model, self.kernels);
@@ -98,8 +98,8 @@ impl Writer<'_> {
             let (coordinate, velocity, zero) = (link.coordinate, link.velocity, link.zero);
             let against = option(link.against);
             quote! {
-                #facade::JointMotion {
-                    joint: #joint, body: #body, freedom: #facade::Freedom::#motion, coordinate: #coordinate, velocity: #velocity,
+                #facade::__private::JointMotion {
+                    joint: #joint, body: #body, freedom: #facade::__private::Freedom::#motion, coordinate: #coordinate, velocity: #velocity,
                     against: #against, zero: #zero,
                 }
             }
@@ -111,7 +111,7 @@ impl Writer<'_> {
         let counters = self.model.counters().into_iter().enumerate();
         let counters = counters.map(|(place, counter)| {
             let (place, element) = (first + place, elements[counter.element].name.to_string());
-            quote!(#facade::JointCounter { element: #element, coordinate: #place })
+            quote!(#facade::__private::JointCounter { element: #element, coordinate: #place })
         });
         let counts = self.counts().into_iter();
         let counts = counts.map(|(name, count)| kernel(&name, count, facade));
@@ -119,7 +119,7 @@ impl Writer<'_> {
         let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
         let determines = kernels.determines;
         quote! {
-            #facade::JointReport {
+            #facade::__private::JointReport {
                 motions: &[#(#links),*],
                 closing: &[#(#closing),*],
                 rows: &[#(#rows),*],

@@ -9,9 +9,7 @@ use super::inputs::{Inputs, inputs_of, taken};
 use super::parameters;
 use super::parts::Frame;
 use super::report::report;
-use super::rows;
-use super::solution::is_short;
-use super::store::Store;
+use super::solver::is_short;
 use super::straight_line::{Given, StraightLine};
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
@@ -24,14 +22,7 @@ use crate::syntax::words::local;
 #[must_use]
 pub fn emit(model: &Model, facade: &TokenStream) -> TokenStream {
     let kernels = Kernels::new(model);
-    let writer = Writer {
-        model,
-        kernels: &kernels,
-        facade,
-        store: Store::default(),
-        parts: TokenStream::new(),
-    };
-    writer.write()
+    Writer::new(model, &kernels, facade).write()
 }
 
 /// What a kernel returns.
@@ -59,6 +50,7 @@ impl Writer<'_> {
         let state_kernels = self.state_kernels();
         let evaluations = self.evaluations();
         let dispatch = self.dispatch();
+        let solving = self.solving();
         let (solvers, factors) = self.solvers();
         let readouts = self.readouts();
         let initial = self.initial_state();
@@ -82,8 +74,8 @@ impl Writer<'_> {
         let vector_rows = &kernels.vector_rows;
         let joints = self.in_joint_coordinates();
         let default_coordinates = match model.coordinates {
-            Coordinates::Joints => quote!(#facade::Relative),
-            Coordinates::Bodies | Coordinates::Both => quote!(#facade::Absolute),
+            Coordinates::Joints => quote!(#facade::__private::Relative),
+            Coordinates::Bodies | Coordinates::Both => quote!(#facade::__private::Absolute),
         };
         let parts = &self.parts;
         quote! {
@@ -96,7 +88,8 @@ impl Writer<'_> {
                 // Types of the same names may stand beside the struct.
                 use ::core::primitive::{f64, usize};
                 use ::core::assert as __holonom_assert;
-                use #facade::{Array as _, Scalar as _, StateParts as _};
+                use #facade::__private::Array as _;
+                use #facade::{Scalar as _, StateParts as _};
 
                 #handles_type
                 #inputs_type
@@ -119,6 +112,7 @@ impl Writer<'_> {
                     #stages
                     #state_kernels
                     #dispatch
+                    #solving
                     #initial
                     #readouts
                 }
@@ -147,7 +141,7 @@ impl Writer<'_> {
         let jacobian_size = self.kernels.jacobian.outputs.len();
         let (c, k) = (self.store.constants(), self.store.coefficients());
         quote! {
-            type State<__S: #facade::Scalar> = #facade::State<__S, #q, #u>;
+            type State<__S: #facade::Scalar> = #facade::__private::State<__S, #q, #u>;
             type Velocities<__S: #facade::Scalar> = [__S; #u];
             type Multipliers<__S: #facade::Scalar> = [__S; #m];
             type Jacobian<__S: #facade::Scalar> = [__S; #jacobian_size];
@@ -189,25 +183,13 @@ impl Writer<'_> {
             #[inline]
             fn coefficients_by_row<__S: #facade::Scalar>(
                 #constants: &Self::Constants<__S>,
-                #stabilisation: &#facade::Stabilisation<__S>,
+                #stabilisation: &#facade::__private::Stabilisation<__S>,
                 #compliances: &Self::Multipliers<__S>,
             ) -> Self::Coefficients<__S> {
                 #coefficient_statements
                 [#(#coefficient_outputs),*]
             }
         }
-    }
-
-    /// Factorisations and back-substitutions, and the array that passes between them.
-    fn solvers(&mut self) -> (TokenStream, TokenStream) {
-        let mut solvers = TokenStream::new();
-        let mut most = 0;
-        for solver in &self.kernels.solvers {
-            let (tokens, factors) = self.solver(solver);
-            solvers.extend(tokens);
-            most = most.max(factors);
-        }
-        (solvers, rows::array(most))
     }
 
     /// What is read of bodies, joints and forces.
@@ -335,7 +317,7 @@ impl Writer<'_> {
         quote! {
             fn initial_state<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> Self::State<__S> {
                 #statements
-                #facade::State::from_parts([#(#coordinates),*], [#(#velocities),*])
+                #facade::__private::State::from_parts([#(#coordinates),*], [#(#velocities),*])
             }
         }
     }

@@ -5,6 +5,9 @@
 //! two normalisations of `p`. Forces of closures, the augmented Lagrangian and projections use
 //! `factor` and `solve`, which keeps the fused kernels free of them.
 //!
+//! `solver.rs` writes the solver once, for either kind of coordinates. `solution.rs` and
+//! `joint_solution.rs` say in which of its words they differ, and choose among evaluations.
+//!
 //! Long kernels: `docs/decisions/008-long-kernels.md`.
 //!
 //! Values. `parameters.rs` writes the checks of run-time values in `f64`. So `prepare`, which
@@ -23,6 +26,7 @@ mod handles;
 mod inputs;
 pub mod joint;
 mod joint_report;
+mod joint_solution;
 mod likes;
 pub mod mechanism;
 pub mod parameters;
@@ -30,7 +34,8 @@ mod parts;
 mod readouts;
 pub mod report;
 mod rows;
-pub mod solution;
+mod solution;
+mod solver;
 pub mod store;
 pub mod straight_line;
 mod writer;

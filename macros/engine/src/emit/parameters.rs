@@ -49,7 +49,7 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
         };
         tokens.extend(quote! {
             const _: () = ::core::assert!(
-                <#path as #facade::#kind>::FINGERPRINT == #fingerprint,
+                <#path as #facade::__private::#kind>::FINGERPRINT == #fingerprint,
                 "the type and the definition of a joint or force differ; is one of them shadowed?"
             );
         });
@@ -205,7 +205,7 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
                 return ::core::result::Result::Err(#facade::ParameterError {
                     field: #field,
                     attribute: #attribute,
-                    fault: #facade::ParameterFault::#fault,
+                    fault: #facade::__private::ParameterFault::#fault,
                 });
             }
         });

@@ -28,7 +28,7 @@ impl Writer<'_> {
             arms.extend(quote! {
                 #place => {
                     #statements
-                    #facade::AngleParts { cosine: #cosine, sine: #sine, rate: #rate, turns: #turns }
+                    #facade::__private::AngleParts { cosine: #cosine, sine: #sine, rate: #rate, turns: #turns }
                 }
             });
         }
@@ -37,11 +37,11 @@ impl Writer<'_> {
                 #constants: &Self::Constants<__S>,
                 #state: &Self::State<__S>,
                 #joint: usize,
-            ) -> #facade::AngleParts<__S> {
+            ) -> #facade::__private::AngleParts<__S> {
                 #unpack
                 match #joint {
                     #arms
-                    _ => #facade::AngleParts {
+                    _ => #facade::__private::AngleParts {
                         cosine: __S::one(),
                         sine: __S::zero(),
                         rate: __S::zero(),
@@ -71,7 +71,7 @@ impl Writer<'_> {
                 arms.extend(quote! {
                     #place => {
                         #statements
-                        #facade::DisplacementParts { value: #value, rate: #rate }
+                        #facade::__private::DisplacementParts { value: #value, rate: #rate }
                     }
                 });
             }
@@ -82,11 +82,11 @@ impl Writer<'_> {
                 #time: __S,
                 #state: &Self::State<__S>,
                 #joint: usize,
-            ) -> #facade::DisplacementParts<__S> {
+            ) -> #facade::__private::DisplacementParts<__S> {
                 #unpack
                 match #joint {
                     #arms
-                    _ => #facade::DisplacementParts { value: __S::zero(), rate: __S::zero() },
+                    _ => #facade::__private::DisplacementParts { value: __S::zero(), rate: __S::zero() },
                 }
             }
         }
@@ -206,7 +206,7 @@ impl Writer<'_> {
                 energies.extend(quote! {
                     #at => {
                         #statements
-                        #facade::ForceParts { potential: #potential, power: #power }
+                        #facade::__private::ForceParts { potential: #potential, power: #power }
                     }
                 });
             }
@@ -224,11 +224,11 @@ impl Writer<'_> {
                 #time: __S,
                 #state: &Self::State<__S>,
                 #force: usize,
-            ) -> #facade::ForceParts<__S> {
+            ) -> #facade::__private::ForceParts<__S> {
                 #unpack
                 match #force {
                     #energies
-                    _ => #facade::ForceParts { potential: __S::zero(), power: __S::zero() },
+                    _ => #facade::__private::ForceParts { potential: __S::zero(), power: __S::zero() },
                 }
             }
 

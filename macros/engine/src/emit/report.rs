@@ -131,7 +131,7 @@ fn option(place: Option<usize>) -> TokenStream {
 /// A kernel by its name and what it costs.
 pub(super) fn kernel(name: &str, count: Count, facade: &TokenStream) -> TokenStream {
     let operations = operations(count, facade);
-    quote!(#facade::Kernel { name: #name, operations: #operations })
+    quote!(#facade::__private::Kernel { name: #name, operations: #operations })
 }
 
 fn operations(count: Count, facade: &TokenStream) -> TokenStream {
@@ -144,7 +144,7 @@ fn operations(count: Count, facade: &TokenStream) -> TokenStream {
         depth,
     } = count;
     quote! {
-        #facade::Operations {
+        #facade::__private::Operations {
             additions: #additions,
             multiplications: #multiplications,
             divisions: #divisions,
@@ -163,7 +163,7 @@ fn explicit_time(time: &ExplicitTime, facade: &TokenStream) -> TokenStream {
         breaks,
     } = time;
     quote! {
-        #facade::ExplicitTime {
+        #facade::__private::ExplicitTime {
             constraints: #constraints, forces: #forces, potential: #potential, breaks: &[#(#breaks),*],
         }
     }
@@ -177,7 +177,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     let bodies = model.bodies.iter().enumerate().map(|(place, body)| {
         let (name, kind) = (body.name.to_string(), kind(body.kind, facade));
         let (coordinate, velocity) = (layout.coordinate[place], layout.velocity[place]);
-        quote!(#facade::BodyInfo { name: #name, kind: #kind, coordinate: #coordinate, velocity: #velocity })
+        quote!(#facade::__private::BodyInfo { name: #name, kind: #kind, coordinate: #coordinate, velocity: #velocity })
     });
     let counters = model.counters();
     // The first auxiliary variable of a joint or force, and how many it has.
@@ -198,7 +198,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let undetermined = model.independence.undetermined.iter();
         let undetermined = undetermined.filter_map(|&(of, row)| (of == place).then_some(row));
         quote! {
-            #facade::JointInfo {
+            #facade::__private::JointInfo {
                 name: #name, kind: #kind, row: #row, rows: #rows, bodies: &[#(#bodies),*], has_angle: #has_angle,
                 has_displacement: #has_displacement, has_point: #has_point,
                 auxiliary: #auxiliary, auxiliaries: #auxiliaries, undetermined: &[#(#undetermined),*],
@@ -213,7 +213,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let bodies = places(force);
         let (auxiliary, auxiliaries) = auxiliaries(model.joints.len() + place);
         quote! {
-            #facade::ForceInfo {
+            #facade::__private::ForceInfo {
                 name: #name, kind: #kind, bodies: &[#(#bodies),*], auxiliary: #auxiliary, auxiliaries: #auxiliaries,
             }
         }
@@ -221,14 +221,14 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     let mut carriers = vec![TokenStream::new(); model.bodies.len()];
     for carried in Spanning::new(model).carried {
         let [body, joint] = [carried.by, carried.joint].map(option);
-        carriers[carried.body] = quote!(#facade::Carrier { body: #body, joint: #joint });
+        carriers[carried.body] = quote!(#facade::__private::Carrier { body: #body, joint: #joint });
     }
     let blocks = kernels.blocks.iter().map(|block| {
         let crate::symbolic::equations::Block { joint, body, offset } = *block;
         let (row, rows) = (layout.row[joint], model.equations(&model.joints[joint]));
         let (column, columns) = (layout.velocity[body], model.bodies[body].kind.velocities());
         quote! {
-            #facade::Block {
+            #facade::__private::Block {
                 joint: #joint, body: #body, row: #row, rows: #rows, column: #column, columns: #columns, offset: #offset,
             }
         }
@@ -246,15 +246,15 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     let degrees_of_freedom = independence.degrees_of_freedom(velocities, rows);
     let rank = match independence.rank {
         Rank::Decided { rank, at_start } => {
-            quote!(#facade::Rank::Decided { rank: #rank, at_start: #at_start })
+            quote!(#facade::__private::Rank::Decided { rank: #rank, at_start: #at_start })
         }
-        Rank::NotDecided => quote!(#facade::Rank::NotDecided),
-        Rank::NotAssembled => quote!(#facade::Rank::NotAssembled),
+        Rank::NotDecided => quote!(#facade::__private::Rank::NotDecided),
+        Rank::NotAssembled => quote!(#facade::__private::Rank::NotAssembled),
     };
     let dropped = independence.dropped;
     let redundant = independence.redundant.iter().map(|redundant| {
         let (joint, row) = (redundant.joint, redundant.row);
-        quote!(#facade::RedundantRow { joint: #joint, row: #row, dropped: #dropped })
+        quote!(#facade::__private::RedundantRow { joint: #joint, row: #row, dropped: #dropped })
     });
     let time = explicit_time(&ExplicitTime::of(kernels), facade);
     let curved = is_curved(model, &kernels.gamma);

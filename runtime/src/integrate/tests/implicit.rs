@@ -1,11 +1,12 @@
 //! The implicit midpoint rule.
 
 use super::{Equation, Spring, curve, curved, distance, equation, errors, order, span};
+use crate::Fault;
 use crate::integrate::{
     Advance as _, Course as _, ImplicitMidpoint, Integrator as _, NoStages, OneStep as _, Slopes,
     Start, System,
 };
-use crate::{Fault, JointState};
+use crate::state::JointState;
 
 #[test]
 fn it_has_order_two_at_and_within_steps() {

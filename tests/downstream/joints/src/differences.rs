@@ -1,6 +1,6 @@
 //! Kernels of any mechanism against finite differences of its `Phi`.
 
-use kinematics::{Array, BodyKind, Mechanism, MechanismExt, StateParts};
+use kinematics::{Mechanism, MechanismExt, StateParts, mechanism::BodyKind, state::Array};
 
 /// What a difference of unit-sized numbers may be off by.
 const TOLERANCE: f64 = 1e-7;

@@ -44,7 +44,7 @@ pub fn sway() -> Result<f64, ParameterError> {
     let trolley = Trolley::default();
     let state = trolley.described_state::<f64>()?;
     let constants = trolley.constants::<f64>()?;
-    let rigid = mech::Stabilisation {
+    let rigid = mech::mechanism::Stabilisation {
         rate: 0.0,
         position: 0.0,
         compliance: 0.0,

@@ -102,7 +102,10 @@ fn a_driven_joint_of_another_crate_reads_like_a_built_in_one() {
     assert_eq!((info.kind, info.rows, info.row), ("Telescope", 6, 0));
     assert!(info.has_angle && info.has_displacement);
     assert_eq!((report.equations, report.auxiliaries), (6, 1));
-    assert_eq!(<downstream_joints::Telescope as mech::Joint>::EQUATIONS, 6);
+    assert_eq!(
+        <downstream_joints::Telescope as mech::mechanism::Joint>::EQUATIONS,
+        6
+    );
     let mut times = 0;
     let _ = KinematicAnalysis::new(&probe, StandardLagrange)
         .run(0.0..=3.0, every(0.1), |sample| {

@@ -37,8 +37,7 @@ type Inputs = <Balancer as Mechanism>::Inputs<f32>;
 fn run(timer: &mut SYST) -> Result<(), Fault> {
     let pivot = Balancer::HANDLES.pivot;
     let balancer = Balancer::default();
-    let stepper = Stepper::<f32, _, _, _>::new(&balancer, StandardLagrange, Rk4)?;
-    let mut stepper = stepper.joint_coordinates();
+    let mut stepper = Stepper::<f32, _, _, _>::new(&balancer, StandardLagrange, Rk4)?;
     // Aside by 0.05 rad, at rest.
     let mut start = balancer.described_state()?;
     balancer.set_angle(&mut start, pivot, 0.05)?;

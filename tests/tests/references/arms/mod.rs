@@ -167,7 +167,9 @@ fn moves_as_given<M: Arm<N>, const N: usize>() {
     for given in M::REFERENCE.states {
         let arm = M::with_torques(given.torques);
         let state = state(&arm, given.angles, given.rates);
-        let dynamics = Dynamics::new(&arm, StandardLagrange).expect("sound");
+        let dynamics = Dynamics::new(&arm, StandardLagrange)
+            .expect("sound")
+            .absolute_coordinates();
         let view = dynamics.view(0.0, &state);
         for (k, joint) in M::JOINTS.into_iter().enumerate() {
             assert!(

@@ -79,6 +79,7 @@ fn run<M: JointCoordinates, I: RunsBoth<M, StandardLagrange>>(
         let simulation = simulation.joint_coordinates();
         simulation.run(0.0..=1.0, every(0.0625), look)
     } else {
+        let simulation = simulation.absolute_coordinates();
         simulation.run(0.0..=1.0, every(0.0625), look)
     };
     report.expect("regular").state

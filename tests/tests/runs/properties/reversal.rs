@@ -1,8 +1,13 @@
 //! A motion that is run backwards comes to where it began, by a method that is symmetric.
 
 use holonom::{
-    Heun, ImplicitMidpoint, dynamics::Dynamics, integrate::OneStep, measure::NoForces,
-    mechanism::Relative, state::Array, state::MovingState,
+    Heun, ImplicitMidpoint,
+    dynamics::Dynamics,
+    integrate::OneStep,
+    measure::NoForces,
+    mechanism::{Absolute, Relative},
+    state::Array,
+    state::MovingState,
 };
 use holonom::{StateParts, integrate::System};
 
@@ -36,7 +41,7 @@ fn return_errors<M: JointCoordinates, K>(
     scheme: K,
 ) -> [f64; 2]
 where
-    K: OneStep<f64, Dynamics<f64, M, StandardLagrange>>
+    K: OneStep<f64, Dynamics<f64, M, StandardLagrange, NoForces, Absolute>>
         + OneStep<f64, Dynamics<f64, M, StandardLagrange, NoForces, Relative>>,
 {
     let negative = |velocities: &mut [f64]| {
@@ -44,7 +49,9 @@ where
             *velocity = -*velocity;
         }
     };
-    let mut dynamics = Dynamics::new(mechanism, StandardLagrange).expect("sound");
+    let mut dynamics = Dynamics::new(mechanism, StandardLagrange)
+        .expect("sound")
+        .absolute_coordinates();
     let mut state = start;
     there_and_back(
         &mut dynamics,

@@ -17,7 +17,7 @@ use holonom::{
 pub type OnConstraints<X> = Option<Result<AlphaEnd<X>, Fault>>;
 
 /// A system that a method chosen at run time moves.
-pub trait Offered<S: Real>: SecondOrder<S> {
+pub trait Movable<S: Real>: SecondOrder<S> {
     /// A step on rigid constraints, if it has them.
     fn on_constraints(
         &mut self,
@@ -86,7 +86,7 @@ impl<M: JointCoordinates> Described<M> for Relative {
     }
 }
 
-impl<S, M, F, A, C> Offered<S> for Dynamics<S, M, F, A, C>
+impl<S, M, F, A, C> Movable<S> for Dynamics<S, M, F, A, C>
 where
     S: Real,
     M: Mechanism,
