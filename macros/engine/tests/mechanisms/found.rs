@@ -254,3 +254,30 @@ fn round_off_determines_no_velocity_where_it_is_the_only_number() {
         );
     }
 }
+
+/// A force along an axis at a point on an axis of the body: the accelerations need two entries of
+/// `A`. The common number was taken out of the terms of one entry, and the sum that was left read
+/// Euler parameters as they are where they are to be normalised.
+const ONE_ENTRY: &str = "
+    pub struct Random {
+        #[body(mass = 1.3, inertia = [1.8, 0.9, 1.2], position = [0.5, 0.25, 0.25])]
+        body: Body,
+        #[force(between = [ground, body], point = [0.5, 0.0, 0.25], force = [-1.0, 0.0, 0.0])]
+        push: PointForce,
+    }";
+
+#[test]
+fn all_entries_of_a_rotation_are_normalised() {
+    let text = Text {
+        item: ONE_ENTRY.into(),
+        definitions: Vec::new(),
+    };
+    for seed in 0..4 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}
