@@ -159,6 +159,10 @@ impl Comparison<'_> {
         let Some(equations) = self.equations(state) else {
             return Ok(());
         };
+        if equations.hold() && equations.sides.iter().any(|side| *side <= 0.0) {
+            // Opposed axes, between which no angle is the nearest: equations hold there as well.
+            return Ok(());
+        }
         let cartesian = |state: &State, angles: &[(f64, f64)]| {
             Inputs::new(model, self.described, state, angles, coefficients)
         };

@@ -180,3 +180,20 @@ const ASKEW: &str = "
 fn the_angle_of_a_screw_is_the_one_that_placed_its_bodies() {
     assert_agrees_at(ASKEW, 16939);
 }
+
+/// One of whose states has the axes of both bodies opposed: the equations hold, and no angle is
+/// nearer than another.
+const OPPOSED: &str = "
+    pub struct Screws {
+        #[body(mass = 0.9, inertia = [0.6, 0.4, 0.5], position = [0.25, 0.0, 0.0])]
+        nut: Body,
+        #[body(mass = 1.8, inertia = [1.2, 1.4, 1.0], position = [0.0, 0.15, 0.7])]
+        spindle: Body,
+        #[joint(between = [nut, spindle], point = [1.0, -0.5, 0.25], axis = [0.0, 1.0, 0.0], pitch = 0.46)]
+        thread: Screw,
+    }";
+
+#[test]
+fn no_joint_coordinates_describe_the_other_side_of_a_joint() {
+    assert_agrees_at(OPPOSED, 81);
+}
