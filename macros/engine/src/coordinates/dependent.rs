@@ -27,8 +27,20 @@ pub(super) const ROUND_OFF: f64 = 1e-12;
 /// A tour of fewer stops tells nothing.
 const STOPS: usize = 4;
 
-/// Rows of `D` at the stops of a tour, stop by stop.
-type Stops = Vec<Vec<Vec<f64>>>;
+/// Rows of `D` at a stop of a tour.
+struct Stop {
+    rows: Vec<Vec<f64>>,
+    /// The largest number that each row is made of. In a singular position a row without the
+    /// velocities that others determine may be nothing but round-off.
+    made_of: Vec<f64>,
+}
+
+impl Stop {
+    fn new(rows: Vec<Vec<f64>>) -> Self {
+        let made_of = rows.iter().map(|row| largest(row).abs()).collect();
+        Self { rows, made_of }
+    }
+}
 
 /// The inputs of some stops of a tour, the first of which is the reference configuration; none
 /// where nothing can move or be told.
@@ -55,7 +67,7 @@ pub(super) fn tour(
 }
 
 /// The values of rows at the stops of a tour.
-fn values(arena: &Arena, rows: &[Vec<Expr>], tour: &[(f64, Vec<f64>)]) -> Option<Stops> {
+fn values(arena: &Arena, rows: &[Vec<Expr>], tour: &[(f64, Vec<f64>)]) -> Option<Vec<Stop>> {
     let flat: Vec<Expr> = rows.iter().flatten().copied().collect();
     let stops = tour.iter().map(|(time, coordinates)| {
         let values = evaluate(arena, &flat, |input| match input {
@@ -65,7 +77,7 @@ fn values(arena: &Arena, rows: &[Vec<Expr>], tour: &[(f64, Vec<f64>)]) -> Option
         });
         let values: Option<Vec<f64>> = values.into_iter().collect();
         let width = rows.first().map_or(1, |row| row.len().max(1));
-        values.map(|values| values.chunks(width).map(<[f64]>::to_vec).collect())
+        values.map(|values| Stop::new(values.chunks(width).map(<[f64]>::to_vec).collect()))
     });
     stops.collect()
 }
@@ -86,7 +98,7 @@ struct Candidate {
 struct Open<'a> {
     rows: Vec<usize>,
     joints: &'a [usize],
-    stops: Stops,
+    stops: Vec<Stop>,
     sizes: Vec<f64>,
     /// The velocities that each row knows of.
     known: Vec<Vec<usize>>,
@@ -123,8 +135,8 @@ pub(super) fn dependent(
 }
 
 impl<'a> Open<'a> {
-    fn new(stops: Stops, joints: &'a [usize]) -> Self {
-        let rows: Vec<usize> = (0..stops.first().map_or(0, Vec::len)).collect();
+    fn new(stops: Vec<Stop>, joints: &'a [usize]) -> Self {
+        let rows: Vec<usize> = (0..stops.first().map_or(0, |stop| stop.rows.len())).collect();
         let known = rows.iter().map(|&row| known(&stops, row)).collect();
         Self {
             rows,
@@ -245,7 +257,7 @@ impl<'a> Open<'a> {
     }
 
     /// The volume that one or two rows span: the root of the sum of all squared determinants.
-    fn volume(&self, stop: &[Vec<f64>], rows: &[usize], known: &[usize]) -> f64 {
+    fn volume(&self, Stop { rows: stop, .. }: &Stop, rows: &[usize], known: &[usize]) -> f64 {
         let dot = |a: usize, b: usize| -> f64 {
             let entries = known.iter();
             entries
@@ -268,8 +280,7 @@ impl<'a> Open<'a> {
             .retain(|stop| determinant(stop, &chosen.rows, &chosen.velocities).abs() > least);
         let mut changed: Vec<usize> = Vec::new();
         for &row in &self.rows {
-            let knows =
-                |stop: &Vec<Vec<f64>>| chosen.velocities.iter().any(|&k| stop[row][k] != 0.0);
+            let knows = |stop: &Stop| chosen.velocities.iter().any(|&k| stop.rows[row][k] != 0.0);
             if self.stops.iter().any(knows) {
                 self.stops
                     .iter_mut()
@@ -289,12 +300,12 @@ impl<'a> Open<'a> {
 }
 
 /// The velocities that a row knows of: by more than round-off, which looks steady beside itself.
-fn known(stops: &Stops, row: usize) -> Vec<usize> {
-    let width = stops.first().map_or(0, |stop| stop[row].len());
+fn known(stops: &[Stop], row: usize) -> Vec<usize> {
+    let width = stops.first().map_or(0, |stop| stop.rows[row].len());
     let mut is_known = vec![false; width];
     for stop in stops {
-        let least = ROUND_OFF * largest(&stop[row]).abs();
-        for (is_known, entry) in is_known.iter_mut().zip(&stop[row]) {
+        let least = ROUND_OFF * stop.made_of[row];
+        for (is_known, entry) in is_known.iter_mut().zip(&stop.rows[row]) {
             *is_known |= entry.abs() > least;
         }
     }
@@ -319,15 +330,15 @@ fn passes_zero(before: f64, behind: f64) -> bool {
 }
 
 /// The largest entry of each column along a tour, 1 where there is none.
-fn sizes(stops: &Stops) -> Vec<f64> {
+fn sizes(stops: &[Stop]) -> Vec<f64> {
     let mut sizes = vec![
         0.0_f64;
         stops
             .first()
-            .and_then(|stop| stop.first())
+            .and_then(|stop| stop.rows.first())
             .map_or(0, Vec::len)
     ];
-    for row in stops.iter().flatten() {
+    for row in stops.iter().flat_map(|stop| &stop.rows) {
         for (size, entry) in sizes.iter_mut().zip(row) {
             *size = size.max(entry.abs());
         }
@@ -338,7 +349,7 @@ fn sizes(stops: &Stops) -> Vec<f64> {
         .collect()
 }
 
-fn determinant(stop: &[Vec<f64>], rows: &[usize], velocities: &[usize]) -> f64 {
+fn determinant(Stop { rows: stop, .. }: &Stop, rows: &[usize], velocities: &[usize]) -> f64 {
     match (rows, velocities) {
         (&[m, n], &[k, l]) => stop[m][k] * stop[n][l] - stop[m][l] * stop[n][k],
         (&[m, ..], &[k, ..]) => stop[m][k],
@@ -347,8 +358,12 @@ fn determinant(stop: &[Vec<f64>], rows: &[usize], velocities: &[usize]) -> f64 {
 }
 
 /// Puts what the chosen velocities follow from into another row.
-fn reduce(stop: &mut [Vec<f64>], row: usize, chosen: &Candidate) {
+fn reduce(stop: &mut Stop, row: usize, chosen: &Candidate) {
     let determinant = determinant(stop, &chosen.rows, &chosen.velocities);
+    let Stop {
+        rows: stop,
+        made_of,
+    } = stop;
     let entries: Vec<f64> = chosen.velocities.iter().map(|&k| stop[row][k]).collect();
     // Shares of the chosen rows, by Cramer's rule.
     let shares = match (&chosen.velocities[..], &chosen.rows[..]) {
@@ -362,6 +377,7 @@ fn reduce(stop: &mut [Vec<f64>], row: usize, chosen: &Candidate) {
         if share == 0.0 {
             continue;
         }
+        made_of[row] = made_of[row].max(share.abs() * made_of[from]);
         for k in 0..stop[row].len() {
             let change = share * stop[from][k];
             stop[row][k] -= change;

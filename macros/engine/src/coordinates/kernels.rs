@@ -216,7 +216,7 @@ fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {
         arena: reduced.scene.space.arena,
         outputs,
     };
-    kernel.gather();
+    kernel.gather(&[]);
     Evaluation {
         terms,
         kernel,

@@ -238,7 +238,7 @@ fn raw(model: &Model, Factorised { scene, system, .. }: &Factorised, terms: Term
         arena: scene.space.arena,
         outputs,
     };
-    kernel.gather();
+    kernel.gather(&rotations);
     Evaluation {
         terms,
         normalisation: Normalisation::Raw,

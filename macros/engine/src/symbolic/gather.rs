@@ -10,9 +10,10 @@ use super::equations::Kernel;
 
 impl Kernel {
     /// Takes common numbers out of sums, if that leaves fewer operations, with those on the longest
-    /// path counted twice.
-    pub(crate) fn gather(&mut self) {
-        let gathered = gathered(&mut self.arena, &self.outputs);
+    /// path counted twice. `whole` nodes stay: something else is put in their place later, and what
+    /// is made of a sum taken apart would not be replaced.
+    pub(crate) fn gather(&mut self, whole: &[Expr]) {
+        let gathered = gathered(&mut self.arena, &self.outputs, whole);
         let cost = |outputs: &[Expr]| count(&self.arena, outputs, Stage::State).weighted();
         if cost(&gathered) < cost(&self.outputs) {
             self.outputs = gathered;
@@ -32,7 +33,7 @@ struct Gathering {
     known: Vec<Expr>,
 }
 
-fn gathered(arena: &mut Arena, outputs: &[Expr]) -> Vec<Expr> {
+fn gathered(arena: &mut Arena, outputs: &[Expr], whole: &[Expr]) -> Vec<Expr> {
     let live = arena.live(outputs, Stage::State);
     let mut uses = vec![0; arena.len()];
     // What is used by a sum alone is a part of it.
@@ -44,8 +45,13 @@ fn gathered(arena: &mut Arena, outputs: &[Expr]) -> Vec<Expr> {
             is_part[operand.node()] = matches!(node, Node::Add(..));
         }
     }
-    for output in outputs {
-        uses[output.node()] += 2;
+    // No part of a sum, whatever else uses it.
+    for expr in outputs.iter().chain(whole) {
+        uses[expr.node()] += 2;
+    }
+    let mut is_whole = vec![false; arena.len()];
+    for expr in whole {
+        is_whole[expr.node()] = true;
     }
     let nodes = 0..arena.len() as u32;
     let mut gathering = Gathering {
@@ -53,6 +59,9 @@ fn gathered(arena: &mut Arena, outputs: &[Expr]) -> Vec<Expr> {
         uses,
     };
     for place in live {
+        if is_whole[place] {
+            continue;
+        }
         let node = arena.node(place);
         let is_part = is_part[place] && gathering.uses[place] == 1;
         let made = match node {
@@ -200,7 +209,7 @@ mod tests {
     #[test]
     fn a_number_is_taken_out_of_the_products_that_have_it() {
         let mut gathered = kernel(&[]);
-        gathered.gather();
+        gathered.gather(&[]);
         assert_eq!((operations(&kernel(&[])), operations(&gathered)), (8, 7));
         // 3 + 0.5 (4 * 7 - 5 * 8) + 0.25 * 6
         assert_eq!(values(&gathered), [Some(-1.5)]);
@@ -210,9 +219,35 @@ mod tests {
     fn what_is_used_elsewhere_stays() {
         for others in [&[0][..], &[0, 1]] {
             let mut gathered = kernel(others);
-            gathered.gather();
+            gathered.gather(&[]);
             assert_eq!(operations(&gathered), operations(&kernel(others)));
             assert_eq!(values(&gathered), values(&kernel(others)));
+        }
+    }
+
+    #[test]
+    fn a_whole_sum_stays_one_node() {
+        // 2 x0 x1 + 2 x2 x3, alone and as a term of another sum.
+        let mut arena = Arena::new();
+        let x = [0, 1, 2, 3, 4].map(|k| arena.input(Input::Coordinate(k)));
+        let two = arena.constant(2.0);
+        let products = [(0, 1), (2, 3)].map(|(k, l)| {
+            let doubled = arena.mul(two, x[k]);
+            arena.mul(doubled, x[l])
+        });
+        let entry = arena.sum(products);
+        let sum = arena.add(entry, x[4]);
+        for output in [entry, sum] {
+            let taken_apart = |whole: &[_]| {
+                let mut gathered = Kernel {
+                    arena: arena.clone(),
+                    outputs: vec![output],
+                };
+                gathered.gather(whole);
+                let live = gathered.arena.live(&gathered.outputs, Stage::State);
+                !live.contains(&entry.node())
+            };
+            assert!(taken_apart(&[]) && !taken_apart(&[entry]));
         }
     }
 }

@@ -191,6 +191,16 @@ impl<'a> Interpreter<'a> {
         rows
     }
 
+    /// What is positive on the side that is meant.
+    pub(crate) fn sides(&self) -> Vec<f64> {
+        let statements = self.element.statements.iter();
+        let sides = statements.filter_map(|statement| match statement {
+            Statement::Require(expr) => Some(self.number(expr).re),
+            _ => None,
+        });
+        sides.collect()
+    }
+
     /// The values of what forces are made of.
     pub(crate) fn actions(&self) -> Vec<Acting> {
         let statements = self.element.statements.iter();

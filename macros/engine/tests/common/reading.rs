@@ -121,6 +121,8 @@ pub(crate) enum Statement {
     Force(Expr, Expr),
     /// Moment and formal body.
     Moment(Expr, Ident),
+    /// What is positive on the side that is meant.
+    Require(Expr),
     /// What can be read, and moves nothing.
     Reading,
 }
@@ -251,7 +253,7 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
         }
     }
     let word = input.parse::<Ident>()?.to_string();
-    if word == "motion" || word == "require" {
+    if word == "motion" {
         while !input.peek(Token![;]) {
             input.parse::<TokenTree>()?;
         }
@@ -265,6 +267,12 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
     let first: Expr = input.parse()?;
     Ok(match word.as_str() {
         "displacement" => Statement::Reading,
+        "require" => match first {
+            Expr::Binary(binary) if matches!(binary.op, BinOp::Gt(_)) => {
+                Statement::Require(*binary.left)
+            }
+            _ => panic!("`> 0` is wanted"),
+        },
         "potential" => Statement::Potential(first),
         "drive" => {
             input.parse::<Ident>()?;

@@ -254,3 +254,66 @@ fn round_off_determines_no_velocity_where_it_is_the_only_number() {
         );
     }
 }
+
+/// A force along an axis at a point on an axis of the body: the accelerations need two entries of
+/// `A`. The common number was taken out of the terms of one entry, and the sum that was left read
+/// Euler parameters as they are where they are to be normalised.
+const ONE_ENTRY: &str = "
+    pub struct Random {
+        #[body(mass = 1.3, inertia = [1.8, 0.9, 1.2], position = [0.5, 0.25, 0.25])]
+        body: Body,
+        #[force(between = [ground, body], point = [0.5, 0.0, 0.25], force = [-1.0, 0.0, 0.0])]
+        push: PointForce,
+    }";
+
+#[test]
+fn all_entries_of_a_rotation_are_normalised() {
+    let text = Text {
+        item: ONE_ENTRY.into(),
+        definitions: Vec::new(),
+    };
+    for seed in 0..4 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}
+
+/// A bar that stands across all velocities of its loop at the start. There its row, without what
+/// other rows determine, is nothing but round-off, and a share of that was taken for an entry.
+const ACROSS: &str = "
+    pub struct Random {
+        #[joint(between = [ground, b2], head = local([0.5, 0.0, 0.0], [0.5, -1.0, -1.0]), tail = local([-0.5, 0.0, 0.0], [-0.5, -1.0, -1.0]))]
+        j2: Distance,
+        #[joint(between = [b1, b3], point = [0.0, 1.0, 0.5], axis = [0.0, 0.0, 1.0])]
+        j4: Prismatic,
+        #[body(mass = 0.6423425581730913, inertia = [[1.0117593362054236, -0.06800300511797813, 0.13378314674831818], [-0.06800300511797813, 0.9735486634222985, 0.13502118970828625], [0.13378314674831818, 0.13502118970828625, 0.8667259569620992]], position = [0.0, 1.0, 1.0], free)]
+        b2: Body,
+        #[body(mass = 1.9371441321471574, inertia = [1.4389574922430075, 1.0620427543471673, 1.3532974100172852], position = [0.9951014306392421, 0.25, 1.0], free)]
+        b1: Body,
+        #[joint(point = [0.25, 0.0, 0.0], between = [ground, b1], axis = [0.0, 0.0, 1.0])]
+        j1: Revolute,
+        #[joint(between = [b3, b2], point = [-0.7039204144119593, 0.0, -0.9455507222560633], axis = local([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]))]
+        j3: Prismatic,
+        #[body(mass = 2.067027708928494, inertia = [[1.5766873241362056, -0.021075861038551996, 0.036731979499650444], [-0.021075861038551996, 1.570708009705256, 0.12330143454456435], [0.036731979499650444, 0.12330143454456435, 1.6755116130749081]], position = [0.0, 0.0, 1.0], free)]
+        b3: Body,
+    }";
+
+#[test]
+fn round_off_determines_no_velocity_where_it_is_all_of_a_row() {
+    let text = Text {
+        item: ACROSS.into(),
+        definitions: Vec::new(),
+    };
+    for seed in 24554..24558 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}

@@ -1,6 +1,8 @@
 //! The same mechanism in joint coordinates: the accelerations of its bodies against a dense
 //! solution over all equations.
 
+use std::f64::consts::TAU;
+
 use holonom_engine::coordinates::beginning::Beginning;
 use holonom_engine::coordinates::candidates::Strategy;
 use holonom_engine::coordinates::freedom::Freedom;
@@ -157,6 +159,10 @@ impl Comparison<'_> {
         let Some(equations) = self.equations(state) else {
             return Ok(());
         };
+        if equations.hold() && equations.sides.iter().any(|side| *side <= 0.0) {
+            // Opposed axes, between which no angle is the nearest: equations hold there as well.
+            return Ok(());
+        }
         let cartesian = |state: &State, angles: &[(f64, f64)]| {
             Inputs::new(model, self.described, state, angles, coefficients)
         };
@@ -200,13 +206,27 @@ impl Comparison<'_> {
                 "joint coordinates, {strategy:?}: {joint:?}\nthere and back: {again:?}\ndifference {relative:e}"
             ));
         }
-        let Some(equations) = Equations::new(self.described, &exact) else {
+        let Some(mut equations) = Equations::new(self.described, &exact) else {
             return Ok(());
         };
+        // A screw has placed its bodies by an angle that may lie a turn beyond what the first state
+        // counts, whose axes need not be parallel: the whole turns are those of that angle.
+        let counted = coordinates.len() - equations.angles.len();
+        for link in &reduced.links.links {
+            if let Freedom::Screw { counter, .. } = link.freedom {
+                let beyond = coordinates[counted + counter] - equations.angles[counter].0;
+                exact.turns[counter] += (beyond / TAU).round();
+            }
+        }
+        if exact.turns != state.turns {
+            match Equations::new(self.described, &exact) {
+                Some(counted) => equations = counted,
+                None => return Ok(()),
+            }
+        }
         // Counted angles are those of that state, which may lie beyond half a turn from the first.
         let joint = cartesian(&exact, &equations.angles).values(&from, &outputs);
         let coordinates = &joint[..joint.len() - velocities];
-        let counted = coordinates.len() - equations.angles.len();
         inputs.coordinates[counted..].copy_from_slice(&coordinates[counted..]);
         // Joints of the tree hold by themselves, rigidly.
         let remains = |joint: usize| {

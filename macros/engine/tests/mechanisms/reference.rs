@@ -41,6 +41,8 @@ pub(crate) struct Equations {
     pub(crate) kinetic: f64,
     pub(crate) potential: f64,
     pub(crate) power: f64,
+    /// What is positive on the sides of the joints that are meant.
+    pub(crate) sides: Vec<f64>,
     /// The counted angles, and their rates.
     pub(crate) angles: Vec<(f64, f64)>,
     /// The largest number on the way.
@@ -162,6 +164,7 @@ impl Equations {
             kinetic: 0.0,
             potential: 0.0,
             power: 0.0,
+            sides: Vec::new(),
             angles: Vec::new(),
             scale: 1.0,
         };
@@ -216,6 +219,8 @@ impl Equations {
     ) -> Option<()> {
         let moving = motion.moving.clone();
         let along = motion.read(element, &moving, 1.0, |i| i.rows())?;
+        let sides = motion.read(element, &moving, 1.0, |i| i.sides())?;
+        self.sides.extend(sides);
         let first = self.phi.len();
         for row in along {
             self.phi.push(row.re);
