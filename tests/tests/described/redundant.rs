@@ -10,6 +10,7 @@ use holonom::{
     dynamics::Dynamics,
     mechanism::{Rank, RedundantRow},
 };
+use holonom_models::Bricard;
 use nalgebra::{UnitQuaternion, Vector3};
 
 fn tight() -> DormandPrince<f64> {
@@ -187,34 +188,7 @@ impl Reference {
     }
 }
 
-/// Bricard's mechanism of the IFToMM library: 30 equations on 30 velocities, of rank 29.
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop")]
-struct Bricard {
-    #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, 0.0, 0.0])]
-    r1: Body,
-    #[body(mass = 1.0, inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0], position = [1.0, -0.5, 0.0])]
-    r2: Body,
-    #[body(mass = 1.0, inertia = [1.01 / 12.0, 1.01 / 12.0, 0.02 / 12.0], position = [1.0, -1.0, 0.5])]
-    r3: Body,
-    #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, -1.0, 1.0])]
-    r4: Body,
-    #[body(mass = 1.0, inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0], position = [0.0, -0.5, 1.0])]
-    r5: Body,
-    #[joint(between = [ground, r1], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
-    j1: Revolute,
-    #[joint(between = [r1, r2], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
-    j2: Revolute,
-    #[joint(between = [r2, r3], point = [1.0, -1.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    j3: Revolute,
-    #[joint(between = [r3, r4], point = [1.0, -1.0, 1.0], axis = [0.0, 1.0, 0.0])]
-    j4: Revolute,
-    #[joint(between = [r4, r5], point = [0.0, -1.0, 1.0], axis = [0.0, 0.0, 1.0])]
-    j5: Revolute,
-    #[joint(between = [r5, ground], point = [0.0, 0.0, 1.0], axis = [1.0, 0.0, 0.0])]
-    j6: Revolute,
-}
-
+/// Bricard's mechanism: 30 equations on 30 velocities, of rank 29.
 #[test]
 fn a_loop_that_moves_against_the_count() {
     let report = Bricard::REPORT;
@@ -223,7 +197,7 @@ fn a_loop_that_moves_against_the_count() {
     assert_eq!((report.equations, report.degrees_of_freedom), (29, 1));
     assert_eq!(report.redundant.len(), 1);
     let model = Bricard::default();
-    let r2 = Bricard::HANDLES.r2;
+    let second = Bricard::HANDLES.second;
     // problems.md
     let published = [
         (1.0, [0.27448131926, -0.88670793873, -0.46233000269]),
@@ -234,9 +208,9 @@ fn a_loop_that_moves_against_the_count() {
     let mut seen = 0;
     Simulation::new(&model, StandardLagrange, tight())
         .run(0.0..=10.0, every(1.0), |sample| {
-            let pose = sample.pose(r2);
+            let pose = sample.pose(second);
             let turned = UnitQuaternion::new_normalize(pose.orientation);
-            let end = pose.position + turned * Vector3::new(0.0, -0.5, 0.0);
+            let end = pose.position + turned * Vector3::from(Bricard::P3);
             for (time, place) in published {
                 if (sample.time() - time).abs() < 1e-9 {
                     let error = (end - Vector3::from(place)).amax();

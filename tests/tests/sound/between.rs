@@ -35,7 +35,7 @@ struct Turning {
 /// A wheel that turns evenly.
 #[derive(Mechanism)]
 #[mechanism(coordinates = "both")]
-struct Wheel {
+pub(crate) struct Wheel {
     #[body(mass = 1.0, inertia = [0.2, 0.2, 0.3], angular_velocity = [0.0, 0.0, 10.0])]
     wheel: Body,
     #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]

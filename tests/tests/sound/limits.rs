@@ -4,6 +4,8 @@ use holonom::forces::Actuator;
 use holonom::joints::{Distance, PointOnLine, Revolute};
 use holonom::prelude::*;
 
+use crate::start::Rod;
+
 /// A particle on a line, pushed by 100 N for 20 ms after five seconds: 2 m/s less the ramps.
 #[derive(Mechanism)]
 struct Pushed {
@@ -36,15 +38,6 @@ struct PushedLater {
     push: Actuator,
     #[param]
     start: f64,
-}
-
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81])]
-struct Rod {
-    #[body(mass = 2.0, inertia = [0.2, 0.01, 0.2], position = [0.0, 0.5, 0.0])]
-    rod: Body,
-    #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    hinge: Revolute,
 }
 
 /// 100 N for 20 ms on 1 kg: the ramps up and down are symmetric.

@@ -8,6 +8,8 @@ use holonom::prelude::*;
 use holonom::{Doubt, ImplicitMidpoint, Real, Runs, SemiImplicitEuler};
 use holonom_models::RodPendulum;
 
+use crate::between::Wheel;
+
 holonom::force! {
     /// A spring whose other end is shaken.
     force Shaken(i, j; head: Point, tail: Point, axis: Axis, stiffness: Number, frequency: Number) {
@@ -57,14 +59,6 @@ struct Shaker {
         frequency = 30.0
     )]
     spring: Shaken,
-}
-
-#[derive(Mechanism)]
-struct Wheel {
-    #[body(mass = 1.0, inertia = [0.2, 0.2, 0.3], angular_velocity = [0.0, 0.0, 10.0])]
-    wheel: Body,
-    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
-    shaft: Revolute,
 }
 
 /// A rod of a millimetre a thousand kilometres away.

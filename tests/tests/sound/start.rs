@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 /// A rod of 1 m on a hinge.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
-struct Rod {
+pub(crate) struct Rod {
     #[body(mass = 2.0, inertia = [0.2, 0.01, 0.2], position = [0.0, 0.5, 0.0])]
     rod: Body,
     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
