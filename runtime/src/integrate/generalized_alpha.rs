@@ -53,10 +53,10 @@ use crate::state::vector::Vector;
 /// [`Fault::StepNotSolved`], and time and state are those before the step. Many different stiff
 /// springs at once, as of a finite element mesh, are beyond it.
 ///
-/// **What it needs** is a system with [`RigidConstraints`]: a mechanism in absolute coordinates with
-/// [`StandardLagrange`](crate::StandardLagrange). With another formulation and in joint coordinates
-/// (a tree has no constraints: any method keeps its joints closed) a run does not compile. Where
-/// equations depend on each other it ends with [`Fault::Singular`].
+/// **What it needs** is a system with [`RigidConstraints`]: a mechanism in absolute coordinates
+/// with [`StandardLagrange`](crate::StandardLagrange). With another formulation and in joint
+/// coordinates (a tree has no constraints: any method keeps its joints closed) a run does not
+/// compile. Where equations depend on each other it ends with [`Fault::Singular`].
 ///
 /// `a0` begins as `u0'`, and so it does after a break. Energy: kept for `rho = 1` but for a swing
 /// of the order of `h^2`; a motion of `x` radians a step loses `((1 - rho) / (1 + rho))^3 x^4 / 2`

@@ -5,8 +5,9 @@
 //! more than a call, and runs need no type for each. The treatment `TreeRecovery` goes from bodies
 //! to joint coordinates and back by the kernels of starts.
 //!
-//! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The generated factors, of the
-//! matrix with the masses, precondition its conjugate gradients, so no kernel is generated for it.
+//! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
+//! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
+//! kernel is generated for it.
 //!
 //! `kinematics/motion.rs` goes in strides that the motion bounds. It accepts a pose whose position
 //! and velocity are near the prediction: near a branch, another one has other velocities.

@@ -391,7 +391,11 @@ where
 /// ```
 /// use holonom::{Runs, prelude::*};
 ///
-/// fn evaluations<M: Mechanism>(mechanism: &M, method: impl Runs<f64, M, StandardLagrange>) -> usize {
+/// fn evaluations<M, I>(mechanism: &M, method: I) -> usize
+/// where
+///     M: Mechanism,
+///     I: Runs<f64, M, StandardLagrange>,
+/// {
 ///     let simulation = Simulation::new(mechanism, StandardLagrange, method);
 ///     let run = simulation.run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()));
 ///     run.map_or(0, |report| report.evaluations)

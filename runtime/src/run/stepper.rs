@@ -21,9 +21,9 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 /// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
 /// [`DormandPrince5`](crate::integrate::DormandPrince5) 6), allocates nothing and does not panic.
 ///
-/// `C` says in which coordinates the equations of motion are solved: those that the attribute of the
-/// mechanism names, or others that are asked for. In absolute coordinates a
-/// state is one of the bodies. In relative ones it is a [`JointCoordinates::JointState`]: a start
+/// `C` says in which coordinates the equations of motion are solved: those that the attribute of
+/// the mechanism names, or others that are asked for. In absolute coordinates a state is one of
+/// the bodies. In relative ones it is a [`JointCoordinates::JointState`]: a start
 /// is set in a state of the bodies, by handle as ever, and [`Stepper::state_of`] takes it over;
 /// what is to be read is read of [`Stepper::bodies`]. Joints of the tree cannot open there;
 /// equations that close loops drift or are stabilised, as the formulation has it.
