@@ -4,18 +4,23 @@
 //! nothing can move but by its drivers. The driver of a hinge determines the hinge's velocity, the
 //! closing joint of a slider-crank that of the slide.
 
-use super::dependent::{ROUND_OFF, STEADY};
+use super::dependent::{ROUND_OFF, STEADY, shared};
 use crate::plan::Pivot;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::evaluate::evaluate;
 
 /// The velocities with the rows that determine them, in the order of elimination, and the entries.
-/// Velocities count from 0, rows from the number of velocities.
-pub(super) fn certain(arena: &Arena, rows: &[Vec<Expr>]) -> (Vec<Pivot>, Vec<f64>) {
+/// Velocities count from 0, rows from the number of velocities. `alike` is `Links::alike`.
+pub(super) fn certain(
+    arena: &Arena,
+    rows: &[Vec<Expr>],
+    alike: &[usize],
+) -> (Vec<Pivot>, Vec<f64>) {
     let mut left = Left {
         arena: arena.clone(),
         rows: rows.iter().cloned().map(Some).collect(),
         made_of: rows.iter().map(|row| largest(arena, row)).collect(),
+        alike,
     };
     let (mut pivots, mut entries) = (Vec::new(), Vec::new());
     while let Some((row, velocity, entry)) = left.best() {
@@ -27,23 +32,25 @@ pub(super) fn certain(arena: &Arena, rows: &[Vec<Expr>]) -> (Vec<Pivot>, Vec<f64
 }
 
 /// The rows that are not taken yet, without the velocities that are.
-struct Left {
+struct Left<'a> {
     arena: Arena,
     rows: Vec<Option<Vec<Expr>>>,
     /// About the largest number that each row is made of. A number that is round-off may be the
     /// only one of its row and its column.
     made_of: Vec<f64>,
+    alike: &'a [usize],
 }
 
-impl Left {
+impl Left<'_> {
     /// The entry, with its row and its velocity, that the fewest other rows know of.
     fn best(&self) -> Option<(usize, usize, f64)> {
         let mut best: Option<(usize, (usize, usize, f64))> = None;
+        let sizes = self.sizes();
         for (place, row) in self.rows.iter().enumerate() {
             let Some(row) = row else { continue };
             let numbers: Vec<Option<f64>> =
                 row.iter().map(|&entry| self.arena.literal(entry)).collect();
-            let size = |k: usize, number: f64| number.abs() / self.size(k);
+            let size = |k: usize, number: f64| number.abs() / sizes[k];
             let known = numbers.iter().enumerate();
             let known = known.filter_map(|(k, number)| number.map(|number| size(k, number)));
             let largest = known.fold(0.0, f64::max);
@@ -65,13 +72,18 @@ impl Left {
         best.map(|(_, found)| found)
     }
 
-    /// The largest number of a column, 1 where there is none: lengths and angles have different
-    /// units.
-    fn size(&self, velocity: usize) -> f64 {
-        let column = self.rows.iter().flatten().map(|row| row[velocity]);
-        let numbers = column.filter_map(|entry| self.arena.literal(entry));
-        let largest = numbers.fold(0.0, |largest: f64, number| largest.max(number.abs()));
-        if largest > 0.0 { largest } else { 1.0 }
+    /// The largest number of each column and of those alike, 1 where there is none: lengths and
+    /// angles have different units.
+    fn sizes(&self) -> Vec<f64> {
+        let largest = |velocity: usize| {
+            let column = self.rows.iter().flatten().map(|row| row[velocity]);
+            let numbers = column.filter_map(|entry| self.arena.literal(entry));
+            numbers.fold(0.0, |largest: f64, number| largest.max(number.abs()))
+        };
+        let sizes: Vec<f64> = (0..self.alike.len()).map(largest).collect();
+        shared(&sizes, self.alike)
+            .map(|size| if size > 0.0 { size } else { 1.0 })
+            .collect()
     }
 
     /// How many other rows know of a velocity.

@@ -108,19 +108,19 @@ struct Open<'a> {
 
 /// What is eliminated before the rest: velocities with the rows that determine them, and the
 /// determinants in the reference configuration. Velocities count from 0, rows from the number of
-/// velocities.
+/// velocities. `alike` is [`Links::alike`].
 pub(super) fn dependent(
     arena: &Arena,
-    rows: &[Vec<Expr>],
-    joints: &[usize],
+    (rows, joints): (&[Vec<Expr>], &[usize]),
+    alike: &[usize],
     tour: &[(f64, Vec<f64>)],
 ) -> (Vec<Pivot>, Vec<f64>) {
     let (mut pivots, mut determinants) = (Vec::new(), Vec::new());
     let told = values(arena, rows, tour).filter(|stops| stops.len() >= STOPS);
     let Some(stops) = told else {
-        return certain::certain(arena, rows);
+        return certain::certain(arena, rows, alike);
     };
-    let mut open = Open::new(stops, joints);
+    let mut open = Open::new(stops, joints, alike);
     while let Some(chosen) = open.best() {
         let first = rows[0].len();
         pivots.push(match (&chosen.velocities[..], &chosen.rows[..]) {
@@ -135,13 +135,13 @@ pub(super) fn dependent(
 }
 
 impl<'a> Open<'a> {
-    fn new(stops: Vec<Stop>, joints: &'a [usize]) -> Self {
+    fn new(stops: Vec<Stop>, joints: &'a [usize], alike: &[usize]) -> Self {
         let rows: Vec<usize> = (0..stops.first().map_or(0, |stop| stop.rows.len())).collect();
         let known = rows.iter().map(|&row| known(&stops, row)).collect();
         Self {
             rows,
             joints,
-            sizes: sizes(&stops),
+            sizes: sizes(&stops, alike),
             stops,
             known,
             candidates: BTreeMap::new(),
@@ -329,8 +329,8 @@ fn passes_zero(before: f64, behind: f64) -> bool {
     before * behind < 0.0 && before.abs() + behind.abs() < 1.0
 }
 
-/// The largest entry of each column along a tour, 1 where there is none.
-fn sizes(stops: &[Stop]) -> Vec<f64> {
+/// The largest entry of each column and of those alike along a tour, 1 where there is none.
+fn sizes(stops: &[Stop], alike: &[usize]) -> Vec<f64> {
     let mut sizes = vec![
         0.0_f64;
         stops
@@ -343,10 +343,19 @@ fn sizes(stops: &[Stop]) -> Vec<f64> {
             *size = size.max(entry.abs());
         }
     }
-    let sizes = sizes.into_iter();
-    sizes
+    shared(&sizes, alike)
         .map(|size| if size > 0.0 { size } else { 1.0 })
         .collect()
+}
+
+/// The largest number of those of one kind, in the place of each.
+pub(super) fn shared(sizes: &[f64], alike: &[usize]) -> impl Iterator<Item = f64> {
+    let of = move |kind: &usize| {
+        let pairs = sizes.iter().zip(alike);
+        let of_kind = pairs.filter(|(_, other)| *other == kind);
+        of_kind.fold(0.0, |largest: f64, (&size, _)| largest.max(size))
+    };
+    alike.iter().map(of)
 }
 
 fn determinant(Stop { rows: stop, .. }: &Stop, rows: &[usize], velocities: &[usize]) -> f64 {

@@ -78,6 +78,21 @@ pub enum Runs {
 }
 
 impl Links {
+    /// What entries of a row are compared by: velocities with one number here have one unit, and
+    /// none of them is small for that. Translations are alike, and the rotations of a ball.
+    #[must_use]
+    pub(super) fn alike(&self) -> Vec<usize> {
+        let mut alike = vec![0; self.velocities];
+        for (number, link) in self.links.iter().enumerate() {
+            if !matches!(link.freedom, Freedom::Slide { .. }) {
+                let velocities = alike.iter_mut().skip(link.velocity);
+                let velocities = velocities.take(link.freedom.velocities());
+                velocities.for_each(|kind| *kind = number + 1);
+            }
+        }
+        alike
+    }
+
     /// The links of a spanning tree, with their origins and the angles that they are counted from
     /// where vectors have the most zeros.
     #[must_use]

@@ -118,7 +118,8 @@ impl Reduced {
         let joints: Vec<usize> = constraints
             .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
             .collect();
-        dependent(&self.scene.space.arena, &rows, &joints, &tour)
+        let alike = self.links.alike();
+        dependent(&self.scene.space.arena, (&rows, &joints), &alike, &tour)
     }
 
     /// The equations, by joint and place, that no velocity changes.

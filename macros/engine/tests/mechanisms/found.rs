@@ -202,6 +202,32 @@ const FAR_ORIGIN: &str = "
         joint: Cylindrical,
     }";
 
+/// A plane nearly along x, which determines the translation along y or z and not that along x: what
+/// its row has there is small, though nothing in the column is larger.
+const ALONG_X: &str = "
+    pub struct Random {
+        #[body(mass = 1.3, position = [-0.24, -0.84, 1.0], free)]
+        a: Particle,
+        #[joint(between = [ground, a], point = [-0.24, -0.84, 1.0], normal = local([1.0e-5, 0.66, -0.76], [1.0e-5, 0.66, -0.76]))]
+        plane: PointOnPlane,
+    }";
+
+#[test]
+fn translations_are_compared_with_each_other() {
+    let text = Text {
+        item: ALONG_X.into(),
+        definitions: Vec::new(),
+    };
+    for seed in 0..4 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}
+
 #[test]
 fn origins_stay_near_their_links() {
     let text = Text {
