@@ -6,7 +6,9 @@
 use holonom::forces::{Actuator, SpringDamper, TorsionalActuator};
 use holonom::joints::{AngleDriver, DisplacementDriver, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{DormandPrince853, JointCoordinates, StateParts, integrate::Integrator, state::Array};
+use holonom::{
+    DormandPrince853, JointCoordinates, StateParts, integrate::Integrator, state::Array,
+};
 use holonom_study::trade::{Family, Integration};
 
 /// A cart on a spring of 1 N/m with a damper, pushed to and fro: 1 rad/s by itself.
@@ -182,7 +184,7 @@ impl<M: JointCoordinates> Scene<'_, M> {
         Ok((course, report.doubts().to_string()))
     }
 
-    /// The largest error of a body, over the largest change of such a coordinate.
+    /// The largest error of a body, over how far it moves: a radian at the most.
     fn error(&self, course: &Course, truth: &Course) -> f64 {
         let mut worst = 0.0_f64;
         for body in M::REPORT.bodies {
@@ -200,7 +202,8 @@ impl<M: JointCoordinates> Scene<'_, M> {
                     }
                 };
                 let moved = truth.iter().map(|state| distance(state, &truth[0]));
-                let moved = moved.fold(0.0, f64::max).min(1.0);
+                let moved = moved.fold(0.0, f64::max);
+                let moved = if part == 0 { moved } else { moved.min(1.0) };
                 let off = course.iter().zip(truth).map(|(a, b)| distance(a, b));
                 let off = off.fold(0.0, f64::max);
                 if moved > 1e-3 {
@@ -242,13 +245,23 @@ const WAYS: [(Family, f64); 16] = [
     (Family::RadauIIA, 1e-4),
 ];
 
+/// Coarse ones, of which warnings are no alarms, whatever comes out.
+const COARSE: [(Family, f64); 5] = [
+    (Family::Heun, 0.2),
+    (Family::Rk4, 0.5),
+    (Family::BogackiShampine, 3e-3),
+    (Family::Adams, 1e-3),
+    (Family::Bdf, 1e-3),
+];
+
 fn all_ways<M: JointCoordinates>(scene: &Scene<'_, M>, counts: &mut Counts) {
     let exact = DormandPrince853::new(Tolerance {
         relative: 1e-12,
         absolute: 1e-14,
     });
     let (truth, _) = scene.run(exact, true).expect("it runs");
-    for (family, setting) in WAYS {
+    for (place, (family, setting)) in WAYS.into_iter().chain(COARSE).enumerate() {
+        let is_coarse = place >= WAYS.len();
         let step_or_tolerance = if family.is_adaptive() {
             setting
         } else {
@@ -275,13 +288,13 @@ fn all_ways<M: JointCoordinates>(scene: &Scene<'_, M>, counts: &mut Counts) {
             let error = scene.error(&course, &truth);
             let is_quiet = said == "no doubts";
             if error < 1e-2 {
-                counts.right += 1;
-                counts.alarms += usize::from(!is_quiet);
+                counts.right += usize::from(!is_coarse);
+                counts.alarms += usize::from(!is_quiet && !is_coarse);
             } else {
                 counts.wrong += 1;
                 counts.silent += usize::from(is_quiet);
             }
-            if (error < 1e-2) != is_quiet {
+            if (error < 1e-2) != is_quiet || said.contains("may add up") {
                 println!("{name}: off by {error:.1e}; {said}");
             }
         }
@@ -307,6 +320,7 @@ fn right_runs_of_forced_motions_are_quiet() {
     oscillation("below resonance", 0.2, 0.7, 150.0);
     oscillation("resonance", 0.2, 1.0, 150.0);
     oscillation("above resonance", 0.6, 2.5, 120.0);
+    oscillation("undamped", 0.0, 0.7, 150.0);
     macro_rules! scenes {
         ($($name:literal: $mechanism:ty, $end:literal s, $rate:literal;)*) => {$({
             let mechanism = &<$mechanism>::default();
@@ -320,6 +334,7 @@ fn right_runs_of_forced_motions_are_quiet() {
         "swung": Swung, 30.0 s, 5.0;
     }
     println!("{counts:?}");
-    assert!(counts.right >= 200 && counts.failed == 0, "{counts:?}");
-    assert!(counts.alarms <= 104 && counts.silent == 0, "{counts:?}");
+    assert!(counts.right >= 230 && counts.failed == 0, "{counts:?}");
+    assert!(20 * counts.alarms <= counts.right, "{counts:?}");
+    assert!(counts.silent <= 5, "{counts:?}");
 }

@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::record::{LastStep, Reached, reached};
 use super::tableau::terms;
 use super::{
-    Counted, Counts, Course, Integrator, NoStages, Rk4, Scheme as _, Span, Start, System, dense,
-    named,
+    Counted, Counts, Course, ErrorModel, Integrator, NoStages, Rk4, Scheme as _, Span, Start,
+    System, dense, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -50,10 +50,10 @@ const CORRECTOR: [f64; 4] = [9.0 / 24.0, 19.0 / 24.0, -5.0 / 24.0, 1.0 / 24.0];
 const FIRST_STEPS: usize = 3;
 
 /// For steps of half a radian an angle is off by half of what `|p|` leaves its length by.
-const TURNING_ERROR: f64 = 1.0;
+const ANGLE_ERROR: f64 = 1.0;
 /// The limit of that ratio times half the angle of a step, from the root of the method's polynomial
 /// next to `exp(i z)`.
-const TURNING_ERROR_OF_SHORT_STEPS: f64 = 0.33;
+const ANGLE_ERROR_OF_SHORT_STEPS: f64 = 0.33;
 
 impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
     type Course<X: Vector<S>> = AdamsFixedCourse<S, X>;
@@ -84,12 +84,12 @@ impl<S: Real> Integrator<S> for AdamsBashforthMoulton4<S> {
         Some(Self { step })
     }
 
-    fn turning_error(&self) -> f64 {
-        TURNING_ERROR
-    }
-
-    fn turning_error_of_short_steps(&self) -> f64 {
-        TURNING_ERROR_OF_SHORT_STEPS
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            angle_error: ANGLE_ERROR,
+            angle_error_of_short_steps: ANGLE_ERROR_OF_SHORT_STEPS,
+            ..Default::default()
+        }
     }
 }
 

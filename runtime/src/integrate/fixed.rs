@@ -3,8 +3,8 @@
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Counted, Counts, Course, Heun, ImplicitMidpoint, Integrator, Kutta3, Midpoint, Rk4, Scheme,
-    SemiImplicitEuler, Span, Start, System, refused,
+    Counted, Counts, Course, ErrorModel, Heun, ImplicitMidpoint, Integrator, Kutta3, Midpoint, Rk4,
+    Scheme, SemiImplicitEuler, Span, Start, System, refused,
 };
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -75,20 +75,8 @@ impl<S: Real, K: Scheme<S>> Integrator<S> for FixedStep<S, K> {
         Some(Self { step, ..*self })
     }
 
-    fn turning_error(&self) -> f64 {
-        self.scheme.turning_error()
-    }
-
-    fn turning_error_of_short_steps(&self) -> f64 {
-        self.scheme.turning_error_of_short_steps()
-    }
-
-    fn silent_phase(&self) -> f64 {
-        self.scheme.silent_phase()
-    }
-
-    fn velocity_lead(&self) -> f64 {
-        self.scheme.velocity_lead()
+    fn error_model(&self) -> ErrorModel {
+        self.scheme.error_model()
     }
 }
 
@@ -186,7 +174,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> 
     }
 
     fn better_end<Y: System<S, State = X>>(&self, system: &mut Y) -> Result<Option<X>, Fault> {
-        if self.scheme.silent_phase() == 0.0 {
+        if self.scheme.error_model().phase_error == 0.0 {
             return Ok(None);
         }
         better_end(system, &self.last, &self.reached).map(Some)

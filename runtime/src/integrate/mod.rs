@@ -49,6 +49,7 @@ mod dense;
 mod dormand_prince;
 mod dormand_prince_8;
 mod embedded;
+mod error_model;
 mod explicit;
 mod fixed;
 mod generalized_alpha;
@@ -79,6 +80,7 @@ pub use counted::Counts;
 pub use dormand_prince::{DormandPrince, DormandPrince5};
 pub use dormand_prince_8::{DormandPrince8, DormandPrince853};
 pub use embedded::{Adaptive, EmbeddedPair};
+pub use error_model::ErrorModel;
 pub use fixed::{FixedCourse, FixedStep};
 pub use generalized_alpha::{
     AlphaEnd, AlphaStep, AlphaWeights, GeneralizedAlpha, GeneralizedAlphaCourse,
@@ -256,28 +258,9 @@ pub trait Integrator<S: Real>: Copy + Debug {
         None
     }
 
-    /// By how much an angle (rad) is off, at most, where Euler parameters left length 1 by so much
-    /// in a step of this method: their length and their phase are wrong together.
-    fn turning_error(&self) -> f64 {
-        TURNING_ERROR
-    }
-
-    /// The same for short steps, times half the angle (rad) of a step: of a method of even order an
-    /// angle is off by one power of the step less than `|p|` is. Zero for others.
-    fn turning_error_of_short_steps(&self) -> f64 {
-        0.0
-    }
-
-    /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a
-    /// method of order 2, whose energy does not tell; zero for others.
-    fn silent_phase(&self) -> f64 {
-        0.0
-    }
-
-    /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that
-    /// takes these by velocities at the end of a step; zero for others.
-    fn velocity_lead(&self) -> f64 {
-        0.0
+    /// How the errors of the method grow, for the warnings of a run.
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel::default()
     }
 
     /// The error to be allowed in a step, for a method that controls it.
@@ -303,10 +286,7 @@ macro_rules! __hooks_of_integrator {
         $crate::__hooks_of_integrator! { $with:
             budget -> Option<usize>;
             fixed_step -> Option<S>;
-            turning_error -> f64;
-            turning_error_of_short_steps -> f64;
-            silent_phase -> f64;
-            velocity_lead -> f64;
+            error_model -> $crate::integrate::ErrorModel;
             tolerance -> Option<$crate::Tolerance<S>>;
         }
     };
@@ -347,6 +327,10 @@ pub trait Course<S: Real, X: Vector<S>> {
         Ok(None)
     }
 
+    /// The error of the last step, as its control estimates it, relative to the state; `None` of
+    /// fixed steps.
+    fn estimate(&self) -> Option<S>;
+
     /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a
     /// method that looks back at former steps goes on with these. Call [`Course::at`] before, not
     /// after.
@@ -355,10 +339,6 @@ pub trait Course<S: Real, X: Vector<S>> {
     /// What it has cost so far.
     fn counts(&self) -> Counts;
 }
-
-/// With `z` half the angle of a step, the classical Runge-Kutta method leaves `|p|` by `z^6 / 144`
-/// and an angle by `z^5 / 60`: this is their ratio for steps of half a radian.
-const TURNING_ERROR: f64 = 10.0;
 
 /// A one-step method of fixed coefficients.
 #[diagnostic::on_unimplemented(
@@ -386,25 +366,9 @@ pub trait Scheme<S: Real>: Copy + Debug {
         stages: &mut Self::Stages<Y::State>,
     ) -> Result<Y::State, Fault>;
 
-    /// See [`Integrator::turning_error`].
-    fn turning_error(&self) -> f64 {
-        TURNING_ERROR
-    }
-
-    /// See [`Integrator::turning_error_of_short_steps`].
-    fn turning_error_of_short_steps(&self) -> f64 {
-        0.0
-    }
-
-    /// See [`Integrator::silent_phase`]. Where it is not zero, [`Course::better_end`] judges the
-    /// steps of this method.
-    fn silent_phase(&self) -> f64 {
-        0.0
-    }
-
-    /// See [`Integrator::velocity_lead`].
-    fn velocity_lead(&self) -> f64 {
-        0.0
+    /// See [`Integrator::error_model`].
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel::default()
     }
 
     /// Evaluates what [`Scheme::interpolate`] needs besides the slopes of a step that began at

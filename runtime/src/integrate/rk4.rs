@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method.
 
-use super::{NoStages, Scheme, Start, System};
+use super::{ErrorModel, NoStages, Scheme, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -68,9 +68,12 @@ impl<S: Real> Scheme<S> for Rk4 {
         Ok(next.plus([(sixth, &slope)]))
     }
 
-    /// The ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`, and
-    /// `z^6 / 144`, by which `|p|` is.
-    fn turning_error_of_short_steps(&self) -> f64 {
-        2.4
+    /// For short steps the ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`,
+    /// and `z^6 / 144`, by which `|p|` is.
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            angle_error_of_short_steps: 2.4,
+            ..Default::default()
+        }
     }
 }

@@ -272,6 +272,10 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
         on_course!(self, course => course.better_end(system))
     }
 
+    fn estimate(&self) -> Option<S> {
+        on_course!(self, course => course.estimate())
+    }
+
     fn replace(&mut self, state: X) {
         on_course!(self, course => course.replace(state));
     }

@@ -229,6 +229,7 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AdamsCourse<S, X> {
             if let Ok(Trial::Accepted { mut state, errors }) = outcome {
                 system.settle(&mut state, Some(&mut self.reached.slope));
                 self.reached.counts.accepted += 1;
+                self.reached.estimate = Some(errors.here);
                 self.reached.time = end;
                 let from = replace(&mut self.reached.state, state);
                 self.go_on(size, &from, errors);
