@@ -7,7 +7,9 @@ use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle, Solution};
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
-use crate::mechanism::coordinates::{Absolute, Begun, Coordinates, EquationsIn, Evaluation};
+use crate::mechanism::coordinates::{
+    Absolute, Coordinates, EquationsIn, Evaluation, First, Prepared,
+};
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
 use crate::state::vector::{Array, MovingState, StateParts};
 
@@ -111,38 +113,38 @@ where
         )
     }
 
-    /// The first solution from parts, and the power (W) of the closure's forces.
+    /// Calls with the first solution from parts; the power (W) of the closure's forces beside it.
     #[inline(always)]
-    pub(super) fn begun(
+    pub(super) fn begin<R>(
         &self,
         time: S,
         state: &C::State<S>,
         rates: &mut C::State<S>,
-    ) -> (Begun<S, M, C>, S) {
+        then: impl FnOnce(&First<'_, S, M, C>, &mut C::State<S>) -> R,
+    ) -> (R, S) {
         let constants = &self.equations.constants;
         let Stabilisation { rate, position, .. } = *self.stabilisation;
+        let prepared = Prepared {
+            constants,
+            coefficients: &self.equations.coefficients,
+            gains: [rate, position],
+        };
         let mut power = S::zero();
-        let begun = C::begin::<S, F::Terms>(
-            (constants, &self.equations.coefficients),
-            [rate, position],
-            time,
-            state,
-            rates,
-            A::PRESENT,
-            |read, forces| {
-                C::with_bodies(constants, read, |bodies| {
-                    let described = *forces;
-                    self.forces
-                        .apply(time, bodies, &mut Loads::new(bodies, forces));
-                    let velocities = bodies.velocities().as_slice();
-                    let loads = forces.as_slice().iter().zip(described.as_slice());
-                    for ((&whole, &own), &u) in loads.zip(velocities) {
-                        power = (whole - own).fused(u, power);
-                    }
-                });
-            },
-        );
-        (begun, power)
+        let law = |read: &C::State<S>, forces: &mut M::Velocities<S>| {
+            C::with_bodies(constants, read, |bodies| {
+                let described = *forces;
+                self.forces
+                    .apply(time, bodies, &mut Loads::new(bodies, forces));
+                let velocities = bodies.velocities().as_slice();
+                let loads = forces.as_slice().iter().zip(described.as_slice());
+                for ((&whole, &own), &u) in loads.zip(velocities) {
+                    power = (whole - own).fused(u, power);
+                }
+            });
+        };
+        let law = A::PRESENT.then_some(law);
+        let result = C::begin::<S, F::Terms, R>(prepared, time, state, rates, law, then);
+        (result, power)
     }
 
     /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
@@ -157,13 +159,32 @@ where
         rates: &mut C::State<S>,
         multipliers: &mut C::Multipliers<S>,
     ) -> Result<Parts<S>, Fault> {
-        let (begun, applied_power) = self.begun(time, state, rates);
-        if vanishes::<S, F::Terms>(begun.pivot.relative) {
+        let (parts, applied_power) = self.begin(time, state, rates, |first, rates| {
+            self.finish(time, state, first, rates, multipliers)
+        });
+        let parts = parts?;
+        Ok(Parts {
+            applied_power,
+            ..parts
+        })
+    }
+
+    /// What follows a first solution: the formulation's own, rates and multipliers.
+    #[inline(always)]
+    fn finish(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        first: &First<'_, S, M, C>,
+        rates: &mut C::State<S>,
+        multipliers: &mut C::Multipliers<S>,
+    ) -> Result<Parts<S>, Fault> {
+        if vanishes::<S, F::Terms>(first.pivot.relative) {
             return Err(Fault::StateNotFinite);
         }
         let mut solution = Solution::<S, M, C> {
-            accelerations: begun.accelerations,
-            multipliers: begun.multipliers,
+            accelerations: *first.accelerations,
+            multipliers: *first.multipliers,
             iterations: 1,
             excused: false,
         };
@@ -171,8 +192,8 @@ where
             constants: &self.equations.constants,
             coefficients: &self.equations.coefficients,
             compliances: &self.equations.compliances,
-            factors: &begun.factors,
-            right: &begun.right,
+            factors: first.factors,
+            right: first.right,
             time,
             state: C::as_read(state, rates),
             terms: PhantomData,
@@ -186,10 +207,10 @@ where
         C::finish(constants, state, rates, &solution.accelerations);
         *multipliers = solution.multipliers;
         Ok(Parts {
-            pivot: begun.pivot,
+            pivot: first.pivot,
             iterations: solution.iterations,
             excused: solution.excused,
-            applied_power,
+            applied_power: S::zero(),
         })
     }
 

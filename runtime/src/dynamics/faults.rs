@@ -149,14 +149,12 @@ where
         if !Self::IN_PARTS {
             return self.slope(time, state, rates, &mut Array::zeros());
         }
-        let (begun, _) = self.begun(time, state, rates);
-        C::finish(
-            &self.equations.constants,
-            state,
-            rates,
-            &begun.accelerations,
-        );
-        begun.pivot
+        let constants = &self.equations.constants;
+        let (pivot, _) = self.begin(time, state, rates, |first, rates| {
+            C::finish(constants, state, rates, first.accelerations);
+            first.pivot
+        });
+        pivot
     }
 }
 

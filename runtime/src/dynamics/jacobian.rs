@@ -6,7 +6,7 @@ use crate::forward::{Forward, Lifted, by_forward_numbers, lifted, with_differenc
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::absolute::as_read;
-use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::coordinates::{Coordinates, Prepared};
 use crate::mechanism::kernels::{Mechanism, Stabilisation};
 use crate::state::vector::{Array, MovingState, Vector};
 
@@ -52,22 +52,24 @@ where
         };
         let here = applied(state);
         by_forward_numbers(state, &zeros, columns, |lifted, rates, taken| {
-            let prepared = (constants, coefficients);
-            let begun = C::begin::<Lifted<S>, F::Terms>(
-                prepared,
+            let prepared = Prepared {
+                constants,
+                coefficients,
                 gains,
+            };
+            let law = |_: &C::State<Lifted<S>>, forces: &mut M::Velocities<Lifted<S>>| {
+                let law: M::Velocities<Lifted<S>> = with_differences(state, taken, &here, applied);
+                let forces = forces.as_mut_slice().iter_mut().zip(law.as_slice());
+                forces.for_each(|(force, &more)| *force = *force + more);
+            };
+            C::begin::<Lifted<S>, F::Terms, ()>(
+                prepared,
                 at,
                 lifted,
                 rates,
-                true,
-                |_, forces| {
-                    let law: M::Velocities<Lifted<S>> =
-                        with_differences(state, taken, &here, applied);
-                    let forces = forces.as_mut_slice().iter_mut().zip(law.as_slice());
-                    forces.for_each(|(force, &more)| *force = *force + more);
-                },
+                Some(law),
+                |first, rates| C::finish(constants, lifted, rates, first.accelerations),
             );
-            C::finish(constants, lifted, rates, &begun.accelerations);
         })
     }
 }

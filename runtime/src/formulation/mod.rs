@@ -48,7 +48,7 @@ use core::marker::PhantomData;
 
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
-use crate::mechanism::coordinates::{Absolute, ByAllRows, Coordinates};
+use crate::mechanism::coordinates::{Absolute, ByAllRows, Coordinates, RightSide};
 use crate::mechanism::kernels::{Mechanism, Stabilisation, Terms};
 use crate::state::vector::Array;
 
@@ -104,7 +104,7 @@ pub struct Saddle<'a, S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms> {
     pub(crate) coefficients: &'a C::Coefficients<S>,
     pub(crate) compliances: &'a C::Multipliers<S>,
     pub(crate) factors: &'a C::Factors<S>,
-    pub(crate) right: &'a C::RightSide<S>,
+    pub(crate) right: RightSide<'a, S, M, C>,
     pub(crate) time: S,
     /// As the kernels read it.
     pub(crate) state: &'a C::State<S>,

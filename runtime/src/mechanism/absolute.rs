@@ -4,7 +4,7 @@ use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
 use crate::mechanism::coordinates::{
-    Absolute, AbsoluteEquations, Begun, ByAllRows, Coordinates, EquationsIn,
+    Absolute, AbsoluteEquations, ByAllRows, Coordinates, EquationsIn, First, Prepared, RightSide,
 };
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
 use crate::mechanism::orientations::{
@@ -20,7 +20,6 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     type Constants<S: Scalar> = M::Constants<S>;
     type Coefficients<S: Scalar> = M::Coefficients<S>;
     type Factors<S: Scalar> = M::Factors<S>;
-    type RightSide<S: Scalar> = (M::Velocities<S>, M::Multipliers<S>);
     type Own<S: Scalar> = ();
     type Orientation = P;
 
@@ -64,33 +63,38 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     }
 
     #[inline(always)]
-    fn begin<S: Scalar, T: Terms>(
-        (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
-        gains: [S; 2],
+    fn begin<S: Scalar, T: Terms, R>(
+        prepared: Prepared<'_, S, M, Self>,
         time: S,
         state: &M::State<S>,
         rates: &mut M::State<S>,
-        is_loaded: bool,
-        law: impl FnOnce(&M::State<S>, &mut M::Velocities<S>),
-    ) -> Begun<S, M, Self> {
+        law: Option<impl FnOnce(&M::State<S>, &mut M::Velocities<S>)>,
+        then: impl FnOnce(&First<'_, S, M, Self>, &mut M::State<S>) -> R,
+    ) -> R {
+        let Prepared {
+            constants,
+            coefficients,
+            gains,
+        } = prepared;
         // In the place of the rates, which are as long: the stack of a controller is short.
         *rates = as_read::<S, M, P>(state);
         let read = &*rates;
         let (factors, pivot) = M::factor::<S, T>(constants, coefficients, time, read);
         let mut upper = M::forces(constants, time, read);
-        if is_loaded {
+        if let Some(law) = law {
             law(read, &mut upper);
         }
         let lower = stabilised::<S, M, T>(constants, gains, time, read);
         let (accelerations, multipliers) =
             M::solve::<S, T>(constants, coefficients, &factors, &upper, &lower);
-        Begun {
-            factors,
-            right: (upper, lower),
+        let first = First {
+            factors: &factors,
+            right: (&upper, &lower),
             pivot,
-            accelerations,
-            multipliers,
-        }
+            accelerations: &accelerations,
+            multipliers: &multipliers,
+        };
+        then(&first, rates)
     }
 
     #[inline(always)]
@@ -102,7 +106,7 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     fn solve_after<S: Scalar, T: Terms>(
         (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
         factors: &M::Factors<S>,
-        (upper, lower): &(M::Velocities<S>, M::Multipliers<S>),
+        (upper, lower): RightSide<'_, S, M, Self>,
         yielded: &M::Multipliers<S>,
     ) -> (M::Velocities<S>, M::Multipliers<S>) {
         let mut lower = *lower;
@@ -217,7 +221,7 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     fn by_all_rows<'s, S: Scalar>(
         constants: &'s M::Constants<S>,
         state: &'s M::State<S>,
-        (upper, lower): &'s (M::Velocities<S>, M::Multipliers<S>),
+        (upper, lower): RightSide<'s, S, M, Self>,
         accelerations: &'s M::Velocities<S>,
         multipliers: &'s M::Multipliers<S>,
     ) -> Option<ByAllRows<'s, S, M>> {

@@ -70,9 +70,6 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     type Coefficients<S: Scalar>: Array<S>;
     /// The factorised saddle system.
     type Factors<S: Scalar>: Copy + Debug;
-    /// What solutions with multipliers before start from.
-    #[doc(hidden)]
-    type RightSide<S: Scalar>: Copy;
     /// Their equations, where these are others than those in absolute coordinates.
     #[doc(hidden)]
     type Own<S: Scalar>: Copy;
@@ -131,18 +128,18 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
         Self::evaluate_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
     }
 
-    /// The first solution from parts, with forces and moments on bodies that `law` adds to those
-    /// of the description, if it `is_loaded`. Leaves in `rates` what [`Coordinates::finish`] needs.
+    /// Factorises the system and solves it once, with forces and moments on bodies that a `law`
+    /// adds to those of the description; calls with that, so that nothing large is handed back.
+    /// Leaves in `rates` what [`Coordinates::finish`] needs.
     #[doc(hidden)]
-    fn begin<S: Scalar, T: Terms>(
-        prepared: (&Self::Constants<S>, &Self::Coefficients<S>),
-        gains: [S; 2],
+    fn begin<S: Scalar, T: Terms, R>(
+        prepared: Prepared<'_, S, M, Self>,
         time: S,
         state: &Self::State<S>,
         rates: &mut Self::State<S>,
-        is_loaded: bool,
-        law: impl FnOnce(&Self::State<S>, &mut M::Velocities<S>),
-    ) -> Begun<S, M, Self>;
+        law: Option<impl FnOnce(&Self::State<S>, &mut M::Velocities<S>)>,
+        then: impl FnOnce(&First<'_, S, M, Self>, &mut Self::State<S>) -> R,
+    ) -> R;
 
     /// The state as kernels read it, of the state and of what [`Coordinates::begin`] left.
     #[doc(hidden)]
@@ -156,7 +153,7 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     fn solve_after<S: Scalar, T: Terms>(
         prepared: (&Self::Constants<S>, &Self::Coefficients<S>),
         factors: &Self::Factors<S>,
-        right: &Self::RightSide<S>,
+        right: RightSide<'_, S, M, Self>,
         yielded: &Self::Multipliers<S>,
     ) -> (Self::Velocities<S>, Self::Multipliers<S>);
 
@@ -246,7 +243,7 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     fn by_all_rows<'s, S: Scalar>(
         _constants: &'s Self::Constants<S>,
         _state: &'s Self::State<S>,
-        _right: &'s Self::RightSide<S>,
+        _right: RightSide<'s, S, M, Self>,
         _accelerations: &'s Self::Velocities<S>,
         _multipliers: &'s Self::Multipliers<S>,
     ) -> Option<ByAllRows<'s, S, M>> {
@@ -254,14 +251,31 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     }
 }
 
+/// What is known before a state.
+#[doc(hidden)]
+pub struct Prepared<'e, S: Scalar, M: Mechanism, C: Coordinates<M>> {
+    pub(crate) constants: &'e C::Constants<S>,
+    pub(crate) coefficients: &'e C::Coefficients<S>,
+    /// Of `Phi'` and of `Phi` in the right-hand sides of the constraints.
+    pub(crate) gains: [S; 2],
+}
+
+/// What solutions with multipliers before start from, one number for each velocity and for each
+/// equation.
+#[doc(hidden)]
+pub type RightSide<'r, S, M, C> = (
+    &'r <C as Coordinates<M>>::Velocities<S>,
+    &'r <C as Coordinates<M>>::Multipliers<S>,
+);
+
 /// A first solution from parts.
 #[doc(hidden)]
-pub struct Begun<S: Scalar, M: Mechanism, C: Coordinates<M>> {
-    pub(crate) factors: C::Factors<S>,
-    pub(crate) right: C::RightSide<S>,
+pub struct First<'a, S: Scalar, M: Mechanism, C: Coordinates<M>> {
+    pub(crate) factors: &'a C::Factors<S>,
+    pub(crate) right: RightSide<'a, S, M, C>,
     pub(crate) pivot: Pivot<S>,
-    pub(crate) accelerations: C::Velocities<S>,
-    pub(crate) multipliers: C::Multipliers<S>,
+    pub(crate) accelerations: &'a C::Velocities<S>,
+    pub(crate) multipliers: &'a C::Multipliers<S>,
 }
 
 /// A solution by the rows of all joints, and what it solves.

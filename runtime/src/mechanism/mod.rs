@@ -18,7 +18,9 @@ pub(crate) mod readout;
 pub(crate) mod relative;
 pub(crate) mod report;
 
-pub use coordinates::{Absolute, Begun, ByAllRows, Coordinates, Equations, Evaluation, Relative};
+pub use coordinates::{
+    Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
+};
 pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint};
 pub use joint_kernels::{Freedom, JointCounter, JointMotion, JointParts, JointReport};
 pub use kernels::{

@@ -6,7 +6,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
 use crate::mechanism::absolute::{take_nearer_sign, with_nearer_signs};
 use crate::mechanism::coordinates::{
-    AbsoluteEquations, Begun, Coordinates, Equations, EquationsIn, Relative,
+    AbsoluteEquations, Coordinates, Equations, EquationsIn, First, Prepared, Relative, RightSide,
 };
 use crate::mechanism::joint_kernels::{Freedom, JointCoordinates, JointParts};
 use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
@@ -20,8 +20,6 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     type Constants<S: Scalar> = M::JointConstants<S>;
     type Coefficients<S: Scalar> = M::JointCoefficients<S>;
     type Factors<S: Scalar> = M::JointFactors<S>;
-    /// The first solution: the equations are linear in their right-hand sides.
-    type RightSide<S: Scalar> = (M::JointVelocities<S>, M::ClosingMultipliers<S>);
     type Own<S: Scalar> = EquationsIn<S, M, Self>;
     type Orientation = Normalised;
 
@@ -87,16 +85,21 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         M::joint_rates_into::<S, T>(constants, coefficients, time, state, rates)
     }
 
+    /// The right side is the first solution: the equations are linear in their right-hand sides.
     #[inline(always)]
-    fn begin<S: Scalar, T: Terms>(
-        (constants, coefficients): (&M::JointConstants<S>, &M::JointCoefficients<S>),
-        _gains: [S; 2],
+    fn begin<S: Scalar, T: Terms, R>(
+        prepared: Prepared<'_, S, M, Self>,
         time: S,
         state: &M::JointState<S>,
         rates: &mut M::JointState<S>,
-        is_loaded: bool,
-        law: impl FnOnce(&M::JointState<S>, &mut M::Velocities<S>),
-    ) -> Begun<S, M, Self> {
+        law: Option<impl FnOnce(&M::JointState<S>, &mut M::Velocities<S>)>,
+        then: impl FnOnce(&First<'_, S, M, Self>, &mut M::JointState<S>) -> R,
+    ) -> R {
+        let Prepared {
+            constants,
+            coefficients,
+            ..
+        } = prepared;
         let mut multipliers = M::ClosingMultipliers::<S>::zeros();
         let pivot = M::evaluate_joints_into::<S, T>(
             constants,
@@ -109,7 +112,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         let factors = M::factor_joints::<S, T>(constants, coefficients, time, state);
         let mut accelerations = M::JointVelocities::<S>::zeros();
         add(accelerations.as_mut_slice(), rates.rates_slice());
-        if is_loaded {
+        if let Some(law) = law {
             let mut forces = M::Velocities::<S>::zeros();
             law(state, &mut forces);
             let (further, loads) = M::solve_joints::<S, T>(
@@ -122,13 +125,14 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
             add(accelerations.as_mut_slice(), further.as_slice());
             add(multipliers.as_mut_slice(), loads.as_slice());
         }
-        Begun {
-            factors,
-            right: (accelerations, multipliers),
+        let first = First {
+            factors: &factors,
+            right: (&accelerations, &multipliers),
             pivot,
-            accelerations,
-            multipliers,
-        }
+            accelerations: &accelerations,
+            multipliers: &multipliers,
+        };
+        then(&first, rates)
     }
 
     #[inline(always)]
@@ -143,7 +147,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     fn solve_after<S: Scalar, T: Terms>(
         (constants, coefficients): (&M::JointConstants<S>, &M::JointCoefficients<S>),
         factors: &M::JointFactors<S>,
-        (accelerations, multipliers): &(M::JointVelocities<S>, M::ClosingMultipliers<S>),
+        (accelerations, multipliers): RightSide<'_, S, M, Self>,
         yielded: &M::ClosingMultipliers<S>,
     ) -> (M::JointVelocities<S>, M::ClosingMultipliers<S>) {
         let mut lower = *yielded;
