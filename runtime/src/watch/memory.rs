@@ -32,8 +32,8 @@ pub(super) struct Memory<S: Scalar, M: Mechanism> {
     ways: M::Velocities<S>,
     /// Of each the length of the way.
     lengths: M::Velocities<S>,
-    /// The least and the largest components of that sum.
-    box_of_ways: [M::Velocities<S>; 2],
+    /// The least and the largest components of the place (m) of each body.
+    places: [M::Velocities<S>; 2],
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Memory<S, M> {
@@ -52,7 +52,12 @@ const SHORT: f64 = 0.1;
 
 impl<S: Real, M: Mechanism> Memory<S, M> {
     /// Of a motion that forgets nothing, with its kinetic energy (J) at the start.
-    pub(super) fn whole(start: S, kinetic: S) -> Self {
+    pub(super) fn whole(start: S, state: &M::State<S>, kinetic: S) -> Self {
+        let mut places = M::Velocities::<S>::zeros();
+        for body in M::REPORT.bodies {
+            let place: [S; 3] = read(state.coordinates().as_slice(), body.coordinate);
+            write(places.as_mut_slice(), body.velocity, place);
+        }
         Self {
             start,
             time: start,
@@ -63,7 +68,7 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
             least: kinetic,
             ways: M::Velocities::<S>::zeros(),
             lengths: M::Velocities::<S>::zeros(),
-            box_of_ways: [M::Velocities::<S>::zeros(); 2],
+            places: [places; 2],
         }
     }
 
@@ -105,16 +110,17 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
             let [length] = read(self.lengths.as_slice(), place);
             let length = square(&velocity).sqrt().fused(step, length);
             write(self.lengths.as_mut_slice(), place, [length]);
-            let [low, high] = &mut self.box_of_ways;
-            let elements = low.as_mut_slice().iter_mut().zip(high.as_mut_slice());
-            for ((low, high), x) in elements.skip(place).zip(way) {
-                (*low, *high) = (low.min(x), high.max(x));
-            }
         };
         for body in M::REPORT.bodies {
             add(body.velocity);
             if body.kind == BodyKind::Rigid {
                 add(body.velocity + 3);
+            }
+            let place: [S; 3] = read(state.coordinates().as_slice(), body.coordinate);
+            let [low, high] = &mut self.places;
+            let elements = low.as_mut_slice().iter_mut().zip(high.as_mut_slice());
+            for ((low, high), x) in elements.skip(body.velocity).zip(place) {
+                (*low, *high) = (low.min(x), high.max(x));
             }
         }
     }
@@ -154,9 +160,11 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
         let [mut by_lengths, mut by_ways] = [S::zero(); 2];
         let mut take = |place: usize, length: S| {
             let [path] = read(self.lengths.as_slice(), place);
-            let [low, high] = &self.box_of_ways;
-            let ends: [[S; 3]; 2] = [read(low.as_slice(), place), read(high.as_slice(), place)];
-            let [low, high] = &ends;
+            let ends = self
+                .places
+                .each_ref()
+                .map(|ends| read(ends.as_slice(), place));
+            let [low, high]: &[[S; 3]; 2] = &ends;
             by_lengths = by_lengths.max(path.quotient(length));
             let amplitude = S::constant(0.5) * square(&minus(high, low)).sqrt();
             by_ways = by_ways.max(path.quotient(length.max(amplitude)));

@@ -232,7 +232,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             model: ErrorModel::default(),
             estimated: S::zero(),
             lag: Lag::none(state),
-            memory: Memory::whole(time, kinetic),
+            memory: Memory::whole(time, state, kinetic),
             cubes: [S::zero(); 2],
             longest: S::zero(),
             rate: S::zero(),
