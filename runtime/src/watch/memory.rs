@@ -201,7 +201,7 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
     /// The part of what dampers took that was fed to the motion, which has gained so much energy
     /// (J): zero of a vibration that dies out, whose errors die out with it.
     pub(super) fn fed(&self, gained: S) -> S {
-        // Looks are eight steps apart, so that what dampers took of a start may be seen twice.
+        // Looks are sixteen steps apart, so that what dampers took of a start may be seen twice.
         let part = (self.taken + gained + gained).quotient(self.taken);
         if part > S::zero() {
             part.min(S::one())

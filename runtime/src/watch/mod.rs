@@ -6,12 +6,12 @@
 //!
 //! | indicator | file | looks at |
 //! |---|---|---|
-//! | violation | `worst.rs` | every eighth step |
+//! | violation | `worst.rs` | every sixteenth step |
 //! | pivot and rank | `singular.rs` | every step, and within long ones |
 //! | gradient | `gradients.rs` | as often as one may vanish |
-//! | energy | `energy.rs` | the power in every step, energies in every eighth |
+//! | energy | `energy.rs` | the power in every step, energies in every sixteenth |
 //! | compliance | `compliance.rs` | every sixteenth step of a penalty |
-//! | memory | `memory.rs` | every eighth step |
+//! | memory | `memory.rs` | every sixteenth step |
 //! | phase | `lag.rs` | every fourth step of a method of order 2 |
 //! | orientation | `stretched.rs` | every step |
 //! | rest | `rest.rs` | every step while it lasts |
@@ -91,10 +91,10 @@ use crate::state::vector::{Array, StateParts};
 
 /// Of how many steps the violations and energies of one are taken. They change over many steps: what
 /// opens a joint or loses energy does not mend it.
-const EVERY: usize = 8;
+const EVERY: usize = 16;
 
 /// How many steps at the start of a run are all looked at.
-const EACH: usize = 8;
+const EACH: usize = 4;
 
 /// What the watch over a run saw: violations by joint, pivots, energy.
 pub struct Watch<S: Scalar, M: Mechanism> {
