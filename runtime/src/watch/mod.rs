@@ -1,8 +1,8 @@
 //! The watch over a run: what tells whether its result can be trusted.
 //!
-//! The run shows it a [`Step`] after every step. Every indicator is a value in a file of its own,
-//! whose head says what it costs and what nothing else finds; `verdict.rs` makes warnings of them,
-//! with the limits of `limits.rs`, and [`Doubts`] lists these at the end.
+//! The run shows it a record of every step. Every indicator is a value in a file of its own, whose
+//! head says what it costs and what nothing else finds; `verdict.rs` makes warnings of them, with
+//! the limits of `limits.rs`, and [`Doubts`] lists these at the end.
 //!
 //! | indicator | file | looks at |
 //! |---|---|---|
