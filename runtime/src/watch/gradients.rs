@@ -2,7 +2,8 @@
 //!
 //! A look costs the Jacobian, and is due where a gradient may have vanished since the last one:
 //! seldom, where gradients have not changed over some turns. Only it finds a shaft on a
-//! `ConstantVelocity` joint that comes to point against the other: `tests/tests/sweeps/gradients.rs`.
+//! `ConstantVelocity` joint that comes to point against the other:
+//! `tests/tests/sweeps/gradients.rs`.
 
 use super::singular::Approach;
 use crate::math::scalar::{Real, Scalar};

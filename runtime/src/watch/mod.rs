@@ -89,8 +89,8 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
-/// Of how many steps the violations and energies of one are taken. They change over many steps: what
-/// opens a joint or loses energy does not mend it.
+/// Of how many steps the violations and energies of one are taken. They change over many steps:
+/// what opens a joint or loses energy does not mend it.
 const EVERY: usize = 16;
 
 /// How many steps at the start of a run are all looked at.

@@ -1,8 +1,8 @@
 //! How near a run came to a singular configuration.
 //!
 //! It costs a root a step: the pivot is that of the last evaluation. Within a step it costs an
-//! evaluation a look. Only it finds a four-bar that goes on along either branch, and steps that pass
-//! over it: `tests/tests/sweeps/singular.rs`.
+//! evaluation a look. Only it finds a four-bar that goes on along either branch, and steps that
+//! pass over it: `tests/tests/sweeps/singular.rs`.
 
 use crate::math::scalar::Real;
 

@@ -2,7 +2,8 @@
 //!
 //! A step that turns to and fro is off to and fro: what was lost counts along the angular velocity.
 //! It costs a product a body and step, in absolute coordinates alone. Only it finds that a spin
-//! beside which nothing moves is off by small amounts that add up: `tests/tests/sound/orientation.rs`.
+//! beside which nothing moves is off by small amounts that add up:
+//! `tests/tests/sound/orientation.rs`.
 
 use crate::math::scalar::Real;
 use crate::math::vec3::{read, square};
