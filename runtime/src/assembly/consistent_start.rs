@@ -2,6 +2,7 @@
 
 use crate::constraints::extent::{largest, resolution};
 use crate::constraints::row_units::{Meanings, characteristic_length};
+use crate::constraints::rows::Rows;
 use crate::constraints::side::check_sides;
 use crate::error::{Fault, Quantity};
 use crate::math::scalar::{Real, Scalar};
@@ -28,7 +29,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
         violation: violation.to_f64(),
         is_final,
     };
-    let rows = Meanings::<S, M>::at(constants, time, state);
+    let rows = Meanings::<S, M>::of(&Rows::at(constants, time, state));
     let length = characteristic_length::<S, M>(constants, state);
     let inexact = S::constant(INEXACT);
     let size = |is_length: bool| if is_length { length } else { S::one() };

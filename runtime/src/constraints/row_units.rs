@@ -24,14 +24,13 @@ impl<S: Scalar, M: Mechanism> Clone for Meanings<S, M> {
 impl<S: Scalar, M: Mechanism> Copy for Meanings<S, M> {}
 
 impl<S: Real, M: Mechanism> Meanings<S, M> {
-    pub(crate) fn at(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
+    pub(crate) fn of(rows: &Rows<S, M>) -> Self {
         let mut meanings = Self {
             factors: M::Multipliers::<S>::zeros(),
             lengths: M::Multipliers::<S>::zeros(),
         };
         let factors = meanings.factors.as_mut_slice().iter_mut();
         let places = factors.zip(meanings.lengths.as_mut_slice());
-        let rows = Rows::<S, M>::at(constants, time, state);
         for ((factor, length), (size, is_length)) in places.zip(rows.meanings()) {
             *factor = size.reciprocal();
             *length = if is_length { S::one() } else { S::zero() };

@@ -96,7 +96,7 @@ pub struct Dynamics<
     formulation: F,
     forces: A,
     pub(crate) iterations: Iterations,
-    pub(crate) seen: Seen<S, M>,
+    pub(crate) seen: Seen<S>,
     coordinates: PhantomData<C>,
 }
 

@@ -7,7 +7,7 @@ use crate::constraints::extent::farthest;
 use crate::error::Fault;
 use crate::formulation::{Formulation, add};
 use crate::integrate::{AlphaEnd, AlphaStep, RigidConstraints};
-use crate::math::scalar::{Real, Scalar};
+use crate::math::scalar::Real;
 use crate::math::vec3::{read, write};
 use crate::measure::load::AppliedForces;
 use crate::mechanism::blocks::add_product;
@@ -98,7 +98,7 @@ where
             let is_solved = seen.change <= S::constant(ROUND_OFF) * S::EPSILON
                 || seen.resolved <= noise && !fell;
             if is_solved {
-                self.look(seen.pivot, &seen.multipliers);
+                self.look(seen.pivot);
                 return self.ended(&trial, iteration);
             }
             if !fell && iteration >= TRANSIENT {
@@ -142,7 +142,7 @@ where
         trial: &mut Trial<'_, S, M>,
         state: &M::State<S>,
         (size, mass): (S, &M::Velocities<S>),
-    ) -> Result<Iteration<S, M>, Fault> {
+    ) -> Result<Iteration<S>, Fault> {
         let (constants, coefficients) = (&self.absolute.constants, &self.absolute.coefficients);
         let end = trial.asked.end;
         let (factors, pivot) = M::factor::<S, F::Terms>(constants, coefficients, end, state);
@@ -198,7 +198,6 @@ where
             change: ratio(change, speed).max(opened),
             resolved: ratio(change, coarse).max(opened),
             pivot: pivot.relative,
-            multipliers,
         })
     }
 
@@ -215,11 +214,6 @@ where
         if !(state.is_finite() && slope.is_finite()) {
             return Err(self.evaluator().fault(end, &state));
         }
-        if A::PRESENT {
-            let applied = self.applied(end, &state);
-            let pairs = applied.as_slice().iter().zip(state.velocities().as_slice());
-            self.seen.applied_power = pairs.fold(S::zero(), |sum, (&load, &u)| load.fused(u, sum));
-        }
         Ok(AlphaEnd {
             auxiliary: M::State::from_parts(Array::zeros(), trial.auxiliary()),
             state,
@@ -230,7 +224,7 @@ where
 }
 
 /// What an iteration tells.
-struct Iteration<S: Scalar, M: Mechanism> {
+struct Iteration<S> {
     /// By how much velocities have changed and positions are off, relative to what they are.
     change: S,
     /// The same, but a velocity that passes over all positions in a step counts as one: what
@@ -238,7 +232,6 @@ struct Iteration<S: Scalar, M: Mechanism> {
     resolved: S,
     /// The smallest relative pivot.
     pivot: S,
-    multipliers: M::Multipliers<S>,
 }
 
 /// What the digits of positions are of: places of centres of mass, and one radian.

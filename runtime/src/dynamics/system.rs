@@ -45,7 +45,7 @@ where
                 .evaluator()
                 .in_parts(time, state, rates, &mut multipliers)?;
             self.count(&parts);
-            self.look_in_parts(&parts, &multipliers);
+            self.look(parts.pivot.relative);
             return Ok(());
         }
         let pivot = self.evaluator().slope(time, state, rates, &mut multipliers);
@@ -54,7 +54,7 @@ where
             // stage.
             return Err(Fault::StateNotFinite);
         }
-        self.look(pivot.relative, &multipliers);
+        self.look(pivot.relative);
         Ok(())
     }
 

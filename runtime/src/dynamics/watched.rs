@@ -8,7 +8,8 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::absolute::as_read;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
-use crate::state::vector::{Array, MovingState, StateParts};
+use crate::mechanism::orientations::with_unit_orientations;
+use crate::state::vector::{Array, MovingState, StateParts, Vector as _};
 use crate::watch::{Beginning, Seen, Step, Watch};
 
 /// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as
@@ -29,30 +30,26 @@ where
     /// Whether equations that depend on others are kept and not solved.
     const HAS_NO_RANK: bool = M::REPORT.keeps_redundant() && !F::Terms::COMPLIANT;
 
+    /// Whether evaluations leave their pivots behind.
+    const SEES_PIVOTS: bool = C::HAS_PIVOTS && !F::Terms::COMPLIANT;
+
     /// Whether accelerations are off by what a compliance leaves.
     const YIELDS: bool = F::Terms::COMPLIANT && !F::ITERATED;
 
-    /// Sees an evaluation, if it is one by the rows of all joints. In relative coordinates the
-    /// watch has the bodies evaluated at the end of a step.
+    /// Sees the smallest relative pivot of an evaluation, as the square of a distance.
     #[inline(always)]
-    pub(super) fn look(&mut self, pivot: S, multipliers: &C::Multipliers<S>) {
-        let Some(multipliers) = C::of_all_rows(multipliers) else {
-            return;
-        };
-        if !F::Terms::COMPLIANT {
-            self.seen.pivot = pivot;
-        }
-        if M::REPORT.time.constraints {
-            self.seen.multipliers = *multipliers;
+    pub(super) fn look(&mut self, pivot: S) {
+        if const { Self::SEES_PIVOTS } {
+            self.seen.pivot = Self::squared(pivot);
         }
     }
 
-    /// Sees an evaluation in parts, likewise.
     #[inline(always)]
-    pub(super) fn look_in_parts(&mut self, parts: &Parts<S>, multipliers: &C::Multipliers<S>) {
-        self.look(parts.pivot.relative, multipliers);
-        if !C::IS_RELATIVE {
-            self.seen.applied_power = parts.applied_power;
+    fn squared(pivot: S) -> S {
+        if C::HAS_LINEAR_PIVOTS {
+            pivot * pivot
+        } else {
+            pivot
         }
     }
 
@@ -68,58 +65,33 @@ where
     }
 
     /// What was seen at the last evaluation.
-    pub(crate) fn seen(&self) -> Seen<S, M> {
+    pub(crate) fn seen(&self) -> Seen<S> {
         self.seen
     }
 
-    /// As if that had been the last evaluation. In relative coordinates no evaluation is seen.
-    pub(crate) fn recall(&mut self, seen: Seen<S, M>) {
-        if !C::IS_RELATIVE {
-            self.seen = seen;
-        }
+    /// As if that had been the last evaluation.
+    pub(crate) fn recall(&mut self, seen: Seen<S>) {
+        self.seen = seen;
     }
 
-    /// Sees an evaluation of the bodies. Where they have none, its pivot says why.
-    fn see_bodies(&mut self, time: S, bodies: &M::State<S>) {
-        let (mut rates, mut multipliers) = (M::State::zeros(), Array::zeros());
-        let evaluator = self.of_bodies();
-        let (pivot, applied_power) = if Evaluator::<S, M, F, A, C>::IN_PARTS {
-            match evaluator.in_parts(time, bodies, &mut rates, &mut multipliers) {
-                Ok(parts) => (parts.pivot.relative, parts.applied_power),
-                Err(_) => return,
-            }
-        } else {
-            let pivot = evaluator.slope(time, bodies, &mut rates, &mut multipliers);
-            if vanishes::<S, F::Terms>(pivot.relative) {
-                return;
-            }
-            (pivot.relative, S::zero())
-        };
-        if !F::Terms::COMPLIANT {
-            self.seen.pivot = pivot;
-        }
-        self.seen.multipliers = multipliers;
-        self.seen.applied_power = applied_power;
-    }
-
-    /// Shows the end of a step to the watch. In relative coordinates it wants to know of all
-    /// joints, by one evaluation of the bodies, and what the velocities that rows determine lose
-    /// counts as well: there, and not where a method evaluated last.
+    /// Shows the end of a step to the watch: a state, and the bodies in it.
     #[inline]
-    pub(crate) fn watch(&mut self, watch: &mut Watch<S, M>, time: S, bodies: &M::State<S>) {
-        let beside = if C::IS_RELATIVE {
-            self.see_bodies(time, bodies);
-            self.own_pivot(time, bodies).map(|pivot| pivot.relative)
-        } else {
-            None
-        };
+    pub(crate) fn watch(
+        &mut self,
+        watch: &mut Watch<S, M>,
+        time: S,
+        state: &C::State<S>,
+        bodies: &M::State<S>,
+        estimate: Option<S>,
+    ) {
         let step = Step {
             constants: self.constants(),
             time,
             state: bodies,
-            power: self.power(time, bodies),
-            pivot: lesser(self.pivot(watch.steps(), time, bodies), beside),
+            power: self.power_with(watch.lead(time), time, state, bodies),
+            pivot: self.pivot(watch.steps(), time, bodies),
             stretch: self.seen.stretch,
+            estimate,
             is_mended: C::Orientation::NORMALISED && !C::Orientation::NORMALISED_RATES,
         };
         if Self::YIELDS && watch.steps().is_multiple_of(BIAS_EVERY) {
@@ -164,88 +136,169 @@ where
         }
     }
 
-    /// The power (W) of all forces without a potential, and of drivers, whose multipliers work
-    /// against `Phi_t`.
-    fn power(&self, time: S, state: &M::State<S>) -> Option<S> {
-        let is_driven = M::REPORT.time.constraints;
-        if M::REPORT.forces.is_empty() && !is_driven && !A::PRESENT {
+    /// The same where velocities are ahead of coordinates by some time (s): at the coordinates and
+    /// the time that they belong to, else the work of what goes with a coordinate adds up wrongly.
+    #[inline]
+    fn power_with(
+        &self,
+        lead: Option<S>,
+        time: S,
+        state: &C::State<S>,
+        bodies: &M::State<S>,
+    ) -> Option<S> {
+        let Some(lead) = lead else {
+            return self.power(time, state, bodies);
+        };
+        let constants = self.own_constants();
+        let mut rates = C::State::zeros();
+        C::with_new_velocities(constants, time, state, S::zero(), &mut rates);
+        let state = state.plus([(-lead, &rates)]);
+        let bodies = C::bodies_near(constants, &state, bodies);
+        let bodies = with_unit_orientations::<S, M>(&bodies);
+        self.power(time - lead, &state, &bodies)
+    }
+
+    /// The power (W) of all forces without a potential, and of drivers; `None` where there are
+    /// none, or it is not known.
+    #[inline]
+    fn power(&self, time: S, state: &C::State<S>, bodies: &M::State<S>) -> Option<S> {
+        if M::REPORT.time.constraints {
+            return self.power_of_drivers(time, state, bodies);
+        }
+        if M::REPORT.forces.is_empty() && !A::PRESENT {
             return None;
         }
-        let mut power = M::power(self.constants(), time, state) + self.seen.applied_power;
-        if is_driven {
-            let at_rest = M::State::from_parts(*state.coordinates(), M::Velocities::<S>::zeros());
-            let by_time = M::constraint_rates(self.constants(), time, &at_rest);
-            power = plus_dot(power, by_time.as_slice(), self.seen.multipliers.as_slice());
+        let mut power = M::power(self.constants(), time, bodies);
+        if A::PRESENT {
+            let applied = self.applied(time, &as_read::<S, M, C::Orientation>(bodies));
+            power = plus_dot(power, applied.as_slice(), bodies.velocities().as_slice());
         }
         Some(power)
     }
 
+    /// The same with drivers, whose multipliers work against `Phi_t`: by an evaluation in its own
+    /// coordinates, for the stages of a method may be anywhere in a step.
+    #[inline(never)]
+    fn power_of_drivers(&self, time: S, state: &C::State<S>, bodies: &M::State<S>) -> Option<S> {
+        let constants = self.constants();
+        let at_rest = M::State::from_parts(*bodies.coordinates(), M::Velocities::<S>::zeros());
+        let mut by_time = M::constraint_rates(constants, time, &at_rest);
+        let mut multipliers = Array::zeros();
+        let described = M::power(constants, time, bodies);
+        let mut power = described + self.multipliers(time, state, &mut multipliers)?;
+        for (row, &multiplier) in multipliers.as_slice().iter().enumerate() {
+            let row = C::row_of_all(row);
+            if let Some(place) = row.and_then(|row| by_time.as_mut_slice().get_mut(row)) {
+                power = place.fused(multiplier, power);
+                *place = S::zero();
+            }
+        }
+        if by_time.as_slice().iter().all(|&rate| rate == S::zero()) {
+            return Some(power);
+        }
+        // A driver whose equation follows from others in these coordinates, and not in absolute
+        // ones.
+        let evaluation = self.evaluation(time, bodies).ok()?;
+        let by_time = M::constraint_rates(constants, time, &at_rest);
+        let multipliers = evaluation.multipliers.as_slice();
+        Some(plus_dot(described, by_time.as_slice(), multipliers))
+    }
+
+    /// Writes the multipliers of a state, and returns the power (W) of the forces of a closure;
+    /// `None` where there are none.
+    fn multipliers(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        multipliers: &mut C::Multipliers<S>,
+    ) -> Option<S> {
+        let mut rates = C::State::zeros();
+        let evaluator = self.evaluator();
+        if Evaluator::<S, M, F, A, C>::IN_PARTS {
+            let parts = evaluator.in_parts(time, state, &mut rates, multipliers);
+            return parts.ok().map(|parts| parts.applied_power);
+        }
+        let pivot = evaluator.straight(time, state, &mut rates, multipliers);
+        (!vanishes::<S, F::Terms>(pivot.relative)).then(S::zero)
+    }
+
     /// The smallest relative pivot at the end of a step; with a compliance, by a factorisation
-    /// without it. Where equations that depend on others are kept, whose pivots tell nothing, it is
-    /// their least eigenvalue; `None` where these have no solution anyway.
+    /// without it. Where equations that depend on others are kept, whose pivots tell nothing in
+    /// absolute coordinates, it is their least eigenvalue; `None` where these have no solution
+    /// anyway, and where no equation remains.
     #[inline]
-    fn pivot(&self, step: usize, time: S, state: &M::State<S>) -> Option<S> {
-        if M::REPORT.equations == 0 || Self::HAS_NO_RANK {
+    fn pivot(&self, step: usize, time: S, bodies: &M::State<S>) -> Option<S> {
+        if !C::HAS_PIVOTS || Self::HAS_NO_RANK && !C::IS_RELATIVE {
             return None;
         }
         if F::Terms::COMPLIANT {
-            let pivot = || self.rigid_pivot(time, state).relative;
+            let pivot = || self.rigid_pivot(time, bodies).relative;
             step.is_multiple_of(PIVOT_EVERY).then(pivot)
         } else {
             Some(self.seen.pivot)
         }
     }
 
+    /// The smallest relative pivot of the last evaluation, which was at the end of a step or near to
+    /// it; `None` where evaluations leave none.
+    pub(crate) fn pivot_seen(&self) -> Option<S> {
+        (Self::SEES_PIVOTS && (C::IS_RELATIVE || !Self::HAS_NO_RANK)).then_some(self.seen.pivot)
+    }
+
     /// The smallest relative pivot between steps, as at their ends; `None` where none is there.
     pub(crate) fn pivot_within(&self, time: S, bodies: &M::State<S>) -> Option<S> {
-        let beside = if C::IS_RELATIVE {
-            self.own_pivot(time, bodies).map(|pivot| pivot.relative)
-        } else {
-            None
-        };
-        lesser(self.pivot_of_bodies(time, bodies), beside)
-    }
-
-    fn pivot_of_bodies(&self, time: S, bodies: &M::State<S>) -> Option<S> {
-        if M::REPORT.equations == 0 || Self::HAS_NO_RANK {
+        if !C::HAS_PIVOTS || Self::HAS_NO_RANK && !C::IS_RELATIVE {
             return None;
         }
+        Some(self.pivot_of(time, bodies).relative)
+    }
+
+    /// The smallest relative pivot where bodies stand so, as the square of a distance, without a
+    /// compliance.
+    fn pivot_of(&self, time: S, bodies: &M::State<S>) -> Pivot<S> {
         if F::Terms::COMPLIANT {
-            return Some(self.rigid_pivot(time, bodies).relative);
+            return self.rigid_pivot(time, bodies);
         }
-        let (constants, coefficients) = (self.constants(), &self.absolute.coefficients);
-        let read = &as_read::<S, M, C::Orientation>(bodies);
-        let (_, pivot) = M::factor::<S, F::Terms>(constants, coefficients, time, read);
-        Some(pivot.relative)
-    }
-
-    /// The smallest relative pivot in its own coordinates, where bodies stand so, as the square of
-    /// a distance; `None` where none is recorded.
-    fn own_pivot(&self, time: S, bodies: &M::State<S>) -> Option<Pivot<S>> {
-        if F::Terms::COMPLIANT || !C::HAS_PIVOTS {
-            return None;
+        if !C::IS_RELATIVE {
+            let (constants, coefficients) = (self.constants(), &self.absolute.coefficients);
+            let read = &as_read::<S, M, C::Orientation>(bodies);
+            return M::factor::<S, F::Terms>(constants, coefficients, time, read).1;
         }
-        let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
         let state = C::of_bodies(self.own_constants(), bodies);
+        let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
         let evaluator = self.evaluator();
         let mut pivot = if Evaluator::<S, M, F, A, C>::IN_PARTS {
             evaluator.straight(time, &state, &mut rates, &mut multipliers)
         } else {
             evaluator.slope(time, &state, &mut rates, &mut multipliers)
         };
-        if C::HAS_LINEAR_PIVOTS {
-            pivot.relative = pivot.relative * pivot.relative;
-        }
-        Some(pivot)
+        pivot.relative = Self::squared(pivot.relative);
+        pivot
     }
 
     /// The smallest relative pivot without a compliance.
-    #[inline]
-    pub(crate) fn rigid_pivot(&self, time: S, state: &M::State<S>) -> Pivot<S> {
+    #[inline(never)]
+    pub(crate) fn rigid_pivot(&self, time: S, bodies: &M::State<S>) -> Pivot<S> {
         if M::REPORT.keeps_redundant() {
-            return self.kept_pivot(time, state);
+            return self.kept_pivot(time, bodies);
         }
-        M::factor::<S, Plain>(self.constants(), &self.absolute.coefficients, time, state).1
+        if !C::IS_RELATIVE {
+            let (constants, coefficients) = (self.constants(), &self.absolute.coefficients);
+            return M::factor::<S, Plain>(constants, coefficients, time, bodies).1;
+        }
+        let state = &C::of_bodies(self.own_constants(), bodies);
+        let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
+        let equations = self.evaluator().equations;
+        let mut pivot = C::evaluate_into::<S, Plain>(
+            &equations.constants,
+            &equations.coefficients,
+            time,
+            state,
+            &mut rates,
+            &mut multipliers,
+        );
+        pivot.relative = Self::squared(pivot.relative);
+        pivot
     }
 
     /// Finds the joint of the smallest pivot of a run: once, at the end, so that no step has to
@@ -255,27 +308,14 @@ where
         let Some((time, bodies)) = watch.nearest() else {
             return;
         };
-        let pivot = if C::IS_RELATIVE && Self::HAS_NO_RANK {
-            // Those of the bodies tell nothing, and the tree has taken what follows from others.
-            self.own_pivot(time, &bodies)
-        } else if F::Terms::COMPLIANT {
-            Some(self.rigid_pivot(time, &bodies))
-        } else {
+        let pivot = if !C::IS_RELATIVE && !F::Terms::COMPLIANT {
             let mut rates = M::State::zeros();
             let evaluator = self.of_bodies();
-            Some(evaluator.solved_again(time, &bodies, &mut rates))
+            evaluator.solved_again(time, &bodies, &mut rates)
+        } else {
+            self.pivot_of(time, &bodies)
         };
-        if let Some(pivot) = pivot {
-            watch.name(pivot.joint.to_f64() as usize);
-        }
-    }
-}
-
-/// The lesser of what is known.
-fn lesser<S: Real>(a: Option<S>, b: Option<S>) -> Option<S> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.min(b)),
-        (a, b) => a.or(b),
+        watch.name(pivot.joint.to_f64() as usize);
     }
 }
 

@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::record::{LastStep, Reached, reached};
 use super::tableau::terms;
 use super::{
-    Advance, Counts, Course, Integrator, Look, Method, NoStages, OneStep as _, Rk4, Slopes, Span,
-    Start, System, dense, named,
+    Advance, Counts, Course, ErrorModel, Integrator, Look, Method, NoStages, OneStep as _, Rk4,
+    Slopes, Span, Start, System, dense, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -50,10 +50,10 @@ const CORRECTOR: [f64; 4] = [9.0 / 24.0, 19.0 / 24.0, -5.0 / 24.0, 1.0 / 24.0];
 const FIRST_STEPS: usize = 3;
 
 /// For steps of half a radian an angle is off by half of what `|p|` leaves its length by.
-const TURNING_ERROR: f64 = 1.0;
+const ANGLE_ERROR: f64 = 1.0;
 /// The limit of that ratio times half the angle of a step, from the root of the method's polynomial
 /// next to `exp(i z)`.
-const TURNING_ERROR_OF_SHORT_STEPS: f64 = 0.33;
+const ANGLE_ERROR_OF_SHORT_STEPS: f64 = 0.33;
 
 impl<S: Real, Y: System<S>> Integrator<S, Y> for AdamsBashforthMoulton4<S> {
     type Course = AdamsFixedCourse<S, Y::State>;
@@ -86,12 +86,12 @@ impl<S: Real> Method<S> for AdamsBashforthMoulton4<S> {
         Some(Self { step })
     }
 
-    fn turning_error(&self) -> f64 {
-        TURNING_ERROR
-    }
-
-    fn turning_error_of_short_steps(&self) -> f64 {
-        TURNING_ERROR_OF_SHORT_STEPS
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            angle_error: ANGLE_ERROR,
+            angle_error_of_short_steps: ANGLE_ERROR_OF_SHORT_STEPS,
+            ..Default::default()
+        }
     }
 }
 

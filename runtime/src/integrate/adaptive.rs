@@ -167,6 +167,7 @@ where
                 system.settle(&mut state, Some(&mut self.reached.slope));
                 self.is_prepared = false;
                 self.last.go(&mut self.reached, (end - time, end), state);
+                self.reached.estimate = Some(error);
                 self.next_step = if failed_before {
                     size
                 } else {

@@ -274,6 +274,7 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         let order = self.order;
         system.settle(&mut state, None);
         self.reached.counts.accepted += 1;
+        self.reached.estimate = Some(trial.error * self.controller.relative);
         self.age = Age::Former;
         self.reached.time = end;
         self.reached.state = state;

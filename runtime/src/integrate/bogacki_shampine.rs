@@ -30,8 +30,8 @@ explicit! {
     result { k1: 2.0 / 9.0, k2: 1.0 / 3.0, k3: 4.0 / 9.0 }
     error 3.0, k4 { k1: -5.0 / 72.0, k2: 1.0 / 12.0, k3: 1.0 / 9.0, k4: -1.0 / 8.0 }
     model {
-        /// With `z` half the angle of a step, the method leaves `|p|` by `z^4 / 24` and an angle by
-        /// `z^5 / 15`: their ratio is below one where a step turns by less than a radian.
-        turning_error: 1.0,
+        // With `z` half the angle of a step, the method leaves `|p|` by `z^4 / 24` and an angle by
+        // `z^5 / 15`: their ratio is below one where a step turns by less than a radian.
+        angle_error: 1.0,
     }
 }

@@ -100,7 +100,7 @@ pub(super) use step_limits;
 
 /// A method whose settings are a tolerance and limits of steps, with its course.
 macro_rules! controlled {
-    ($(#[$attribute:meta])* $method:ident, $course:ident) => {
+    ($(#[$attribute:meta])* $method:ident, $course:ident $(, $estimate_power:expr)?) => {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $method<S> {
@@ -149,6 +149,13 @@ macro_rules! controlled {
             fn budget(&self) -> Option<usize> {
                 Some(self.limits.evaluations)
             }
+
+            $(fn error_model(&self) -> $crate::integrate::ErrorModel {
+                $crate::integrate::ErrorModel {
+                    estimate_power: $estimate_power,
+                    ..Default::default()
+                }
+            })?
 
             fn tolerance(&self) -> Option<$crate::Tolerance<S>> {
                 Some(self.tolerance)

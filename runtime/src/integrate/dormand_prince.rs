@@ -66,9 +66,9 @@ explicit! {
         k7: [0.0, 3.0 / 2.0, -4.0, 5.0 / 2.0],
     }
     model {
-        /// With `z` half the angle of a step, the method leaves `|p|` by `z^6 / 3600` and an angle
-        /// by less than `z^7 / 3600`: their ratio is below one where a step turns by less than two
-        /// radians.
-        turning_error: 1.0,
+        // With `z` half the angle of a step, the method leaves `|p|` by `z^6 / 3600` and an angle
+        // by less than `z^7 / 3600`: their ratio is below one where a step turns by less than two
+        // radians.
+        angle_error: 1.0,
     }
 }

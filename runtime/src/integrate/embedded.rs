@@ -2,8 +2,8 @@
 
 use super::controlled::step_limits;
 use super::{
-    AdaptiveCourse, BogackiShampine3, DormandPrince5, DormandPrince8, FixedStep, Integrator,
-    Method, OneStep, Scheme, Span, StepLimits, Stride, System, Tolerance,
+    AdaptiveCourse, BogackiShampine3, DormandPrince5, DormandPrince8, ErrorModel, FixedStep,
+    Integrator, Method, OneStep, Scheme, Span, StepLimits, Stride, System, Tolerance,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -109,12 +109,12 @@ impl<S: Real, K: EmbeddedPair<S>> Method<S> for Adaptive<S, K> {
         Some(self.limits.evaluations)
     }
 
-    fn turning_error(&self) -> f64 {
-        self.pair.turning_error()
-    }
-
-    fn turning_error_of_short_steps(&self) -> f64 {
-        self.pair.turning_error_of_short_steps()
+    /// The result of a step is of one order more than what its error is estimated of.
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            estimate_power: (K::POWER + 1.0) / K::POWER,
+            ..self.pair.error_model()
+        }
     }
 
     fn tolerance(&self) -> Option<Tolerance<S>> {

@@ -10,7 +10,7 @@
 /// error POWER, last { slope: b - b_hat, .. }  of an embedded pair; `last` is the slope at the end
 /// within last { slope: [d1, d2, ..], .. }     weights of slopes within a step, see [`polynomial`];
 ///                                             the cubic through both ends where there is none
-/// model { turning_error: .., .. }             constants of `Scheme`
+/// model { angle_error: .., .. }               what its `ErrorModel` has of its own
 /// items { .. }                                functions of `Scheme` that no table gives
 /// ```
 ///
@@ -40,7 +40,7 @@ macro_rules! explicit {
         result { $($end:ident: $b:expr),+ $(,)? }
         $(error $power:expr, $last:ident { $($missed:ident: $e:expr),+ $(,)? })?
         $(within $to:ident { $($within:ident: $d:expr),+ $(,)? })?
-        model { $($(#[$why:meta])* $constant:ident: $value:expr),* $(,)? }
+        model { $($constant:ident: $value:expr),* $(,)? }
         $(items { $($item:tt)* })?
     ) => {
         $(#[$about])*
@@ -74,7 +74,12 @@ macro_rules! explicit {
                     }
                 )?
 
-                $($(#[$why])* fn $constant(&self) -> f64 { $value })*
+                fn error_model(&self) -> crate::integrate::ErrorModel {
+                    crate::integrate::ErrorModel {
+                        $($constant: $value,)*
+                        ..Default::default()
+                    }
+                }
 
                 $($($item)*)?
             }

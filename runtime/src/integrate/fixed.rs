@@ -3,8 +3,8 @@
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Advance, Counts, Course, Heun, ImplicitMidpoint, Integrator, Kutta3, Method, Midpoint, OneStep,
-    Rk4, Scheme, SemiImplicitEuler, Slopes, Span, Start, System, refused,
+    Advance, Counts, Course, ErrorModel, Heun, ImplicitMidpoint, Integrator, Kutta3, Method,
+    Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, Span, Start, System, refused,
 };
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -77,20 +77,8 @@ impl<S: Real, K: Scheme<S>> Method<S> for FixedStep<S, K> {
         Some(Self { step, ..*self })
     }
 
-    fn turning_error(&self) -> f64 {
-        self.scheme.turning_error()
-    }
-
-    fn turning_error_of_short_steps(&self) -> f64 {
-        self.scheme.turning_error_of_short_steps()
-    }
-
-    fn silent_phase(&self) -> f64 {
-        self.scheme.silent_phase()
-    }
-
-    fn velocity_lead(&self) -> f64 {
-        self.scheme.velocity_lead()
+    fn error_model(&self) -> ErrorModel {
+        self.scheme.error_model()
     }
 }
 
@@ -187,7 +175,7 @@ impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedCourse<S, Y
     }
 
     fn better_end(&self, system: &mut Y) -> Result<Option<Y::State>, Fault> {
-        if self.scheme.silent_phase() == 0.0 {
+        if self.scheme.error_model().phase_error == 0.0 {
             return Ok(None);
         }
         better_end(system, &self.last, &self.reached).map(Some)

@@ -5,7 +5,10 @@ use core::mem::replace;
 use super::fixed::Grid;
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
-use super::{Advance, Counts, Course, Integrator, Method, NoStages, RigidConstraints, Span, dense};
+use super::{
+    Advance, Counts, Course, ErrorModel, Integrator, Method, NoStages, RigidConstraints, Span,
+    dense,
+};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -219,15 +222,14 @@ impl<S: Real> Method<S> for GeneralizedAlpha<S> {
         Some(Self { step, ..*self })
     }
 
-    /// `|p|` stays 1 and says nothing of the angle.
-    fn turning_error(&self) -> f64 {
-        1.0
-    }
-
-    /// Three times that of a linear oscillation: a rod that swings by a right angle to either side
-    /// is off by 2.3 times as much.
-    fn silent_phase(&self) -> f64 {
-        3.0 * (1.0 / 12.0 + 0.375 * self.damping() * self.damping())
+    /// `|p|` stays 1 and says nothing of the angle. The phase error is three times that of a linear
+    /// oscillation: a rod that swings by a right angle to either side is off by 2.3 times as much.
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            angle_error: 1.0,
+            phase_error: 3.0 * (1.0 / 12.0 + 0.375 * self.damping() * self.damping()),
+            ..Default::default()
+        }
     }
 }
 

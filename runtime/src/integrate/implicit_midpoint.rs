@@ -2,7 +2,7 @@
 
 use core::mem::swap;
 
-use super::{Look, NoStages, OneStep, Scheme, Slopes, Start, System};
+use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -55,12 +55,12 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
 
     /// `|p|` stays what it is and says nothing of the angle, which is off by `z^3 / 12` after a
     /// step, with `z` the angle of the step.
-    fn turning_error(&self) -> f64 {
-        1.0
-    }
-
-    fn silent_phase(&self) -> f64 {
-        1.0 / 12.0
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            angle_error: 1.0,
+            phase_error: 1.0 / 12.0,
+            ..Default::default()
+        }
     }
 }
 

@@ -50,6 +50,7 @@ mod dense;
 mod dormand_prince;
 mod dormand_prince_8;
 mod embedded;
+mod error_model;
 mod explicit;
 mod fixed;
 mod generalized_alpha;
@@ -81,6 +82,7 @@ pub use counted::Counts;
 pub use dormand_prince::{DormandPrince, DormandPrince5};
 pub use dormand_prince_8::{DormandPrince8, DormandPrince853};
 pub use embedded::{Adaptive, EmbeddedPair};
+pub use error_model::ErrorModel;
 pub use fixed::{FixedCourse, FixedStep};
 pub use generalized_alpha::{
     AlphaEnd, AlphaStep, AlphaWeights, GeneralizedAlpha, GeneralizedAlphaCourse,
@@ -249,28 +251,9 @@ pub trait Method<S: Real>: Copy + Debug {
         None
     }
 
-    /// By how much an angle (rad) is off, at most, where Euler parameters left length 1 by so much
-    /// in a step of this method: their length and their phase are wrong together.
-    fn turning_error(&self) -> f64 {
-        TURNING_ERROR
-    }
-
-    /// The same for short steps, times half the angle (rad) of a step: of a method of even order an
-    /// angle is off by one power of the step less than `|p|` is. Zero for others.
-    fn turning_error_of_short_steps(&self) -> f64 {
-        0.0
-    }
-
-    /// By how much the phase of a motion is off after a step of `x` radians, over `x^3`, for a
-    /// method of order 2, whose energy does not tell; zero for others.
-    fn silent_phase(&self) -> f64 {
-        0.0
-    }
-
-    /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that
-    /// takes these by velocities at the end of a step; zero for others.
-    fn velocity_lead(&self) -> f64 {
-        0.0
+    /// How the errors of the method grow, for the warnings of a run.
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel::default()
     }
 
     /// The error to be allowed in a step, for a method that controls it.
@@ -312,10 +295,7 @@ macro_rules! __hooks_of_method {
         $crate::__hooks_of_method! { $with:
             budget -> Option<usize>;
             fixed_step -> Option<S>;
-            turning_error -> f64;
-            turning_error_of_short_steps -> f64;
-            silent_phase -> f64;
-            velocity_lead -> f64;
+            error_model -> $crate::integrate::ErrorModel;
             tolerance -> Option<$crate::Tolerance<S>>;
         }
     };
@@ -333,6 +313,10 @@ pub trait Course<S: Real, X: Vector<S>> {
 
     /// The state at that time.
     fn state(&self) -> &X;
+
+    /// The error of the last step, as its control estimates it, relative to the state; `None` of
+    /// fixed steps.
+    fn estimate(&self) -> Option<S>;
 
     /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a
     /// method that looks back at former steps goes on with these. Call [`Advance::at`] before, not
@@ -368,10 +352,6 @@ pub trait Advance<S: Real, Y: System<S>>: Course<S, Y::State> {
     }
 }
 
-/// With `z` half the angle of a step, the classical Runge-Kutta method leaves `|p|` by `z^6 / 144`
-/// and an angle by `z^5 / 60`: this is their ratio for steps of half a radian.
-const TURNING_ERROR: f64 = 10.0;
-
 /// What a one-step method of fixed coefficients is, whatever it moves: see [`OneStep`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not take single steps",
@@ -385,25 +365,9 @@ pub trait Scheme<S: Real>: Copy + Debug {
     /// Memory for states like this one.
     fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X>;
 
-    /// See [`Method::turning_error`].
-    fn turning_error(&self) -> f64 {
-        TURNING_ERROR
-    }
-
-    /// See [`Method::turning_error_of_short_steps`].
-    fn turning_error_of_short_steps(&self) -> f64 {
-        0.0
-    }
-
-    /// See [`Method::silent_phase`]. Where it is not zero, [`Advance::better_end`] judges the
-    /// steps of this method.
-    fn silent_phase(&self) -> f64 {
-        0.0
-    }
-
-    /// See [`Method::velocity_lead`].
-    fn velocity_lead(&self) -> f64 {
-        0.0
+    /// See [`Method::error_model`].
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel::default()
     }
 
     /// Evaluates what [`Scheme::interpolate`] needs besides the slopes of a step that began at

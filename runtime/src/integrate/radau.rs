@@ -53,7 +53,7 @@ controlled! {
     /// assert!(course.counts().accepted < 100);
     /// # Ok::<(), Fault>(())
     /// ```
-    RadauIIA, RadauCourse
+    RadauIIA, RadauCourse, 1.5
 }
 
 /// Iterations of Newton's method in a step, at most.
@@ -457,6 +457,7 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         self.next_step = step * factor.max(S::constant(0.2));
         system.settle(&mut trial.state, Some(&mut trial.slope));
         self.reached.counts.accepted += 1;
+        self.reached.estimate = Some(trial.error * self.controller.relative);
         // Errors near zero say nothing of the next one.
         self.error = Some(trial.error.max(S::constant(1e-2)));
         self.start = self.reached.time;

@@ -16,6 +16,8 @@ pub(super) struct Reached<S, X> {
     /// The slope at `state`, where it is known.
     pub(super) slope: X,
     pub(super) is_known: bool,
+    /// The error of the last step, relative to the state, where it is estimated.
+    pub(super) estimate: Option<S>,
 }
 
 impl<S: Real, X: Vector<S>> Reached<S, X> {
@@ -33,6 +35,7 @@ impl<S: Real, X: Vector<S>> Reached<S, X> {
             time: span.start,
             state,
             is_known: true,
+            estimate: None,
         })
     }
 
@@ -76,6 +79,10 @@ macro_rules! reached {
 
         fn counts(&self) -> Counts {
             self.reached.counts
+        }
+
+        fn estimate(&self) -> Option<S> {
+            self.reached.estimate
         }
     };
 }

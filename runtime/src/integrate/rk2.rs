@@ -4,9 +4,9 @@ use super::explicit::explicit;
 
 /// Half the angle of a step, `z`, times the ratio of `z^3 / 3`, by which an angle is off after it,
 /// and `z^4 / 8`, by which `|p|` is.
-const TURNING_ERROR_OF_SHORT_STEPS: f64 = 8.0 / 3.0;
+const ANGLE_ERROR_OF_SHORT_STEPS: f64 = 8.0 / 3.0;
 /// The ratio for steps of a radian.
-const TURNING_ERROR: f64 = 2.0 * TURNING_ERROR_OF_SHORT_STEPS;
+const ANGLE_ERROR: f64 = 2.0 * ANGLE_ERROR_OF_SHORT_STEPS;
 
 explicit! {
     /// The explicit midpoint method of order 2, of Runge: two evaluations a step, no estimate of
@@ -22,9 +22,9 @@ explicit! {
     stages { 1.0 / 2.0 => k2 { k1: 1.0 / 2.0 } }
     result { k2: 1.0 }
     model {
-        turning_error: TURNING_ERROR,
-        turning_error_of_short_steps: TURNING_ERROR_OF_SHORT_STEPS,
-        silent_phase: 1.0 / 6.0,
+        angle_error: ANGLE_ERROR,
+        angle_error_of_short_steps: ANGLE_ERROR_OF_SHORT_STEPS,
+        phase_error: 1.0 / 6.0,
     }
 }
 
@@ -40,8 +40,8 @@ explicit! {
     stages { 1.0 => k2 { k1: 1.0 } }
     result { k1: 1.0 / 2.0, k2: 1.0 / 2.0 }
     model {
-        turning_error: TURNING_ERROR,
-        turning_error_of_short_steps: TURNING_ERROR_OF_SHORT_STEPS,
-        silent_phase: 1.0 / 6.0,
+        angle_error: ANGLE_ERROR,
+        angle_error_of_short_steps: ANGLE_ERROR_OF_SHORT_STEPS,
+        phase_error: 1.0 / 6.0,
     }
 }

@@ -23,8 +23,8 @@ explicit! {
     }
     result { k1: 1.0 / 6.0, k2: 2.0 / 3.0, k3: 1.0 / 6.0 }
     model {
-        /// With `z` half the angle of a step, the method leaves `|p|` by `z^4 / 24` and an angle by
-        /// `z^5 / 15`: their ratio is below one where a step turns by a radian or less.
-        turning_error: 1.0,
+        // With `z` half the angle of a step, the method leaves `|p|` by `z^4 / 24` and an angle by
+        // `z^5 / 15`: their ratio is below one where a step turns by a radian or less.
+        angle_error: 1.0,
     }
 }

@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method.
 
-use super::{Look, NoStages, OneStep, Scheme, Slopes, Start, System};
+use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, Start, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -22,10 +22,13 @@ impl<S: Real> Scheme<S> for Rk4 {
         NoStages
     }
 
-    /// The ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`, and
-    /// `z^6 / 144`, by which `|p|` is.
-    fn turning_error_of_short_steps(&self) -> f64 {
-        2.4
+    /// For short steps the ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`,
+    /// and `z^6 / 144`, by which `|p|` is.
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            angle_error_of_short_steps: 2.4,
+            ..Default::default()
+        }
     }
 }
 

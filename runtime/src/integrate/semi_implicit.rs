@@ -1,6 +1,6 @@
 //! The semi-implicit Euler method.
 
-use super::{Look, NoStages, OneStep, Scheme, SecondOrder, Slopes, Start};
+use super::{ErrorModel, Look, NoStages, OneStep, Scheme, SecondOrder, Slopes, Start};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -25,15 +25,14 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
     }
 
     /// `|p|` grows by `z^2 / 2` and an angle is off by `z^3 / 3`: less than `|p|`, for steps below
-    /// a radian.
-    fn turning_error(&self) -> f64 {
-        1.0
-    }
-
-    /// Coordinates go by velocities of the ends of steps, which are those of their middles half a
-    /// step on.
-    fn velocity_lead(&self) -> f64 {
-        0.5
+    /// a radian. Coordinates go by velocities of the ends of steps, which are those of their
+    /// middles half a step on.
+    fn error_model(&self) -> ErrorModel {
+        ErrorModel {
+            angle_error: 1.0,
+            velocity_lead: 0.5,
+            ..Default::default()
+        }
     }
 }
 

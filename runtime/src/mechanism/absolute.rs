@@ -209,9 +209,12 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         M::REPORT.joint_of(row)
     }
 
-    #[inline(always)]
-    fn of_all_rows<S: Scalar>(multipliers: &M::Multipliers<S>) -> Option<&M::Multipliers<S>> {
-        Some(multipliers)
+    fn row_of_all(row: usize) -> Option<usize> {
+        Some(row)
+    }
+
+    fn keeps_equations(_joint: &str) -> bool {
+        true
     }
 
     #[inline(always)]

@@ -229,11 +229,14 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     /// The joint of a row.
     fn joint_of_row(row: usize) -> Option<&'static str>;
 
-    /// Multipliers as those of the rows of all joints, in coordinates that have these.
+    /// The row of `Phi` that a row of the solution is; `None` where the equations in absolute
+    /// coordinates leave it out.
     #[doc(hidden)]
-    fn of_all_rows<S: Scalar>(_multipliers: &Self::Multipliers<S>) -> Option<&M::Multipliers<S>> {
-        None
-    }
+    fn row_of_all(row: usize) -> Option<usize>;
+
+    /// Whether a joint keeps equations, or holds by itself.
+    #[doc(hidden)]
+    fn keeps_equations(joint: &str) -> bool;
 
     /// A solution by the rows of all joints, in coordinates that have these.
     #[doc(hidden)]

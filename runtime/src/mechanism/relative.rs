@@ -297,6 +297,14 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     fn joint_of_row(row: usize) -> Option<&'static str> {
         M::JOINT_REPORT.closing.get(row).copied()
     }
+
+    fn row_of_all(row: usize) -> Option<usize> {
+        M::JOINT_REPORT.rows.get(row).copied().flatten()
+    }
+
+    fn keeps_equations(joint: &str) -> bool {
+        M::JOINT_REPORT.closing.contains(&joint)
+    }
 }
 
 /// `x = x + y`.

@@ -131,7 +131,9 @@ where
         let mut course = integrator.start(&mut self.dynamics, span, start)?;
         if let Some(watch) = &mut self.watch {
             watch.restart();
-            self.dynamics.watch(watch, span.start, &last_good.1);
+            let state = course.state();
+            self.dynamics
+                .watch(watch, span.start, state, &last_good.1, None);
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
@@ -188,7 +190,9 @@ where
                 if let Some(better) = better {
                     watch.judge([&state, &better]);
                 }
-                self.dynamics.watch(watch, time, &state);
+                let estimate = course.estimate();
+                self.dynamics
+                    .watch(watch, time, course.state(), &state, estimate);
                 let excused = self.dynamics.iterations().excused;
                 watch.excuse_evaluations(excused, time);
             }

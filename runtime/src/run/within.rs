@@ -10,7 +10,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::watch::{Nearness, Watch};
+use crate::watch::{Asked, Nearness, Watch};
 
 /// How often a step is divided at the most.
 const FINEST: usize = 8;
@@ -69,13 +69,15 @@ pub(crate) fn look_within<S, M, F, A, C, K>(
     K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
     let (start, end) = (watch.time(), course.time());
-    if !watch.may_have_passed(end - start) {
+    let asked = watch.asks(end - start);
+    if !(asked.pivot || asked.gradient) {
         return;
     }
     let last = dynamics.bodies_near(course.state(), near);
     let rate = watch.faster(&last);
-    let first = watch.last_nearness();
-    let last = nearness(watch, dynamics, end, &last);
+    let first = watch.last_nearness(asked);
+    let known = dynamics.pivot_seen();
+    let last = nearness(watch, dynamics, (end, &last), asked, known);
     if !watch.may_pass(rate * (end - start), [first, last]) {
         return;
     }
@@ -86,19 +88,22 @@ pub(crate) fn look_within<S, M, F, A, C, K>(
         course,
         near,
         rate,
+        asked,
     };
     let is_known = step.between((start, first), (end, last), 0);
     if is_known {
-        watch.is_known_for(rate * (end - start));
+        watch.is_known_for(rate * (end - start), asked);
     }
     dynamics.recall(seen);
 }
 
+/// How near a state is to a singular configuration, with its pivot where that is known.
 fn nearness<S, M, F, A, C>(
     watch: &mut Watch<S, M>,
     dynamics: &Dynamics<S, M, F, A, C>,
-    time: S,
-    bodies: &M::State<S>,
+    (time, bodies): (S, &M::State<S>),
+    asked: Asked,
+    known: Option<S>,
 ) -> Nearness<S>
 where
     S: Real,
@@ -107,8 +112,12 @@ where
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
-    let pivot = dynamics.pivot_within(time, bodies);
-    watch.nearness(dynamics.constants(), (time, bodies), pivot)
+    let pivot = if asked.pivot {
+        known.or_else(|| dynamics.pivot_within(time, bodies))
+    } else {
+        None
+    };
+    watch.nearness(dynamics.constants(), (time, bodies), pivot, asked)
 }
 
 /// A step that is looked into.
@@ -119,6 +128,7 @@ struct Within<'w, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>
     near: &'w M::State<S>,
     /// The largest rate of motion (rad/s) at its ends.
     rate: S,
+    asked: Asked,
 }
 
 impl<S, M, F, A, C, K> Within<'_, S, M, F, A, C, K>
@@ -141,8 +151,11 @@ where
     #[inline(never)]
     fn nearness(&mut self, time: S) -> Option<Nearness<S>> {
         match self.bodies(time) {
-            Ok(state) => Some(nearness(self.watch, self.dynamics, time, &state)),
-            Err(Fault::Singular { .. }) => Some(Nearness::singular()),
+            Ok(state) => {
+                let (watch, dynamics) = (&mut *self.watch, &*self.dynamics);
+                Some(nearness(watch, dynamics, (time, &state), self.asked, None))
+            }
+            Err(Fault::Singular { .. }) => Some(Nearness::singular(self.asked)),
             Err(_) => None,
         }
     }

@@ -97,12 +97,13 @@ pub enum Doubt {
         /// The shift (rad), estimated as that of a random walk.
         shift: f64,
     },
-    /// The errors of many steps add up, and there is no balance of energy to tell how far.
+    /// The errors that the control of the steps estimated add up, and there is no balance of energy
+    /// to tell how far.
     ManySteps {
         /// Steps that were accepted.
         steps: usize,
-        /// The relative tolerance of each.
-        tolerance: f64,
+        /// The sum of their errors, relative to the state.
+        error: f64,
     },
     /// Forces, drivers or potentials change faster than fixed steps follow.
     CoarseSteps {
@@ -253,11 +254,11 @@ impl fmt::Display for Doubt {
                 Measured(travel),
                 Measured(shift)
             ),
-            Self::ManySteps { steps, tolerance } => write!(
+            Self::ManySteps { steps, error } => write!(
                 f,
-                "the errors of {steps} steps, {} of the state each, may add up, and the balance of energy does not tell: compare with a \
-                 smaller tolerance",
-                Measured(tolerance)
+                "the errors that were estimated of {steps} steps may add up to {} of the state, and the balance of energy does not tell: \
+                 compare with a smaller tolerance",
+                Measured(error)
             ),
             Self::CoarseSteps { share } => write!(
                 f,

@@ -1,4 +1,8 @@
 //! The balance of energy of a run.
+//!
+//! It costs the power of the forces a step, an evaluation a step where there are drivers, and both
+//! energies at a look. Only it finds a penalty that multiplies the energy, and a damped motion that
+//! a tolerance feeds: `tests/tests/sound/outside.rs`, `tests/tests/silent/report.rs`.
 
 use super::limits::DIGITS;
 use crate::math::scalar::Real;
@@ -64,12 +68,9 @@ impl<S: Real> Balance<S> {
         self.slope = None;
     }
 
-    /// Takes the end of a step.
+    /// Takes the energies (J) at the end of a step whose work was added.
     #[inline]
-    pub(super) fn step(&mut self, time: S, kinetic: S, potential: S, power: Option<S>) {
-        if let Some(power) = power {
-            self.add_work(time, power);
-        }
+    pub(super) fn level(&mut self, time: S, kinetic: S, potential: S) {
         self.kinetic = self.kinetic.max(kinetic);
         self.height = self.height.max(potential.abs());
         self.potential.1 = self.potential.1.max((potential - self.potential.0).abs());
@@ -91,7 +92,7 @@ impl<S: Real> Balance<S> {
 
     /// The integral of the power over a step, by the parabola through this step's ends and the end
     /// before.
-    fn add_work(&mut self, time: S, power: S) {
+    pub(super) fn add_work(&mut self, time: S, power: S) {
         if let Some((then, last)) = self.before {
             let step = time - then;
             let slope = (power - last).quotient(step);
@@ -116,6 +117,11 @@ impl<S: Real> Balance<S> {
     /// The energy that the mechanism exchanges (J).
     pub(super) fn size(&self) -> S {
         self.kinetic.max(self.potential.1).max(self.exchanged)
+    }
+
+    /// The energy (J) that the mechanism has more than at the start.
+    pub(super) fn gained(&self) -> S {
+        self.last + self.work
     }
 
     /// What no force accounts for at the end, over what is exchanged; zero where it is below the
@@ -182,10 +188,12 @@ mod tests {
         for step in 0..=60 {
             let t = 0.1 * f64::from(step);
             let (v, power) = (t.sin(), t.sin() * t.cos());
-            balance.step(t, 0.5 * v * v, 0.0, Some(power));
+            balance.add_work(t, power);
+            balance.level(t, 0.5 * v * v, 0.0);
         }
         assert!(balance.drift().abs() < 1e-3, "{}", balance.drift());
-        balance.step(6.1, 5.0, 0.0, Some(0.0));
+        balance.add_work(6.1, 0.0);
+        balance.level(6.1, 5.0, 0.0);
         assert!(balance.drift() > 0.5);
         assert!(!balance.is_of_a_closed_system());
     }
@@ -193,7 +201,7 @@ mod tests {
     #[test]
     fn round_off_is_no_drift() {
         let mut balance = Balance::new(0.0, 1e9);
-        balance.step(1.0, 0.0, 1e9 + 1e-7, None);
+        balance.level(1.0, 0.0, 1e9 + 1e-7);
         assert_eq!(balance.drift(), 0.0);
         assert!(balance.is_of_a_closed_system());
     }

@@ -1,4 +1,9 @@
 //! How long the gradients of the equations were over a run.
+//!
+//! A look costs the Jacobian, and is due where a gradient may have vanished since the last one:
+//! seldom, where gradients have not changed over some turns. Only it finds a shaft on a
+//! `ConstantVelocity` joint that comes to point against the other:
+//! `tests/tests/sweeps/gradients.rs`.
 
 use super::singular::Approach;
 use crate::math::scalar::{Real, Scalar};
@@ -30,6 +35,10 @@ pub(super) struct Gradients<S: Scalar, M: Mechanism> {
     approach: Approach<S>,
     /// Radians of motion at the last look; `None` before the first.
     looked: Option<S>,
+    /// One of rows that are solved, zero of those that hold by themselves.
+    is_solved: M::Multipliers<S>,
+    /// Whether there are rows that are solved.
+    are_there: bool,
 }
 
 /// How many times as often as that gradients are looked at: how fast one falls is known from looks
@@ -57,27 +66,43 @@ impl<S: Scalar, M: Mechanism> Copy for Gradients<S, M> {}
 
 impl<S: Real, M: Mechanism> Gradients<S, M> {
     pub(super) fn none() -> Self {
+        let mut all = M::Multipliers::<S>::zeros();
+        all.as_mut_slice().fill(S::one());
         Self {
             first: [Array::zeros(); 2],
             largest: [Array::zeros(); 2],
             shortest: None,
             approach: Approach::new(),
             looked: None,
+            is_solved: all,
+            are_there: M::REPORT.equations > 0,
         }
+    }
+
+    /// Of those joints alone that keep equations.
+    pub(super) fn of_joints(mut self, keeps_equations: fn(&str) -> bool) -> Self {
+        let rows = self.is_solved.as_mut_slice();
+        self.are_there = false;
+        for joint in M::REPORT.joints {
+            let is_solved = keeps_equations(joint.name);
+            self.are_there |= is_solved && joint.rows > 0;
+            let one = if is_solved { S::one() } else { S::zero() };
+            for row in rows.iter_mut().skip(joint.row).take(joint.rows) {
+                *row = one;
+            }
+        }
+        self
     }
 
     /// Whether it is time to look, after so many radians of motion: whether one may have vanished
     /// since the last look, which costs as much as the equations themselves.
     #[inline]
     pub(super) fn are_due(&self, travel: S) -> bool {
-        let may_have_vanished = match (self.looked, self.approach.last()) {
-            (Some(looked), Some(fall)) => {
+        self.are_there
+            && self.looked.is_none_or(|looked| {
                 let motion = S::constant(OFTEN) * (travel - looked);
-                self.approach.may_pass(motion, [fall, S::zero()])
-            }
-            _ => true,
-        };
-        M::REPORT.equations > 0 && may_have_vanished
+                self.approach.may_come_to_pass(motion)
+            })
     }
 
     /// Looks at a state, after so many radians of motion, by what [`Self::measure`] returned for
@@ -106,7 +131,10 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         constants: &M::Constants<S>,
         (time, state): (S, &M::State<S>),
     ) -> S {
-        let lengths = lengths::<S, M>(constants, time, state);
+        if !self.are_there {
+            return S::one();
+        }
+        let lengths = self.lengths(constants, time, state);
         if self.shortest.is_none() {
             self.first = lengths;
         }
@@ -123,6 +151,40 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
             self.shortest = Some(shortest);
         }
         shortest.fall
+    }
+
+    /// Of the rows that are solved; zero of others.
+    fn lengths(&self, constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Lengths<S, M> {
+        let jacobian = M::jacobian(constants, time, state);
+        let jacobian = jacobian.as_slice();
+        let is_solved = |row: usize| {
+            let one = self.is_solved.as_slice().get(row);
+            one.is_some_and(|&one| one > S::zero())
+        };
+        let mut lengths: Lengths<S, M> = [Array::zeros(); 2];
+        let [translations, rotations] = &mut lengths;
+        for block in M::REPORT.blocks {
+            if !is_solved(block.row) {
+                continue;
+            }
+            let squares = translations.as_mut_slice().iter_mut();
+            let squares = squares.zip(rotations.as_mut_slice()).skip(block.row);
+            for (row, (translation, rotation)) in squares.take(block.rows).enumerate() {
+                let [force, moment] = parts(jacobian, block, row);
+                *translation = *translation + square(&force);
+                *rotation = *rotation + square(&moment);
+            }
+        }
+        for &first in M::VECTOR_ROWS {
+            if !is_solved(first) {
+                continue;
+            }
+            let products = products(M::REPORT.blocks, jacobian, first);
+            for (lengths, products) in lengths.iter_mut().zip(products) {
+                write(lengths.as_mut_slice(), first, independent(products));
+            }
+        }
+        lengths
     }
 
     /// The course of the least fall.
@@ -169,33 +231,6 @@ fn shortest<S: Real, M: Mechanism>(
         .enumerate()
         .map(|(row, fall)| Shortest { row, fall, time });
     rows.reduce(|a, b| if b.fall < a.fall { b } else { a })
-}
-
-fn lengths<S: Real, M: Mechanism>(
-    constants: &M::Constants<S>,
-    time: S,
-    state: &M::State<S>,
-) -> Lengths<S, M> {
-    let jacobian = M::jacobian(constants, time, state);
-    let jacobian = jacobian.as_slice();
-    let mut lengths: Lengths<S, M> = [Array::zeros(); 2];
-    let [translations, rotations] = &mut lengths;
-    for block in M::REPORT.blocks {
-        let squares = translations.as_mut_slice().iter_mut();
-        let squares = squares.zip(rotations.as_mut_slice()).skip(block.row);
-        for (row, (translation, rotation)) in squares.take(block.rows).enumerate() {
-            let [force, moment] = parts(jacobian, block, row);
-            *translation = *translation + square(&force);
-            *rotation = *rotation + square(&moment);
-        }
-    }
-    for &first in M::VECTOR_ROWS {
-        let products = products(M::REPORT.blocks, jacobian, first);
-        for (lengths, products) in lengths.iter_mut().zip(products) {
-            write(lengths.as_mut_slice(), first, independent(products));
-        }
-    }
-    lengths
 }
 
 /// What a row of a block makes of translations and of rotations.

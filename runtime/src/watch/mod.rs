@@ -1,11 +1,23 @@
 //! The watch over a run: what tells whether its result can be trusted.
 //!
-//! After every step it looks at the violation of every row by position and velocity, the pivots,
-//! the balance of energy and the length of the Euler parameters; at the end [`Doubts`] says what is
-//! to be doubted. It costs some kernels a step: `Phi`, `Phi'`, the energies, and, for a formulation
-//! with a compliance, a factorisation without it.
+//! The run shows it a record of every step. Every indicator is a value in a file of its own, whose
+//! head says what it costs and what nothing else finds; `verdict.rs` makes warnings of them, with
+//! the limits of `limits.rs`, and [`Doubts`] lists these at the end.
 //!
-//! `verdict.rs` makes warnings of it, with the limits of `limits.rs`.
+//! | indicator | file | looks at |
+//! |---|---|---|
+//! | violation | `worst.rs` | every sixteenth step |
+//! | pivot and rank | `singular.rs` | every step, and within long ones |
+//! | gradient | `gradients.rs` | as often as one may vanish |
+//! | energy | `energy.rs` | the power in every step, energies in every sixteenth |
+//! | compliance | `compliance.rs` | every sixteenth step of a penalty |
+//! | memory | `memory.rs` | every sixteenth step |
+//! | phase | `lag.rs` | every fourth step of a method of order 2 |
+//! | orientation | `stretched.rs` | every step |
+//! | rest | `rest.rs` | every step while it lasts |
+//!
+//! It looks at the coordinates that run: in relative ones at the joints that close loops, by the
+//! pivots that the steps leave.
 //!
 //! Singular configurations. A step may pass over one. So three pivots around a least one are
 //! judged by their parabola and by the sign of their root (`singular.rs`). The fall of a pivot
@@ -30,44 +42,59 @@
 //!
 //! `passage.rs` follows pivots and gradients along assemblies and kinematic analyses.
 
+mod compliance;
 mod doubt;
 mod energy;
+mod found;
 mod gradients;
 mod lag;
 mod limits;
+mod memory;
 mod pace;
 mod passage;
 mod rest;
 mod seen;
 mod singular;
+mod stretched;
 mod verdict;
 mod within;
 mod worst;
 
 use crate::constraints::row_units::{Meanings, characteristic_length};
+use crate::constraints::rows::Rows;
 pub use doubt::{Doubt, Doubts};
+pub use found::{Excused, ShortestGradient, SmallestPivot, Violation};
 pub(crate) use passage::Passage;
 pub(crate) use rest::Beginning;
 pub(crate) use seen::Seen;
-pub(crate) use within::Nearness;
+pub(crate) use within::{Asked, Nearness};
 
+use self::compliance::Compliance;
 use self::energy::Balance;
 use self::gradients::Gradients;
 use self::lag::Lag;
-use self::pace::Pace;
+use self::memory::Memory;
+use self::pace::{Motion, Pace};
 use self::rest::Rest;
 use self::singular::Approach;
+use self::stretched::Stretched;
 use self::worst::Worst;
 use crate::constraints::extent::resolution;
 use crate::constraints::side::wrong;
-use crate::integrate::Method;
+use crate::integrate::{ErrorModel, Method};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
 use crate::math::vec3::square;
-use crate::mechanism::handle::JointHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
+
+/// Of how many steps the violations and energies of one are taken. They change over many steps:
+/// what opens a joint or loses energy does not mend it.
+const EVERY: usize = 16;
+
+/// How many steps at the start of a run are all looked at.
+const EACH: usize = 4;
 
 /// What the watch over a run saw: violations by joint, pivots, energy.
 pub struct Watch<S: Scalar, M: Mechanism> {
@@ -90,27 +117,24 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     rest: Rest<S>,
     /// The end of the last step, where potentials change with time by themselves.
     before: Option<(S, M::State<S>)>,
-    /// The largest speed (m/s) and angular velocity (rad/s).
-    speed: S,
-    spin: S,
+    /// The squares of the largest speed (m^2/s^2) and angular velocity (rad^2/s^2).
+    speeds: [S; 2],
     /// Radians of motion: of the body that turns fastest, or moves by lengths of the mechanism.
     travel: S,
     /// What it was when a pivot was looked at last.
     looked: S,
-    /// The time of the last step.
+    /// The time of the last step, and of that whose violations and energies were taken last.
     time: S,
-    /// The largest `| |p| - 1 |` of a step, and the sum of all.
+    taken: S,
+    /// The largest `| |p| - 1 |` of a step, and the sums of all.
     stretch: S,
-    stretched: S,
-    /// What an angle is off by for each of it.
-    turning_error: S,
-    turning_error_of_short_steps: S,
+    stretched: Stretched<S>,
+    /// How the errors of the method grow.
+    model: ErrorModel,
+    /// The sum of the errors that the control estimated, relative to the state.
+    estimated: S,
     lag: Lag<S, M>,
-    /// What a phase is off by for the third power of a step (rad), of a method whose energy does
-    /// not tell.
-    silent_phase: S,
-    /// By what part of a step velocities are ahead of coordinates.
-    velocity_lead: S,
+    memory: Memory<S, M>,
     /// The longest step (s).
     longest: S,
     /// The last rate of motion (rad/s) and the largest; sums over the steps of the third powers of
@@ -127,57 +151,7 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     /// The tolerance of a method that controls its steps: relative, absolute.
     tolerance: Option<(S, S)>,
     steps: usize,
-    /// The largest acceleration that a penalty left of its constraints (m/s^2, angles by the length
-    /// of the mechanism), and the largest of all.
-    left: S,
-    acceleration: S,
-}
-
-/// What was accepted although it did not converge, near a singular configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Excused<S> {
-    /// Corrections of a [`Projection`](crate::Projection), or of another
-    /// [`Treatment`](crate::run::Treatment) that left more than its tolerance.
-    pub corrections: usize,
-    /// Evaluations of the augmented Lagrangian.
-    pub evaluations: usize,
-    /// The time (s) of the first.
-    pub since: Option<S>,
-}
-
-/// The largest violation of a joint's equations over a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Violation<S> {
-    /// Of equations between lengths (m; of their rates m/s): the distance by which the joint is
-    /// open.
-    pub length: S,
-    /// Of equations between directions (rad; of their rates rad/s).
-    pub angle: S,
-    /// When it was largest (s), against lengths of the mechanism or radians.
-    pub time: S,
-}
-
-/// The smallest relative pivot of a run, see [`Pivot`](crate::mechanism::Pivot).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SmallestPivot<S> {
-    /// The pivot, met or found between two steps.
-    pub relative: S,
-    /// The joint's field.
-    pub joint: &'static str,
-    /// When (s).
-    pub time: S,
-}
-
-/// The shortest gradient of an equation over a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShortestGradient<S> {
-    /// Its length over its largest, by translations or by rotations, whichever is left more of; of
-    /// a vector equation of all its rows, or what one has beside the others.
-    pub relative: S,
-    /// The joint's field.
-    pub joint: &'static str,
-    /// When (s).
-    pub time: S,
+    compliance: Compliance<S>,
 }
 
 /// The largest speed (m/s) and angular velocity (rad/s) of a body.
@@ -224,15 +198,18 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     pub(crate) stretch: S,
     /// Whether it was mended, so that every step adds another.
     pub(crate) is_mended: bool,
+    /// The error of the step as its control estimated it, relative to the state.
+    pub(crate) estimate: Option<S>,
 }
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
     pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
         let kinetic = M::kinetic_energy(constants, state);
         let length = characteristic_length::<S, M>(constants, state);
+        let rows = &Rows::at(constants, time, state);
         Self {
-            rows: Meanings::at(constants, time, state),
-            pace: Pace::at(constants, (time, state), length),
+            rows: Meanings::of(rows),
+            pace: Pace::at(rows, state, length),
             length,
             start: time,
             position: Worst::none(time),
@@ -245,19 +222,18 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             balance: Balance::new(kinetic, M::potential_energy(constants, time, state)),
             rest: Rest::unknown(),
             before: None,
-            speed: S::zero(),
-            spin: S::zero(),
+            speeds: [S::zero(); 2],
             travel: S::zero(),
             looked: S::zero(),
             time,
+            taken: time,
             stretch: S::zero(),
-            stretched: S::zero(),
-            turning_error: S::one(),
-            turning_error_of_short_steps: S::zero(),
+            stretched: Stretched::none(),
+            model: ErrorModel::default(),
+            estimated: S::zero(),
             lag: Lag::none(state),
-            silent_phase: S::zero(),
+            memory: Memory::whole(time, state, kinetic),
             cubes: [S::zero(); 2],
-            velocity_lead: S::zero(),
             longest: S::zero(),
             rate: S::zero(),
             fastest: S::zero(),
@@ -270,19 +246,26 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             },
             tolerance: None,
             steps: 0,
-            left: S::zero(),
-            acceleration: S::zero(),
+            compliance: Compliance::none(),
         }
+    }
+
+    /// The watch over a run in coordinates in which those joints alone keep equations.
+    pub(crate) fn of_joints(mut self, keeps_equations: fn(&str) -> bool) -> Self {
+        self.gradients = self.gradients.of_joints(keeps_equations);
+        self
+    }
+
+    /// The largest speed (m/s) and angular velocity (rad/s).
+    fn speeds(&self) -> [S; 2] {
+        self.speeds.map(S::sqrt)
     }
 
     /// The watch over a run with this method.
     pub(crate) fn over<I: Method<S>>(mut self, integrator: &I) -> Self {
         let tolerance = integrator.tolerance();
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
-        self.turning_error = S::constant(integrator.turning_error());
-        self.turning_error_of_short_steps = S::constant(integrator.turning_error_of_short_steps());
-        self.silent_phase = S::constant(integrator.silent_phase());
-        self.velocity_lead = S::constant(integrator.velocity_lead());
+        self.model = integrator.error_model();
         self
     }
 
@@ -297,12 +280,21 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             pivot,
             stretch,
             is_mended,
+            estimate,
         } = step;
-        let factors = self.rows.factors();
-        let phi = M::constraints(constants, time, state);
-        self.position.take(phi.as_slice(), factors, time);
-        let phi_rate = M::constraint_rates(constants, time, state);
-        self.velocity.take(phi_rate.as_slice(), factors, time);
+        if let Some(estimate) = estimate {
+            self.estimated = self.estimated + estimate;
+        }
+        if let Some(power) = power {
+            self.balance.add_work(time, power);
+        }
+        if M::REPORT.time.potential {
+            self.work_by_time(constants, time, state);
+        }
+        // What stands still may sag by what joints are open by.
+        if self.steps < EACH || self.steps.is_multiple_of(EVERY) || self.rests() {
+            self.take(constants, time, state);
+        }
         self.motion(time, state);
         if let Some(pivot) = pivot {
             self.look_at_pivot((time, state), pivot, self.travel);
@@ -311,18 +303,26 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             let fall = self.gradients.measure(constants, (time, state));
             self.gradients.look(time, fall, self.travel);
         }
-        let kinetic = M::kinetic_energy(constants, state);
-        let potential = M::potential_energy(constants, time, state);
-        if M::REPORT.time.potential {
-            self.work_by_time(constants, time, state, potential);
-        }
-        self.balance.step(time, kinetic, potential, power);
         self.stretch = self.stretch.max(stretch);
         if is_mended {
-            let round_off = S::constant(4.0) * S::EPSILON;
-            self.stretched = self.stretched + (stretch - round_off).max(S::zero());
+            self.stretched.add::<M>(state, stretch);
         }
         self.steps = self.steps.saturating_add(1);
+    }
+
+    /// Takes violations and energies.
+    #[inline(never)]
+    fn take(&mut self, constants: &M::Constants<S>, time: S, state: &M::State<S>) {
+        let factors = self.rows.factors();
+        let phi = M::constraints(constants, time, state);
+        self.position.take(phi.as_slice(), factors, time);
+        let phi_rate = M::constraint_rates(constants, time, state);
+        self.velocity.take(phi_rate.as_slice(), factors, time);
+        let kinetic = M::kinetic_energy(constants, state);
+        let potential = M::potential_energy(constants, time, state);
+        self.balance.level(time, kinetic, potential);
+        self.memory.take(constants, (time, state), kinetic);
+        self.taken = time;
     }
 
     /// Looks at a relative pivot after so much motion (rad).
@@ -336,26 +336,19 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     /// What a potential gains by the time alone, at either end of a step.
-    fn work_by_time(
-        &mut self,
-        constants: &M::Constants<S>,
-        time: S,
-        state: &M::State<S>,
-        potential: S,
-    ) {
+    fn work_by_time(&mut self, constants: &M::Constants<S>, time: S, state: &M::State<S>) {
         if let Some((then, before)) = self.before.replace((time, *state)) {
             let energy = |time, state| M::potential_energy(constants, time, state);
             let at_start = energy(time, &before) - energy(then, &before);
-            self.balance
-                .add([at_start, potential - energy(then, state)]);
+            let at_end = energy(time, state) - energy(then, state);
+            self.balance.add([at_start, at_end]);
         }
     }
 
     fn motion(&mut self, time: S, state: &M::State<S>) {
-        let (speed, spin) = speeds::<S, M>(state);
-        self.speed = self.speed.max(speed);
-        self.spin = self.spin.max(spin);
-        let rate = self.pace.of(state);
+        let Motion { rate, speed, spin } = self.pace.motion(state);
+        let [fastest, widest] = self.speeds;
+        self.speeds = [fastest.max(speed), widest.max(spin)];
         let turned = rate * (time - self.time);
         self.travel = self.travel + turned;
         let change = if self.steps > 0 {
@@ -368,7 +361,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
         self.rate = rate;
         self.fastest = self.fastest.max(rate);
-        if self.velocity_lead > S::zero() {
+        if self.model.velocity_lead > 0.0 {
             self.changed = self.changed.max(self.pace.change(state));
         }
         self.longest = self.longest.max(time - self.time);
@@ -383,35 +376,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         multipliers: &M::Multipliers<S>,
         accelerations: &M::Velocities<S>,
     ) {
-        let rows = multipliers.as_slice().iter().zip(compliances.as_slice());
-        let rows = rows.zip(self.rows.factors()).enumerate();
-        for (row, ((&multiplier, &compliance), &factor)) in rows {
-            let left = (compliance * multiplier * factor).abs();
-            let length = if self.rows.is_length(row) {
-                S::one()
-            } else {
-                self.length
-            };
-            self.left = self.left.max(left * length);
-        }
-        let elements = accelerations.as_slice();
-        for body in M::REPORT.bodies {
-            let linear = square(&read::<S, 3>(elements, body.velocity)).sqrt();
-            self.acceleration = self.acceleration.max(linear);
-            if body.kind == BodyKind::Rigid {
-                let angular = square(&read::<S, 3>(elements, body.velocity + 3)).sqrt();
-                self.acceleration = self.acceleration.max(angular * self.length);
-            }
-        }
-    }
-
-    /// What a penalty left of the accelerations, over the largest of them.
-    fn bias(&self) -> S {
-        if self.acceleration > S::zero() {
-            self.left.quotient(self.acceleration)
-        } else {
-            S::zero()
-        }
+        let rows = (&self.rows, self.length);
+        self.compliance
+            .take(rows, (compliances, multipliers), accelerations);
     }
 
     /// Time and state of the smallest pivot, or right after it; `None` where there are no pivots.
@@ -427,8 +394,19 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// Looks at the end of a run, on which side of its equations every joint is: none gets to
     /// another one without being wide open on the way.
     pub(crate) fn end(&mut self, constants: &M::Constants<S>, time: S, state: &M::State<S>) {
+        if self.taken < self.time && self.time == time {
+            self.take(constants, time, state);
+        }
         let wrong = wrong::<S, M>(constants, state, 0);
         self.wrong = wrong.map(|joint| (joint, time));
+    }
+
+    /// By how much time (s) velocities at the end of a step are ahead of coordinates; `None` where
+    /// they are not.
+    #[inline]
+    pub(crate) fn lead(&self, end: S) -> Option<S> {
+        let lead = self.model.velocity_lead;
+        (lead > 0.0).then(|| S::constant(lead) * (end - self.time))
     }
 
     /// Steps that were looked at.
@@ -465,101 +443,6 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             self.excused.evaluations = evaluations;
             self.excused.since.get_or_insert(time);
         }
-    }
-
-    /// By how much a joint was open, at the worst: over all steps, not at reporting times only.
-    #[must_use]
-    pub fn violation<J>(&self, joint: JointHandle<M, J>) -> Violation<S> {
-        self.of(&self.position, joint.index())
-    }
-
-    /// How fast the bodies of a joint moved against it, at the worst (m/s, rad/s).
-    #[must_use]
-    pub fn velocity_violation<J>(&self, joint: JointHandle<M, J>) -> Violation<S> {
-        self.of(&self.velocity, joint.index())
-    }
-
-    fn of(&self, worst: &Worst<S, M>, joint: usize) -> Violation<S> {
-        match M::REPORT.joints.get(joint) {
-            Some(info) => worst.of(&self.rows, info),
-            None => Violation {
-                length: S::zero(),
-                angle: S::zero(),
-                time: self.start,
-            },
-        }
-    }
-
-    /// The smallest relative pivot with its joint and its time; `None` without equations. Where
-    /// equations are kept that depend on others it is their least eigenvalue beside zero.
-    #[must_use]
-    pub fn smallest_pivot(&self) -> Option<SmallestPivot<S>> {
-        let nearest = self.approach.as_ref()?.least()?;
-        let joint = M::REPORT.joints.get(self.joint);
-        Some(SmallestPivot {
-            relative: nearest.pivot,
-            joint: joint.map_or("", |info| info.name),
-            time: nearest.time,
-        })
-    }
-
-    /// The gradient of an equation that was shortest beside its largest, with its joint and its
-    /// time; `None` without equations.
-    ///
-    /// Where a gradient vanishes, its equation leaves open which way a motion goes on, whatever the
-    /// pivots, which are compared with what an equation is without the others.
-    #[must_use]
-    pub fn shortest_gradient(&self) -> Option<ShortestGradient<S>> {
-        let shortest = self.gradients.shortest(self.start)?;
-        Some(ShortestGradient {
-            relative: shortest.fall.sqrt(),
-            joint: M::REPORT.joint_of(shortest.row)?,
-            time: shortest.time,
-        })
-    }
-
-    /// The change of energy that no force and no driver accounts for, over the energy that the
-    /// mechanism exchanges; `None` where the work of forces, summed from step to step, is not known
-    /// to a hundredth of that. What is not known of it is not counted.
-    #[must_use]
-    pub fn energy_drift(&self) -> Option<S> {
-        let tells = self.balance.tells(limits::ENERGY);
-        tells.then(|| self.balance.drift())
-    }
-
-    /// The change of energy (J) that no force and no driver accounts for, where it was largest, as
-    /// the work of forces, summed from step to step, is known.
-    #[must_use]
-    pub fn unaccounted_energy(&self) -> S {
-        self.balance.unaccounted()
-    }
-
-    /// The largest `| |p| - 1 |` of Euler parameters at the end of a step, before they were brought
-    /// to length 1.
-    #[must_use]
-    pub fn orientation_drift(&self) -> S {
-        self.stretch
-    }
-
-    /// What a body is off by at the worst because its coordinates lag behind (rad, or lengths of
-    /// the mechanism; over what it has moved by where that is less than one), as far as single
-    /// steps tell: they do not tell of a motion that takes errors apart. Estimated with methods of
-    /// order 2, zero with others.
-    #[must_use]
-    pub fn lag(&self) -> S {
-        self.lag.worst()
-    }
-
-    /// What was accepted without convergence.
-    #[must_use]
-    pub fn excused(&self) -> Excused<S> {
-        self.excused
-    }
-
-    /// How far the mechanism moved, in radians of its fastest body.
-    #[must_use]
-    pub fn travel(&self) -> S {
-        self.travel
     }
 }
 

@@ -10,10 +10,21 @@ use crate::state::vector::{Array, StateParts};
 
 /// The lengths (m) by which bodies move in a radian.
 pub(super) struct Pace<S: Scalar, M: Mechanism> {
-    /// Of each body in the place of its first velocity.
+    /// Of each body in the place of its first velocity; in that of the second what the square of a
+    /// speed is to be multiplied by (1/m^2).
     lengths: M::Velocities<S>,
     /// Velocities at the start.
     first: M::Velocities<S>,
+}
+
+/// How bodies move.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<S> {
+    /// The rate of the fastest body (rad/s).
+    pub(super) rate: S,
+    /// The squares of the largest speed (m^2/s^2) and angular velocity (rad^2/s^2).
+    pub(super) speed: S,
+    pub(super) spin: S,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Pace<S, M> {
@@ -25,14 +36,9 @@ impl<S: Scalar, M: Mechanism> Clone for Pace<S, M> {
 impl<S: Scalar, M: Mechanism> Copy for Pace<S, M> {}
 
 impl<S: Real, M: Mechanism> Pace<S, M> {
-    /// Of a mechanism of an extent (m) at the start of a run.
-    pub(super) fn at(
-        constants: &M::Constants<S>,
-        (time, state): (S, &M::State<S>),
-        extent: S,
-    ) -> Self {
+    /// Of a mechanism of an extent (m), with its rows at the start of a run.
+    pub(super) fn at(rows: &Rows<S, M>, state: &M::State<S>, extent: S) -> Self {
         let mut lengths = M::Velocities::<S>::zeros();
-        let rows = Rows::<S, M>::at(constants, time, state);
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
             // The rotation of a rigid body tells of it. A particle has none, and may be a small
             // part of a mechanism that is large.
@@ -40,7 +46,8 @@ impl<S: Real, M: Mechanism> Pace<S, M> {
                 BodyKind::Rigid => extent,
                 BodyKind::Particle => rows.length_of(body).map_or(extent, |own| own.min(extent)),
             };
-            write(lengths.as_mut_slice(), info.velocity, [length]);
+            let factor = (length * length).reciprocal();
+            write(lengths.as_mut_slice(), info.velocity, [length, factor]);
         }
         Self {
             lengths,
@@ -57,18 +64,28 @@ impl<S: Real, M: Mechanism> Pace<S, M> {
 
     /// The rate of the fastest body (rad/s).
     pub(super) fn of(&self, state: &M::State<S>) -> S {
+        self.motion(state).rate
+    }
+
+    /// How bodies move. Squares are compared, so that there is one root.
+    #[inline]
+    pub(super) fn motion(&self, state: &M::State<S>) -> Motion<S> {
         let velocities = state.velocities().as_slice();
-        let mut rate = S::zero();
+        let (mut rate, mut speed, mut spin) = (S::zero(), S::zero(), S::zero());
         for body in M::REPORT.bodies {
-            let speed = square(&read::<S, 3>(velocities, body.velocity)).sqrt();
-            let [length] = read(self.lengths.as_slice(), body.velocity);
-            rate = rate.max(speed.quotient(length));
+            let here = square(&read::<S, 3>(velocities, body.velocity));
+            let [_, factor] = read(self.lengths.as_slice(), body.velocity);
+            speed = speed.max(here);
+            rate = rate.max(here * factor);
             if body.kind == BodyKind::Rigid {
-                let spin = square(&read::<S, 3>(velocities, body.velocity + 3));
-                rate = rate.max(spin.sqrt());
+                spin = spin.max(square(&read::<S, 3>(velocities, body.velocity + 3)));
             }
         }
-        rate
+        Motion {
+            rate: rate.max(spin).sqrt(),
+            speed,
+            spin,
+        }
     }
 
     /// By how much the rate of a body is another than at the start, at the most (rad/s): of rigid

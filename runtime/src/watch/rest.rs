@@ -1,5 +1,8 @@
 //! Whether a mechanism is at rest, as far as its numbers tell.
 //!
+//! It costs two evaluations at the start, and distances a step while rest lasts. Without it what
+//! stands still is doubted: `tests/tests/quiet.rs`.
+//!
 //! Relative measures compare with what the motion itself is. Where nothing moves but round-off, or
 //! what a tolerance or a compliance lets move, they compare an error with itself.
 
@@ -102,7 +105,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let free = self.largest(&free);
         let round_off = S::constant(limits::DIGITS) * S::EPSILON;
         let slow = round_off * (free * self.length).sqrt();
-        let yields = S::constant(limits::ALLOWED) * self.left + *bias * free;
+        let yields = S::constant(limits::ALLOWED) * self.compliance.left + *bias * free;
         let still = S::constant(limits::DIGITS).fused(noise, yields);
         self.rest = Rest {
             noise,

@@ -1,4 +1,8 @@
 //! How near a run came to a singular configuration.
+//!
+//! It costs a root a step: the pivot is that of the last evaluation. Within a step it costs an
+//! evaluation a look. Only it finds a four-bar that goes on along either branch, and steps that
+//! pass over it: `tests/tests/sweeps/singular.rs`.
 
 use crate::math::scalar::Real;
 
@@ -21,20 +25,42 @@ pub(super) struct Approach<S> {
     largest: S,
     /// The smallest, met or found between steps.
     least: Nearest<S>,
+    /// The root of the largest.
+    highest: S,
     /// The last two steps: time and pivot.
     before: [Option<(S, S)>; 2],
+    /// The root of the last pivot.
+    last_root: S,
     /// The largest motion (rad) of a step over the roots of the pivots at its ends, which go with
     /// the distances from where they vanish.
     widest: S,
     /// The largest change of the root of a pivot over the motion (rad) on the way.
     steepest: S,
+    /// The motion (rad) that was looked at.
+    travelled: S,
+    /// How much the root of a pivot may change in a radian beside that of the largest, as far as
+    /// the motion that was looked at does not tell, and the motion after which it is less.
+    margin: S,
+    until: S,
 }
+
+/// How many times faster than with the distance the root of a pivot may grow to its largest: a
+/// mechanism need not move by a radian from where one vanishes to where it is largest.
+const MARGIN: f64 = 4.0;
+
+/// The motion (rad) after which what was seen of the slope counts for more than the margin, in
+/// proportion.
+const KNOWN: f64 = core::f64::consts::FRAC_PI_2;
+
+/// What is left of the margin after all.
+const LEAST: f64 = 0.0625;
 
 /// The sum of the roots of two pivots, over that of the largest, from where on they have fallen: it
 /// is 2 where all are the same.
 const VARIED: f64 = 1.5;
 
-/// A change of a root, over the largest, that tells something.
+/// A change of a root, over the largest, that tells something: in a radian of motion or more, and
+/// in proportion in less, down to what the digits of a pivot tell.
 const NOTED: f64 = 1e-3;
 
 impl<S: Real> Approach<S> {
@@ -45,9 +71,14 @@ impl<S: Real> Approach<S> {
                 pivot: S::constant(f64::INFINITY),
                 time: S::zero(),
             },
+            highest: S::zero(),
             before: [None; 2],
+            last_root: S::zero(),
             widest: S::zero(),
             steepest: S::zero(),
+            travelled: S::zero(),
+            margin: S::constant(MARGIN),
+            until: S::constant(KNOWN),
         }
     }
 
@@ -55,15 +86,25 @@ impl<S: Real> Approach<S> {
     /// whether there, or since the step before, it was smaller than ever.
     #[inline]
     pub(super) fn step(&mut self, time: S, pivot: S, motion: S) -> bool {
-        self.largest = self.largest.max(pivot);
-        if let Some((_, last)) = self.before[1] {
-            let [from, to] = [last, pivot].map(|pivot| pivot.max(S::zero()).sqrt());
-            let (roots, change) = (from + to, (to - from).abs());
-            if change > S::constant(NOTED) * self.largest.sqrt() && motion > S::zero() {
+        let root = pivot.max(S::zero()).sqrt();
+        if pivot > self.largest {
+            (self.largest, self.highest) = (pivot, root);
+        }
+        self.travelled = self.travelled + motion;
+        if self.travelled > self.until {
+            let known = self.travelled * S::constant(1.0 / KNOWN);
+            self.margin = S::constant(MARGIN).quotient(known).max(S::constant(LEAST));
+            self.until = self.travelled * S::constant(1.0625);
+        }
+        if self.before[1].is_some() {
+            let (roots, change) = (self.last_root + root, (root - self.last_root).abs());
+            let noted = S::constant(NOTED) * motion.min(S::one());
+            let noted = noted.max(S::constant(4.0) * S::EPSILON.sqrt());
+            if change > noted * self.highest && motion > S::zero() {
                 self.steepest = self.steepest.max(change.quotient(motion));
             }
             // Pivots that hardly vary tell of no such configuration, however long the step is.
-            if roots < S::constant(VARIED) * self.largest.sqrt() {
+            if roots < S::constant(VARIED) * self.highest {
                 self.widest = self.widest.max(motion.quotient(roots));
             }
         }
@@ -79,6 +120,7 @@ impl<S: Real> Approach<S> {
             is_least |= self.between([first, second, (time, pivot)]);
         }
         self.before = [second, Some((time, pivot))];
+        self.last_root = root;
         is_least
     }
 
@@ -113,18 +155,25 @@ impl<S: Real> Approach<S> {
     pub(super) fn may_have_passed(&self) -> bool {
         /// The largest pivot that was met need not be the largest there is.
         const MARGIN: f64 = 1.25;
-        self.widest * self.largest.sqrt() * S::constant(MARGIN) > S::one()
+        self.widest * self.highest * S::constant(MARGIN) > S::one()
     }
 
     /// The same of a motion (rad) with these pivots at its ends, that can be looked into.
     pub(super) fn may_pass(&self, motion: S, ends: [S; 2]) -> bool {
-        /// How many times faster than with the distance the root of a pivot may grow to its
-        /// largest: a mechanism need not move by a radian from where one vanishes to where it is
-        /// largest.
-        const MARGIN: f64 = 4.0;
         let [first, last] = ends.map(|pivot| pivot.max(S::zero()).sqrt());
-        let slope = S::constant(MARGIN) * self.largest.sqrt();
-        motion * slope.max(S::constant(2.0) * self.steepest) > first + last
+        motion * self.slope() > first + last
+    }
+
+    /// The same of a motion from the last pivot on, whatever is at its end.
+    #[inline]
+    pub(super) fn may_come_to_pass(&self, motion: S) -> bool {
+        motion * self.slope() > self.last_root
+    }
+
+    /// How much the root of a pivot may change in a radian.
+    #[inline]
+    fn slope(&self) -> S {
+        (self.margin * self.highest).max(S::constant(2.0) * self.steepest)
     }
 
     /// The last pivot.

@@ -3,6 +3,7 @@
 use super::doubt::{Doubt, Doubts};
 use super::limits;
 use super::{Violation, Watch, Worst, exceeds};
+use crate::integrate::ErrorModel;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::JointInfo;
@@ -44,15 +45,22 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             return None;
         }
         let (change, time) = self.balance.worst();
+        let change = change.quotient(self.lives());
         above(change.abs(), limits::ENERGY).then(|| Doubt::Energy {
             change: change.to_f64(),
             time: time.to_f64(),
         })
     }
 
+    /// How often the motion has forgotten what it was: an error counts that has come about since.
+    fn lives(&self) -> S {
+        self.memory.lives(&self.pace)
+    }
+
     fn phase(&self) -> Option<Doubt> {
-        let change = self.balance.drift();
+        let change = self.balance.drift().quotient(self.lives());
         let shift = S::constant(0.5) * change.abs() * self.travel;
+        let shift = shift.quotient(self.lives()) * self.memory.part_of_vibrations(&self.pace);
         (above(shift, limits::PHASE) && self.energy().is_none()).then(|| Doubt::Phase {
             change: change.to_f64(),
             travel: self.travel.to_f64(),
@@ -99,8 +107,11 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             return None;
         }
         let least = self.speed_of_round_off();
-        let spin = self.spin.max(self.speed.quotient(self.length));
-        let speed = self.speed.max(self.spin * self.length);
+        let [speed, spin] = self.speeds();
+        let (speed, spin) = (
+            speed.max(spin * self.length),
+            spin.max(speed.quotient(self.length)),
+        );
         let limit = S::constant(limits::SLIPPING);
         let (
             info,
@@ -228,11 +239,19 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         if self.rests() || self.balance.tells(limits::ENERGY) {
             return None;
         }
-        let (relative, _) = self.tolerance?;
-        let sum = S::constant(self.steps as f64) * relative;
+        self.tolerance?;
+        let steps = S::constant(self.steps as f64);
+        let ErrorModel {
+            estimate_power,
+            estimate_share,
+            ..
+        } = self.model;
+        let mean = self.estimated.quotient(steps).powf(estimate_power);
+        let sum = S::constant(estimate_share) * mean * steps;
+        let sum = sum.quotient(self.lives());
         above(sum, limits::ADDED_UP).then(|| Doubt::ManySteps {
             steps: self.steps,
-            tolerance: relative.to_f64(),
+            error: sum.to_f64(),
         })
     }
 
@@ -252,10 +271,14 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         if self.rests() {
             return None;
         }
-        let mut shift = self.lag.worst().max(self.led_shift());
+        let mut shift = self.lag.worst();
         if !above(shift, limits::PHASE) {
             shift = shift.max(self.silent_shift().min(self.lag.missed(self.fastest)));
         }
+        // What is off at the worst is known as it dies out.
+        let lives = self.lives() * self.memory.fed(self.balance.gained());
+        let shift = shift.quotient(lives.max(S::one())).max(self.led_shift());
+        let shift = shift * self.memory.part_of_vibrations(&self.pace);
         above(shift, limits::PHASE).then(|| Doubt::LongSteps {
             shift: shift.to_f64(),
         })
@@ -266,8 +289,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     fn silent_shift(&self) -> S {
         let [turned, changed] = self.cubes;
         let fastest = self.fastest * self.fastest * self.fastest;
-        if self.silent_phase > S::zero() && fastest > S::zero() {
-            self.silent_phase * turned.max(changed.quotient(fastest))
+        let phase_error = S::constant(self.model.phase_error);
+        if phase_error > S::zero() && fastest > S::zero() {
+            phase_error * turned.max(changed.quotient(fastest))
         } else {
             S::zero()
         }
@@ -276,7 +300,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a
     /// rate changes by over so much time.
     fn led_shift(&self) -> S {
-        self.velocity_lead * self.longest * self.changed
+        S::constant(self.model.velocity_lead) * self.longest * self.changed
     }
 
     fn coarse(&self) -> Option<Doubt> {
@@ -302,13 +326,14 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         // On average over the steps; those that turn further stretch more, and are off by less of
         // it.
         let half = S::constant(0.5) * self.travel.quotient(S::constant(self.steps as f64));
-        let of_short = self.turning_error_of_short_steps.quotient(half);
+        let error = S::constant(self.model.angle_error);
+        let of_short = S::constant(self.model.angle_error_of_short_steps).quotient(half);
         let error = if half > S::zero() {
-            self.turning_error.max(of_short)
+            error.max(of_short)
         } else {
-            self.turning_error
+            error
         };
-        let shift = self.stretched * error;
+        let shift = self.stretched.sum() * error;
         let doubted = above(self.stretch, limits::LENGTH) || above(shift, limits::PHASE);
         doubted.then(|| Doubt::Orientation {
             drift: self.stretch.to_f64(),
@@ -317,7 +342,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn compliance(&self) -> Option<Doubt> {
-        let bias = self.bias();
+        let bias = self.compliance.bias();
         if bias == S::zero() || self.rests() {
             return None;
         }

@@ -1,33 +1,33 @@
 //! What the watch wants to know of the way between two ends of steps.
 
+use super::singular::Approach;
 use super::verdict::above;
 use super::{Watch, limits};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 
-/// How near a state is to a singular configuration.
+/// How near a state is to a singular configuration, as far as it is asked.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearness<S> {
-    /// The smallest relative pivot; 1 where there is none to look at.
-    pivot: S,
+    /// The smallest relative pivot; `None` where it is not asked, or there is none.
+    pivot: Option<S>,
     /// What is left of the gradients, see [`Gradients`](super::gradients::Gradients).
-    gradient: S,
+    gradient: Option<S>,
+}
+
+/// What is asked of a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    pub(crate) pivot: bool,
+    pub(crate) gradient: bool,
 }
 
 impl<S: Real> Nearness<S> {
     /// Of equations that depend on each other.
-    pub(crate) fn singular() -> Self {
+    pub(crate) fn singular(asked: Asked) -> Self {
         Self {
-            pivot: S::zero(),
-            gradient: S::one(),
-        }
-    }
-
-    /// As near as can be.
-    fn nearest() -> Self {
-        Self {
-            pivot: S::zero(),
-            gradient: S::zero(),
+            pivot: asked.pivot.then(S::zero),
+            gradient: asked.gradient.then(S::one),
         }
     }
 
@@ -40,8 +40,11 @@ impl<S: Real> Nearness<S> {
 
 /// Whether what goes with a distance shows no sign of having been zero between three instants:
 /// there it bends by twice the distance that it has at one of them.
-fn keeps_away<S: Real>(squares: [S; 3]) -> bool {
-    let [a, b, c] = squares.map(|square| square.max(S::zero()).sqrt());
+fn keeps_away<S: Real>(squares: [Option<S>; 3]) -> bool {
+    let [Some(a), Some(b), Some(c)] = squares else {
+        return true;
+    };
+    let [a, b, c] = [a, b, c].map(|square| square.max(S::zero()).sqrt());
     let bend = (a - (b + b) + c).abs();
     bend < S::constant(0.25) * a.min(b).min(c)
 }
@@ -54,34 +57,43 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// How near the mechanism was at the last look, which was at the end of the last step or
     /// shortly before.
-    pub(crate) fn last_nearness(&self) -> Nearness<S> {
+    pub(crate) fn last_nearness(&self, asked: Asked) -> Nearness<S> {
         let last = self.approach.as_ref().and_then(|approach| approach.last());
         Nearness {
-            pivot: last.unwrap_or(S::one()),
-            gradient: self.gradients.approach().last().unwrap_or(S::one()),
+            pivot: last.filter(|_| asked.pivot),
+            gradient: self.gradients.approach().last().filter(|_| asked.gradient),
         }
     }
 
-    /// Whether a step of this length may have passed a singular configuration, whatever was at its
-    /// end, with the fastest motion so far.
-    pub(crate) fn may_have_passed(&self, step: S) -> bool {
-        self.may_pass(
-            self.fastest * step,
-            [self.last_nearness(), Nearness::nearest()],
-        )
+    /// What is to be asked of the end of a step of this length, with the fastest motion so far:
+    /// what may have passed zero in it, whatever is at its end. Nothing is to be found where a
+    /// singular configuration is known.
+    #[inline]
+    pub(crate) fn asks(&self, step: S) -> Asked {
+        let motion = self.fastest * step;
+        let may_pass = |approach: &Approach<S>| {
+            approach.may_come_to_pass(motion) && above(approach.fall(), limits::NEARLY_SINGULAR)
+        };
+        let gradients = self.gradients.approach();
+        Asked {
+            pivot: self.approach.as_ref().is_some_and(may_pass),
+            gradient: gradients.last().is_some() && may_pass(gradients),
+        }
     }
 
     /// Whether a motion (rad) between such states may have passed a singular configuration. Nothing
     /// is to be found where one is known.
     pub(crate) fn may_pass(&self, motion: S, [from, to]: [Nearness<S>; 2]) -> bool {
-        let by_pivots = self.approach.as_ref().is_some_and(|approach| {
-            above(approach.fall(), limits::NEARLY_SINGULAR)
-                && approach.may_pass(motion, [from.pivot, to.pivot])
-        });
-        let approach = self.gradients.approach();
-        by_pivots
-            || above(approach.fall(), limits::NEARLY_SINGULAR)
-                && approach.may_pass(motion, [from.gradient, to.gradient])
+        let may_pass = |approach: &Approach<S>, ends: [Option<S>; 2]| match ends {
+            [Some(from), Some(to)] => {
+                above(approach.fall(), limits::NEARLY_SINGULAR)
+                    && approach.may_pass(motion, [from, to])
+            }
+            _ => false,
+        };
+        let by_pivots = self.approach.as_ref();
+        by_pivots.is_some_and(|approach| may_pass(approach, [from.pivot, to.pivot]))
+            || may_pass(self.gradients.approach(), [from.gradient, to.gradient])
     }
 
     /// How fast the mechanism moves at the most (rad/s): at the end of the last step, or in a
@@ -96,18 +108,25 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         constants: &M::Constants<S>,
         (time, state): (S, &M::State<S>),
         pivot: Option<S>,
+        asked: Asked,
     ) -> Nearness<S> {
         Nearness {
-            pivot: pivot.unwrap_or(S::one()),
-            gradient: self.gradients.measure(constants, (time, state)),
+            pivot,
+            gradient: asked
+                .gradient
+                .then(|| self.gradients.measure(constants, (time, state))),
         }
     }
 
     /// Looks at a time within a step; tells whether its pivot was smaller than ever.
     pub(crate) fn look(&mut self, time: S, nearness: Nearness<S>) -> bool {
-        self.gradients.look_within(time, nearness.gradient);
-        let approach = self.approach.as_mut();
-        approach.is_some_and(|approach| approach.step(time, nearness.pivot, S::zero()))
+        if let Some(gradient) = nearness.gradient {
+            self.gradients.look_within(time, gradient);
+        }
+        let Some((approach, pivot)) = self.approach.as_mut().zip(nearness.pivot) else {
+            return false;
+        };
+        approach.step(time, pivot, S::zero())
     }
 
     /// Keeps the state of the smallest pivot.
@@ -115,11 +134,15 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.nearest = (time, *state);
     }
 
-    /// Takes that so much motion (rad) since the last step was looked into, and nothing was passed
-    /// unseen.
-    pub(crate) fn is_known_for(&mut self, motion: S) {
+    /// Takes that so much motion (rad) since the last step was looked into, and nothing that was
+    /// asked was passed unseen.
+    pub(crate) fn is_known_for(&mut self, motion: S, asked: Asked) {
         let travel = self.travel + motion;
-        self.looked = travel;
-        self.gradients.is_known_until(travel);
+        if asked.pivot {
+            self.looked = travel;
+        }
+        if asked.gradient {
+            self.gradients.is_known_until(travel);
+        }
     }
 }

@@ -1,4 +1,7 @@
 //! The worst violation of every joint.
+//!
+//! A look costs `Phi` and `Phi'`. Only it finds a joint that opens slowly while the energy is
+//! right: `tests/tests/alarms.rs`, an upright rod by joints.
 
 use super::{Violation, exceeds};
 use crate::constraints::row_units::Meanings;

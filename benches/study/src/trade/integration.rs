@@ -261,6 +261,10 @@ impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
         on_course!(self, course => course.state())
     }
 
+    fn estimate(&self) -> Option<S> {
+        on_course!(self, course => course.estimate())
+    }
+
     fn replace(&mut self, state: X) {
         on_course!(self, course => course.replace(state));
     }

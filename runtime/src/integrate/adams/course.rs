@@ -225,6 +225,7 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsCourse<S, Y::State> {
             if let Ok(Trial::Accepted { mut state, errors }) = outcome {
                 system.settle(&mut state, Some(&mut self.reached.slope));
                 self.reached.counts.accepted += 1;
+                self.reached.estimate = Some(errors.here);
                 self.reached.time = end;
                 let from = replace(&mut self.reached.state, state);
                 self.go_on(size, &from, errors);

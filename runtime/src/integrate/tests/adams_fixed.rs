@@ -143,7 +143,7 @@ fn a_corrected_state_keeps_the_slopes_before() {
     );
 }
 
-/// What a run takes from [`crate::integrate::Method::turning_error`]: with `z` half the angle
+/// What a run takes from [`crate::integrate::Method::error_model`]: with `z` half the angle
 /// of a step, an angle is off by less than `|p|`.
 #[test]
 fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
@@ -159,7 +159,7 @@ fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
     let length = a.hypot(b) - 1.0;
     let (sine, cosine) = 25.0_f64.sin_cos();
     let angle = 2.0 * (b * cosine - a * sine).atan2(a * cosine + b * sine);
-    let allowed = crate::integrate::Method::<f64>::turning_error(&method);
+    let allowed = crate::integrate::Method::<f64>::error_model(&method).angle_error;
     assert!(
         angle.abs() < allowed * length.abs(),
         "{angle:e} {length:e} {}",
