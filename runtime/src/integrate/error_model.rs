@@ -17,7 +17,7 @@ pub struct ErrorModel {
     pub angle_error_of_short_steps: f64,
     /// The leading phase-error constant `c` of a method of order 2: a step of `x` rad shifts the
     /// phase by `c x^3`, which no energy tells. Zero for others. Where it is not zero,
-    /// [`Course::better_end`](super::Course::better_end) judges the steps.
+    /// [`Advance::better_end`](super::Advance::better_end) judges the steps.
     pub phase_error: f64,
     /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that
     /// takes coordinates by velocities at the end of a step. Zero for others.

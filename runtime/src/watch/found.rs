@@ -11,9 +11,8 @@ use crate::mechanism::kernels::Mechanism;
 /// application of a pseudo-inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excused<S> {
-    /// Corrections of a [`Projection`](crate::Projection), or of a
-    /// [`DirectCorrection`](crate::run::DirectCorrection), which also counts where one application
-    /// left more than its tolerance.
+    /// Corrections of a [`Projection`](crate::Projection), or of another
+    /// [`Treatment`](crate::run::Treatment) that left more than its tolerance.
     pub corrections: usize,
     /// Evaluations of the augmented Lagrangian.
     pub evaluations: usize,

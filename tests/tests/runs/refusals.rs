@@ -26,10 +26,8 @@ fn refused<F: Formulation<f64>>(method: F) -> Fault {
         .run(0.0..=1.0, every_step(), |_| panic!("it must not begin"))
         .expect_err("a bad coefficient");
     assert_eq!(error.time, 0.0);
-    let by_stepper = Stepper::new(&rod, method, Rk4).err().expect("refused");
-    let by_dynamics = Dynamics::<f64, RodPendulum, F>::new(&rod, method)
-        .err()
-        .expect("refused");
+    let by_stepper = Stepper::new(&rod, method, Rk4).expect_err("refused");
+    let by_dynamics = Dynamics::<f64, RodPendulum, F>::new(&rod, method).expect_err("refused");
     // NaN differs from itself.
     assert_eq!(by_stepper.to_string(), error.fault.to_string());
     assert_eq!(by_dynamics.to_string(), error.fault.to_string());
