@@ -6,9 +6,9 @@
 //! ```
 //!
 //! An argument selects the rows whose names contain it, such as `"UR5 relative"`. Rotors turn at
-//! 300 rad/s, beside a pendulum and on it. The program ends with an error where a ratio is above its
-//! bound: 1.3, and 1.6 for pendulums. One run has a dozen steps, so that what the watch does at the
-//! start counts.
+//! 300 rad/s, beside a pendulum and on it. The program ends with an error where a ratio is above
+//! its bound: 1.3, and 1.6 for pendulums. One run has a dozen steps, so that what the watch does at
+//! the start counts.
 
 #![forbid(unsafe_code)]
 
@@ -103,8 +103,8 @@ struct Swing {
 /// Of how many pairs of runs a median is taken.
 const PAIRS: usize = 201;
 
-/// The time (s) that a measured run takes at least: shorter ones are repeated. Others seldom take the
-/// processor within it.
+/// The time (s) that a measured run takes at least: shorter ones are repeated. Others seldom take
+/// the processor within it.
 const LEAST: f64 = 5e-4;
 
 /// A scene with the bound of its ratios.

@@ -239,8 +239,8 @@ where
         }
     }
 
-    /// The smallest relative pivot of the last evaluation, which was at the end of a step or near to
-    /// it; `None` where evaluations leave none.
+    /// The smallest relative pivot of the last evaluation, which was at the end of a step or near
+    /// to it; `None` where evaluations leave none.
     pub(crate) fn pivot_seen(&self) -> Option<S> {
         (Self::SEES_PIVOTS && (C::IS_RELATIVE || !Self::HAS_NO_RANK)).then_some(self.seen.pivot)
     }

@@ -2,7 +2,8 @@
 
 /// How the errors of a method grow, as far as its tables tell: what a run takes for its warnings.
 ///
-/// A method of one's own gives what it knows: `ErrorModel { phase_error: 1.0 / 6.0, ..Default::default() }`.
+/// A method of one's own gives what it knows:
+/// `ErrorModel { phase_error: 1.0 / 6.0, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorModel {
     /// By how much an angle (rad) is off, at most, where Euler parameters left length 1 by so much

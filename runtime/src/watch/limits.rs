@@ -38,8 +38,8 @@ pub(super) const PHASE: f64 = 1e-2;
 pub(super) const ROUND_OFF: f64 = 0.5;
 
 /// Errors of single steps, as the step control estimates them, added up over a run of which no
-/// balance of energy tells more. Errors of an undamped, forced oscillation are a half to a fourth of
-/// that.
+/// balance of energy tells more. Errors of an undamped, forced oscillation are a half to a fourth
+/// of that.
 pub(super) const ADDED_UP: f64 = 4e-2;
 
 /// How much of the work of forces over a step may be unknown, where two rules for it disagree, with
