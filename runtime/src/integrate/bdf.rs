@@ -29,7 +29,7 @@ controlled! {
     /// state and eight states.
     ///
     /// ```
-    /// use holonom::{Bdf, Fault, integrate::{Course, Integrator, Span, System}};
+    /// use holonom::{Bdf, Fault, integrate::{Advance, Course, Integrator, Span, System}};
     ///
     /// /// Follows the cosine, and comes back to it within microseconds.
     /// struct Stiff;

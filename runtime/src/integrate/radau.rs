@@ -32,7 +32,7 @@ controlled! {
     /// matrices of the size of the state.
     ///
     /// ```
-    /// use holonom::{Fault, RadauIIA, integrate::{Course, Integrator, Span, System}};
+    /// use holonom::{Fault, RadauIIA, integrate::{Advance, Course, Integrator, Span, System}};
     ///
     /// /// Follows the cosine, and comes back to it within microseconds.
     /// struct Stiff;

@@ -39,7 +39,7 @@ use crate::state::vector::{
 ///   `rest`, `rates`.
 ///
 /// ```
-/// use holonom::{Fault, Rk4, integrate::{Scheme, System}, state::JointState};
+/// use holonom::{Fault, Rk4, integrate::{OneStep, System}, state::JointState};
 ///
 /// /// A pendulum of 1 m: angle from the vertical, `angle'' = -9.81 sin(angle)`.
 /// struct Pendulum;
