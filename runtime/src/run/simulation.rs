@@ -361,6 +361,7 @@ where
             Watch::new(&constants, start, &state)
                 .of_joints(C::keeps_equations)
                 .over(&self.integrator)
+                .decaying(self.formulation.decay_rate())
         });
         let companion = if self.is_verified {
             let integrator = self.integrator.companion(end - start);

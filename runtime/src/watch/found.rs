@@ -56,7 +56,8 @@ pub struct ShortestGradient<S> {
 }
 
 impl<S: Real, M: Mechanism> Watch<S, M> {
-    /// By how much a joint was open, at the worst: over all steps, not at reporting times only.
+    /// By how much a joint was open, at the worst: over the steps that were looked at, every
+    /// sixteenth and the last one, or more where violations decay; not at reporting times only.
     #[must_use]
     pub fn violation<J>(&self, joint: JointHandle<M, J>) -> Violation<S> {
         self.of(&self.position, joint.index())

@@ -6,7 +6,7 @@
 //!
 //! | indicator | file | looks at |
 //! |---|---|---|
-//! | violation | `worst.rs` | every sixteenth step |
+//! | violation | `worst.rs` | every sixteenth step, or as often as it may decay |
 //! | pivot and rank | `singular.rs` | every step, and within long ones |
 //! | gradient | `gradients.rs` | as often as one may vanish |
 //! | energy | `energy.rs` | the power in every step, energies in every sixteenth |
@@ -89,8 +89,9 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
-/// Of how many steps the violations and energies of one are taken. They change over many steps:
-/// what opens a joint or loses energy does not mend it.
+/// Of how many steps the violations and energies of one are taken at least. Violations that nothing
+/// takes away change over many steps, and so do energies. Where a formulation takes them away, they
+/// are taken as often as one may fall by `e`.
 const EVERY: usize = 16;
 
 /// How many steps at the start of a run are all looked at.
@@ -129,6 +130,8 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     /// The largest `| |p| - 1 |` of a step, and the sums of all.
     stretch: S,
     stretched: Stretched<S>,
+    /// The rate (1/s) at which the formulation takes violations away; zero where they stay.
+    decay: S,
     /// How the errors of the method grow.
     model: ErrorModel,
     /// The sum of the errors that the control estimated, relative to the state.
@@ -229,6 +232,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             taken: time,
             stretch: S::zero(),
             stretched: Stretched::none(),
+            decay: S::zero(),
             model: ErrorModel::default(),
             estimated: S::zero(),
             lag: Lag::none(state),
@@ -269,6 +273,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self
     }
 
+    /// The watch over a run by a formulation that takes violations away at this rate (1/s).
+    pub(crate) fn decaying(mut self, rate: Option<S>) -> Self {
+        self.decay = rate.unwrap_or(S::zero());
+        self
+    }
+
     /// Takes the end of a step, or the start of a run.
     #[inline]
     pub(crate) fn step(&mut self, step: Step<'_, S, M>) {
@@ -291,8 +301,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         if M::REPORT.time.potential {
             self.work_by_time(constants, time, state);
         }
+        let has_decayed = (time - self.taken) * self.decay >= S::one();
         // What stands still may sag by what joints are open by.
-        if self.steps < EACH || self.steps.is_multiple_of(EVERY) || self.rests() {
+        if self.steps < EACH || self.steps.is_multiple_of(EVERY) || has_decayed || self.rests() {
             self.take(constants, time, state);
         }
         self.motion(time, state);

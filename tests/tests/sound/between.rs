@@ -8,6 +8,7 @@ use holonom::prelude::*;
 use holonom::{
     Adams, AdamsBashforthMoulton4, DormandPrince853, Doubt, Heun, Midpoint, RadauIIA, Runs, Sample,
 };
+use holonom_models::RodPendulum;
 use holonom_tests::RunsBoth;
 
 /// An arm that is swung to and fro.
@@ -155,4 +156,28 @@ fn euler_parameters_keep_their_sign_from_report_to_report() {
             .expect("nothing stops it");
         assert!(turned > 10);
     }
+}
+
+/// A joint that opens at 1 cm/s, and that the formulation closes within some steps, is looked at as
+/// often as it may have closed.
+#[test]
+fn what_opens_and_closes_between_looks_is_seen() {
+    let rod = RodPendulum::default();
+    let mut start = rod.described_state().expect("described");
+    let velocity = nalgebra::Vector3::new(0.01, 0.0, 0.0);
+    RodPendulum::set_velocity(&mut start, RodPendulum::HANDLES.rod, velocity);
+    let step = 1e-3_f64;
+    let mut open = 0.0_f64;
+    let rate = 1.0 / (8.0 * step);
+    let report = Simulation::new(&rod, Baumgarte::new(rate, rate), Rk4::every(step))
+        .initial_state(start)
+        .inconsistent_start()
+        .run(0.0..=0.1, every_step(), |sample| {
+            open = open.max(f64::sqrt(sample.violation()));
+            ControlFlow::Continue(())
+        })
+        .expect("nothing stops it");
+    let seen = report.watch.expect("watched");
+    let seen = seen.violation(RodPendulum::HANDLES.pivot).length;
+    assert!(open > 2e-5 && seen > 0.9 * open, "{seen:e} of {open:e}");
 }
