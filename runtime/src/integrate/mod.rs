@@ -20,9 +20,9 @@
 //!
 //! [`OneStep::step`] takes one step at a time, for loops that somebody else owns;
 //! [`Integrator::start`] begins a [`Course`] over an interval, with output at any time within the
-//! last step. What a method is, whatever it moves, is a [`Method`] or a [`Scheme`]; that it moves a
-//! system of some type is an [`Integrator`] or a [`OneStep`] with that type, so that a method with
-//! a system that lacks what it needs does not compile.
+//! last step. What a method is, whatever it moves, is a [`Method`] or a [`Scheme`]. That it moves a
+//! system of some type is an [`Integrator`] or a [`OneStep`] with that type. So a method does not
+//! compile with a system that lacks what it needs.
 //!
 //! Structure. An explicit Runge-Kutta method is its table (`explicit.rs`). An embedded pair
 //! (`embedded.rs`) is a scheme with error weights, their power of the step and an interpolant. The
@@ -205,8 +205,8 @@ pub trait System<S: Real> {
     note = "`SemiImplicitEuler` takes coordinates by the velocities at the end of a step: a mechanism has them, a `System` of one's own implements `integrate::SecondOrder`"
 )]
 pub trait SecondOrder<S: Real>: System<S> {
-    /// Puts the rates of the coordinates at the velocities at the end of a step in the place of
-    /// those at its start: at the velocities that the other rates lead to.
+    /// Replaces the rates of the coordinates, which are those at the start of a step, by those at
+    /// the velocities at its end, to which the other rates lead.
     fn with_new_velocities(
         &mut self,
         time: S,
