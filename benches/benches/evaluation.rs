@@ -9,7 +9,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use holonom::{Mechanism, StandardLagrange, dynamics::Dynamics, integrate::System, state::Vector};
-use holonom_benches::opponents::{START, Schur, StaticElimination, StaticSchur, Textbook};
+use holonom_benches::baselines::{START, Schur, StaticElimination, StaticSchur, Textbook};
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::{Method, Settings};
 use holonom_study::run::integrate;
@@ -44,8 +44,8 @@ fn states<Y: System<f64>>(mut system: Y, start: Y::State) -> Vec<Y::State> {
     states
 }
 
-/// Calls `$bench!(name, system, start)` with every contestant.
-macro_rules! contestants {
+/// Calls `$bench!(name, system, start)` with every candidate.
+macro_rules! candidates {
     ($bench:ident) => {
         $bench!("generated", generated(), generated_start());
         $bench!(
@@ -82,7 +82,7 @@ fn throughput(criterion: &mut Criterion) {
             });
         };
     }
-    contestants!(bench);
+    candidates!(bench);
     group.finish();
 }
 
@@ -107,7 +107,7 @@ fn dependent(criterion: &mut Criterion) {
             });
         };
     }
-    contestants!(bench);
+    candidates!(bench);
     group.finish();
 }
 
@@ -137,7 +137,7 @@ fn chapter_15(criterion: &mut Criterion) {
             group.bench_function($name, |bencher| bencher.iter(&mut run));
         };
     }
-    contestants!(bench);
+    candidates!(bench);
     group.finish();
 }
 

@@ -7,12 +7,12 @@ use holonom_models::problems::{
 };
 use holonom_models::problems::{Parallelogram, Pendulum};
 use holonom_study::StudyError;
-use holonom_study::compare::measure::contestants;
-use holonom_study::timing::Contestant;
+use holonom_study::compare::measure::candidates;
+use holonom_study::timing::Candidate;
 use holonom_study::trade::{Posed, Subject};
 
-use crate::opponents::START;
-use crate::yardstick::Written;
+use crate::baselines::START;
+use crate::reference_kernel::Written;
 
 /// All of them, two without the feature `large`: every one is compiled for two descriptions, four
 /// formulations and two number types.
@@ -81,15 +81,15 @@ pub fn problem(name: &str) -> Result<Box<dyn Subject>, String> {
     }
 }
 
-/// The yardstick, whose evaluations are timed beside every run.
+/// The reference kernel, whose evaluations are timed beside every run.
 ///
 /// # Errors
 /// [`StudyError::Run`], were it not to run.
-pub fn yardstick() -> Result<Contestant<'static>, StudyError> {
-    let contestants = contestants::<f64, _>(Written::default(), START, 1e-3);
-    let contestants = contestants.map_err(|fault| StudyError::Run {
-        name: "yardstick".into(),
+pub fn reference_kernel() -> Result<Candidate<'static>, StudyError> {
+    let candidates = candidates::<f64, _>(Written::default(), START, 1e-3);
+    let candidates = candidates.map_err(|fault| StudyError::Run {
+        name: "reference kernel".into(),
         reason: fault.to_string(),
     })?;
-    Ok(contestants.throughput)
+    Ok(candidates.throughput)
 }

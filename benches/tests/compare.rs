@@ -69,11 +69,11 @@ fn every_right_hand_side_has_its_numbers() {
             "nanoseconds_throughput",
             "nanoseconds_dependent",
             "rk4_step_nanoseconds",
-            "yardsticks",
+            "reference kernels",
         ] {
             assert!(object[time].as_f64().unwrap() > 0.0, "{time}");
         }
-        let by_assembler = object["scalar"] == "f64" && object["scene"] != "yardstick";
+        let by_assembler = object["scalar"] == "f64" && object["scene"] != "reference kernel";
         assert_eq!(
             object["assembler_nanoseconds"].is_f64(),
             by_assembler,
@@ -84,8 +84,8 @@ fn every_right_hand_side_has_its_numbers() {
     }
     assert_same(&from_json(&json(&rows).unwrap()).unwrap(), &rows);
 
-    let unit = row(&rows, ["yardstick", "bodies", "standard", "f64"]);
-    assert_eq!((unit.operations, unit.yardsticks), (279, 1.0));
+    let unit = row(&rows, ["reference kernel", "bodies", "standard", "f64"]);
+    assert_eq!((unit.operations, unit.reference_kernels), (279, 1.0));
 }
 
 #[test]
@@ -135,7 +135,7 @@ fn the_page_shows_what_was_measured_and_another_build_beside_it() {
     assert!(written.iter().all(|path| path.is_file()));
     let page = std::fs::read_to_string(directory.join("index.html")).unwrap();
     for part in [
-        "yardstick (T)",
+        "reference kernel (T)",
         "pendulum, joints",
         "four-bar, bodies",
         "target-cpu=native",

@@ -3,8 +3,8 @@
 use holonom_benches::trade::problem;
 use holonom_study::chapter15::Method;
 use holonom_study::trade::{
-    Coordinates, Family, Formulated, Integration, Key, Precision, Processor, Row, Setting,
-    Treatment,
+    Coordinates, Family, Formulated, IntegratorSetting, Key, PostStabilisation, Precision,
+    Processor, Row, Setting,
 };
 
 const COUNTS: &str = include_str!("../../tests/firmware/counts");
@@ -33,8 +33,8 @@ fn the_estimate_is_between_0_7_and_1_5_times_what_is_counted() {
             coordinates,
             formulation: Formulated::default_of(method),
             is_derived: false,
-            treatment: Treatment::None,
-            integration: Integration {
+            stabilisation: PostStabilisation::None,
+            integration: IntegratorSetting {
                 family: Family::Rk4,
                 step_or_tolerance: 1e-3,
             },
@@ -45,12 +45,12 @@ fn the_estimate_is_between_0_7_and_1_5_times_what_is_counted() {
             setting: Key::from(&setting),
             error: 0.0,
             seconds: 0.0,
-            yardsticks: None,
+            reference_kernels: None,
             evaluations: 4,
             steps: [1, 1],
             max_violation: 0.0,
             energy_drift_joule: 0.0,
-            doubts: Vec::new(),
+            warnings: Vec::new(),
         };
         let seconds = Processor::CortexM7.seconds(&*subject, &setting, &row);
         let estimated = 480e6 * seconds.expect("known operations");

@@ -9,8 +9,8 @@ use holonom_benches::trade::problem;
 use holonom_study::compare::Precision;
 use holonom_study::timing::Schedule;
 use holonom_study::trade::{
-    Choice, Family, Formulated, Grid, Processor, Reference, Timing, Treatment, Wish, measure,
-    recommend,
+    Choice, Family, Formulated, Grid, PostStabilisation, Processor, Reference, Timing, Wish,
+    measure, recommend,
 };
 
 /// Problems, and the error that is asked for in the unit of each.
@@ -32,7 +32,7 @@ const UNSEEN: u64 = 1000;
 fn recommendations_are_right() {
     let grid = Grid {
         formulations: vec![Choice::Given(Formulated::Standard)],
-        treatments: vec![Treatment::None, Treatment::Projection],
+        stabilisations: vec![PostStabilisation::None, PostStabilisation::Projection],
         families: vec![Family::Rk4, Family::DormandPrince, Family::DormandPrince853],
         scalars: vec![Precision::Double],
         most_steps: 20_000.0,
@@ -44,7 +44,7 @@ fn recommendations_are_right() {
             rounds: 3,
             turn: Duration::from_millis(1),
         },
-        yardstick: None,
+        reference_kernel: None,
     };
     let directory = std::env::temp_dir().join(format!("holonom-recommend-{}", std::process::id()));
     let mut wrong = Vec::new();

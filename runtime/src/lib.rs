@@ -11,7 +11,7 @@
 //! | bodies, joints and drivers, forces | [`Body`], [`Particle`], [`joints`], [`forces`] |
 //! | joints and forces of one's own | [`joint!`], [`force!`] |
 //! | a run over an interval of time, with reports | [`Simulation`], [`every`], [`Sample`], [`RunReport`] |
-//! | whether its result can be trusted | [`RunReport::doubts`], [`Watch`], [`guide::trust`] |
+//! | whether its result can be trusted | [`RunReport::warnings`], [`Monitor`], [`guide::trust`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
@@ -47,9 +47,9 @@ pub mod integrate;
 mod math;
 pub mod measure;
 pub mod mechanism;
+pub mod monitor;
 pub mod run;
 pub mod state;
-pub mod watch;
 
 #[cfg(test)]
 mod tests;
@@ -191,6 +191,7 @@ pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};
 pub use mechanism::joint_kernels::JointCoordinates;
 pub use mechanism::kernels::Mechanism;
 pub use mechanism::report::Report;
+pub use monitor::{Monitor, Warning, Warnings};
 pub use nalgebra;
 pub use run::kinematics::{KinematicAnalysis, KinematicReport};
 pub use run::output::{every, every_step};
@@ -201,7 +202,6 @@ pub use run::sample::Sample;
 pub use run::simulation::{Runs, Simulation};
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
-pub use watch::{Doubt, Doubts, Watch};
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in
 /// `holonom::joints`, by name.

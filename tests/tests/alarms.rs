@@ -7,7 +7,7 @@ use holonom::forces::{Actuator, SpringDamper, TorsionalActuator};
 use holonom::joints::{AngleDriver, DisplacementDriver, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{DormandPrince853, JointCoordinates, StateParts, state::Array};
-use holonom_study::trade::{Family, Integration};
+use holonom_study::trade::{Family, IntegratorSetting};
 use holonom_tests::RunsBoth;
 
 /// A cart on a spring of 1 N/m with a damper, pushed to and fro: 1 rad/s by itself.
@@ -147,7 +147,7 @@ struct Swung {
 const REPORTS: usize = 64;
 
 /// Positions and rotations of bodies at the reporting times.
-type Course = Vec<Vec<f64>>;
+type History = Vec<Vec<f64>>;
 
 /// A motion over some time (s).
 struct Scene<'a, M> {
@@ -163,10 +163,10 @@ impl<M: JointCoordinates> Scene<'_, M> {
         &self,
         integrator: impl RunsBoth<M, StandardLagrange>,
         is_relative: bool,
-    ) -> Result<(Course, String), String> {
-        let mut course = Course::new();
+    ) -> Result<(History, String), String> {
+        let mut history = History::new();
         let observe = |sample: &Sample<'_, f64, M>| {
-            course.push(sample.state().coordinates().as_slice().to_vec());
+            history.push(sample.state().coordinates().as_slice().to_vec());
             ControlFlow::Continue(())
         };
         let (span, reports) = (0.0..=self.end, every(self.end / REPORTS as f64));
@@ -181,11 +181,11 @@ impl<M: JointCoordinates> Scene<'_, M> {
                 .run(span, reports, observe)
         };
         let report = report.map_err(|error| error.to_string())?;
-        Ok((course, report.doubts().to_string()))
+        Ok((history, report.warnings().to_string()))
     }
 
     /// The largest error of a body, over how far it moves: a radian at the most.
-    fn error(&self, course: &Course, truth: &Course) -> f64 {
+    fn error(&self, history: &History, truth: &History) -> f64 {
         let mut worst = 0.0_f64;
         for body in M::REPORT.bodies {
             let parts = [(body.coordinate, 3), (body.coordinate + 3, 4)];
@@ -204,7 +204,7 @@ impl<M: JointCoordinates> Scene<'_, M> {
                 let moved = truth.iter().map(|state| distance(state, &truth[0]));
                 let moved = moved.fold(0.0, f64::max);
                 let moved = if part == 0 { moved } else { moved.min(1.0) };
-                let off = course.iter().zip(truth).map(|(a, b)| distance(a, b));
+                let off = history.iter().zip(truth).map(|(a, b)| distance(a, b));
                 let off = off.fold(0.0, f64::max);
                 if moved > 1e-3 {
                     worst = worst.max(off / moved);
@@ -267,7 +267,7 @@ fn all_ways<M: JointCoordinates>(scene: &Scene<'_, M>, counts: &mut Counts) {
         } else {
             setting / scene.rate
         };
-        let integrator = Integration {
+        let integrator = IntegratorSetting {
             family,
             step_or_tolerance,
         };
@@ -277,7 +277,7 @@ fn all_ways<M: JointCoordinates>(scene: &Scene<'_, M>, counts: &mut Counts) {
             }
             let coordinates = if is_relative { "relative" } else { "absolute" };
             let name = format!("{} {} {setting:e} {coordinates}", scene.name, family.key());
-            let (course, said) = match scene.run(integrator, is_relative) {
+            let (history, said) = match scene.run(integrator, is_relative) {
                 Ok(run) => run,
                 Err(error) => {
                     println!("{name}: {error}");
@@ -285,8 +285,8 @@ fn all_ways<M: JointCoordinates>(scene: &Scene<'_, M>, counts: &mut Counts) {
                     continue;
                 }
             };
-            let error = scene.error(&course, &truth);
-            let is_quiet = said == "no doubts";
+            let error = scene.error(&history, &truth);
+            let is_quiet = said == "no warnings";
             if error < 1e-2 {
                 counts.right += usize::from(!is_coarse);
                 counts.alarms += usize::from(!is_quiet && !is_coarse);

@@ -11,7 +11,7 @@ use differential_equations::prelude::{IVP, ODE};
 use holonom::prelude::*;
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, DormandPrince853, RadauIIA,
-    integrate::{Advance as _, Course as _, Integrator, Span, System},
+    integrate::{Advance as _, Integration as _, Integrator, System, TimeSpan},
 };
 use holonom_study::pendulum::RigidPendulum;
 
@@ -43,18 +43,20 @@ impl ODE<f64, [f64; 2]> for Swinging {
 type Point = (f64, f64);
 
 fn ours<I: Integrator<f64, Swinging>>(method: I) -> Point {
-    let span = Span {
+    let span = TimeSpan {
         start: 0.0,
         end: END,
         first_output: END,
     };
     let start = [PENDULUM.amplitude, 0.0];
-    let mut course = method.start(&mut Swinging, span, start).expect("a start");
-    while course.time() < END {
-        course.advance(&mut Swinging).expect("a regular equation");
+    let mut integration = method.start(&mut Swinging, span, start).expect("a start");
+    while integration.time() < END {
+        integration
+            .advance(&mut Swinging)
+            .expect("a regular equation");
     }
-    let error = course.state()[0] - PENDULUM.at(END).angle;
-    (course.counts().evaluations as f64, error.abs())
+    let error = integration.state()[0] - PENDULUM.at(END).angle;
+    (integration.counts().evaluations as f64, error.abs())
 }
 
 /// By how much more evaluations ours take than theirs at equal errors, on average over the errors
@@ -183,18 +185,23 @@ macro_rules! compared_where_stiff {
         for digits in $digits {
             let relative = 10.0_f64.powi(-digits);
             let absolute = 1e-6 * relative;
-            let span = Span {
+            let span = TimeSpan {
                 start: 0.0,
                 end: REACTED,
                 first_output: REACTED,
             };
             let start = [1.0, 0.0, 0.0];
             let method = $method::new(Tolerance { relative, absolute });
-            let mut course = method.start(&mut Reacting, span, start).expect("a start");
-            while course.time() < REACTED {
-                course.advance(&mut Reacting).expect("a regular equation");
+            let mut integration = method.start(&mut Reacting, span, start).expect("a start");
+            while integration.time() < REACTED {
+                integration
+                    .advance(&mut Reacting)
+                    .expect("a regular equation");
             }
-            own.push((course.counts().evaluations as f64, mistaken(course.state())));
+            own.push((
+                integration.counts().evaluations as f64,
+                mistaken(integration.state()),
+            ));
             let solution = IVP::ode(&Reacting, 0.0, REACTED, start)
                 .method($theirs.rtol(relative).atol(absolute))
                 .solve()

@@ -1,4 +1,4 @@
-//! What stands still: nothing is to be doubted of it, and every method converges. Relative measures
+//! What stands still: no warning, and every method converges. Relative measures
 //! have a floor by round-off of what they are made of.
 
 use holonom::forces::SpringDamper;
@@ -65,7 +65,7 @@ where
             .run(S::zero()..=end, every(end), |_| ControlFlow::Continue(())),
     ];
     run.map(|run| match run {
-        Ok(report) => report.doubts().to_string(),
+        Ok(report) => report.warnings().to_string(),
         Err(error) => error.to_string(),
     })
 }
@@ -79,7 +79,7 @@ fn stands_still<S: Real, M: JointCoordinates>(mechanism: &M, tolerance: f64) {
     };
     let [short, long] = [0.0005, 0.005].map(S::constant);
     let adaptive = DormandPrince::new(tolerance);
-    let nothing = ["no doubts", "no doubts"];
+    let nothing = ["no warnings", "no warnings"];
     let name = M::REPORT.name;
     let lagrange = StandardLagrange;
     assert_eq!(said(mechanism, lagrange, &adaptive), nothing, "{name}");
@@ -116,7 +116,7 @@ fn stands_still<S: Real, M: JointCoordinates>(mechanism: &M, tolerance: f64) {
 }
 
 #[test]
-fn what_stands_still_is_not_doubted() {
+fn what_stands_still_is_not_warned_of() {
     stands_still::<f64, _>(&Hanging::default(), 1e-4);
     stands_still::<f64, _>(&HeavyRod::default(), 1e-6);
     stands_still::<f64, _>(&OnSpring::default(), 1e-4);
@@ -131,7 +131,7 @@ fn nor_in_single_precision() {
 /// A motion that is small is judged all the same: a swing of 20 micrometres, with steps of a third
 /// of a radian.
 #[test]
-fn what_hardly_moves_is_doubted() {
+fn what_hardly_moves_is_warned_of() {
     let hanging = Hanging::default();
     let mut start = hanging.described_state().expect("parameters");
     hanging
@@ -142,6 +142,6 @@ fn what_hardly_moves_is_doubted() {
         .initial_state(start)
         .joint_coordinates()
         .run(0.0..=10.0, every(1.0), |_| ControlFlow::Continue(()));
-    let doubts = said.expect("it runs").doubts().to_string();
-    assert!(doubts.contains("the energy changed"), "{doubts}");
+    let warnings = said.expect("it runs").warnings().to_string();
+    assert!(warnings.contains("the energy changed"), "{warnings}");
 }

@@ -21,7 +21,7 @@ const RUNTIME: [&str; 13] = [
     "constraints",
     "integrate",
     "formulation",
-    "watch",
+    "monitor",
     "assembly",
     "measure",
     "dynamics",
@@ -46,7 +46,7 @@ const ENGINE_CIRCLES: [&[&str]; 3] = [
 const RUNTIME_CIRCLES: [&[&str]; 3] = [
     &["math/scalar", "math/versine"],
     &["mechanism/coordinates", "mechanism/kernels"],
-    &["watch", "watch/rest"],
+    &["monitor", "monitor/rest"],
 ];
 
 #[test]

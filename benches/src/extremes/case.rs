@@ -1,7 +1,7 @@
 //! Motions in closed form as problems.
 
 use holonom::{
-    Fault, JointCoordinates, MechanismExt as _, Real, StateParts as _, View, integrate::Span,
+    Fault, JointCoordinates, MechanismExt as _, Real, StateParts as _, View, integrate::TimeSpan,
     state::Array as _,
 };
 use holonom_study::pendulum::wrapped;
@@ -54,8 +54,8 @@ impl<M: ClosedForm> Problem for Case<M> {
         Ok(state)
     }
 
-    fn span(&self) -> Span<f64> {
-        Span {
+    fn span(&self) -> TimeSpan<f64> {
+        TimeSpan {
             start: 0.0,
             end: self.end,
             first_output: self.end / 20.0,

@@ -10,7 +10,7 @@ use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::extremes::{Axis, Cell, Motion};
 use holonom_study::trade::{
-    Choice, Family, Formulated, Integration, Posed, Setting, Subject, Treatment,
+    Choice, Family, Formulated, IntegratorSetting, Posed, PostStabilisation, Setting, Subject,
 };
 
 use case::{Case, ClosedForm};
@@ -27,8 +27,8 @@ const ACCEPTABLE: &str = "positive and finite";
 
 const BOTH: [Precision; 2] = [Precision::Double, Precision::Single];
 
-/// A description with a formulation and a treatment.
-type Way = (Coordinates, Choice, Treatment);
+/// A description with a formulation and a stabilisation.
+type Way = (Coordinates, Choice, PostStabilisation);
 
 /// Where the coefficients of formulations come from, on all axes but those of coefficients.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,21 +52,21 @@ impl Coefficients {
     fn ways_of_tree(self) -> Vec<Way> {
         let by_bodies = Method::ALL.map(|method| {
             let formulation = self.of(method);
-            (Coordinates::Bodies, formulation, Treatment::None)
+            (Coordinates::Bodies, formulation, PostStabilisation::None)
         });
         let mut ways = Vec::from(by_bodies);
         let formulation = Choice::Given(Formulated::Standard);
-        ways.push((Coordinates::Joints, formulation, Treatment::None));
+        ways.push((Coordinates::Joints, formulation, PostStabilisation::None));
         ways
     }
 
     /// By bodies and by joints in all formulations, as they are where equations remain.
-    fn ways_of_loop(self, treatments: &[Treatment]) -> Vec<Way> {
+    fn ways_of_loop(self, stabilisations: &[PostStabilisation]) -> Vec<Way> {
         let mut ways = Vec::new();
         for by in [Coordinates::Bodies, Coordinates::Joints] {
             for method in Method::ALL {
-                for &treatment in treatments {
-                    ways.push((by, self.of(method), treatment));
+                for &stabilisation in stabilisations {
+                    ways.push((by, self.of(method), stabilisation));
                 }
             }
         }
@@ -100,8 +100,13 @@ impl Map {
     }
 
     /// Every way with these integrators and both number types.
-    fn add<M>(&mut self, place: Place, case: Case<M>, ways: &[Way], integrations: &[Integration])
-    where
+    fn add<M>(
+        &mut self,
+        place: Place,
+        case: Case<M>,
+        ways: &[Way],
+        integrations: &[IntegratorSetting],
+    ) where
         M: ClosedForm + Copy + Send + Sync + 'static,
     {
         for scalar in BOTH {
@@ -115,7 +120,7 @@ impl Map {
         place: Place,
         case: Case<M>,
         ways: &[Way],
-        integrations: &[Integration],
+        integrations: &[IntegratorSetting],
         scalar: Precision,
     ) where
         M: ClosedForm + Copy + Send + Sync + 'static,
@@ -160,11 +165,11 @@ impl Map {
 fn settings(
     subject: &dyn Subject,
     ways: &[Way],
-    integrations: &[Integration],
+    integrations: &[IntegratorSetting],
     scalar: Precision,
 ) -> Vec<Setting> {
     let mut settings = Vec::new();
-    for &(coordinates, choice, treatment) in ways {
+    for &(coordinates, choice, stabilisation) in ways {
         for &integration in integrations {
             let (formulation, is_derived, _) = choice.made(subject, scalar, integration);
             if !integration.family.moves(coordinates, formulation.method()) {
@@ -174,7 +179,7 @@ fn settings(
                 coordinates,
                 formulation,
                 is_derived,
-                treatment,
+                stabilisation,
                 integration,
                 scalar,
             });
@@ -183,23 +188,23 @@ fn settings(
     settings
 }
 
-const fn with(family: Family, step_or_tolerance: f64) -> Integration {
-    Integration {
+const fn with(family: Family, step_or_tolerance: f64) -> IntegratorSetting {
+    IntegratorSetting {
         family,
         step_or_tolerance,
     }
 }
 
-const fn rk4(step: f64) -> Integration {
+const fn rk4(step: f64) -> IntegratorSetting {
     with(Family::Rk4, step)
 }
 
-const fn dormand_prince(tolerance: f64) -> Integration {
+const fn dormand_prince(tolerance: f64) -> IntegratorSetting {
     with(Family::DormandPrince, tolerance)
 }
 
 /// Both, at what they are by default for a motion of this period.
-fn usual(period: f64) -> [Integration; 2] {
+fn usual(period: f64) -> [IntegratorSetting; 2] {
     [rk4(period / STEPS), dormand_prince(TOLERANCE)]
 }
 
@@ -392,7 +397,7 @@ fn rods(map: &mut Map) {
 fn factors(map: &mut Map) {
     let only = |formulation| {
         let given = Choice::Given(formulation);
-        [(Coordinates::Bodies, given, Treatment::None)]
+        [(Coordinates::Bodies, given, PostStabilisation::None)]
     };
     map.axis("penalty", "kg", "The factor alpha of penalty and augmented Lagrangian, of a rod of 1 m and 1 kg that swings twice");
     for alpha in decades(0, 16) {
@@ -460,7 +465,7 @@ fn loops(map: &mut Map) {
             motion,
             scale: 6.0,
         };
-        let ways = map.coefficients.ways_of_loop(&Treatment::ALL);
+        let ways = map.coefficients.ways_of_loop(&PostStabilisation::ALL);
         let subject = || Posed::in_both(holonom_models::problems::Parallelogram::default());
         let made = BOTH
             .into_iter()

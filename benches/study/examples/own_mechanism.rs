@@ -11,7 +11,7 @@ use std::path::Path;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Real, View, integrate::Span};
+use holonom::{Real, View, integrate::TimeSpan};
 use holonom_study::trade::{
     Grid, Posed, Problem, Processor, Quantity, Timing, Wish, measure, recommend, report,
 };
@@ -47,8 +47,8 @@ impl Problem for Falling {
         &self.0
     }
 
-    fn span(&self) -> Span<f64> {
-        Span {
+    fn span(&self) -> TimeSpan<f64> {
+        TimeSpan {
             start: 0.0,
             end: 1.0,
             first_output: 0.05,
@@ -91,7 +91,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     })?;
     let document = report::document(
         &trade,
-        &report::courses(&subject)?,
+        &report::histories(&subject)?,
         "cargo run --release -p holonom-study --example own_mechanism",
     );
     for path in report::write(&trade, &document, directory)? {

@@ -4,7 +4,7 @@
 //! | what | where |
 //! |---|---|
 //! | one run with everything that can be read from it, or bare to be timed | [`run`] |
-//! | time per evaluation of several contestants in turn | [`timing`], [`statistics`] |
+//! | time per evaluation of several candidates in turn | [`timing`], [`statistics`] |
 //! | the closed form of a rigid pendulum | [`pendulum`], [`elliptic`] |
 //! | results as tables and charts, as a page and as files | [`document`], [`chart`], [`page`], [`files`] |
 //! | what an evaluation costs, in both descriptions, all formulations and both number types | [`compare`] |

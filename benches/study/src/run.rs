@@ -7,12 +7,12 @@ use holonom::{
     Fault, Formulation, Mechanism, Real, Runs, Sample, Simulation,
     dynamics::Iterations,
     every,
-    integrate::{Advance as _, Counts, Course as _, Integrator, Span, System},
+    integrate::{Advance as _, Counts, Integration as _, Integrator, System, TimeSpan},
     mechanism::{Absolute, Orientation},
 };
 
 use crate::error::StudyError;
-use crate::timing::Contestant;
+use crate::timing::Candidate;
 
 /// What a run came to, and what was read from it at the reporting times.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +38,7 @@ pub fn record<P, M, F, I, T>(
     name: &str,
     mechanism: &M,
     (formulation, integrator): (F, I),
-    span: Span<f64>,
+    span: TimeSpan<f64>,
     mut read: impl FnMut(&Sample<'_, f64, M>) -> Result<T, Fault>,
 ) -> Result<Recording<T>, StudyError>
 where
@@ -80,22 +80,22 @@ where
     }
 }
 
-/// A bare run over `span`, with dense output at the reporting times, as a contestant of a
+/// A bare run over `span`, with dense output at the reporting times, as a candidate of a
 /// [race](crate::timing::race).
-pub fn contestant<'a, S, Y, I>(
+pub fn candidate<'a, S, Y, I>(
     name: impl Into<String>,
     mut system: Y,
     integrator: I,
-    span: Span<S>,
+    span: TimeSpan<S>,
     start: Y::State,
-) -> Contestant<'a>
+) -> Candidate<'a>
 where
     S: Real + 'a,
     Y: System<S> + 'a,
     I: Integrator<S, Y> + 'a,
 {
     let name = name.into();
-    Contestant::new(name.clone(), move || {
+    Candidate::new(name.clone(), move || {
         let report = |_, state: &Y::State| {
             black_box(state);
         };
@@ -122,7 +122,7 @@ where
 pub fn integrate<S, Y, I>(
     system: &mut Y,
     integrator: &I,
-    span: Span<S>,
+    span: TimeSpan<S>,
     state: Y::State,
     mut report: impl FnMut(S, &Y::State),
 ) -> Result<Counts, Fault>
@@ -132,25 +132,25 @@ where
     I: Integrator<S, Y>,
 {
     report(span.start, &state);
-    let mut course = integrator.start(system, span, state)?;
+    let mut integration = integrator.start(system, span, state)?;
     let mut reports = 1;
-    while course.time() < span.end {
-        course.advance(system)?;
-        while let Some(time) = reporting_time(&span, reports).filter(|&t| t <= course.time()) {
+    while integration.time() < span.end {
+        integration.advance(system)?;
+        while let Some(time) = reporting_time(&span, reports).filter(|&t| t <= integration.time()) {
             // The end of a step is no matter of interpolation, which may take an evaluation.
-            if time < course.time() {
-                report(time, &course.at(system, time)?);
+            if time < integration.time() {
+                report(time, &integration.at(system, time)?);
             } else {
-                report(time, course.state());
+                report(time, integration.state());
             }
             reports += 1;
         }
     }
-    Ok(course.counts())
+    Ok(integration.counts())
 }
 
 /// The time of a report by its number, the start being number zero; `None` after the end.
-fn reporting_time<S: Real>(span: &Span<S>, number: u32) -> Option<S> {
+fn reporting_time<S: Real>(span: &TimeSpan<S>, number: u32) -> Option<S> {
     // The end is reported once, also where round-off puts a multiple beside it.
     let margin = S::constant(1e-9) * span.first_output + S::constant(8.0) * span.end.ulp();
     let time = |number: u32| span.start + S::constant(f64::from(number)) * span.first_output;
@@ -166,7 +166,7 @@ mod tests {
     use super::integrate;
     use holonom::{
         DormandPrince, Fault, Rk4, Tolerance,
-        integrate::{Span, System},
+        integrate::{System, TimeSpan},
     };
 
     /// `y' = -y`
@@ -181,7 +181,7 @@ mod tests {
     }
 
     fn times(end: f64, first_output: f64) -> Vec<f64> {
-        let span = Span {
+        let span = TimeSpan {
             start: 0.0,
             end,
             first_output,
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn evaluations_are_counted() {
-        let span = Span {
+        let span = TimeSpan {
             start: 0.0,
             end: 1.0,
             first_output: 1.0,

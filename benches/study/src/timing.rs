@@ -1,6 +1,6 @@
-//! Wall-clock time per evaluation, of several contestants in turn.
+//! Wall-clock time per evaluation, of several candidates in turn.
 //!
-//! Contestants are interleaved: every round gives each of them a turn, and the order rotates from
+//! Candidates are interleaved: every round gives each of them a turn, and the order rotates from
 //! round to round. A machine that slows down for a while slows all of them, so that ratios hold
 //! where absolute times do not.
 
@@ -10,7 +10,7 @@ use crate::error::StudyError;
 use crate::statistics::Quartiles;
 
 /// One thing to be timed.
-pub struct Contestant<'a> {
+pub struct Candidate<'a> {
     name: String,
     run: Run<'a>,
 }
@@ -18,16 +18,16 @@ pub struct Contestant<'a> {
 /// Does the work once and tells how many evaluations that were.
 type Run<'a> = Box<dyn FnMut() -> Result<u64, StudyError> + 'a>;
 
-impl std::fmt::Debug for Contestant<'_> {
+impl std::fmt::Debug for Candidate<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Contestant")
+        f.debug_struct("Candidate")
             .field("name", &self.name)
             .finish_non_exhaustive()
     }
 }
 
-impl<'a> Contestant<'a> {
-    /// A contestant that does its work once per call and returns the number of evaluations.
+impl<'a> Candidate<'a> {
+    /// A candidate that does its work once per call and returns the number of evaluations.
     pub fn new(name: impl Into<String>, run: impl FnMut() -> Result<u64, StudyError> + 'a) -> Self {
         Self {
             name: name.into(),
@@ -72,7 +72,7 @@ pub struct Timing {
 /// How often and how long to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Schedule {
-    /// Rounds; each gives one measurement per contestant. One more round warms up and is not
+    /// Rounds; each gives one measurement per candidate. One more round warms up and is not
     /// counted.
     pub rounds: usize,
     /// A turn repeats its run until this time is over.
@@ -88,35 +88,35 @@ impl Default for Schedule {
     }
 }
 
-/// The time per evaluation of every contestant, in their order.
+/// The time per evaluation of every candidate, in their order.
 ///
 /// `progress` is called after every round with the rounds done.
 ///
 /// # Errors
-/// The first error of a contestant; [`StudyError::NotFinite`] where a contestant counts no
+/// The first error of a candidate; [`StudyError::NotFinite`] where a candidate counts no
 /// evaluations or there are no rounds.
 pub fn race(
-    contestants: &mut [Contestant<'_>],
+    candidates: &mut [Candidate<'_>],
     schedule: Schedule,
     mut progress: impl FnMut(usize),
 ) -> Result<Vec<Timing>, StudyError> {
-    let mut measurements = vec![Vec::with_capacity(schedule.rounds); contestants.len()];
-    let mut evaluations = Vec::with_capacity(contestants.len());
-    for contestant in contestants.iter_mut() {
-        evaluations.push(contestant.turn(schedule.turn)?.1);
+    let mut measurements = vec![Vec::with_capacity(schedule.rounds); candidates.len()];
+    let mut evaluations = Vec::with_capacity(candidates.len());
+    for candidate in candidates.iter_mut() {
+        evaluations.push(candidate.turn(schedule.turn)?.1);
     }
     for round in 0..schedule.rounds {
-        for place in 0..contestants.len() {
-            let which = (place + round) % contestants.len();
-            measurements[which].push(contestants[which].turn(schedule.turn)?.0);
+        for place in 0..candidates.len() {
+            let which = (place + round) % candidates.len();
+            measurements[which].push(candidates[which].turn(schedule.turn)?.0);
         }
         progress(round + 1);
     }
-    let mut timings = Vec::with_capacity(contestants.len());
-    for ((contestant, measurements), evaluations) in
-        contestants.iter().zip(measurements).zip(evaluations)
+    let mut timings = Vec::with_capacity(candidates.len());
+    for ((candidate, measurements), evaluations) in
+        candidates.iter().zip(measurements).zip(evaluations)
     {
-        let name = contestant.name.clone();
+        let name = candidate.name.clone();
         let time = Quartiles::of(&measurements).filter(|time| time.median.is_finite());
         let time = time.ok_or_else(|| StudyError::NotFinite {
             what: format!("the time per evaluation of {name}"),
@@ -132,7 +132,7 @@ pub fn race(
 
 #[cfg(test)]
 mod tests {
-    use super::{Contestant, Schedule, race};
+    use super::{Candidate, Schedule, race};
     use crate::error::StudyError;
     use std::cell::RefCell;
     use std::time::Duration;
@@ -143,18 +143,18 @@ mod tests {
     };
 
     #[test]
-    fn contestants_take_turns_and_the_order_rotates() {
+    fn candidates_take_turns_and_the_order_rotates() {
         let order = RefCell::new(String::new());
-        let contestant = |name: &'static str| {
+        let candidate = |name: &'static str| {
             let order = &order;
-            Contestant::new(name, move || {
+            Candidate::new(name, move || {
                 order.borrow_mut().push_str(name);
                 Ok(1)
             })
         };
-        let mut contestants = [contestant("a"), contestant("b"), contestant("c")];
+        let mut candidates = [candidate("a"), candidate("b"), candidate("c")];
         let mut rounds = Vec::new();
-        let timings = race(&mut contestants, SHORT, |round| rounds.push(round)).unwrap();
+        let timings = race(&mut candidates, SHORT, |round| rounds.push(round)).unwrap();
         assert_eq!(*order.borrow(), "abcabcbcacababc");
         assert_eq!(rounds, [1, 2, 3, 4]);
         assert!(
@@ -168,21 +168,21 @@ mod tests {
     #[test]
     fn time_is_divided_by_the_evaluations() {
         let spin = |_| std::thread::sleep(Duration::from_millis(1));
-        let mut contestants = [
-            Contestant::new("one", || {
+        let mut candidates = [
+            Candidate::new("one", || {
                 Ok({
                     spin(());
                     1
                 })
             }),
-            Contestant::new("thousand", || {
+            Candidate::new("thousand", || {
                 Ok({
                     spin(());
                     1000
                 })
             }),
         ];
-        let timings = race(&mut contestants, SHORT, |_| ()).unwrap();
+        let timings = race(&mut candidates, SHORT, |_| ()).unwrap();
         assert!(timings[0].time.median > 1e6);
         assert!(timings[0].time.median > 50.0 * timings[1].time.median);
         assert_eq!(timings[1].evaluations, 1000);
@@ -190,19 +190,19 @@ mod tests {
 
     #[test]
     fn nothing_evaluated_is_an_error() {
-        let mut contestants = [Contestant::new("idle", || Ok(0))];
-        let error = race(&mut contestants, SHORT, |_| ()).unwrap_err();
+        let mut candidates = [Candidate::new("idle", || Ok(0))];
+        let error = race(&mut candidates, SHORT, |_| ()).unwrap_err();
         assert!(matches!(&error, StudyError::NotFinite { what } if what.contains("idle")));
     }
 
     #[test]
-    fn an_error_of_a_contestant_ends_the_race() {
-        let mut contestants = [Contestant::new("broken", || {
+    fn an_error_of_a_candidate_ends_the_race() {
+        let mut candidates = [Candidate::new("broken", || {
             Err(StudyError::Run {
                 name: "broken".into(),
                 reason: "no fuel".into(),
             })
         })];
-        assert!(race(&mut contestants, SHORT, |_| ()).is_err());
+        assert!(race(&mut candidates, SHORT, |_| ()).is_err());
     }
 }

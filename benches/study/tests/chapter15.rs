@@ -6,13 +6,13 @@ use std::time::Duration;
 use holonom::joints::Revolute;
 use holonom::{
     AugmentedLagrangian, Baumgarte, DormandPrince, Formulation, Mechanism, Penalty,
-    StandardLagrange, Tolerance, integrate::Span,
+    StandardLagrange, Tolerance, integrate::TimeSpan,
 };
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::outcome::{Instant, Outcome};
 use holonom_study::chapter15::run::{Kind, Rival, Subject, compare};
 use holonom_study::chapter15::{Method, Settings};
-use holonom_study::timing::{Contestant, Schedule};
+use holonom_study::timing::{Candidate, Schedule};
 
 const QUICK: Schedule = Schedule {
     rounds: 1,
@@ -99,7 +99,7 @@ fn tight(method: Method, formulation: impl Formulation<f64>) -> Instant {
         relative: 1e-12,
         absolute: 1e-14,
     });
-    let span = Span {
+    let span = TimeSpan {
         start: 0.0,
         end: 10.0,
         first_output: 0.02,
@@ -137,7 +137,7 @@ fn rivals_are_timed_beside_their_formulation() {
     let rival = |method, kind| Rival {
         method,
         kind,
-        contestant: Contestant::new("rival", || Ok(7)),
+        candidate: Candidate::new("rival", || Ok(7)),
     };
     let rivals = vec![
         rival(Method::Baumgarte, Kind::Assembler),

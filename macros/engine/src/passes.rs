@@ -14,7 +14,7 @@ use crate::{check, rank};
 /// anything is wrong; the faults say what.
 pub fn definition(syntax: &JointSyntax, faults: &mut Faults) -> Option<ElementDef> {
     let defined = check::joint::define(syntax, faults)?;
-    let found = rank::specimen::compare(&defined.joint);
+    let found = rank::test_assembly::compare(&defined.joint);
     defined.compared(&found, faults)
 }
 

@@ -434,7 +434,7 @@ fn turns_are_counted_along_the_way() {
 
 #[test]
 fn a_nut_goes_on_over_many_turns() {
-    // Two nuts of one plate and one screw each: the tour leads over turns, and the angles are
+    // Two nuts of one plate and one screw each: the sweep leads over turns, and the angles are
     // counted on.
     let model = model(
         "#[mechanism(redundant = \"drop\")] struct Nuts {

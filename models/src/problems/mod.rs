@@ -71,8 +71,8 @@ macro_rules! problem {
                 &self.0
             }
 
-            fn span(&self) -> holonom::integrate::Span<f64> {
-                holonom::integrate::Span { start: 0.0, end: $end, first_output: $reporting }
+            fn span(&self) -> holonom::integrate::TimeSpan<f64> {
+                holonom::integrate::TimeSpan { start: 0.0, end: $end, first_output: $reporting }
             }
 
             fn time_scale(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! Whether a run may begin where it is told to.
 
 use crate::constraints::extent::{largest, resolution};
-use crate::constraints::row_units::{Meanings, characteristic_length};
+use crate::constraints::row_units::{RowUnits, characteristic_length};
 use crate::constraints::rows::Rows;
 use crate::constraints::side::check_sides;
 use crate::error::{Fault, Quantity};
@@ -29,7 +29,7 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
         violation: violation.to_f64(),
         is_final,
     };
-    let rows = Meanings::<S, M>::of(&Rows::at(constants, time, state));
+    let rows = RowUnits::<S, M>::of(&Rows::at(constants, time, state));
     let length = characteristic_length::<S, M>(constants, state);
     let inexact = S::constant(INEXACT);
     let size = |is_length: bool| if is_length { length } else { S::one() };

@@ -1,7 +1,7 @@
 //! Assembly: a state that satisfies the constraints, on the branch that is meant.
 //!
 //! A correction by Newton's method goes to some solution near by. Where what was set is far from
-//! the solution, that may be one of another branch. So the way there is followed in short strides,
+//! the solution, that may be one of another branch. So the way there is followed in short steps,
 //! from the reference configuration, in which the branch is known, to what was set.
 //!
 //! What was set is read from the state itself, as motions of bodies against their carriers in the
@@ -75,7 +75,7 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
             && moved(&direct) <= S::constant(limit)
             && check_sides::<S, M>(constants, &direct).is_ok()
     };
-    let finish = |to: M::State<S>, correction: Correction<S>, strides: usize, passed| {
+    let finish = |to: M::State<S>, correction: Correction<S>, steps: usize, passed| {
         let most = apart::<S, M>(&given, &to, length);
         let carrier = M::REPORT.carriers.get(most.body);
         let joint = carrier.and_then(|carrier| M::REPORT.joints.get(carrier.joint?));
@@ -86,7 +86,7 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
             joint: joint.map(|info| info.name),
             angle: most.angle,
             length: most.length,
-            strides,
+            steps,
             passed,
         };
         Correction {
@@ -112,7 +112,7 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
     // the state itself is the guess.
     let start = if set.is_part() { from } else { &given };
     let mut start = with_unit_orientations::<S, M>(start);
-    M::recount(constants, &mut start);
+    M::rewrap(constants, &mut start);
     let start = righted::<S, M>(constants, &start, from);
     let found = Way::<S, M>::new(constants, time, length, &start, &set)
         .go()
@@ -125,7 +125,7 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
                 iterations: correction.iterations + end.iterations,
                 ..correction
             };
-            Ok((to, finish(to, correction, end.strides, end.passed)))
+            Ok((to, finish(to, correction, end.steps, end.passed)))
         });
     match (found, at_once) {
         (Ok((to, mut correction)), direct) => {

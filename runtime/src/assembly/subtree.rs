@@ -186,7 +186,7 @@ impl<'a, S: Real, M: Mechanism> Subtree<'a, S, M> {
                 set_spin::<S, M>(&mut state, place, &spin);
             }
         }
-        M::recount(self.constants, &mut state);
+        M::rewrap(self.constants, &mut state);
         self.state = state;
     }
 }

@@ -1,5 +1,5 @@
 //! The way from a state to one that satisfies the constraints and has what was set: followed in
-//! short strides.
+//! short steps.
 //!
 //! A homotopy: at a share `s` of the way, `Phi(q, t) = (1 - s) Phi(q0, t)`, and the bodies that
 //! were set are `s` of their motions away from where they were. At `s = 0` that is the start,
@@ -17,27 +17,27 @@ use crate::math::scalar::Real;
 use crate::math::vec3::{cross, minus, over, read, write};
 use crate::mechanism::kernels::{Compliant, Mechanism, Pivot, Plain, Stabilisation};
 use crate::mechanism::report::BodyKind;
+use crate::monitor::Passage;
 use crate::state::vector::{Array, StateParts};
-use crate::watch::Passage;
 
-/// The largest turn (rad), or movement in lengths of the mechanism, of a stride.
+/// The largest turn (rad), or movement in lengths of the mechanism, of a step.
 const TURN: f64 = 0.2;
 
-/// What the corrections of a stride may be of it, and besides: its way is curved by no more.
+/// What the corrections of a step may be of it, and besides: its way is curved by no more.
 const CURVED: [f64; 2] = [0.25, 0.005];
 
-/// A correction that is less ends a stride: the next one goes on from there, and the end is
+/// A correction that is less ends a step: the next one goes on from there, and the end is
 /// corrected to round-off.
 const SMALL: f64 = 1e-5;
 
-/// Corrections of a stride.
+/// Corrections of a step.
 const CORRECTIONS: usize = 6;
 
-/// How often a stride is halved: a way that does not go on from there has come to a limit.
+/// How often a step is halved: a way that does not go on from there has come to a limit.
 const HALVINGS: i32 = 24;
 
-/// Strides of a way: some hundred turns.
-const STRIDES: usize = 5000;
+/// Steps of a way: some hundred turns.
+const STEPS: usize = 5000;
 
 /// What a motion that joints forbid keeps of a load's work on the free bodies, by the compliances:
 /// the limit between forbidden and free.
@@ -65,7 +65,7 @@ pub(super) struct Way<'a, S: Real, M: Mechanism> {
 /// Where a way led.
 pub(super) struct End<S: Real, M: Mechanism> {
     pub(super) state: M::State<S>,
-    pub(super) strides: usize,
+    pub(super) steps: usize,
     pub(super) iterations: usize,
     /// The joint of a singular configuration that was passed.
     pub(super) passed: Option<&'static str>,
@@ -101,26 +101,26 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
 
     pub(super) fn go(mut self) -> Result<End<S, M>, Fault> {
         let one = S::one();
-        let (mut share, mut stride) = (S::zero(), one);
+        let (mut share, mut step) = (S::zero(), one);
         let least = S::constant(2.0).powf(-f64::from(HALVINGS));
         if self.holds() {
             let size = self.set.size(self.length);
-            stride = one.min(S::constant(TURN).quotient(size));
+            step = one.min(S::constant(TURN).quotient(size));
         }
-        let least = least * stride;
+        let least = least * step;
         let state = self.state;
         self.pass(share, &state, S::zero());
-        let mut strides = 0;
+        let mut steps = 0;
         // Whether the constraints let what was set move at all: else it contradicts them, or
         // itself, and the way ends where both are met best.
         let mut is_free = None;
         while share < one {
-            let to = if one - share <= stride * S::constant(1.5) {
+            let to = if one - share <= step * S::constant(1.5) {
                 one
             } else {
-                share + stride
+                share + step
             };
-            match self.stride(to) {
+            match self.step(to) {
                 Some((next, motion)) => {
                     if is_free.is_none() {
                         is_free = Some(self.missed(&next, to) < S::constant(0.1) * motion);
@@ -131,17 +131,17 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
                     self.state = next;
                     self.pass(to, &next, motion);
                     let faster = S::constant(0.7 * TURN) * (to - share);
-                    stride = (stride + stride).min(faster.quotient(motion));
-                    if !stride.is_finite() {
-                        stride = one;
+                    step = (step + step).min(faster.quotient(motion));
+                    if !step.is_finite() {
+                        step = one;
                     }
                     share = to;
-                    strides += 1;
+                    steps += 1;
                 }
-                None if stride > least => stride = stride.min(to - share) * S::constant(0.5),
+                None if step > least => step = step.min(to - share) * S::constant(0.5),
                 None => return Err(self.ends(share)),
             }
-            if strides > STRIDES {
+            if steps > STEPS {
                 return Err(self.ends(share));
             }
         }
@@ -157,7 +157,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         }
         Ok(End {
             state: self.state,
-            strides,
+            steps,
             iterations: self.iterations,
             passed: self.passage.passed(),
         })
@@ -174,7 +174,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
 
     /// Whether a motion that was free has come to a limit.
     fn is_lost(&self, state: &M::State<S>, share: S) -> bool {
-        /// What it may be behind (rad, or lengths of the mechanism): a tenth of a stride.
+        /// What it may be behind (rad, or lengths of the mechanism): a tenth of a step.
         const BEHIND: f64 = 0.02;
         self.set.is_clean() && self.missed(state, share) > S::constant(BEHIND)
     }
@@ -183,7 +183,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         self.set.is_part()
     }
 
-    /// Shows a state to the watch.
+    /// Shows a state to the monitor.
     fn pass(&mut self, share: S, state: &M::State<S>, motion: S) {
         let pivot = self.pivot(state);
         let at = (share, state);
@@ -218,14 +218,14 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         }
     }
 
-    /// The state at a later share of the way, and how far it led; `None` where the stride is too
+    /// The state at a later share of the way, and how far it led; `None` where the step is too
     /// long.
-    fn stride(&mut self, to: S) -> Option<(M::State<S>, S)> {
+    fn step(&mut self, to: S) -> Option<(M::State<S>, S)> {
         let mut state = self.state;
         let turn = S::constant(TURN);
         let (mut first, mut sum, mut last) = (None, S::zero(), S::zero());
         for _ in 0..CORRECTIONS {
-            let step = self.step(&state, to);
+            let step = self.newton_step(&state, to);
             let size = reach::<S, M>(&step, self.length).size;
             self.iterations += 1;
             let Some(motion) = first else {
@@ -257,7 +257,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
 
     /// The step of Newton's method to a share of the way: what the constraints ask, by the least
     /// movement, and on top of it what was set, as far as they let it.
-    fn step(&self, state: &M::State<S>, share: S) -> M::Velocities<S> {
+    fn newton_step(&self, state: &M::State<S>, share: S) -> M::Velocities<S> {
         let constants = self.constants;
         let rows = Rows::<S, M>::at(constants, self.time, state);
         let (coefficients, factors) = compliant::<S, M>(constants, &rows, state, S::EPSILON.sqrt());

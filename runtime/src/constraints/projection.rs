@@ -39,7 +39,7 @@ use crate::state::vector::Array;
 /// loads `D^T lambda` cancel, a state of self-stress, a violation can be lessened by long movements
 /// only, or not at all. A run on its way through may keep such a violation, up to `sqrt(tolerance)`
 /// in place of `tolerance`, where its loads cancel to a hundredth on every body; a few steps later
-/// the equations are independent again and it is corrected. [`Correction::excused`] tells.
+/// the equations are independent again and it is corrected. [`Correction::residual`] tells.
 /// [`Projection::correct`] and everything that looks for a configuration (`assemble`,
 /// [`KinematicAnalysis`](crate::KinematicAnalysis)) keep none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,7 @@ pub struct Correction<S> {
     /// The largest `|Phi|` or `|Phi'|` beyond the tolerance that was kept as nearly a state of
     /// self-stress, in sizes of its row; zero where all is within. A run may keep some,
     /// [`Projection::correct`] keeps none.
-    pub excused: S,
+    pub residual: S,
     /// How far an assembly moved; `None` of a correction of another kind.
     pub moved: Option<Moved<S>>,
 }
@@ -98,9 +98,9 @@ pub struct Moved<S> {
     pub angle: S,
     /// The movement of its centre of mass (m).
     pub length: S,
-    /// The strides by which a branch was followed; zero where the state was near enough to be
+    /// The steps by which a branch was followed; zero where the state was near enough to be
     /// corrected at once.
-    pub strides: usize,
+    pub steps: usize,
     /// The joint of a singular configuration that was passed on the way, or nearly: another branch
     /// begins there.
     pub passed: Option<&'static str>,
@@ -150,15 +150,16 @@ impl<S: Real> Projection<S> {
         positive("tolerance of the projection", self.tolerance)?;
         check_state::<S, M>(state)?;
         let mut given = with_unit_orientations::<S, M>(state);
-        M::recount(constants, &mut given);
+        M::rewrap(constants, &mut given);
         let given = Iterate::<S, M>::positions(constants, time, &given).velocities(constants);
         let limits = (self.tolerance, self.max_iterations);
         let measure = Measure::Correctable;
-        let (velocities, excused) = self.corrected(measure, constants, given, |given, depth| {
-            given.velocities_corrected(constants, limits, depth)
-        })?;
+        let (velocities, residual) =
+            self.corrected(measure, constants, given, |given, depth| {
+                given.velocities_corrected(constants, limits, depth)
+            })?;
         *state = velocities.state;
-        Ok(excused)
+        Ok(residual)
     }
 
     fn correct_by<M: Mechanism>(
@@ -183,7 +184,7 @@ impl<S: Real> Projection<S> {
         in_turn::<S, M>(constants, time, state, positions, velocities)
     }
 
-    /// The last iterate, and the violation that was excused, in sizes of its row.
+    /// The last iterate, and the violation that is left, in sizes of its row.
     fn corrected<M: Mechanism>(
         &self,
         measure: Measure,
@@ -209,12 +210,12 @@ impl<S: Real> Projection<S> {
         let (time, state) = (last.rows.time, &last.state);
         let excusable = last.sizes.within(&last.violation, limit)
             && self_stressed::<S, M>(constants, time, state, &multipliers);
-        let excused = |last: Iterate<S, M>| {
+        let residual = |last: Iterate<S, M>| {
             let (_, rest) = last.sizes.worst(&last.violation, self.tolerance);
             Ok((last, rest))
         };
         if excusable && passing::<S, M>(constants, time, state, &multipliers) {
-            return excused(last);
+            return residual(last);
         }
         // Rows that stay nearly dependent may take long movements; on the way through a singular
         // configuration these were none that correct anything.
@@ -222,7 +223,7 @@ impl<S: Real> Projection<S> {
         if within(&far) {
             Ok((far, S::zero()))
         } else if excusable {
-            excused(last)
+            residual(last)
         } else {
             Err(self.fault(&last))
         }
@@ -254,7 +255,7 @@ pub(crate) fn in_turn<S: Real, M: Mechanism>(
     let phi_rate = |state: &M::State<S>| M::constraint_rates(constants, time, state);
     let (position_before, velocity_before) = (phi(state), phi_rate(state));
     let mut given = with_unit_orientations::<S, M>(state);
-    M::recount(constants, &mut given);
+    M::rewrap(constants, &mut given);
     let given = Iterate::<S, M>::positions(constants, time, &given);
     let (placed, left) = positions(given)?;
     let iterations = placed.iterations;
@@ -266,7 +267,7 @@ pub(crate) fn in_turn<S: Real, M: Mechanism>(
         violation_after: square(phi(state).as_slice()),
         velocity_violation_before: square(velocity_before.as_slice()),
         velocity_violation_after: square(phi_rate(state).as_slice()),
-        excused: left.max(rates_left),
+        residual: left.max(rates_left),
         moved: None,
     })
 }

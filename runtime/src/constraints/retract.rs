@@ -32,7 +32,7 @@ pub(crate) fn displaced<S: Real, M: Mechanism>(
             write(coordinates, body.coordinate + 3, normalised(&p));
         }
     }
-    M::recount(constants, &mut moved);
+    M::rewrap(constants, &mut moved);
     moved
 }
 

@@ -9,33 +9,33 @@ use crate::mechanism::report::BodyKind;
 use crate::state::vector::Array;
 
 /// The factors by which rows of `Phi` become lengths (m) or angles (rad), at a state.
-pub(crate) struct Meanings<S: Scalar, M: Mechanism> {
+pub(crate) struct RowUnits<S: Scalar, M: Mechanism> {
     factors: M::Multipliers<S>,
     /// One where a row speaks of a length, zero where of an angle.
     lengths: M::Multipliers<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Meanings<S, M> {
+impl<S: Scalar, M: Mechanism> Clone for RowUnits<S, M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Scalar, M: Mechanism> Copy for Meanings<S, M> {}
+impl<S: Scalar, M: Mechanism> Copy for RowUnits<S, M> {}
 
-impl<S: Real, M: Mechanism> Meanings<S, M> {
+impl<S: Real, M: Mechanism> RowUnits<S, M> {
     pub(crate) fn of(rows: &Rows<S, M>) -> Self {
-        let mut meanings = Self {
+        let mut units = Self {
             factors: M::Multipliers::<S>::zeros(),
             lengths: M::Multipliers::<S>::zeros(),
         };
-        let factors = meanings.factors.as_mut_slice().iter_mut();
-        let places = factors.zip(meanings.lengths.as_mut_slice());
-        for ((factor, length), (size, is_length)) in places.zip(rows.meanings()) {
+        let factors = units.factors.as_mut_slice().iter_mut();
+        let places = factors.zip(units.lengths.as_mut_slice());
+        for ((factor, length), (size, is_length)) in places.zip(rows.row_units()) {
             *factor = size.reciprocal();
             *length = if is_length { S::one() } else { S::zero() };
         }
-        meanings
+        units
     }
 
     pub(crate) fn factors(&self) -> &[S] {

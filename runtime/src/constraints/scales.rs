@@ -104,7 +104,7 @@ impl<S: Real> Scales<S> {
     ) -> Result<Self, Fault> {
         check_state::<S, M>(state)?;
         let mut state = with_unit_orientations::<S, M>(state);
-        M::recount(constants, &mut state);
+        M::rewrap(constants, &mut state);
         let length = length::<S, M>(constants, &state);
         let mass = mass::<S, M>(constants);
         let rows = Rows::<S, M>::at(constants, time, &state);

@@ -41,11 +41,11 @@ pub(crate) fn righted<S: Real, M: Mechanism>(
     from: &M::State<S>,
 ) -> M::State<S> {
     /// From here on a correction may lead to the other side.
-    const DOUBTFUL: f64 = 0.5;
+    const UNDECIDED: f64 = 0.5;
     let mut state = *state;
     for joint in 0..M::REPORT.joints.len() {
         let side = |state: &M::State<S>| M::joint_side(constants, state, joint);
-        let wanted = (S::constant(DOUBTFUL) * side(from)).max(S::zero());
+        let wanted = (S::constant(UNDECIDED) * side(from)).max(S::zero());
         if side(&state) > wanted {
             continue;
         }
@@ -157,7 +157,7 @@ fn turned<S: Real, M: Mechanism>(
             write(coordinates, body.coordinate + 3, normalised(&p));
         }
     }
-    M::recount(constants, &mut moved);
+    M::rewrap(constants, &mut moved);
     moved
 }
 

@@ -28,7 +28,7 @@ pub(super) struct Parts<S> {
     pub(super) pivot: Pivot<S>,
     pub(super) iterations: usize,
     /// Whether the iteration was ended before its tolerance.
-    pub(super) excused: bool,
+    pub(super) unconverged: bool,
     /// The power (W) of the forces of a closure.
     pub(super) applied_power: S,
 }
@@ -186,7 +186,7 @@ where
             accelerations: *first.accelerations,
             multipliers: *first.multipliers,
             iterations: 1,
-            excused: false,
+            unconverged: false,
         };
         let saddle = Saddle::<S, M, C, F::Terms> {
             constants: &self.equations.constants,
@@ -209,7 +209,7 @@ where
         Ok(Parts {
             pivot: first.pivot,
             iterations: solution.iterations,
-            excused: solution.excused,
+            unconverged: solution.unconverged,
             applied_power: S::zero(),
         })
     }

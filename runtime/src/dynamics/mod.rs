@@ -1,7 +1,7 @@
 //! A mechanism as a system of differential equations, in absolute or relative coordinates.
 //!
 //! [`Dynamics`] is one type for both: [`Coordinates`] names the kernels. Whatever reads a mechanism
-//! (views, reactions, the watch, projections) reads its bodies, and so the equations in absolute
+//! (views, reactions, the monitor, projections) reads its bodies, and so the equations in absolute
 //! coordinates are always prepared. `evaluate.rs` evaluates either equations, `system.rs` is what
 //! an integrator moves. `jacobian.rs` has the exact Jacobian:
 //! `docs/decisions/009-jacobian-by-forward-numbers.md`.
@@ -21,12 +21,12 @@ mod faults;
 mod jacobian;
 mod kept;
 pub(crate) mod likes;
+mod monitored;
 mod on_constraints;
 pub(crate) mod origin;
 mod secants;
 mod system;
 mod trial;
-mod watched;
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -48,8 +48,8 @@ use crate::mechanism::coordinates::{
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
 use crate::mechanism::orientations::check_state;
+use crate::monitor::Seen;
 use crate::state::vector::{StateParts, Vector};
-use crate::watch::Seen;
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
@@ -116,7 +116,7 @@ pub struct Iterations {
     pub largest: usize,
     /// The evaluations in which the iteration was ended before its tolerance, near a singular
     /// configuration.
-    pub excused: usize,
+    pub unconverged: usize,
 }
 
 /// The equations in absolute coordinates.
@@ -326,7 +326,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     /// [`Fault::StateNotFinite`] where the two axes of a joint are in line.
     pub fn state_of(&self, bodies: &M::State<S>) -> Result<C::State<S>, Fault> {
         let mut bodies = *bodies;
-        M::recount(self.constants(), &mut bodies);
+        M::rewrap(self.constants(), &mut bodies);
         check_state::<S, M>(&bodies)?;
         if C::IS_RELATIVE {
             let second = (S::zero(), S::one());
@@ -472,7 +472,7 @@ where
     /// what the applied forces would do without constraints; and the row's joint.
     ///
     /// Round-off for rigid constraints; the bias of a [`Penalty`](crate::Penalty), which a motion
-    /// gathers; for an augmented Lagrangian what its tolerance, or an excuse, leaves. It costs
+    /// gathers; for an augmented Lagrangian what its tolerance, or an acceptance, leaves. It costs
     /// about as much as one evaluation. `p` is read as by the formulation.
     pub fn inconsistency<P: Orientation>(
         &self,

@@ -58,7 +58,7 @@ where
         Ok(())
     }
 
-    fn why(&mut self, time: S, state: &C::State<S>) -> Option<Fault> {
+    fn diagnose(&mut self, time: S, state: &C::State<S>) -> Option<Fault> {
         Some(self.evaluator().fault(time, state))
     }
 
@@ -86,10 +86,10 @@ where
     }
 
     #[inline]
-    fn settle(&mut self, state: &mut C::State<S>, rates: Option<&mut C::State<S>>) {
+    fn renormalise(&mut self, state: &mut C::State<S>, rates: Option<&mut C::State<S>>) {
         let constants = &C::equations(&self.absolute, &self.own).constants;
-        if let Some(stretch) = C::normalise(&self.absolute, constants, state, rates) {
-            self.seen.stretch = stretch;
+        if let Some(norm_drift) = C::normalise(&self.absolute, constants, state, rates) {
+            self.seen.drift = norm_drift;
         }
     }
 }

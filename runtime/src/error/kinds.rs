@@ -211,7 +211,7 @@ pub enum Fault {
         /// The share of the way that was gone.
         share: f64,
     },
-    /// A kinematic analysis found no pose that goes on with the motion, however short its stride: a
+    /// A kinematic analysis found no pose that goes on with the motion, however short its step: a
     /// law that jumps, or a branch that ends.
     Jump {
         /// The body that the nearest pose would let jump most.

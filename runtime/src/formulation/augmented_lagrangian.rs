@@ -31,13 +31,13 @@ use crate::state::vector::Array;
 /// penalty with the compliance `e / max_iterations`. Where equations stay nearly dependent as the
 /// mechanism moves, the iteration goes on by conjugate gradients, which take about one solution for
 /// each such `s`, up to `max_iterations` more.
-/// [`Iterations::excused`](crate::dynamics::Iterations::excused) counts evaluations that end before
-/// their tolerance. Where the loads do not cancel, slow convergence is [`Fault::NotConverged`]:
-/// `alpha` is too small for the masses.
+/// [`Iterations::unconverged`](crate::dynamics::Iterations::unconverged) counts evaluations that
+/// end before their tolerance. Where the loads do not cancel, slow convergence is
+/// [`Fault::NotConverged`]: `alpha` is too small for the masses.
 ///
 /// In joint coordinates it iterates on the equations that remain, by the rates of their velocities,
 /// and goes on by conjugate gradients wherever `max_iterations` do not do; no evaluation is
-/// excused.
+/// unconverged.
 ///
 /// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other
 /// lengths would, which need not be the way of the perfect one: it may leave that where `Phi`, in
@@ -67,7 +67,7 @@ pub struct AugmentedLagrangian<S> {
 /// The largest `|D u' - gamma*|` of an evaluation that did not converge, relative to the terms of
 /// its row; and the largest change by the last of an exact number of solutions, relative to the
 /// accelerations.
-const EXCUSED: f64 = 1e-2;
+const ACCEPTED: f64 = 1e-2;
 
 impl<S: Real> AugmentedLagrangian<S> {
     /// The formulation with its three coefficients, a tolerance of 1e-10 (at least `64 EPSILON` of
@@ -173,7 +173,7 @@ impl<S: Real> AugmentedLagrangian<S> {
         last.iterations = self.max_iterations;
         let size = square(last.accelerations.as_slice()).sqrt();
         let change = norm_of_difference(&last.accelerations, &before);
-        if change > S::constant(EXCUSED) * (S::one() + size) {
+        if change > S::constant(ACCEPTED) * (S::one() + size) {
             return Err(self.not_converged(self.max_iterations, change, None));
         }
         Ok(())
@@ -205,17 +205,17 @@ impl<S: Real> AugmentedLagrangian<S> {
         // large; without them, conjugate gradients decide.
         let multipliers = difference_of(&next.multipliers, &last.multipliers);
         if let Some(rows) = saddle.by_all_rows(&next.accelerations, &multipliers) {
-            let (worst, excuse) = excuse(saddle.time, &rows);
-            match excuse {
-                Excuse::None => {
+            let (worst, acceptance) = acceptance(saddle.time, &rows);
+            match acceptance {
+                Acceptance::None => {
                     let joint = M::REPORT.joint_of(worst);
                     return Err(self.not_converged(self.max_iterations, change, joint));
                 }
-                Excuse::Passing => {
-                    next.excused = true;
+                Acceptance::Passing => {
+                    next.unconverged = true;
                     return Ok(());
                 }
-                Excuse::Lasting => next.excused = true,
+                Acceptance::Lasting => next.unconverged = true,
             }
         }
         self.by_conjugate_gradients(saddle, next, saddle.yielded(&multipliers))
@@ -242,7 +242,7 @@ impl<S: Real> AugmentedLagrangian<S> {
     }
 
     /// A solution where equations stay nearly dependent: as often solved again, at most. The best
-    /// one where that is not enough and it is excused.
+    /// one where that is not enough and it is unconverged.
     #[cold]
     #[inline(never)]
     fn by_conjugate_gradients<M: Mechanism, C: Coordinates<M>>(
@@ -266,7 +266,7 @@ impl<S: Real> AugmentedLagrangian<S> {
                 *solution = next;
                 return Ok(());
             }
-            if !size.is_finite() && !solution.excused {
+            if !size.is_finite() && !solution.unconverged {
                 let origin = NotFinite::Unknown;
                 return Err(Fault::RatesNotFinite { origin });
             }
@@ -275,7 +275,7 @@ impl<S: Real> AugmentedLagrangian<S> {
             }
             descent.advance(saddle, &mut last, &accelerations, &multipliers);
         }
-        if solution.excused {
+        if solution.unconverged {
             *solution = best;
             return Ok(());
         }
@@ -285,7 +285,7 @@ impl<S: Real> AugmentedLagrangian<S> {
 }
 
 /// Why an iteration may end before its tolerance.
-enum Excuse {
+enum Acceptance {
     None,
     /// The state is on its way through a singular configuration.
     Passing,
@@ -296,7 +296,7 @@ enum Excuse {
 /// Whether multipliers change by what is nearly a state of self-stress, and the row whose
 /// accelerations are farthest from what it asks for.
 #[cold]
-fn excuse<S: Real, M: Mechanism>(time: S, rows: &ByAllRows<'_, S, M>) -> (usize, Excuse) {
+fn acceptance<S: Real, M: Mechanism>(time: S, rows: &ByAllRows<'_, S, M>) -> (usize, Acceptance) {
     let ByAllRows {
         constants,
         state,
@@ -307,16 +307,16 @@ fn excuse<S: Real, M: Mechanism>(time: S, rows: &ByAllRows<'_, S, M>) -> (usize,
     } = *rows;
     let (worst, missing) =
         inconsistency::<S, M>(constants, (time, state), accelerations, upper, lower);
-    let excuse = if missing > S::constant(EXCUSED)
+    let acceptance = if missing > S::constant(ACCEPTED)
         || !self_stressed::<S, M>(constants, time, state, change)
     {
-        Excuse::None
+        Acceptance::None
     } else if passing::<S, M>(constants, time, state, change) {
-        Excuse::Passing
+        Acceptance::Passing
     } else {
-        Excuse::Lasting
+        Acceptance::Lasting
     };
-    (worst, excuse)
+    (worst, acceptance)
 }
 
 /// The iterates as conjugate gradients, preconditioned by the factorised system.

@@ -163,7 +163,7 @@ pub struct Solution<S: Scalar, M: Mechanism, C: Coordinates<M> = Absolute> {
     pub iterations: usize,
     /// Whether an iteration was ended before its tolerance, because what still changed was nearly a
     /// state of self-stress.
-    pub excused: bool,
+    pub unconverged: bool,
 }
 
 impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Clone for Solution<S, M, C> {

@@ -43,7 +43,7 @@ pub(crate) fn by_forward_numbers<S: Real, X: Vector<S>, Y: Vector<Lifted<S>>>(
         let mut taken = [0; LANES];
         let mut count = 0;
         while next < length && count < LANES {
-            if state.has_part(next) {
+            if state.is_independent(next) {
                 let mut along = [S::zero(); LANES];
                 along[count] = S::one();
                 direction.set_element(next, Forward::new(S::zero(), along));

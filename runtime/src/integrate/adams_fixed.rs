@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::record::{LastStep, Reached, reached};
 use super::tableau::terms;
 use super::{
-    Advance, Counts, Course, ErrorModel, Integrator, Look, Method, NoStages, OneStep as _, Rk4,
-    Slopes, Span, Start, System, dense, named,
+    Advance, Counts, ErrorModel, Integration, Integrator, Look, Method, NoStages, OneStep as _,
+    Rk4, Slopes, StepStart, System, TimeSpan, dense, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -46,7 +46,7 @@ const PREDICTOR: [f64; 4] = [55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0
 /// Of the slope at the predicted state, at the start of the step and of the two before.
 const CORRECTOR: [f64; 4] = [9.0 / 24.0, 19.0 / 24.0, -5.0 / 24.0, 1.0 / 24.0];
 
-/// Steps of a course until it has the slopes that it needs.
+/// Steps of an integration until it has the slopes that it needs.
 const FIRST_STEPS: usize = 3;
 
 /// For steps of half a radian an angle is off by half of what `|p|` leaves its length by.
@@ -56,18 +56,18 @@ const ANGLE_ERROR: f64 = 1.0;
 const ANGLE_ERROR_OF_SHORT_STEPS: f64 = 0.33;
 
 impl<S: Real, Y: System<S>> Integrator<S, Y> for AdamsBashforthMoulton4<S> {
-    type Course = AdamsFixedCourse<S, Y::State>;
+    type Integration = AdamsFixedIntegration<S, Y::State>;
 
     fn start(
         &self,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: Y::State,
-    ) -> Result<AdamsFixedCourse<S, Y::State>, Fault> {
+    ) -> Result<AdamsFixedIntegration<S, Y::State>, Fault> {
         let grid = Grid::new(self.step, &span)?;
         let reached = Reached::start(system, &span, state)?;
         let slope = &reached.slope;
-        Ok(AdamsFixedCourse {
+        Ok(AdamsFixedIntegration {
             grid,
             before: [slope.clone(), slope.clone()],
             last: LastStep::none(&reached),
@@ -97,7 +97,7 @@ impl<S: Real> Method<S> for AdamsBashforthMoulton4<S> {
 
 /// An integration with [`AdamsBashforthMoulton4`] under way.
 #[derive(Clone)]
-pub struct AdamsFixedCourse<S: Real, X: Vector<S>> {
+pub struct AdamsFixedIntegration<S: Real, X: Vector<S>> {
     grid: Grid<S>,
     reached: Reached<S, X>,
     last: LastStep<S, X>,
@@ -105,7 +105,7 @@ pub struct AdamsFixedCourse<S: Real, X: Vector<S>> {
     before: [X; 2],
 }
 
-impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
+impl<S: Real, X: Vector<S>> AdamsFixedIntegration<S, X> {
     /// Whether a step is one of those that the slopes before it belong to. The last one may differ
     /// from them by the round-off of its ends.
     fn goes_on(&self, step: S) -> bool {
@@ -114,7 +114,7 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
     }
 
     /// The state after a step; not finite where a slope is not.
-    fn stride<Y: System<S, State = X>, L: Look<S, X>>(
+    fn advanced<Y: System<S, State = X>, L: Look<S, X>>(
         &self,
         system: &mut Slopes<'_, Y, L>,
         step: S,
@@ -127,12 +127,12 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
         } = &self.reached;
         let (time, second, [third, fourth]) = (*time, &self.last.first, &self.before);
         if !self.goes_on(step) {
-            let start = Start {
+            let start = StepStart {
                 time,
                 state,
                 slope: first,
             };
-            return Rk4.stride(system, start, step, &mut NoStages);
+            return Rk4.advanced(system, start, step, &mut NoStages);
         }
         let predicted = state.plus(terms(PREDICTOR, step, [first, second, third, fourth]));
         let mut slope = first.clone();
@@ -149,28 +149,28 @@ impl<S: Real, X: Vector<S>> AdamsFixedCourse<S, X> {
         step: S,
         fault: Option<Fault>,
     ) -> Fault {
-        named(fault, system, |system| self.stride(system, step)).unwrap_or(Fault::StateNotFinite)
+        named(fault, system, |system| self.advanced(system, step)).unwrap_or(Fault::StateNotFinite)
     }
 }
 
-impl<S: Real, X: Vector<S>> Course<S, X> for AdamsFixedCourse<S, X> {
+impl<S: Real, X: Vector<S>> Integration<S, X> for AdamsFixedIntegration<S, X> {
     reached!();
 }
 
-impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsFixedCourse<S, Y::State> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsFixedIntegration<S, Y::State> {
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         let reached = &self.reached;
         let (step, end) = self.grid.next(reached.counts.accepted, reached.time)?;
         let mut counts = reached.counts;
         let mut counted = Slopes::counted(system, &mut counts);
-        let outcome = self.stride(&mut counted, step);
+        let outcome = self.advanced(&mut counted, step);
         self.reached.counts = counts;
         let mut state = match outcome {
             Ok(state) if state.is_finite() => state,
             outcome => return Err(self.refused(system, step, outcome.err())),
         };
-        system.settle(&mut state, None);
+        system.renormalise(&mut state, None);
         let [third, fourth] = &mut self.before;
         swap(third, fourth);
         swap(&mut self.last.first, third);
@@ -180,7 +180,7 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsFixedCourse<S, Y::State> {
 
     fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault> {
         self.reached.know_slope(system)?;
-        let stride = self.last.stride(&self.reached, &NoStages);
-        Ok(dense::cubic(&stride, self.last.theta(&self.reached, time)))
+        let record = self.last.record(&self.reached, &NoStages);
+        Ok(dense::cubic(&record, self.last.theta(&self.reached, time)))
     }
 }

@@ -5,15 +5,15 @@ use core::mem::swap;
 use super::controller::{Controller, FIRST_SHARE};
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Adaptive, Advance, Counts, Course, EmbeddedPair, OneStep, Slopes, Span, Start, Stride, System,
-    named,
+    Adaptive, Advance, Counts, EmbeddedPair, Integration, OneStep, Slopes, StepRecord, StepStart,
+    System, TimeSpan, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
 /// An integration with an [`Adaptive`] method under way.
-pub struct AdaptiveCourse<S: Real, X: Vector<S>, K: EmbeddedPair<S>> {
+pub struct AdaptiveIntegration<S: Real, X: Vector<S>, K: EmbeddedPair<S>> {
     pair: K,
     controller: Controller<S>,
     /// The size of the next step.
@@ -25,7 +25,7 @@ pub struct AdaptiveCourse<S: Real, X: Vector<S>, K: EmbeddedPair<S>> {
     is_prepared: bool,
 }
 
-impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Clone for AdaptiveCourse<S, X, K> {
+impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Clone for AdaptiveIntegration<S, X, K> {
     fn clone(&self) -> Self {
         Self {
             reached: self.reached.clone(),
@@ -42,11 +42,11 @@ enum Trial<S, X> {
     Rejected { error: S },
 }
 
-impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
+impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveIntegration<S, X, K> {
     pub(super) fn start<Y: System<S, State = X>>(
         method: &Adaptive<S, K>,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: X,
     ) -> Result<Self, Fault> {
         let controller = Controller::new(method.tolerance, &method.limits, K::POWER, &span)?;
@@ -76,14 +76,14 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
     {
         let reached = &mut self.reached;
         let mut counted = Slopes::counted(system, &mut reached.counts);
-        let start = Start {
+        let start = StepStart {
             time: reached.time,
             state: &reached.state,
             slope: &self.last.first,
         };
         let outcome = self
             .pair
-            .stride(&mut counted, start, step, &mut self.stages)
+            .advanced(&mut counted, start, step, &mut self.stages)
             .and_then(|state| {
                 counted.stage(end, &state, &mut reached.slope)?;
                 Ok(state)
@@ -95,7 +95,7 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
                 return Err(named.unwrap_or(fault));
             }
         };
-        let stride = Stride {
+        let record = StepRecord {
             step,
             from: &reached.state,
             first: &self.last.first,
@@ -103,7 +103,7 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
             to: &state,
             last: &reached.slope,
         };
-        let error = self.pair.error(&stride, self.controller.floor);
+        let error = self.pair.error(&record, self.controller.floor);
         if !(error.is_finite() && state.is_finite()) {
             return match self.refused(system, step, end, None) {
                 Some(fault) => Err(fault),
@@ -132,22 +132,22 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveCourse<S, X, K> {
         K: OneStep<S, Y>,
     {
         named(fault, system, |system| {
-            let start = Start {
+            let start = StepStart {
                 time: self.reached.time,
                 state: &self.reached.state,
                 slope: &self.last.first,
             };
-            let state = self.pair.stride(system, start, step, &mut self.stages)?;
+            let state = self.pair.advanced(system, start, step, &mut self.stages)?;
             system.rates(end, &state)
         })
     }
 }
 
-impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Course<S, X> for AdaptiveCourse<S, X, K> {
+impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Integration<S, X> for AdaptiveIntegration<S, X, K> {
     reached!();
 }
 
-impl<S, K, Y> Advance<S, Y> for AdaptiveCourse<S, Y::State, K>
+impl<S, K, Y> Advance<S, Y> for AdaptiveIntegration<S, Y::State, K>
 where
     S: Real,
     K: EmbeddedPair<S> + OneStep<S, Y>,
@@ -164,7 +164,7 @@ where
             let end = self.controller.end_of(time, size, stretched);
             let outcome = self.attempt(system, size, end);
             if let Ok(Trial::Accepted { mut state, error }) = outcome {
-                system.settle(&mut state, Some(&mut self.reached.slope));
+                system.renormalise(&mut state, Some(&mut self.reached.slope));
                 self.is_prepared = false;
                 self.last.go(&mut self.reached, (end - time, end), state);
                 self.reached.estimate = Some(error);
@@ -200,8 +200,8 @@ where
             self.last.prepare(&self.pair, system, reached, stages)?;
             self.is_prepared = true;
         }
-        let stride = self.last.stride(&self.reached, &self.stages);
+        let record = self.last.record(&self.reached, &self.stages);
         let theta = self.last.theta(&self.reached, time);
-        Ok(self.pair.interpolate(stride, theta))
+        Ok(self.pair.interpolate(record, theta))
     }
 }

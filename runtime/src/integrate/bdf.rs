@@ -7,7 +7,7 @@ use super::controller::{Controller, FIRST_SHARE};
 use super::linear::Factors;
 use super::newton::{Age, Newton, Progress};
 use super::record::{Reached, reached};
-use super::{Advance, Counts, Course, Slopes, Span, System, named};
+use super::{Advance, Counts, Integration, Slopes, System, TimeSpan, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -29,7 +29,7 @@ controlled! {
     /// state and eight states.
     ///
     /// ```
-    /// use holonom::{Bdf, Fault, integrate::{Advance, Course, Integrator, Span, System}};
+    /// use holonom::{Bdf, Fault, integrate::{Advance, Integration, Integrator, TimeSpan, System}};
     ///
     /// /// Follows the cosine, and comes back to it within microseconds.
     /// struct Stiff;
@@ -41,16 +41,16 @@ controlled! {
     ///     }
     /// }
     ///
-    /// let span = Span { start: 0.0, end: 10.0, first_output: 10.0 };
-    /// let mut course = Bdf::default().start(&mut Stiff, span, [1.5])?;
-    /// while course.time() < 10.0 {
-    ///     course.advance(&mut Stiff)?;
+    /// let span = TimeSpan { start: 0.0, end: 10.0, first_output: 10.0 };
+    /// let mut integration = Bdf::default().start(&mut Stiff, span, [1.5])?;
+    /// while integration.time() < 10.0 {
+    ///     integration.advance(&mut Stiff)?;
     /// }
-    /// assert!((course.state()[0] - 10.0_f64.cos()).abs() < 1e-5);
-    /// assert!(course.counts().evaluations < 500);
+    /// assert!((integration.state()[0] - 10.0_f64.cos()).abs() < 1e-5);
+    /// assert!(integration.counts().evaluations < 500);
     /// # Ok::<(), Fault>(())
     /// ```
-    Bdf, BdfCourse
+    Bdf, BdfIntegration
 }
 
 /// The highest order.
@@ -82,7 +82,7 @@ fn leading(order: usize) -> f64 {
 
 /// An integration with [`Bdf`] under way.
 #[derive(Clone)]
-pub struct BdfCourse<S: Real, X: Vector<S>> {
+pub struct BdfIntegration<S: Real, X: Vector<S>> {
     controller: Controller<S>,
     /// The iteration of a step before its first change.
     newton: Newton<S>,
@@ -112,11 +112,11 @@ struct Trial<S, X> {
     error: S,
 }
 
-impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
+impl<S: Real, X: Vector<S>> BdfIntegration<S, X> {
     fn start<Y: System<S, State = X>>(
         method: &Bdf<S>,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: X,
     ) -> Result<Self, Fault> {
         /// Of the estimate of order 1.
@@ -182,7 +182,7 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
         let norm = self
             .reached
             .state
-            .relative_norm(to, floor, [(S::one(), increment)]);
+            .weighted_norm(to, floor, [(S::one(), increment)]);
         norm.quotient(self.controller.relative)
     }
 
@@ -272,7 +272,7 @@ impl<S: Real, X: Vector<S>> BdfCourse<S, X> {
             ..
         } = trial;
         let order = self.order;
-        system.settle(&mut state, None);
+        system.renormalise(&mut state, None);
         self.reached.counts.accepted += 1;
         self.reached.estimate = Some(trial.error * self.controller.relative);
         self.age = Age::Former;
@@ -324,12 +324,12 @@ fn interpolation<S: Real>(factor: S) -> [[S; HIGHEST]; HIGHEST] {
     matrix
 }
 
-impl<S: Real, X: Vector<S>> Course<S, X> for BdfCourse<S, X> {
+impl<S: Real, X: Vector<S>> Integration<S, X> for BdfIntegration<S, X> {
     // Where a state is replaced, those before are moved along: their differences stay.
     reached!();
 }
 
-impl<S: Real, Y: System<S>> Advance<S, Y> for BdfCourse<S, Y::State> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for BdfIntegration<S, Y::State> {
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         let time = self.reached.time;
         let smallest = self.controller.smallest(time);

@@ -98,9 +98,9 @@ macro_rules! step_limits {
 }
 pub(super) use step_limits;
 
-/// A method whose settings are a tolerance and limits of steps, with its course.
+/// A method whose settings are a tolerance and limits of steps, with its integration.
 macro_rules! controlled {
-    ($(#[$attribute:meta])* $method:ident, $course:ident $(, $estimate_power:expr)?) => {
+    ($(#[$attribute:meta])* $method:ident, $integration:ident $(, $estimate_power:expr)?) => {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $method<S> {
@@ -133,15 +133,15 @@ macro_rules! controlled {
         impl<S: $crate::Real, Y: $crate::integrate::System<S>> $crate::integrate::Integrator<S, Y>
             for $method<S>
         {
-            type Course = $course<S, Y::State>;
+            type Integration = $integration<S, Y::State>;
 
             fn start(
                 &self,
                 system: &mut Y,
-                span: $crate::integrate::Span<S>,
+                span: $crate::integrate::TimeSpan<S>,
                 state: Y::State,
-            ) -> Result<$course<S, Y::State>, $crate::Fault> {
-                $course::start(self, system, span, state)
+            ) -> Result<$integration<S, Y::State>, $crate::Fault> {
+                $integration::start(self, system, span, state)
             }
         }
 

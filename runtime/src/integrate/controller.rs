@@ -1,6 +1,6 @@
 //! The step control of MATLAB's `ode45` and `ode23`, as pure functions.
 
-use super::{Span, StepLimits};
+use super::{StepLimits, TimeSpan};
 use crate::constraints::scales::Scales;
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -104,7 +104,7 @@ impl<S: Real> Controller<S> {
         tolerance: Tolerance<S>,
         limits: &StepLimits<S>,
         power: f64,
-        span: &Span<S>,
+        span: &TimeSpan<S>,
     ) -> Result<Self, Fault> {
         let relative = positive("relative tolerance", tolerance.relative)?;
         let absolute = positive("absolute tolerance", tolerance.absolute)?;
@@ -145,7 +145,7 @@ impl<S: Real> Controller<S> {
     /// tolerance allows.
     pub(super) fn first<X: Vector<S>>(
         &self,
-        span: &Span<S>,
+        span: &TimeSpan<S>,
         state: &X,
         slope: &X,
         share: f64,
@@ -153,7 +153,7 @@ impl<S: Real> Controller<S> {
         if let Some(first) = self.first {
             return self.limited(span.start, first);
         }
-        let rate = state.relative_norm(state, self.floor, [(S::one(), slope)]);
+        let rate = state.weighted_norm(state, self.floor, [(S::one(), slope)]);
         let rate = rate.quotient(S::constant(share) * self.relative.powf(self.exponent));
         let step = self.largest.min(span.first_output);
         let step = if step * rate > S::one() {

@@ -20,7 +20,7 @@ impl Counts {
         }
     }
 
-    /// These and those of a course that went on.
+    /// These and those of an integration that went on.
     pub(crate) fn plus(self, more: Self) -> Self {
         Self {
             evaluations: self.evaluations.saturating_add(more.evaluations),

@@ -1,6 +1,6 @@
 //! The state within a step.
 
-use super::Stride;
+use super::StepRecord;
 use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
@@ -9,17 +9,17 @@ use crate::state::vector::Vector;
 /// `y(theta) = (1 - c) y0 + c y1 + h theta (1 - theta)^2 f0 - h theta^2 (1 - theta) f1`,
 /// `c = theta^2 (3 - 2 theta)` (Hairer, Norsett and Wanner, *Solving Ordinary Differential
 /// Equations I*, II.6).
-pub(super) fn cubic<S: Real, X: Vector<S>, K>(stride: &Stride<'_, S, X, K>, theta: S) -> X {
+pub(super) fn cubic<S: Real, X: Vector<S>, K>(record: &StepRecord<'_, S, X, K>, theta: S) -> X {
     let rest = S::one() - theta;
     let weight = theta * theta * (S::constant(3.0) - theta - theta);
-    let bend = stride.step * theta * rest;
+    let bend = record.step * theta * rest;
     // About what the step has added: the trapezoidal rule.
-    let half = S::constant(0.5) * stride.step;
-    stride.from.towards(
-        stride.to,
+    let half = S::constant(0.5) * record.step;
+    record.from.towards(
+        record.to,
         weight,
-        [(half, stride.first), (half, stride.last)],
-        [(bend * rest, stride.first), (-(bend * theta), stride.last)],
+        [(half, record.first), (half, record.last)],
+        [(bend * rest, record.first), (-(bend * theta), record.last)],
     )
 }
 

@@ -3,7 +3,7 @@
 use super::explicit::explicit;
 use super::tableau::terms;
 use super::tableau_853 as tableau;
-use super::{Adaptive, EmbeddedPair, Ends, Stride};
+use super::{Adaptive, EmbeddedPair, StepEnds, StepRecord};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
@@ -115,10 +115,10 @@ explicit! {
             &self,
             system: &mut Y,
             time: S,
-            ends: Ends<'_, S, Y::State>,
+            ends: StepEnds<'_, S, Y::State>,
             stages: &mut Self::Stages<Y::State>,
         ) -> Result<(), Fault> {
-            let Ends { step, from, first: k1, last: k13 } = ends;
+            let StepEnds { step, from, first: k1, last: k13 } = ends;
             let [k6, k7, k8, k9, k10, k11, k12, k14, k15, k16] = stages;
             let at = |part| time + S::constant(part) * step;
             let [t14, t15, t16] = tableau::TIMES_BETWEEN.map(at);
@@ -136,7 +136,7 @@ explicit! {
         /// `F2 = 2 F0 - h (k1 + k13)`, the others are given. Here it is a sum of slopes.
         fn interpolate<X: Vector<S>>(
             &self,
-            stride: Stride<'_, S, X, Self::Stages<X>>,
+            record: StepRecord<'_, S, X, Self::Stages<X>>,
             theta: S,
         ) -> X {
             let rest = S::one() - theta;
@@ -154,12 +154,12 @@ explicit! {
                 let inner = inner.fused(rest, second);
                 let inner = inner.fused(theta, is(0) - increment);
                 let inner = inner.fused(rest, increment);
-                stride.step * theta * inner
+                record.step * theta * inner
             });
             let [a, b, c, d, e, f, g, h, i, j, k, l] = weights;
-            let [k6, k7, k8, k9, k10, k11, k12, k14, k15, k16] = stride.stages;
-            stride.from.plus([
-                (a, stride.first),
+            let [k6, k7, k8, k9, k10, k11, k12, k14, k15, k16] = record.stages;
+            record.from.plus([
+                (a, record.first),
                 (b, k6),
                 (c, k7),
                 (d, k8),
@@ -167,7 +167,7 @@ explicit! {
                 (f, k10),
                 (g, k11),
                 (h, k12),
-                (i, stride.last),
+                (i, record.last),
                 (j, k14),
                 (k, k15),
                 (l, k16),
@@ -180,12 +180,12 @@ impl<S: Real> EmbeddedPair<S> for DormandPrince8 {
     const POWER: f64 = 8.0;
 
     #[inline]
-    fn error<X: Vector<S>>(&self, stride: &Stride<'_, S, X, [X; 10]>, floor: S) -> S {
-        let [k6, k7, k8, k9, k10, k11, k12, ..] = stride.stages;
-        let slopes = [stride.first, k6, k7, k8, k9, k10, k11, k12];
+    fn error<X: Vector<S>>(&self, record: &StepRecord<'_, S, X, [X; 10]>, floor: S) -> S {
+        let [k6, k7, k8, k9, k10, k11, k12, ..] = record.stages;
+        let slopes = [record.first, k6, k7, k8, k9, k10, k11, k12];
         let norm = |weights: [f64; 8]| {
-            let terms = terms(weights, stride.step, slopes);
-            stride.from.relative_norm(stride.to, floor, terms)
+            let terms = terms(weights, record.step, slopes);
+            record.from.weighted_norm(record.to, floor, terms)
         };
         let (fifth, third) = (norm(tableau::ERROR_5), norm(tableau::ERROR_3));
         if fifth == S::zero() {

@@ -2,8 +2,8 @@
 
 use super::controlled::step_limits;
 use super::{
-    AdaptiveCourse, BogackiShampine3, DormandPrince5, DormandPrince8, ErrorModel, FixedStep,
-    Integrator, Method, OneStep, Scheme, Span, StepLimits, Stride, System, Tolerance,
+    AdaptiveIntegration, BogackiShampine3, DormandPrince5, DormandPrince8, ErrorModel, FixedStep,
+    Integrator, Method, OneStep, Scheme, StepLimits, StepRecord, System, TimeSpan, Tolerance,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -16,7 +16,7 @@ pub trait EmbeddedPair<S: Real>: Scheme<S> + PartialEq {
     const POWER: f64;
 
     /// The error of a step, relative element by element to the larger of both ends and `floor`.
-    fn error<X: Vector<S>>(&self, stride: &Stride<'_, S, X, Self::Stages<X>>, floor: S) -> S;
+    fn error<X: Vector<S>>(&self, record: &StepRecord<'_, S, X, Self::Stages<X>>, floor: S) -> S;
 }
 
 /// An [`EmbeddedPair`] with the step control of MATLAB's `ode45` and `ode23`.
@@ -92,15 +92,15 @@ where
     K: EmbeddedPair<S> + OneStep<S, Y>,
     Y: System<S>,
 {
-    type Course = AdaptiveCourse<S, Y::State, K>;
+    type Integration = AdaptiveIntegration<S, Y::State, K>;
 
     fn start(
         &self,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: Y::State,
-    ) -> Result<AdaptiveCourse<S, Y::State, K>, Fault> {
-        AdaptiveCourse::start(self, system, span, state)
+    ) -> Result<AdaptiveIntegration<S, Y::State, K>, Fault> {
+        AdaptiveIntegration::start(self, system, span, state)
     }
 }
 

@@ -22,7 +22,7 @@ pub struct ErrorModel {
     pub phase_error: f64,
     /// By what part of a step velocities are ahead of coordinates, for a method of order 1 that
     /// takes coordinates by velocities at the end of a step. Zero for others.
-    pub velocity_lead: f64,
+    pub stagger: f64,
     /// What a step adds to the error of the state, with `e` its estimated error relative to the
     /// state: `estimate_share * e ^ estimate_power`. An estimate that is of a lower order than the
     /// result is larger than what the result is off by. Both are 1 by default.
@@ -37,7 +37,7 @@ impl Default for ErrorModel {
             angle_error: 10.0,
             angle_error_of_short_steps: 0.0,
             phase_error: 0.0,
-            velocity_lead: 0.0,
+            stagger: 0.0,
             estimate_power: 1.0,
             estimate_share: 1.0,
         }

@@ -49,7 +49,7 @@ macro_rules! explicit {
 
         const _: () = {
             use crate::error::Fault;
-            use crate::integrate::{Look, OneStep, Scheme, Slopes, Start, System};
+            use crate::integrate::{Look, OneStep, Scheme, Slopes, StepStart, System};
             use crate::math::scalar::Real;
             use crate::state::vector::Vector;
 
@@ -63,14 +63,14 @@ macro_rules! explicit {
                 $(
                     fn interpolate<X: Vector<S>>(
                         &self,
-                        stride: crate::integrate::Stride<'_, S, X, Self::Stages<X>>,
+                        record: crate::integrate::StepRecord<'_, S, X, Self::Stages<X>>,
                         theta: S,
                     ) -> X {
-                        let ($first, $to) = (stride.first, stride.last);
-                        let $kept = stride.stages;
-                        let step = stride.step;
+                        let ($first, $to) = (record.first, record.last);
+                        let $kept = record.stages;
+                        let step = record.step;
                         let weight = |row| crate::integrate::dense::polynomial(row, step, theta);
-                        stride.from.plus([$((weight($d), $within)),+])
+                        record.from.plus([$((weight($d), $within)),+])
                     }
                 )?
 
@@ -86,14 +86,14 @@ macro_rules! explicit {
 
             impl<S: Real, Y: System<S>> OneStep<S, Y> for $method {
                 #[inline]
-                fn stride<L: Look<S, Y::State>>(
+                fn advanced<L: Look<S, Y::State>>(
                     &self,
                     system: &mut Slopes<'_, Y, L>,
-                    start: Start<'_, S, Y::State>,
+                    start: StepStart<'_, S, Y::State>,
                     step: S,
                     kept: &mut <Self as Scheme<S>>::Stages<Y::State>,
                 ) -> Result<Y::State, Fault> {
-                    let Start { time, state, slope: $first } = start;
+                    let StepStart { time, state, slope: $first } = start;
                     let $kept = kept;
                     $(
                         let mut $inner = $first.clone();
@@ -115,13 +115,13 @@ macro_rules! explicit {
                     #[inline]
                     fn error<X: Vector<S>>(
                         &self,
-                        stride: &crate::integrate::Stride<'_, S, X, Self::Stages<X>>,
+                        record: &crate::integrate::StepRecord<'_, S, X, Self::Stages<X>>,
                         floor: S,
                     ) -> S {
-                        let ($first, $last) = (stride.first, stride.last);
-                        let $kept = stride.stages;
-                        let terms = [$((S::constant($e) * stride.step, $missed)),+];
-                        stride.from.relative_norm(stride.to, floor, terms)
+                        let ($first, $last) = (record.first, record.last);
+                        let $kept = record.stages;
+                        let terms = [$((S::constant($e) * record.step, $missed)),+];
+                        record.from.weighted_norm(record.to, floor, terms)
                     }
                 }
             )?

@@ -3,8 +3,9 @@
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Advance, Counts, Course, ErrorModel, Heun, ImplicitMidpoint, Integrator, Kutta3, Method,
-    Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, Span, Start, System, refused,
+    Advance, Counts, ErrorModel, Heun, ImplicitMidpoint, Integration, Integrator, Kutta3, Method,
+    Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, StepStart, System, TimeSpan,
+    refused,
 };
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -46,17 +47,17 @@ constructors!(
 );
 
 impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Integrator<S, Y> for FixedStep<S, K> {
-    type Course = FixedCourse<S, Y::State, K>;
+    type Integration = FixedIntegration<S, Y::State, K>;
 
     fn start(
         &self,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: Y::State,
-    ) -> Result<FixedCourse<S, Y::State, K>, Fault> {
+    ) -> Result<FixedIntegration<S, Y::State, K>, Fault> {
         let grid = Grid::new(self.step, &span)?;
         let reached = Reached::start(system, &span, state)?;
-        Ok(FixedCourse {
+        Ok(FixedIntegration {
             scheme: self.scheme,
             grid,
             last: LastStep::none(&reached),
@@ -91,7 +92,7 @@ pub(super) struct Grid<S> {
 }
 
 impl<S: Real> Grid<S> {
-    pub(super) fn new(step: S, span: &Span<S>) -> Result<Self, Fault> {
+    pub(super) fn new(step: S, span: &TimeSpan<S>) -> Result<Self, Fault> {
         let nominal = positive("step", step)?;
         span.duration()?;
         Ok(Self {
@@ -121,7 +122,7 @@ impl<S: Real> Grid<S> {
 }
 
 /// An integration with a [`FixedStep`] under way.
-pub struct FixedCourse<S: Real, X: Vector<S>, K: Scheme<S>> {
+pub struct FixedIntegration<S: Real, X: Vector<S>, K: Scheme<S>> {
     scheme: K,
     grid: Grid<S>,
     reached: Reached<S, X>,
@@ -131,24 +132,24 @@ pub struct FixedCourse<S: Real, X: Vector<S>, K: Scheme<S>> {
     is_prepared: bool,
 }
 
-impl<S: Real, X: Vector<S>, K: Scheme<S>> Course<S, X> for FixedCourse<S, X, K> {
+impl<S: Real, X: Vector<S>, K: Scheme<S>> Integration<S, X> for FixedIntegration<S, X, K> {
     reached!();
 }
 
-impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedCourse<S, Y::State, K> {
+impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedIntegration<S, Y::State, K> {
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         let reached = &mut self.reached;
         let (step, end) = self.grid.next(reached.counts.accepted, reached.time)?;
         let mut counted = Slopes::counted(system, &mut reached.counts);
-        let start = Start {
+        let start = StepStart {
             time: reached.time,
             state: &reached.state,
             slope: &reached.slope,
         };
         let outcome = self
             .scheme
-            .stride(&mut counted, start, step, &mut self.stages);
+            .advanced(&mut counted, start, step, &mut self.stages);
         let mut state = match outcome {
             Ok(state) if state.is_finite() => state,
             outcome => {
@@ -156,7 +157,7 @@ impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedCourse<S, Y
                 return Err(refused(&self.scheme, system, from, step, outcome.err()));
             }
         };
-        system.settle(&mut state, None);
+        system.renormalise(&mut state, None);
         self.last.take(reached, (step, end), state);
         self.is_prepared = false;
         Ok(())
@@ -169,9 +170,9 @@ impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedCourse<S, Y
             self.last.prepare(&self.scheme, system, reached, stages)?;
             self.is_prepared = true;
         }
-        let stride = self.last.stride(&self.reached, &self.stages);
+        let record = self.last.record(&self.reached, &self.stages);
         let theta = self.last.theta(&self.reached, time);
-        Ok(self.scheme.interpolate(stride, theta))
+        Ok(self.scheme.interpolate(record, theta))
     }
 
     fn better_end(&self, system: &mut Y) -> Result<Option<Y::State>, Fault> {

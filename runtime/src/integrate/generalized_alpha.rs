@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Advance, Counts, Course, ErrorModel, Integrator, Method, NoStages, RigidConstraints, Span,
-    dense,
+    Advance, Counts, ErrorModel, Integration, Integrator, Method, NoStages, RigidConstraints,
+    TimeSpan, dense,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -16,7 +16,7 @@ use crate::state::vector::Vector;
 /// The generalized-alpha method of order 2 for mechanisms with rigid constraints, fixed step:
 /// positions *and* velocities are on the constraints after every step, high frequencies are damped
 /// as much as wanted, and positions of bodies and orientations never leave their joints or length
-/// 1, so that no treatment is needed.
+/// 1, so that no stabilisation is needed.
 ///
 /// From `q0`, `u0`, the accelerations `u0'` and the method's own `a0`, a step `h` solves for `u1'`,
 /// `lambda` and `eta`
@@ -191,18 +191,18 @@ pub struct AlphaEnd<X> {
 }
 
 impl<S: Real, Y: RigidConstraints<S>> Integrator<S, Y> for GeneralizedAlpha<S> {
-    type Course = GeneralizedAlphaCourse<S, Y::State>;
+    type Integration = GeneralizedAlphaIntegration<S, Y::State>;
 
     fn start(
         &self,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: Y::State,
-    ) -> Result<GeneralizedAlphaCourse<S, Y::State>, Fault> {
+    ) -> Result<GeneralizedAlphaIntegration<S, Y::State>, Fault> {
         let weights = AlphaWeights::of(self.rho)?;
         let grid = Grid::new(self.step, &span)?;
         let reached = Reached::start(system, &span, state)?;
-        Ok(GeneralizedAlphaCourse {
+        Ok(GeneralizedAlphaIntegration {
             weights,
             grid,
             last: LastStep::none(&reached),
@@ -235,7 +235,7 @@ impl<S: Real> Method<S> for GeneralizedAlpha<S> {
 
 /// An integration with [`GeneralizedAlpha`] under way.
 #[derive(Clone)]
-pub struct GeneralizedAlphaCourse<S: Real, X: Vector<S>> {
+pub struct GeneralizedAlphaIntegration<S: Real, X: Vector<S>> {
     weights: AlphaWeights<S>,
     grid: Grid<S>,
     /// With the rates that the last step has solved for.
@@ -244,11 +244,11 @@ pub struct GeneralizedAlphaCourse<S: Real, X: Vector<S>> {
     last: LastStep<S, X>,
 }
 
-impl<S: Real, X: Vector<S>> Course<S, X> for GeneralizedAlphaCourse<S, X> {
+impl<S: Real, X: Vector<S>> Integration<S, X> for GeneralizedAlphaIntegration<S, X> {
     reached!();
 }
 
-impl<S, Y> Advance<S, Y> for GeneralizedAlphaCourse<S, Y::State>
+impl<S, Y> Advance<S, Y> for GeneralizedAlphaIntegration<S, Y::State>
 where
     S: Real,
     Y: RigidConstraints<S>,
@@ -266,7 +266,7 @@ where
             auxiliary: &self.auxiliary,
         })?;
         reached.counts.evaluations += end.evaluations;
-        system.settle(&mut end.state, Some(&mut end.slope));
+        system.renormalise(&mut end.state, Some(&mut end.slope));
         self.last.first = replace(&mut reached.slope, end.slope);
         self.auxiliary = end.auxiliary;
         self.last.go(reached, (step, time), end.state);
@@ -274,8 +274,8 @@ where
     }
 
     fn at(&mut self, _system: &mut Y, time: S) -> Result<Y::State, Fault> {
-        let stride = self.last.stride(&self.reached, &NoStages);
-        Ok(dense::cubic(&stride, self.last.theta(&self.reached, time)))
+        let record = self.last.record(&self.reached, &NoStages);
+        Ok(dense::cubic(&record, self.last.theta(&self.reached, time)))
     }
 
     fn better_end(&self, system: &mut Y) -> Result<Option<Y::State>, Fault> {

@@ -2,7 +2,7 @@
 
 use core::mem::swap;
 
-use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, Start, System};
+use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -66,10 +66,10 @@ impl<S: Real> Scheme<S> for ImplicitMidpoint {
 
 impl<S: Real, Y: System<S>> OneStep<S, Y> for ImplicitMidpoint {
     #[inline]
-    fn stride<L: Look<S, Y::State>>(
+    fn advanced<L: Look<S, Y::State>>(
         &self,
         system: &mut Slopes<'_, Y, L>,
-        Start { time, state, slope }: Start<'_, S, Y::State>,
+        StepStart { time, state, slope }: StepStart<'_, S, Y::State>,
         step: S,
         _stages: &mut NoStages,
     ) -> Result<Y::State, Fault> {
@@ -92,7 +92,7 @@ impl<S: Real, Y: System<S>> OneStep<S, Y> for ImplicitMidpoint {
                 return Err(if falls { fault } else { too_long(iteration) });
             }
             let terms = [(step, &next), (-step, &middle)];
-            let change = state.relative_norm(&stage, floor, terms);
+            let change = state.weighted_norm(&stage, floor, terms);
             swap(&mut middle, &mut next);
             let [before, last] = changes;
             let fell = change < before;
@@ -110,7 +110,7 @@ impl<S: Real, Y: System<S>> OneStep<S, Y> for ImplicitMidpoint {
                 let shaken = shaken(&stage);
                 system.stage(time + half, &shaken, &mut next)?;
                 let terms = [(step, &next), (-step, &middle)];
-                let noise = state.relative_norm(&stage, floor, terms);
+                let noise = state.weighted_norm(&stage, floor, terms);
                 if change <= S::constant(ROUND_OFF) * noise {
                     return Ok(state.plus([(step, &middle)]));
                 }

@@ -1,7 +1,7 @@
 //! What a step of a method of low order misses.
 
 use super::record::{LastStep, Reached};
-use super::{NoStages, Stride, System, dense};
+use super::{NoStages, StepRecord, System, dense};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -18,11 +18,11 @@ pub(super) fn better_end<S: Real, Y: System<S>>(
 ) -> Result<Y::State, Fault> {
     let half = S::constant(0.5);
     let last = &system.rates(reached.time, &reached.state)?;
-    let stride = Stride {
+    let record = StepRecord {
         last,
-        ..taken.stride(reached, &NoStages)
+        ..taken.record(reached, &NoStages)
     };
-    let middle = dense::cubic(&stride, half);
+    let middle = dense::cubic(&record, half);
     let slope = &system.rates(half.fused(taken.step, taken.start), &middle)?;
     let sixth = S::constant(1.0 / 6.0) * taken.step;
     let four = S::constant(4.0) * sixth;

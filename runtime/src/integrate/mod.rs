@@ -19,10 +19,10 @@
 //! | [`Adams::new(tolerance)`](Adams::new) | Adams of order 1 to 12 in divided differences, the step and order control of MATLAB's `ode113` | 2 a step, 1 a rejected trial, and 1 |
 //!
 //! [`OneStep::step`] takes one step at a time, for loops that somebody else owns;
-//! [`Integrator::start`] begins a [`Course`] over an interval, with output at any time within the
-//! last step. What a method is, whatever it moves, is a [`Method`] or a [`Scheme`]. That it moves a
-//! system of some type is an [`Integrator`] or a [`OneStep`] with that type. So a method does not
-//! compile with a system that lacks what it needs.
+//! [`Integrator::start`] begins a [`Integration`] over an interval, with output at any time within
+//! the last step. What a method is, whatever it moves, is a [`Method`] or a [`Scheme`]. That it
+//! moves a system of some type is an [`Integrator`] or a [`OneStep`] with that type. So a method
+//! does not compile with a system that lacks what it needs.
 //!
 //! Structure. An explicit Runge-Kutta method is its table (`explicit.rs`). An embedded pair
 //! (`embedded.rs`) is a scheme with error weights, their power of the step and an interpolant. The
@@ -34,7 +34,7 @@
 //! after a step must not change the sign of Euler parameters, which a one-step method does not
 //! notice (`Coordinates::of_bodies_near`).
 //!
-//! After a step `System::settle` normalises the state and scales the slope, so nothing is
+//! After a step `System::renormalise` normalises the state and scales the slope, so nothing is
 //! evaluated again. Choices: `docs/decisions` 006 (turns), 007 (checks), 009 and 010 (Jacobians
 //! and matrices), 011 (generalized-alpha), 012 (phase of order 2).
 
@@ -71,10 +71,10 @@ mod tableau_radau;
 #[cfg(test)]
 mod tests;
 
-pub use adams::{Adams, AdamsCourse};
-pub use adams_fixed::{AdamsBashforthMoulton4, AdamsFixedCourse};
-pub use adaptive::AdaptiveCourse;
-pub use bdf::{Bdf, BdfCourse};
+pub use adams::{Adams, AdamsIntegration};
+pub use adams_fixed::{AdamsBashforthMoulton4, AdamsFixedIntegration};
+pub use adaptive::AdaptiveIntegration;
+pub use bdf::{Bdf, BdfIntegration};
 pub use bogacki_shampine::{BogackiShampine, BogackiShampine3};
 pub use controlled::StepLimits;
 pub use controller::Tolerance;
@@ -83,12 +83,12 @@ pub use dormand_prince::{DormandPrince, DormandPrince5};
 pub use dormand_prince_8::{DormandPrince8, DormandPrince853};
 pub use embedded::{Adaptive, EmbeddedPair};
 pub use error_model::ErrorModel;
-pub use fixed::{FixedCourse, FixedStep};
+pub use fixed::{FixedIntegration, FixedStep};
 pub use generalized_alpha::{
-    AlphaEnd, AlphaStep, AlphaWeights, GeneralizedAlpha, GeneralizedAlphaCourse,
+    AlphaEnd, AlphaStep, AlphaWeights, GeneralizedAlpha, GeneralizedAlphaIntegration,
 };
 pub use implicit_midpoint::ImplicitMidpoint;
-pub use radau::{RadauCourse, RadauIIA};
+pub use radau::{RadauIIA, RadauIntegration};
 pub use rk2::{Heun, Midpoint};
 pub use rk3::Kutta3;
 pub use rk4::Rk4;
@@ -138,12 +138,12 @@ pub trait System<S: Real> {
     fn rates(&mut self, time: S, state: &Self::State) -> Result<Self::State, Fault>;
 
     /// Writes the rates at a stage of a step. They need not be finite: whoever takes the step looks
-    /// at what it leads to, once, and where that is not finite asks [`System::why`] at the first
-    /// stage that is not.
+    /// at what it leads to, once, and where that is not finite asks [`System::diagnose`] at the
+    /// first stage that is not.
     ///
     /// # Errors
     /// What else keeps the system from having rates here; [`Fault::StateNotFinite`] leaves it to
-    /// [`System::why`] to say why.
+    /// [`System::diagnose`] to say why.
     #[inline(always)]
     fn stage(
         &mut self,
@@ -157,14 +157,14 @@ pub trait System<S: Real> {
 
     /// Why the rates of a stage are not taken: asked once, after the step has given its stack back.
     /// `None` where nothing is wrong with them.
-    fn why(&mut self, time: S, state: &Self::State) -> Option<Fault> {
+    fn diagnose(&mut self, time: S, state: &Self::State) -> Option<Fault> {
         self.rates(time, state).err()
     }
 
     /// Writes the Jacobian of the rates: column `k` is the change of the rates for an increment of
     /// element `k` of the state, divided by that increment. `rates` are those of the state; zero
-    /// where [`Vector::has_part`] says so. Returns how many evaluations that has taken; one that
-    /// gives several columns counts once for each.
+    /// where [`Vector::is_independent`] says so. Returns how many evaluations that has taken; one
+    /// that gives several columns counts once for each.
     ///
     /// Implicit methods ask for it, and need it for the sake of convergence only. By differences of
     /// rates, if a system does not know better. A mechanism does: its kernels give it over
@@ -195,7 +195,7 @@ pub trait System<S: Real> {
     /// What the state says must not change, so that the rates stay valid; a step that goes on from
     /// it uses both as they come out.
     #[inline(always)]
-    fn settle(&mut self, _state: &mut Self::State, _rates: Option<&mut Self::State>) {}
+    fn renormalise(&mut self, _state: &mut Self::State, _rates: Option<&mut Self::State>) {}
 }
 
 /// A system whose state is made of coordinates and velocities.
@@ -276,14 +276,19 @@ pub trait Method<S: Real>: Copy + Debug {
 /// [`GeneralizedAlpha`] one with [`RigidConstraints`]: another does not compile.
 pub trait Integrator<S: Real, Y: System<S>>: Method<S> {
     /// An integration under way, with all the memory that it needs.
-    type Course: Advance<S, Y>;
+    type Integration: Advance<S, Y>;
 
     /// Begins an integration.
     ///
     /// # Errors
     /// A setting that is not finite and positive, an interval without a length; a fault of the
     /// system at the start.
-    fn start(&self, system: &mut Y, span: Span<S>, state: Y::State) -> Result<Self::Course, Fault>;
+    fn start(
+        &self,
+        system: &mut Y,
+        span: TimeSpan<S>,
+        state: Y::State,
+    ) -> Result<Self::Integration, Fault>;
 }
 
 /// The functions of a [`Method`], each by that of another one, which a macro calls an expression
@@ -307,7 +312,7 @@ macro_rules! __hooks_of_method {
 }
 
 /// Where an integration is.
-pub trait Course<S: Real, X: Vector<S>> {
+pub trait Integration<S: Real, X: Vector<S>> {
     /// The time that was reached.
     fn time(&self) -> S;
 
@@ -318,9 +323,9 @@ pub trait Course<S: Real, X: Vector<S>> {
     /// fixed steps.
     fn estimate(&self) -> Option<S>;
 
-    /// Puts a corrected state in the place of [`Course::state`], as small a change as it was: a
-    /// method that looks back at former steps goes on with these. Call [`Advance::at`] before, not
-    /// after.
+    /// Puts a corrected state in the place of [`Integration::state`], as small a change as it was:
+    /// a method that looks back at former steps goes on with these. Call [`Advance::at`] before,
+    /// not after.
     fn replace(&mut self, state: X);
 
     /// What it has cost so far.
@@ -328,11 +333,11 @@ pub trait Course<S: Real, X: Vector<S>> {
 }
 
 /// An integration under way.
-pub trait Advance<S: Real, Y: System<S>>: Course<S, Y::State> {
+pub trait Advance<S: Real, Y: System<S>>: Integration<S, Y::State> {
     /// Goes on by one accepted step, at most to the end of the interval.
     ///
     /// # Errors
-    /// Why it cannot go on. Time and state are then as before; the course is over.
+    /// Why it cannot go on. Time and state are then as before; the integration is over.
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault>;
 
     /// The state at a time within the last step, by the interpolant of the method.
@@ -380,7 +385,7 @@ pub trait Scheme<S: Real>: Copy + Debug {
         &self,
         _system: &mut Y,
         _time: S,
-        _ends: Ends<'_, S, Y::State>,
+        _ends: StepEnds<'_, S, Y::State>,
         _stages: &mut Self::Stages<Y::State>,
     ) -> Result<(), Fault> {
         Ok(())
@@ -388,8 +393,12 @@ pub trait Scheme<S: Real>: Copy + Debug {
 
     /// The state at the fraction `theta` (from 0 to 1) of a step: by the cubic through states and
     /// slopes at both ends, if a method does not know better.
-    fn interpolate<X: Vector<S>>(&self, stride: Stride<'_, S, X, Self::Stages<X>>, theta: S) -> X {
-        dense::cubic(&stride, theta)
+    fn interpolate<X: Vector<S>>(
+        &self,
+        record: StepRecord<'_, S, X, Self::Stages<X>>,
+        theta: S,
+    ) -> X {
+        dense::cubic(&record, theta)
     }
 }
 
@@ -400,10 +409,10 @@ pub trait OneStep<S: Real, Y: System<S>>: Scheme<S> {
     ///
     /// # Errors
     /// A fault of the system at a stage.
-    fn stride<L: Look<S, Y::State>>(
+    fn advanced<L: Look<S, Y::State>>(
         &self,
         system: &mut Slopes<'_, Y, L>,
-        start: Start<'_, S, Y::State>,
+        start: StepStart<'_, S, Y::State>,
         step: S,
         stages: &mut Self::Stages<Y::State>,
     ) -> Result<Y::State, Fault>;
@@ -425,7 +434,7 @@ pub struct NoStages;
 
 /// Where a step starts.
 #[derive(Clone, Copy, Debug)]
-pub struct Start<'a, S, X> {
+pub struct StepStart<'a, S, X> {
     /// The time.
     pub time: S,
     /// The state.
@@ -436,7 +445,7 @@ pub struct Start<'a, S, X> {
 
 /// A step that was done, without the slopes within it.
 #[derive(Clone, Copy, Debug)]
-pub struct Ends<'a, S, X> {
+pub struct StepEnds<'a, S, X> {
     /// The size of the step.
     pub step: S,
     /// The state at its start.
@@ -449,7 +458,7 @@ pub struct Ends<'a, S, X> {
 
 /// A step that was done, as the interpolant sees it.
 #[derive(Clone, Copy, Debug)]
-pub struct Stride<'a, S, X, K> {
+pub struct StepRecord<'a, S, X, K> {
     /// The size of the step.
     pub step: S,
     /// The state at its start.
@@ -466,7 +475,7 @@ pub struct Stride<'a, S, X, K> {
 
 /// The interval of an integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span<S> {
+pub struct TimeSpan<S> {
     /// Where it starts (s).
     pub start: S,
     /// Where it ends (s), later than the start.
@@ -476,7 +485,7 @@ pub struct Span<S> {
     pub first_output: S,
 }
 
-impl<S: Real> Span<S> {
+impl<S: Real> TimeSpan<S> {
     /// Its length (s), finite and positive.
     fn duration(&self) -> Result<S, Fault> {
         let duration = self.end - self.start;
@@ -499,18 +508,18 @@ fn attempt<S: Real, K: OneStep<S, Y>, Y: System<S>>(
 ) -> Result<(), Option<Fault>> {
     let mut slope = state.clone();
     system.stage(time, state, &mut slope)?;
-    let start = Start {
+    let start = StepStart {
         time,
         state,
         slope: &slope,
     };
     let unlooked = &mut Slopes::new(system);
-    let next = scheme.stride(unlooked, start, step, &mut scheme.stages(&slope))?;
+    let next = scheme.advanced(unlooked, start, step, &mut scheme.stages(&slope))?;
     if !next.is_finite() {
         return Err(None);
     }
     *state = next;
-    system.settle(state, None);
+    system.renormalise(state, None);
     Ok(())
 }
 
@@ -526,8 +535,8 @@ fn refused<S: Real, K: OneStep<S, Y>, Y: System<S>>(
 ) -> Fault {
     named(fault, system, |system| {
         let slope = &system.rates(time, state)?;
-        let start = Start { time, state, slope };
-        scheme.stride(system, start, step, &mut scheme.stages(slope))
+        let start = StepStart { time, state, slope };
+        scheme.advanced(system, start, step, &mut scheme.stages(slope))
     })
     .unwrap_or(Fault::StateNotFinite)
 }

@@ -101,7 +101,7 @@ pub(crate) fn by_differences<S: Real, X: Vector<S>>(
     let mut evaluations = 0;
     for column in 0..length {
         let there = &mut columns[column];
-        if !state.has_part(column) {
+        if !state.is_independent(column) {
             *there = state.zip(state, |_, _| S::zero());
             continue;
         }

@@ -8,7 +8,7 @@ use super::linear::{ComplexColumn, Factors};
 use super::newton::{Age, Newton, Progress};
 use super::record::{Reached, reached};
 use super::tableau_radau as tableau;
-use super::{Advance, Counts, Course, Slopes, Span, System, Tolerance, named};
+use super::{Advance, Counts, Integration, Slopes, System, TimeSpan, Tolerance, named};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::math::scalar::Real;
@@ -32,7 +32,8 @@ controlled! {
     /// matrices of the size of the state.
     ///
     /// ```
-    /// use holonom::{Fault, RadauIIA, integrate::{Advance, Course, Integrator, Span, System}};
+    /// use holonom::integrate::{Advance, Integration, Integrator, System, TimeSpan};
+    /// use holonom::{Fault, RadauIIA};
     ///
     /// /// Follows the cosine, and comes back to it within microseconds.
     /// struct Stiff;
@@ -44,16 +45,16 @@ controlled! {
     ///     }
     /// }
     ///
-    /// let span = Span { start: 0.0, end: 10.0, first_output: 10.0 };
-    /// let mut course = RadauIIA::default().start(&mut Stiff, span, [1.5])?;
-    /// while course.time() < 10.0 {
-    ///     course.advance(&mut Stiff)?;
+    /// let span = TimeSpan { start: 0.0, end: 10.0, first_output: 10.0 };
+    /// let mut integration = RadauIIA::default().start(&mut Stiff, span, [1.5])?;
+    /// while integration.time() < 10.0 {
+    ///     integration.advance(&mut Stiff)?;
     /// }
-    /// assert!((course.state()[0] - 10.0_f64.cos()).abs() < 1e-6);
-    /// assert!(course.counts().accepted < 100);
+    /// assert!((integration.state()[0] - 10.0_f64.cos()).abs() < 1e-6);
+    /// assert!(integration.counts().accepted < 100);
     /// # Ok::<(), Fault>(())
     /// ```
-    RadauIIA, RadauCourse, 1.5
+    RadauIIA, RadauIntegration, 1.5
 }
 
 /// Iterations of Newton's method in a step, at most.
@@ -61,7 +62,7 @@ const ITERATIONS: i32 = 6;
 
 /// An integration with [`RadauIIA`] under way.
 #[derive(Clone)]
-pub struct RadauCourse<S: Real, X: Vector<S>> {
+pub struct RadauIntegration<S: Real, X: Vector<S>> {
     controller: Controller<S>,
     /// The iteration of a step before its first change.
     newton: Newton<S>,
@@ -87,11 +88,11 @@ fn combined<S: Real, X: Vector<S>>([a, b, c]: [S; 3], [x, y, z]: &[X; 3]) -> X {
     sum.zip(z, |sum, z| z.fused(c, sum))
 }
 
-impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
+impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
     fn start<Y: System<S, State = X>>(
         method: &RadauIIA<S>,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: X,
     ) -> Result<Self, Fault> {
         let RadauIIA { tolerance, limits } = method;
@@ -248,7 +249,7 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
         let norm = self
             .reached
             .state
-            .relative_norm(to, floor, [(S::one(), increment)]);
+            .weighted_norm(to, floor, [(S::one(), increment)]);
         norm.quotient(self.controller.relative)
     }
 
@@ -349,11 +350,11 @@ struct Trial<S, X> {
     error: S,
 }
 
-impl<S: Real, X: Vector<S>> Course<S, X> for RadauCourse<S, X> {
+impl<S: Real, X: Vector<S>> Integration<S, X> for RadauIntegration<S, X> {
     reached!();
 }
 
-impl<S: Real, Y: System<S>> Advance<S, Y> for RadauCourse<S, Y::State> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for RadauIntegration<S, Y::State> {
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         self.reached.know_slope(system)?;
         let time = self.reached.time;
@@ -430,7 +431,7 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for RadauCourse<S, Y::State> {
     }
 }
 
-impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
+impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
     fn accept<Y: System<S, State = X>>(
         &mut self,
         system: &mut Y,
@@ -455,7 +456,7 @@ impl<S: Real, X: Vector<S>> RadauCourse<S, X> {
             factor = S::one();
         }
         self.next_step = step * factor.max(S::constant(0.2));
-        system.settle(&mut trial.state, Some(&mut trial.slope));
+        system.renormalise(&mut trial.state, Some(&mut trial.slope));
         self.reached.counts.accepted += 1;
         self.reached.estimate = Some(trial.error * self.controller.relative);
         // Errors near zero say nothing of the next one.

@@ -2,7 +2,7 @@
 
 use core::mem::{replace, swap};
 
-use super::{Counts, Ends, Scheme, Slopes, Span, Stride, System, named};
+use super::{Counts, Scheme, Slopes, StepEnds, StepRecord, System, TimeSpan, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -24,7 +24,7 @@ impl<S: Real, X: Vector<S>> Reached<S, X> {
     /// The start, with its slope.
     pub(super) fn start<Y: System<S, State = X>>(
         system: &mut Y,
-        span: &Span<S>,
+        span: &TimeSpan<S>,
         state: X,
     ) -> Result<Self, Fault> {
         let mut counts = Counts::default();
@@ -60,8 +60,8 @@ impl<S: Real, X: Vector<S>> Reached<S, X> {
     }
 }
 
-/// The functions of a [`Course`](super::Course) that read and write where it is: its field
-/// `reached`.
+/// The functions of a [`Integration`](super::Integration) that read and write where it is: its
+/// field `reached`.
 macro_rules! reached {
     () => {
         fn time(&self) -> S {
@@ -130,12 +130,12 @@ impl<S: Real, X: Vector<S>> LastStep<S, X> {
 
     /// The step as an interpolant sees it.
     #[inline(always)]
-    pub(super) fn stride<'a, K>(
+    pub(super) fn record<'a, K>(
         &'a self,
         reached: &'a Reached<S, X>,
         stages: &'a K,
-    ) -> Stride<'a, S, X, K> {
-        Stride {
+    ) -> StepRecord<'a, S, X, K> {
+        StepRecord {
             step: self.step,
             from: &self.from,
             first: &self.first,
@@ -159,7 +159,7 @@ impl<S: Real, X: Vector<S>> LastStep<S, X> {
         reached: &mut Reached<S, X>,
         stages: &mut K::Stages<X>,
     ) -> Result<(), Fault> {
-        let ends = Ends {
+        let ends = StepEnds {
             step: self.step,
             from: &self.from,
             first: &self.first,

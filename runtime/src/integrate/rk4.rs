@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method.
 
-use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, Start, System};
+use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -34,14 +34,14 @@ impl<S: Real> Scheme<S> for Rk4 {
 
 impl<S: Real, Y: System<S>> OneStep<S, Y> for Rk4 {
     #[inline]
-    fn stride<L: Look<S, Y::State>>(
+    fn advanced<L: Look<S, Y::State>>(
         &self,
         system: &mut Slopes<'_, Y, L>,
-        start: Start<'_, S, Y::State>,
+        start: StepStart<'_, S, Y::State>,
         step: S,
         _stages: &mut NoStages,
     ) -> Result<Y::State, Fault> {
-        let Start {
+        let StepStart {
             time,
             state,
             slope: first,

@@ -1,6 +1,6 @@
 //! The semi-implicit Euler method.
 
-use super::{ErrorModel, Look, NoStages, OneStep, Scheme, SecondOrder, Slopes, Start};
+use super::{ErrorModel, Look, NoStages, OneStep, Scheme, SecondOrder, Slopes, StepStart};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -30,7 +30,7 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
     fn error_model(&self) -> ErrorModel {
         ErrorModel {
             angle_error: 1.0,
-            velocity_lead: 0.5,
+            stagger: 0.5,
             ..Default::default()
         }
     }
@@ -38,10 +38,10 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
 
 impl<S: Real, Y: SecondOrder<S>> OneStep<S, Y> for SemiImplicitEuler {
     #[inline]
-    fn stride<L: Look<S, Y::State>>(
+    fn advanced<L: Look<S, Y::State>>(
         &self,
         system: &mut Slopes<'_, Y, L>,
-        Start { time, state, slope }: Start<'_, S, Y::State>,
+        StepStart { time, state, slope }: StepStart<'_, S, Y::State>,
         step: S,
         _stages: &mut NoStages,
     ) -> Result<Y::State, Fault> {

@@ -176,8 +176,8 @@ impl<S: Real, Y: System<S>, L: Look<S, Y::State>> System<S> for Slopes<'_, Y, L>
         self.look.stage(self.system, time, state, rates)
     }
 
-    fn why(&mut self, time: S, state: &Y::State) -> Option<Fault> {
-        self.system.why(time, state)
+    fn diagnose(&mut self, time: S, state: &Y::State) -> Option<Fault> {
+        self.system.diagnose(time, state)
     }
 
     fn jacobian(
@@ -193,8 +193,8 @@ impl<S: Real, Y: System<S>, L: Look<S, Y::State>> System<S> for Slopes<'_, Y, L>
     }
 
     #[inline(always)]
-    fn settle(&mut self, state: &mut Y::State, rates: Option<&mut Y::State>) {
-        self.system.settle(state, rates);
+    fn renormalise(&mut self, state: &mut Y::State, rates: Option<&mut Y::State>) {
+        self.system.renormalise(state, rates);
     }
 }
 
@@ -218,7 +218,7 @@ pub(super) fn named<S: Real, Y: System<S>, T>(
         return Some(known);
     }
     match failing(system, again) {
-        Ok((time, state)) => system.why(time, &state).or(fault),
+        Ok((time, state)) => system.diagnose(time, &state).or(fault),
         Err(known) => known.or(fault),
     }
 }

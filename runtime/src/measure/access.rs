@@ -59,7 +59,7 @@ pub trait MechanismExt: Mechanism {
     ///
     /// What stands otherwise against what carries it in the spanning tree
     /// ([`Report::carriers`](crate::Report::carriers)) than in the described state was set, and is
-    /// moved there in strides of at most 0.2 rad, or lengths of the mechanism; the other bodies
+    /// moved there in steps of at most 0.2 rad, or lengths of the mechanism; the other bodies
     /// follow the constraints. So what was set by [`MechanismExt::set_angle`] and its like is kept.
     /// A state that opens joints of the tree by less than a tenth of a radian, or a guess of all
     /// bodies up to half a radian, is corrected at once, see [`Projection`]. Joints come out on the
@@ -122,9 +122,9 @@ pub trait MechanismExt: Mechanism {
     /// **A pose does not tell turns.** Angles that count them
     /// ([`Report::auxiliaries`](crate::Report::auxiliaries): of screws, gears, racks, drivers of
     /// angles, torsional springs and actuators) stay as they are in the state. A run,
-    /// [`MechanismExt::assemble`] and [`Mechanism::recount`] take the whole turns from there and
+    /// [`MechanismExt::assemble`] and [`Mechanism::rewrap`] take the whole turns from there and
     /// the rest from the orientations: right for a pose that is less than half a turn away from the
-    /// one before. For any other say the angles too, with [`MechanismExt::set_counted_angles`].
+    /// one before. For any other say the angles too, with [`MechanismExt::set_unwrapped_angles`].
     fn set_pose<S: Scalar>(state: &mut Self::State<S>, body: BodyHandle<Self>, pose: Pose<S>) {
         let Some(info) = body.info() else { return };
         let coordinates = state.coordinates_mut().as_mut_slice();
@@ -140,13 +140,16 @@ pub trait MechanismExt: Mechanism {
     /// The angles (rad) that a joint or a force counts turns of, as they stand in the state: in the
     /// order of its definition, zero in the reference configuration, without elements where it
     /// counts none.
-    fn counted_angles<S: Scalar, E: CountsTurns<Self>>(state: &Self::State<S>, element: E) -> &[S] {
+    fn unwrapped_angles<S: Scalar, E: CountsTurns<Self>>(
+        state: &Self::State<S>,
+        element: E,
+    ) -> &[S] {
         let angles = state.coordinates().as_slice().get(element.counters());
         angles.unwrap_or(&[])
     }
 
     /// Sets the angles (rad) that a joint or a force counts turns of, see
-    /// [`MechanismExt::counted_angles`]: one for most, two for a `Gear` (of `j`, of `i`).
+    /// [`MechanismExt::unwrapped_angles`]: one for most, two for a `Gear` (of `j`, of `i`).
     ///
     /// Only the count of turns is taken from them: whatever uses the state takes the angles that
     /// its orientations have and that are nearest to these, which may be off by up to half a turn.
@@ -154,7 +157,7 @@ pub trait MechanismExt: Mechanism {
     /// # Errors
     /// [`Fault::CountedAngles`] for another number of angles than the joint or force counts; the
     /// state is then as before.
-    fn set_counted_angles<S: Scalar, E: CountsTurns<Self>>(
+    fn set_unwrapped_angles<S: Scalar, E: CountsTurns<Self>>(
         state: &mut Self::State<S>,
         element: E,
         angles: &[S],

@@ -8,7 +8,7 @@ use crate::mechanism::coordinates::{
 };
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
 use crate::mechanism::orientations::{
-    bring_to_unit_length, check_state, scale_euler_rates, stretch, with_unit_orientations,
+    bring_to_unit_length, check_state, norm_drift, scale_euler_rates, with_unit_orientations,
 };
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, MovingState, StateParts};
@@ -149,13 +149,13 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         state: &mut M::State<S>,
         rates: Option<&mut M::State<S>>,
     ) -> Option<S> {
-        let stretch = if P::NORMALISED && !P::NORMALISED_RATES {
+        let norm_drift = if P::NORMALISED && !P::NORMALISED_RATES {
             bring_to_unit_length::<S, M>(state, rates)
         } else {
-            stretch::<S, M>(state)
+            norm_drift::<S, M>(state)
         };
-        M::recount(&absolute.constants, state);
-        Some(stretch)
+        M::rewrap(&absolute.constants, state);
+        Some(norm_drift)
     }
 
     #[inline(always)]

@@ -176,7 +176,7 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
         rates: &mut Self::State<S>,
     );
 
-    /// Scales Euler parameters to length 1, and their rates with them, and recounts turns. Returns
+    /// Scales Euler parameters to length 1, and their rates with them, and rewraps turns. Returns
     /// by how much a length was off, where there are any.
     #[doc(hidden)]
     fn normalise<S: Real>(

@@ -214,7 +214,7 @@ pub struct JointReport {
     pub auxiliaries: usize,
     /// Whether some of these count angles that are no sums of the turns of joints, so that they are
     /// put right after every step.
-    pub recounts: bool,
+    pub rewraps: bool,
     /// Whether every equation determines a velocity: then pivots go with the distance from where
     /// one vanishes, and not with its square.
     pub determines: bool,

@@ -99,8 +99,8 @@ impl JointReport {
         false
     }
 
-    /// Puts the counted angles of screws right, which rounding takes away from their pairs.
-    pub(crate) fn recount_screws<S: Real, X: JointParts<S>>(&self, state: &mut X) {
+    /// Puts the unwrapped angles of screws right, which rounding takes away from their pairs.
+    pub(crate) fn rewrap_screws<S: Real, X: JointParts<S>>(&self, state: &mut X) {
         for motion in self.motions {
             let Freedom::Screw { counter, .. } = motion.freedom else {
                 continue;

@@ -254,7 +254,7 @@ pub trait Mechanism: Sized + 'static {
     ///
     /// An integrator moves an auxiliary variable along with the orientations; after a state was set
     /// or displaced otherwise, this puts it right as long as it is off by less than half a turn.
-    fn recount<S: Scalar>(_constants: &Self::Constants<S>, _state: &mut Self::State<S>) {}
+    fn rewrap<S: Scalar>(_constants: &Self::Constants<S>, _state: &mut Self::State<S>) {}
 
     /// The whole right-hand side in one straight line: rates of the state and multipliers, from the
     /// saddle system with `lambda_previous = 0` and without applied forces of a user. Writes every

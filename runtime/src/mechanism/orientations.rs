@@ -46,13 +46,13 @@ pub(crate) fn bring_to_unit_length<S: Real, M: Mechanism>(
     state: &mut M::State<S>,
     mut rates: Option<&mut M::State<S>>,
 ) -> S {
-    let mut stretch = S::zero();
+    let mut norm_drift = S::zero();
     for body in M::REPORT.bodies {
         if body.kind == BodyKind::Rigid {
             let place = body.coordinate + 3;
             let p: [S; 4] = read(state.coordinates().as_slice(), place);
             let (off, factor) = to_unit_length(&p);
-            stretch = stretch.max(off);
+            norm_drift = norm_drift.max(off);
             let Some(factor) = factor else { continue };
             scale(state.coordinates_mut().as_mut_slice(), place, factor);
             if let Some(rates) = rates.as_deref_mut() {
@@ -60,11 +60,11 @@ pub(crate) fn bring_to_unit_length<S: Real, M: Mechanism>(
             }
         }
     }
-    stretch
+    norm_drift
 }
 
 /// The largest `| |p| - 1 |` of the Euler parameters of a state.
-pub(crate) fn stretch<S: Real, M: Mechanism>(state: &M::State<S>) -> S {
+pub(crate) fn norm_drift<S: Real, M: Mechanism>(state: &M::State<S>) -> S {
     let rigid = M::REPORT.bodies.iter();
     let rigid = rigid.filter(|body| body.kind == BodyKind::Rigid);
     let lengths = rigid.map(|body| {

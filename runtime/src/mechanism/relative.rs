@@ -201,11 +201,11 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         state: &mut M::JointState<S>,
         mut rates: Option<&mut M::JointState<S>>,
     ) -> Option<S> {
-        let mut stretch = None;
+        let mut norm_drift = None;
         for &place in M::JOINT_REPORT.euler_parameters {
             let p: [S; 4] = read(state.rest_slice(), place);
             let (off, factor) = to_unit_length(&p);
-            stretch = Some(stretch.map_or(off, |known: S| known.max(off)));
+            norm_drift = Some(norm_drift.map_or(off, |known: S| known.max(off)));
             let Some(factor) = factor else { continue };
             scale(state.rest_slice_mut(), place, factor);
             if let Some(rates) = rates.as_deref_mut() {
@@ -214,11 +214,11 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
             }
         }
         if const { M::JOINT_REPORT.has_screws() } {
-            M::JOINT_REPORT.recount_screws(state);
+            M::JOINT_REPORT.rewrap_screws(state);
         }
-        if M::JOINT_REPORT.recounts {
+        if M::JOINT_REPORT.rewraps {
             let mut bodies = bodies_of::<S, M>(constants, state);
-            M::recount(&absolute.constants, &mut bodies);
+            M::rewrap(&absolute.constants, &mut bodies);
             let counted = bodies.coordinates().as_slice();
             let counted = counted.get(M::REPORT.coordinates..).unwrap_or(&[]);
             let rest = state.rest_slice_mut();
@@ -227,7 +227,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
                 write(rest, first + place, [value]);
             }
         }
-        stretch
+        norm_drift
     }
 
     #[inline(always)]

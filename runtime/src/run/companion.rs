@@ -8,7 +8,7 @@
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{Advance as _, Course, Integrator, Span};
+use crate::integrate::{Advance as _, Integration, Integrator, TimeSpan};
 use crate::math::quaternion::angle_between;
 use crate::math::scalar::Real;
 use crate::math::vec3::{norm, read};
@@ -17,7 +17,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
-use crate::run::post_step::Treatment;
+use crate::run::post_step::PostStabilisation;
 use crate::state::vector::{Array, StateParts};
 
 /// The least error (m, rad) that is followed.
@@ -221,7 +221,7 @@ where
 {
     dynamics: Dynamics<S, M, F, A, C>,
     integrator: I,
-    course: Option<I::Course>,
+    integration: Option<I::Integration>,
     /// How its bodies stood last.
     bodies: M::State<S>,
     found: Verification<S, M>,
@@ -244,16 +244,20 @@ where
         Self {
             dynamics,
             integrator,
-            course: None,
+            integration: None,
             bodies: *bodies,
             found: Verification::nothing(),
         }
     }
 
     /// Begins anew at a break, from where it is.
-    pub(crate) fn restart(&mut self, span: &Span<S>, treatment: Option<&dyn Treatment<S, M>>) {
-        if self.course.is_some() {
-            self.reach(span.start, treatment);
+    pub(crate) fn restart(
+        &mut self,
+        span: &TimeSpan<S>,
+        stabilisation: Option<&dyn PostStabilisation<S, M>>,
+    ) {
+        if self.integration.is_some() {
+            self.reach(span.start, stabilisation);
         }
         if self.found.ended.is_some() {
             return;
@@ -261,9 +265,9 @@ where
         self.count();
         let start = self.dynamics.nearest(&self.bodies);
         match self.integrator.start(&mut self.dynamics, *span, start) {
-            Ok(course) => self.course = Some(course),
+            Ok(integration) => self.integration = Some(integration),
             Err(fault) => {
-                self.course = None;
+                self.integration = None;
                 self.found.ended = Some((span.start, fault));
             }
         }
@@ -275,9 +279,9 @@ where
         &mut self,
         time: S,
         bodies: &M::State<S>,
-        treatment: Option<&dyn Treatment<S, M>>,
+        stabilisation: Option<&dyn PostStabilisation<S, M>>,
     ) -> Option<M::State<S>> {
-        self.reach(time, treatment);
+        self.reach(time, stabilisation);
         if self.found.ended.is_some() {
             return None;
         }
@@ -291,52 +295,56 @@ where
     }
 
     /// Goes on to a time, unless it has ended.
-    fn reach(&mut self, time: S, treatment: Option<&dyn Treatment<S, M>>) {
+    fn reach(&mut self, time: S, stabilisation: Option<&dyn PostStabilisation<S, M>>) {
         if self.found.ended.is_none()
-            && let Err(fault) = self.go(time, treatment)
+            && let Err(fault) = self.go(time, stabilisation)
         {
-            let reached = self.course.as_ref().map_or(time, Course::time);
+            let reached = self.integration.as_ref().map_or(time, Integration::time);
             self.found.ended = Some((reached, fault));
         }
     }
 
-    fn go(&mut self, time: S, treatment: Option<&dyn Treatment<S, M>>) -> Result<(), Fault> {
-        let Some(course) = &mut self.course else {
+    fn go(
+        &mut self,
+        time: S,
+        stabilisation: Option<&dyn PostStabilisation<S, M>>,
+    ) -> Result<(), Fault> {
+        let Some(integration) = &mut self.integration else {
             return Ok(());
         };
         let budget = self.integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.found.evaluations);
-        while course.time() < time {
-            course.advance(&mut self.dynamics)?;
-            if course.time() <= time {
-                self.bodies = self.dynamics.bodies_near(course.state(), &self.bodies);
-                if let Some(treatment) = treatment {
+        while integration.time() < time {
+            integration.advance(&mut self.dynamics)?;
+            if integration.time() <= time {
+                self.bodies = self.dynamics.bodies_near(integration.state(), &self.bodies);
+                if let Some(stabilisation) = stabilisation {
                     let constants = self.dynamics.constants();
-                    treatment.treat(constants, course.time(), &mut self.bodies)?;
-                    let state = self.dynamics.nearest_to(&self.bodies, course.state());
-                    course.replace(state);
+                    stabilisation.stabilise(constants, integration.time(), &mut self.bodies)?;
+                    let state = self.dynamics.nearest_to(&self.bodies, integration.state());
+                    integration.replace(state);
                 }
             }
-            if course.counts().evaluations > budget {
+            if integration.counts().evaluations > budget {
                 return Err(Fault::Budget {
-                    evaluations: course.counts().evaluations,
+                    evaluations: integration.counts().evaluations,
                     joint: None,
                 });
             }
         }
-        if course.time() > time {
-            let state = course.at(&mut self.dynamics, time)?;
+        if integration.time() > time {
+            let state = integration.at(&mut self.dynamics, time)?;
             self.bodies = self.dynamics.bodies_near(&state, &self.bodies);
-            if let Some(treatment) = treatment {
-                treatment.treat(self.dynamics.constants(), time, &mut self.bodies)?;
+            if let Some(stabilisation) = stabilisation {
+                stabilisation.stabilise(self.dynamics.constants(), time, &mut self.bodies)?;
             }
         }
         Ok(())
     }
 
     fn count(&mut self) {
-        if let Some(course) = &self.course {
-            let evaluations = course.counts().evaluations;
+        if let Some(integration) = &self.integration {
+            let evaluations = integration.counts().evaluations;
             self.found.evaluations = self.found.evaluations.saturating_add(evaluations);
         }
     }

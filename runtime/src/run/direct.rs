@@ -34,9 +34,9 @@ use crate::state::vector::Array;
 /// is the same in any units.
 ///
 /// **One application** leaves of the positions what is of second order in the violation; that
-/// stays, the next step goes on with it. Where it is beyond the tolerance, the treatment says so,
-/// and a run has it among its doubts ([`Doubt::Excused`](crate::Doubt::Excused)); beyond
-/// `sqrt(tolerance)` it is refused.
+/// stays, the next step goes on with it. Where it is beyond the tolerance, the stabilisation says
+/// so, and a run has it among its warnings ([`Warning::Unconverged`](crate::Warning::Unconverged));
+/// beyond `sqrt(tolerance)` it is refused.
 ///
 /// **How it is computed.** A movement that satisfies `D d = -Phi` comes from the factorised saddle
 /// system, as for [`Projection`](crate::Projection); conjugate gradients, of which the same factors
@@ -80,7 +80,7 @@ const REFINED: usize = 6;
 
 impl<S: Real> DirectCorrection<S> {
     /// Corrects positions, then velocities, each by one application; Euler parameters come out at
-    /// length 1. What is left beyond the tolerance is [`Correction::excused`].
+    /// length 1. What is left beyond the tolerance is [`Correction::residual`].
     ///
     /// # Errors
     /// [`Fault::NotConverged`] where an application does not lessen a violation beyond the

@@ -15,10 +15,10 @@ use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
+use crate::monitor::Warnings;
 use crate::run::output::{Reporting, Schedule, check_interval};
 use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts};
-use crate::watch::Doubts;
 
 /// Kinematics and inverse dynamics of a mechanism that is driven fully: as many independent
 /// equations as velocities.
@@ -35,11 +35,11 @@ use crate::watch::Doubts;
 /// Nothing is integrated, so no error accumulates.
 ///
 /// **The analysis keeps its branch**, however far apart the reporting times are. Between them it
-/// goes by strides, in each of which a body turns by 0.2 rad at most, or moves by as much of the
-/// mechanism's size. A stride is shortened where the pose that is found is far from the one that
+/// goes by steps, in each of which a body turns by 0.2 rad at most, or moves by as much of the
+/// mechanism's size. A step is shortened where the pose that is found is far from the one that
 /// positions, velocities and accelerations predict, or where its velocities are. The relative
 /// pivots are followed along the way: a singular configuration, at which another branch begins, is
-/// among [`KinematicReport::doubts`], with its joint.
+/// among [`KinematicReport::warnings`], with its joint.
 ///
 /// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the
 /// equations are independent; where some are redundant, [`Penalty`](crate::Penalty) or
@@ -79,9 +79,9 @@ impl<S: Real, M: Mechanism, F: Debug, A> Debug for KinematicAnalysis<'_, S, M, F
 pub struct KinematicReport<S, X> {
     /// Poses that were reported: at the start, at the reporting times and at the end.
     pub poses: usize,
-    /// Strides between poses, reported or not.
-    pub strides: usize,
-    /// How often a stride was tried that turned out too long.
+    /// Steps between poses, reported or not.
+    pub steps: usize,
+    /// How often a step was tried that turned out too long.
     pub shortened: usize,
     /// Steps of Newton's method for all of them.
     pub iterations: usize,
@@ -94,16 +94,16 @@ pub struct KinematicReport<S, X> {
     pub state: X,
     /// Whether the observer stopped the analysis.
     pub stopped: bool,
-    doubts: Doubts,
+    warnings: Warnings,
 }
 
 impl<S, X> KinematicReport<S, X> {
-    /// What is to be doubted; empty where the motion was followed without a choice. A branch point
-    /// ([`Doubt::BranchPoint`](crate::Doubt::BranchPoint)) is found by pivots: not where equations
-    /// are kept that depend on others.
+    /// Warnings; empty where the motion was followed without a choice. A branch point
+    /// ([`Warning::BranchPoint`](crate::Warning::BranchPoint)) is found by pivots: not where
+    /// equations are kept that depend on others.
     #[must_use]
-    pub fn doubts(&self) -> Doubts {
-        self.doubts
+    pub fn warnings(&self) -> Warnings {
+        self.warnings
     }
 }
 
@@ -236,14 +236,14 @@ where
             if stopped || found.time >= end {
                 return Ok(KinematicReport {
                     poses,
-                    strides: motion.strides,
+                    steps: motion.steps,
                     shortened: motion.shortened,
                     iterations: motion.iterations,
                     worst_violation,
                     time: found.time,
                     state: found.state,
                     stopped,
-                    doubts: motion.passage.doubts(),
+                    warnings: motion.passage.warnings(),
                 });
             }
             let time = schedule.following().unwrap_or(end);

@@ -1,15 +1,15 @@
 //! Runs over an interval of time, single steps, and what follows a step.
 //!
-//! `segments.rs` is a run under way: integration from break to break, corrections, reports,
-//! budget. A post-step treatment is a trait object (`post_step.rs`): a corrected step costs far
-//! more than a call, and runs need no type for each. The treatment `TreeRecovery` goes from bodies
-//! to joint coordinates and back by the kernels of starts.
+//! `segments.rs` is a run under way: integration from break to break, corrections, reports, budget.
+//! A post-stabilisation is a trait object (`post_step.rs`): a corrected step costs far more than a
+//! call, and runs need no type for each. The stabilisation `TreeRecovery` goes from bodies to joint
+//! coordinates and back by the kernels of starts.
 //!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
 //! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
 //! kernel is generated for it.
 //!
-//! `kinematics/motion.rs` goes in strides that the motion bounds. It accepts a pose whose position
+//! `kinematics/motion.rs` goes in steps that the motion bounds. It accepts a pose whose position
 //! and velocity are near the prediction: near a branch, another one has other velocities.
 //! Gruebler's count says little where equations are redundant. So at every pose a trial motion is
 //! projected four times onto `D u = 0`. What is left of its energy separates a missing driver or a
@@ -35,6 +35,6 @@ pub(crate) mod within;
 pub use companion::{BodyError, Verification};
 pub use kinematics::KinematicResult;
 pub use output::Reporting;
-pub use post_step::{Treatment, TreeRecovery, VelocityProjection};
+pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use recorder::RecordError;

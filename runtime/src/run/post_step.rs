@@ -11,26 +11,26 @@ use crate::run::direct::DirectCorrection;
 
 /// What a run does to the state after every step, and to every state that it reports.
 ///
-/// | treatment | what it corrects | what it costs |
+/// | stabilisation | what it corrects | what it costs |
 /// |---|---|---|
 /// | [`Projection`] | positions and velocities, by the least movement in the metric of the mass | as much as 22 evaluations of a pendulum, 15 of a four-bar, by their bodies; more where steps are long |
 /// | [`VelocityProjection`] | velocities alone | as much as 15 and 9 |
 /// | [`TreeRecovery`] | whatever the joints of a spanning tree allow: positions and velocities of bodies follow from their orientations and from each other, without an iteration | as much as 7 and 1; closing joints keep their violation |
 ///
-/// Costs are of a step of Runge-Kutta against one without a treatment
+/// Costs are of a step of Runge-Kutta against one without a stabilisation
 /// (`study trade --problem pendulum --problem four-bar --scalar f64 --integrator rk4`, small
 /// steps). Where they count, joint coordinates need none, and shorter steps with Baumgarte's terms
 /// may be cheaper.
 ///
-/// A treatment of one's own is a function of the constants of a mechanism, the time and the state.
-/// Every one works with every integrator.
-pub trait Treatment<S: Real, M: Mechanism> {
+/// A stabilisation of one's own is a function of the constants of a mechanism, the time and the
+/// state. Every one works with every integrator.
+pub trait PostStabilisation<S: Real, M: Mechanism> {
     /// Treats a state; returns what it left beyond its tolerance, in sizes of a row, zero where
     /// nothing was.
     ///
     /// # Errors
-    /// Why the state cannot be treated; it is then as before.
-    fn treat(
+    /// Why the state cannot be stabilised; it is then as before.
+    fn stabilise(
         &self,
         constants: &M::Constants<S>,
         time: S,
@@ -38,27 +38,27 @@ pub trait Treatment<S: Real, M: Mechanism> {
     ) -> Result<S, Fault>;
 }
 
-impl<S: Real, M: Mechanism> Treatment<S, M> for Projection<S> {
-    fn treat(
+impl<S: Real, M: Mechanism> PostStabilisation<S, M> for Projection<S> {
+    fn stabilise(
         &self,
         constants: &M::Constants<S>,
         time: S,
         state: &mut M::State<S>,
     ) -> Result<S, Fault> {
         let correction = self.correct_in_motion::<M>(constants, time, state)?;
-        Ok(correction.excused)
+        Ok(correction.residual)
     }
 }
 
-impl<S: Real, M: Mechanism> Treatment<S, M> for DirectCorrection<S> {
-    fn treat(
+impl<S: Real, M: Mechanism> PostStabilisation<S, M> for DirectCorrection<S> {
+    fn stabilise(
         &self,
         constants: &M::Constants<S>,
         time: S,
         state: &mut M::State<S>,
     ) -> Result<S, Fault> {
         let correction = self.correct::<M>(constants, time, state)?;
-        Ok(correction.excused)
+        Ok(correction.residual)
     }
 }
 
@@ -77,8 +77,8 @@ impl<S: Real> Default for VelocityProjection<S> {
     }
 }
 
-impl<S: Real, M: Mechanism> Treatment<S, M> for VelocityProjection<S> {
-    fn treat(
+impl<S: Real, M: Mechanism> PostStabilisation<S, M> for VelocityProjection<S> {
+    fn stabilise(
         &self,
         constants: &M::Constants<S>,
         time: S,
@@ -112,8 +112,8 @@ impl<S: Real, M: JointCoordinates> TreeRecovery<S, M> {
     }
 }
 
-impl<S: Real, M: JointCoordinates> Treatment<S, M> for TreeRecovery<S, M> {
-    fn treat(
+impl<S: Real, M: JointCoordinates> PostStabilisation<S, M> for TreeRecovery<S, M> {
+    fn stabilise(
         &self,
         _constants: &M::Constants<S>,
         _time: S,

@@ -6,8 +6,8 @@ use crate::dynamics::Iterations;
 use crate::error::SimulationError;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::monitor::{Monitor, Warnings};
 use crate::run::companion::Verification;
-use crate::watch::{Doubts, Watch};
 
 /// What a run came to, and whether it can be trusted.
 #[non_exhaustive]
@@ -19,7 +19,7 @@ pub struct RunReport<S: Real, M: Mechanism> {
     /// Steps that were tried and rejected.
     pub rejected: usize,
     /// The largest `Phi^T Phi` at a reporting time. Its rows may have different units;
-    /// [`RunReport::watch`] has violations joint by joint, over all steps.
+    /// [`RunReport::monitor`] has violations joint by joint, over all steps.
     pub worst_violation: S,
     /// How often the augmented Lagrangian solved its system; zero for other formulations.
     pub iterations: Iterations,
@@ -34,15 +34,15 @@ pub struct RunReport<S: Real, M: Mechanism> {
     /// [`verified`](crate::Simulation::verified); `None` of another,
     /// and with an integrator that knows no companion.
     pub verification: Option<Verification<S, M>>,
-    /// What the watch saw; `None` where it was turned off.
-    pub watch: Option<Watch<S, M>>,
+    /// What the monitor saw; `None` where it was turned off.
+    pub monitor: Option<Monitor<S, M>>,
 }
 
 /// The report of a run, or why it could not go on.
 pub type RunResult<S, M> = Result<RunReport<S, M>, SimulationError<<M as Mechanism>::State<S>>>;
 
 impl<S: Real, M: Mechanism> RunReport<S, M> {
-    /// What is to be doubted; empty for a run that can be trusted, as far as its indicators tell.
+    /// Warnings; empty for a run that can be trusted, as far as its indicators tell.
     ///
     /// They tell a result that is off by more than about a hundredth: joints that open, energy that
     /// comes from nowhere, a singular configuration that was passed, tolerances, steps and
@@ -50,10 +50,10 @@ impl<S: Real, M: Mechanism> RunReport<S, M> {
     /// are shorter than a step, are beyond them: see
     /// [`Simulation::verified`](crate::Simulation::verified).
     #[must_use]
-    pub fn doubts(&self) -> Doubts {
-        self.watch
+    pub fn warnings(&self) -> Warnings {
+        self.monitor
             .as_ref()
-            .map_or_else(Doubts::unwatched, Watch::doubts)
+            .map_or_else(Warnings::unmonitored, Monitor::warnings)
     }
 }
 
@@ -65,7 +65,7 @@ impl<S: Real, M: Mechanism> Clone for RunReport<S, M> {
 
 impl<S: Real, M: Mechanism> Copy for RunReport<S, M> {}
 
-/// Equal in everything that was counted, reached and doubted.
+/// Equal in everything that was counted, reached and warned of.
 impl<S: Real, M: Mechanism> PartialEq for RunReport<S, M> {
     fn eq(&self, other: &Self) -> bool {
         let counts = |report: &Self| {
@@ -83,7 +83,7 @@ impl<S: Real, M: Mechanism> PartialEq for RunReport<S, M> {
             && self.worst_violation == other.worst_violation
             && self.time == other.time
             && self.state == other.state
-            && self.doubts() == other.doubts()
+            && self.warnings() == other.warnings()
     }
 }
 
@@ -98,7 +98,7 @@ impl<S: Real, M: Mechanism> fmt::Debug for RunReport<S, M> {
             .field("time", &self.time)
             .field("state", &self.state)
             .field("stopped", &self.stopped)
-            .field("doubts", &self.doubts())
+            .field("warnings", &self.warnings())
             .field("verification", &self.verification)
             .finish()
     }

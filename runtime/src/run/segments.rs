@@ -1,4 +1,4 @@
-//! A run under way: segments of integration between breaks, corrections, reports, and the watch
+//! A run under way: segments of integration between breaks, corrections, reports, and the monitor
 //! over them.
 
 use core::ops::ControlFlow;
@@ -6,30 +6,32 @@ use core::ops::ControlFlow;
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{Advance as _, Counts, Course as _, Integrator, Method, Span, System as _};
+use crate::integrate::{
+    Advance as _, Counts, Integration as _, Integrator, Method, System as _, TimeSpan,
+};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::monitor::{Monitor, fastest};
 use crate::run::companion::Companion;
 use crate::run::output::Schedule;
-use crate::run::post_step::Treatment;
+use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
 use crate::run::sample::Sample;
 use crate::run::within::{better_end, look_within};
-use crate::watch::{Watch, fastest};
 
 /// A run under way.
 pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> {
     /// What the integrator moves.
     pub(crate) dynamics: Dynamics<S, M, F, A, C>,
     /// What is done to states after steps and before reports.
-    pub(crate) treatment: Option<&'r dyn Treatment<S, M>>,
+    pub(crate) stabilisation: Option<&'r dyn PostStabilisation<S, M>>,
     pub(crate) schedule: Schedule<S>,
     /// Instants (s) at which the integration begins anew, in any order, besides those of the
     /// description.
     pub(crate) breaks: &'r [S],
-    pub(crate) watch: Option<Watch<S, M>>,
+    pub(crate) monitor: Option<Monitor<S, M>>,
     pub(crate) log: Log<'r, S, M>,
     /// Steps so far.
     pub(crate) steps: usize,
@@ -85,8 +87,8 @@ where
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
         }
         self.show(start, &last_good.1, &mut companion);
-        if let Some(watch) = self.watch.as_mut().filter(|_| from < end) {
-            self.dynamics.begin(watch, start, &last_good.1);
+        if let Some(monitor) = self.monitor.as_mut().filter(|_| from < end) {
+            self.dynamics.begin(monitor, start, &last_good.1);
         }
         if from < end {
             let start = (start, &last_good.1);
@@ -94,13 +96,13 @@ where
         }
         while from < end && self.log.flow.is_continue() {
             let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
-            let span = Span {
+            let span = TimeSpan {
                 start: from,
                 end: until,
                 first_output: self.schedule.first(from).min(until - from),
             };
             if let Some(companion) = &mut companion {
-                companion.restart(&span, self.treatment);
+                companion.restart(&span, self.stabilisation);
             }
             self.segment(integrator, &mut companion, span, last_good)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
@@ -124,45 +126,45 @@ where
         &mut self,
         integrator: &I,
         companion: &mut Option<Companion<S, M, F, A, C, I>>,
-        span: Span<S>,
+        span: TimeSpan<S>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         let start = self.dynamics.nearest(&last_good.1);
-        let mut course = integrator.start(&mut self.dynamics, span, start)?;
-        if let Some(watch) = &mut self.watch {
-            watch.restart();
-            let state = course.state();
+        let mut integration = integrator.start(&mut self.dynamics, span, start)?;
+        if let Some(monitor) = &mut self.monitor {
+            monitor.restart();
+            let state = integration.state();
             self.dynamics
-                .watch(watch, span.start, state, &last_good.1, None);
+                .monitor(monitor, span.start, state, &last_good.1, None);
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
-        // What interpolants evaluate for the watch is no part of the run.
-        let mut of_watch = 0_usize;
-        while course.time() < span.end {
-            course.advance(&mut self.dynamics)?;
-            let before = course.counts().evaluations;
+        // What interpolants evaluate for the monitor is no part of the run.
+        let mut of_monitor = 0_usize;
+        while integration.time() < span.end {
+            integration.advance(&mut self.dynamics)?;
+            let before = integration.counts().evaluations;
             let mut better = None;
-            if let Some(watch) = &mut self.watch {
-                better = better_end(watch, &mut self.dynamics, &course, &last_good.1);
-                look_within(watch, &mut self.dynamics, &mut course, &last_good.1);
+            if let Some(monitor) = &mut self.monitor {
+                better = better_end(monitor, &mut self.dynamics, &integration, &last_good.1);
+                look_within(monitor, &mut self.dynamics, &mut integration, &last_good.1);
             }
-            let after = course.counts().evaluations;
+            let after = integration.counts().evaluations;
             let looks = after.saturating_sub(before);
-            // What output within the step evaluates is not what the watch is shown, which is its
+            // What output within the step evaluates is not what the monitor is shown, which is its
             // end.
             let mut seen = None;
-            while let Some(time) = self.schedule.within(course.time()) {
+            while let Some(time) = self.schedule.within(integration.time()) {
                 seen.get_or_insert_with(|| self.dynamics.seen());
-                let state = course.at(&mut self.dynamics, time)?;
+                let state = integration.at(&mut self.dynamics, time)?;
                 let mut state = self.dynamics.bodies_near(&state, &last_good.1);
-                if let Some(treatment) = self.treatment {
-                    state = self.treated(treatment, time, state)?;
+                if let Some(stabilisation) = self.stabilisation {
+                    state = self.stabilised(stabilisation, time, state)?;
                 }
                 *last_good = (time, state);
                 self.show(time, &last_good.1, companion);
                 if self.log.flow.is_break() {
-                    self.counts = self.counts.plus(course.counts().without(of_watch));
+                    self.counts = self.counts.plus(integration.counts().without(of_monitor));
                     return Ok(());
                 }
             }
@@ -171,30 +173,30 @@ where
                 // or evaluate for each time anew.
                 Some(seen) => {
                     self.dynamics.recall(seen);
-                    course.counts().evaluations == after
+                    integration.counts().evaluations == after
                 }
                 // Or as the slope at the start of the next step.
-                None => looks <= 1 && self.treatment.is_none(),
+                None => looks <= 1 && self.stabilisation.is_none(),
             };
             if !is_shared {
-                of_watch = of_watch.saturating_add(looks);
+                of_monitor = of_monitor.saturating_add(looks);
             }
-            let time = course.time();
-            let mut state = self.dynamics.bodies_near(course.state(), &last_good.1);
-            if let Some(treatment) = self.treatment {
-                state = self.treated(treatment, time, state)?;
-                let state = self.dynamics.nearest_to(&state, course.state());
-                course.replace(state);
+            let time = integration.time();
+            let mut state = self.dynamics.bodies_near(integration.state(), &last_good.1);
+            if let Some(stabilisation) = self.stabilisation {
+                state = self.stabilised(stabilisation, time, state)?;
+                let state = self.dynamics.nearest_to(&state, integration.state());
+                integration.replace(state);
             }
-            if let Some(watch) = &mut self.watch {
+            if let Some(monitor) = &mut self.monitor {
                 if let Some(better) = better {
-                    watch.judge([&state, &better]);
+                    monitor.judge([&state, &better]);
                 }
-                let estimate = course.estimate();
+                let estimate = integration.estimate();
                 self.dynamics
-                    .watch(watch, time, course.state(), &state, estimate);
-                let excused = self.dynamics.iterations().excused;
-                watch.excuse_evaluations(excused, time);
+                    .monitor(monitor, time, integration.state(), &state, estimate);
+                let unconverged = self.dynamics.iterations().unconverged;
+                monitor.accept_unconverged_evaluations(unconverged, time);
             }
             self.steps = self.steps.saturating_add(1);
             if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
@@ -209,7 +211,7 @@ where
                     break;
                 }
             }
-            let evaluations = course.counts().without(of_watch).evaluations;
+            let evaluations = integration.counts().without(of_monitor).evaluations;
             if evaluations >= budget && time < span.end {
                 let evaluations = self.counts.evaluations.saturating_add(evaluations);
                 return Err(Fault::Budget {
@@ -218,24 +220,24 @@ where
                 });
             }
         }
-        self.counts = self.counts.plus(course.counts().without(of_watch));
+        self.counts = self.counts.plus(integration.counts().without(of_monitor));
         Ok(())
     }
 
-    /// A state after its treatment.
+    /// A state after its stabilisation.
     #[inline(never)]
-    fn treated(
+    fn stabilised(
         &mut self,
-        treatment: &dyn Treatment<S, M>,
+        stabilisation: &dyn PostStabilisation<S, M>,
         time: S,
         mut state: M::State<S>,
     ) -> Result<M::State<S>, Fault> {
         let constants = self.dynamics.constants();
-        let excused = treatment.treat(constants, time, &mut state)?;
-        if let Some(watch) = &mut self.watch
-            && excused > S::zero()
+        let residual = stabilisation.stabilise(constants, time, &mut state)?;
+        if let Some(monitor) = &mut self.monitor
+            && residual > S::zero()
         {
-            watch.excuse_correction(time);
+            monitor.accept_unconverged_correction(time);
         }
         Ok(state)
     }
@@ -247,7 +249,8 @@ where
         companion: &mut Option<Companion<S, M, F, A, C, I>>,
     ) {
         let beside = companion.as_mut();
-        let beside = beside.and_then(|companion| companion.compare(time, state, self.treatment));
+        let beside =
+            beside.and_then(|companion| companion.compare(time, state, self.stabilisation));
         let dynamics = &self.dynamics;
         let view = dynamics.view(time, state);
         let log = &mut self.log;
@@ -258,9 +261,9 @@ where
 
     /// The last state is one that was shown.
     fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
-        if let Some(watch) = &mut self.watch {
-            self.dynamics.name_smallest_pivot(watch);
-            watch.end(self.dynamics.constants(), time, &state);
+        if let Some(monitor) = &mut self.monitor {
+            self.dynamics.name_smallest_pivot(monitor);
+            monitor.end(self.dynamics.constants(), time, &state);
         }
         RunReport {
             evaluations: self.counts.evaluations,
@@ -272,7 +275,7 @@ where
             state,
             stopped: self.log.flow.is_break(),
             verification: None,
-            watch: self.watch,
+            monitor: self.monitor,
         }
     }
 

@@ -17,14 +17,14 @@ use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::check_state;
+use crate::monitor::Monitor;
 use crate::run::companion::Companion;
 use crate::run::output::{Reporting, Schedule, check_interval};
-use crate::run::post_step::Treatment;
+use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
 use crate::run::sample::Sample;
 use crate::run::segments::{Log, Observer, Run};
 use crate::state::vector::{Array, StateParts};
-use crate::watch::Watch;
 
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
@@ -47,10 +47,10 @@ pub struct Simulation<
     initial: Option<M::State<S>>,
     assemble: Option<Projection<S>>,
     projection: Option<Projection<S>>,
-    treatment: Option<&'a dyn Treatment<S, M>>,
+    stabilisation: Option<&'a dyn PostStabilisation<S, M>>,
     breaks: &'a [S],
     accepts_any_start: bool,
-    is_watched: bool,
+    is_monitored: bool,
     is_verified: bool,
     coordinates: PhantomData<C>,
 }
@@ -98,10 +98,10 @@ where
             initial: None,
             assemble: None,
             projection: None,
-            treatment: None,
+            stabilisation: None,
             breaks: &[],
             accepts_any_start: false,
-            is_watched: true,
+            is_monitored: true,
             is_verified: false,
             coordinates: PhantomData,
         }
@@ -134,15 +134,15 @@ where
     #[must_use]
     pub fn projection(mut self, projection: Projection<S>) -> Self {
         self.projection = Some(projection);
-        self.treatment = None;
+        self.stabilisation = None;
         self
     }
 
     /// Treats the state after every step, and every state that is reported, in another way than by
-    /// a [`Simulation::projection`], see [`Treatment`].
+    /// a [`Simulation::projection`], see [`PostStabilisation`].
     #[must_use]
-    pub fn treatment(mut self, treatment: &'a dyn Treatment<S, M>) -> Self {
-        self.treatment = Some(treatment);
+    pub fn post_stabilisation(mut self, stabilisation: &'a dyn PostStabilisation<S, M>) -> Self {
+        self.stabilisation = Some(stabilisation);
         self.projection = None;
         self
     }
@@ -165,11 +165,11 @@ where
         self
     }
 
-    /// Runs without the watch behind [`RunReport::doubts`]: that saves a tenth to a third of the
-    /// time, and more for runs of some ten steps.
+    /// Runs without the monitor behind [`RunReport::warnings`]: that saves a tenth to a third of
+    /// the time, and more for runs of some ten steps.
     #[must_use]
-    pub fn unwatched(mut self) -> Self {
-        self.is_watched = false;
+    pub fn unmonitored(mut self) -> Self {
+        self.is_monitored = false;
         self
     }
 
@@ -220,10 +220,10 @@ where
             initial: self.initial,
             assemble: self.assemble,
             projection: self.projection,
-            treatment: self.treatment,
+            stabilisation: self.stabilisation,
             breaks: self.breaks,
             accepts_any_start: self.accepts_any_start,
-            is_watched: self.is_watched,
+            is_monitored: self.is_monitored,
             is_verified: self.is_verified,
             coordinates: PhantomData,
         }
@@ -260,7 +260,7 @@ where
     /// those of the tree cannot open.
     ///
     /// States go in and come out as those of the bodies; reports, reactions, projection (of the
-    /// joints that close loops) and watch are the same. The watch looks at the joints that
+    /// joints that close loops) and monitor are the same. The monitor looks at the joints that
     /// close loops alone.
     #[must_use]
     pub fn joint_coordinates(self) -> Simulation<'a, S, M, F, I, A, Relative>
@@ -347,7 +347,7 @@ where
         check_interval(start, end)?;
         let schedule = Schedule::new(start, end, reporting)?;
         check_state::<S, M>(&state)?;
-        M::recount(&constants, &mut state);
+        M::rewrap(&constants, &mut state);
         if let Some(projection) = self.assemble {
             let from = M::initial_state(&constants);
             assembled::<S, M>(&projection, &constants, start, &mut state, &from)?;
@@ -357,8 +357,8 @@ where
             let interval = (start, end - start);
             check_start::<S, M>(&constants, interval, &state, C::IS_RELATIVE)?;
         }
-        let watch = self.is_watched.then(|| {
-            Watch::new(&constants, start, &state)
+        let monitor = self.is_monitored.then(|| {
+            Monitor::new(&constants, start, &state)
                 .of_joints(C::keeps_equations)
                 .over(&self.integrator)
                 .decaying(self.formulation.decay_rate())
@@ -370,13 +370,13 @@ where
             None
         };
         let projection = self.projection.as_ref();
-        let projection = projection.map(|projection| projection as &dyn Treatment<S, M>);
+        let projection = projection.map(|projection| projection as &dyn PostStabilisation<S, M>);
         let run = Run {
             dynamics,
-            treatment: self.treatment.or(projection),
+            stabilisation: self.stabilisation.or(projection),
             schedule,
             breaks: self.breaks,
-            watch,
+            monitor,
             log: Log::new(observe),
             steps: 0,
             counts: Counts::default(),

@@ -10,25 +10,25 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::watch::{Asked, Nearness, Watch};
+use crate::monitor::{Asked, Monitor, Nearness};
 
 /// How often a step is divided at the most.
 const FINEST: usize = 8;
 
-/// How often a step is divided before the course of its pivots may say that nothing was passed.
+/// How often a step is divided before the sequence of its pivots may say that nothing was passed.
 const COARSEST: usize = 2;
 
 /// The part of an interval at which it is divided: not its middle, for a motion may repeat itself
 /// in half a step.
 const DIVISION: f64 = 0.44;
 
-/// Where a rule of higher order would have led in the last step of a course, of some steps of a
-/// method that is judged. The bodies stood near by a moment ago.
+/// Where a rule of higher order would have led in the last step of an integration, of some steps of
+/// a method that is judged. The bodies stood near by a moment ago.
 #[inline]
 pub(crate) fn better_end<S, M, F, A, C, K>(
-    watch: &Watch<S, M>,
+    monitor: &Monitor<S, M>,
     dynamics: &mut Dynamics<S, M, F, A, C>,
-    course: &K,
+    integration: &K,
     near: &M::State<S>,
 ) -> Option<M::State<S>>
 where
@@ -39,26 +39,26 @@ where
     C: Coordinates<M>,
     K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
-    if !watch.judges() {
+    if !monitor.judges() {
         return None;
     }
     let (seen, iterations) = (dynamics.seen(), dynamics.iterations());
     // Where there is a fault the run will find it.
-    let better = course.better_end(dynamics).ok().flatten();
+    let better = integration.better_end(dynamics).ok().flatten();
     dynamics.recall(seen);
     dynamics.iterations = iterations;
     better.map(|state| dynamics.bodies_near(&state, near))
 }
 
-/// Looks into the last step of a course, before its end is corrected or shown to the watch: as far
-/// as pivots at the ends of its parts do not tell that the mechanism kept away from where one
-/// vanishes. The bodies stood near by a moment ago.
+/// Looks into the last step of an integration, before its end is corrected or shown to the monitor:
+/// as far as pivots at the ends of its parts do not tell that the mechanism kept away from where
+/// one vanishes. The bodies stood near by a moment ago.
 ///
 /// By joints a step may be a fifth of a turn.
 pub(crate) fn look_within<S, M, F, A, C, K>(
-    watch: &mut Watch<S, M>,
+    monitor: &mut Monitor<S, M>,
     dynamics: &mut Dynamics<S, M, F, A, C>,
-    course: &mut K,
+    integration: &mut K,
     near: &M::State<S>,
 ) where
     S: Real,
@@ -68,38 +68,38 @@ pub(crate) fn look_within<S, M, F, A, C, K>(
     C: Coordinates<M>,
     K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
-    let (start, end) = (watch.time(), course.time());
-    let asked = watch.asks(end - start);
+    let (start, end) = (monitor.time(), integration.time());
+    let asked = monitor.asks(end - start);
     if !(asked.pivot || asked.gradient) {
         return;
     }
-    let last = dynamics.bodies_near(course.state(), near);
-    let rate = watch.faster(&last);
-    let first = watch.last_nearness(asked);
+    let last = dynamics.bodies_near(integration.state(), near);
+    let rate = monitor.faster(&last);
+    let first = monitor.last_nearness(asked);
     let known = dynamics.pivot_seen();
-    let last = nearness(watch, dynamics, (end, &last), asked, known);
-    if !watch.may_pass(rate * (end - start), [first, last]) {
+    let last = nearness(monitor, dynamics, (end, &last), asked, known);
+    if !monitor.may_pass(rate * (end - start), [first, last]) {
         return;
     }
     let seen = dynamics.seen();
     let mut step = Within {
-        watch,
+        monitor,
         dynamics,
-        course,
+        integration,
         near,
         rate,
         asked,
     };
     let is_known = step.between((start, first), (end, last), 0);
     if is_known {
-        watch.is_known_for(rate * (end - start), asked);
+        monitor.is_known_for(rate * (end - start), asked);
     }
     dynamics.recall(seen);
 }
 
 /// How near a state is to a singular configuration, with its pivot where that is known.
 fn nearness<S, M, F, A, C>(
-    watch: &mut Watch<S, M>,
+    monitor: &mut Monitor<S, M>,
     dynamics: &Dynamics<S, M, F, A, C>,
     (time, bodies): (S, &M::State<S>),
     asked: Asked,
@@ -117,14 +117,14 @@ where
     } else {
         None
     };
-    watch.nearness(dynamics.constants(), (time, bodies), pivot, asked)
+    monitor.nearness(dynamics.constants(), (time, bodies), pivot, asked)
 }
 
 /// A step that is looked into.
 struct Within<'w, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, K> {
-    watch: &'w mut Watch<S, M>,
+    monitor: &'w mut Monitor<S, M>,
     dynamics: &'w mut Dynamics<S, M, F, A, C>,
-    course: &'w mut K,
+    integration: &'w mut K,
     near: &'w M::State<S>,
     /// The largest rate of motion (rad/s) at its ends.
     rate: S,
@@ -141,7 +141,7 @@ where
     K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
     fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
-        let state = self.course.at(self.dynamics, time)?;
+        let state = self.integration.at(self.dynamics, time)?;
         // An interpolant between two orientations passes within the sphere of Euler parameters.
         let bodies = self.dynamics.bodies_near(&state, self.near);
         Ok(with_unit_orientations::<S, M>(&bodies))
@@ -152,8 +152,14 @@ where
     fn nearness(&mut self, time: S) -> Option<Nearness<S>> {
         match self.bodies(time) {
             Ok(state) => {
-                let (watch, dynamics) = (&mut *self.watch, &*self.dynamics);
-                Some(nearness(watch, dynamics, (time, &state), self.asked, None))
+                let (monitor, dynamics) = (&mut *self.monitor, &*self.dynamics);
+                Some(nearness(
+                    monitor,
+                    dynamics,
+                    (time, &state),
+                    self.asked,
+                    None,
+                ))
             }
             Err(Fault::Singular { .. }) => Some(Nearness::singular(self.asked)),
             Err(_) => None,
@@ -163,17 +169,17 @@ where
     // States stay out of the frames of the recursion, and of those that were least there are few.
     #[inline(never)]
     fn look(&mut self, time: S, nearness: Nearness<S>) {
-        if self.watch.look(time, nearness)
+        if self.monitor.look(time, nearness)
             && let Ok(state) = self.bodies(time)
         {
-            self.watch.keep(time, &state);
+            self.monitor.keep(time, &state);
         }
     }
 
     /// Looks at what lies between two times, in order; whether nothing can have been passed unseen.
     fn between(&mut self, from: (S, Nearness<S>), to: (S, Nearness<S>), depth: usize) -> bool {
         let motion = self.rate * (to.0 - from.0);
-        if !self.watch.may_pass(motion, [from.1, to.1]) {
+        if !self.monitor.may_pass(motion, [from.1, to.1]) {
             return true;
         }
         if depth == FINEST {

@@ -4,7 +4,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::versine;
 use crate::state::each::EachOfJoints;
 use crate::state::vector::{
-    Vector, greater, greatest, plus, relative_norm, zero_if_finite, zero_if_finite_after,
+    Vector, greater, greatest, plus, weighted_norm, zero_if_finite, zero_if_finite_after,
 };
 
 /// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every
@@ -31,7 +31,7 @@ use crate::state::vector::{
 ///   [`Vector::plus_once_and_twice`], which leads to the first stage, does so with a pair that
 ///   stands alone. The sums are the same, up to round-off; of an error of the length the latter
 ///   leaves half a square of the angle times as much beside the above.
-/// - [`Vector::relative_norm`] measures the increment of an angle in radians, against
+/// - [`Vector::weighted_norm`] measures the increment of an angle in radians, against
 ///   `max(1, floor)`. Angles on a circle have no size, so a relative tolerance is one in radians,
 ///   and an absolute one counts if it is greater.
 /// - [`Vector::towards`] goes along the circle, by the turn nearest to the given way.
@@ -338,7 +338,7 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     }
 
     /// The second element of a pair has none.
-    fn has_part(&self, index: usize) -> bool {
+    fn is_independent(&self, index: usize) -> bool {
         index >= 2 * TURNS || index.is_multiple_of(2)
     }
 
@@ -417,7 +417,7 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     }
 
     #[inline(always)]
-    fn relative_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
+    fn weighted_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
     where
         S: Real,
     {
@@ -429,8 +429,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
         let rest = [&self.rest, &other.rest];
         let rates = [&self.rates, &other.rates];
         greatest(&angles)
-            .max(relative_norm(rest, floor, &terms, |x: &Self| &x.rest))
-            .max(relative_norm(rates, floor, &terms, |x: &Self| &x.rates))
+            .max(weighted_norm(rest, floor, &terms, |x: &Self| &x.rest))
+            .max(weighted_norm(rates, floor, &terms, |x: &Self| &x.rates))
     }
 
     #[inline(always)]

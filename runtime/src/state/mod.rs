@@ -2,7 +2,7 @@
 //!
 //! A state of bodies has its auxiliary variables, the angles that count turns, behind the
 //! coordinates of bodies. An integrator moves them and knows nothing of them. Only the number of
-//! whole turns is read from them; the rest comes from orientations. `Mechanism::recount` corrects
+//! whole turns is read from them; the rest comes from orientations. `Mechanism::rewrap` corrects
 //! them after other displacements.
 //!
 //! A state in joint coordinates has pairs of cosine and sine. Its `plus` turns them, so

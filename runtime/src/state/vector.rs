@@ -100,7 +100,7 @@ pub trait Vector<S: Scalar>: Clone {
     /// Whether an increment of the element at a place has a part in [`Vector::plus`]: implicit
     /// methods need no derivative for one that has none.
     #[must_use]
-    fn has_part(&self, index: usize) -> bool {
+    fn is_independent(&self, index: usize) -> bool {
         let _ = index;
         true
     }
@@ -156,7 +156,7 @@ pub trait Vector<S: Scalar>: Clone {
     /// `max over k of |sum of factor * direction[k]| / max(|self[k]|, |other[k]|, floor)`: an
     /// increment, relative to the larger of two vectors. NaN if any element is NaN.
     #[must_use]
-    fn relative_norm<const N: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); N]) -> S
+    fn weighted_norm<const N: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); N]) -> S
     where
         S: Real,
     {
@@ -225,11 +225,11 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     }
 
     #[inline(always)]
-    fn relative_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
+    fn weighted_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
     where
         S: Real,
     {
-        relative_norm([self, other], floor, &terms, |direction| direction)
+        weighted_norm([self, other], floor, &terms, |direction| direction)
     }
 
     #[inline(always)]
@@ -257,9 +257,9 @@ pub(crate) fn plus<S: Scalar, X, const N: usize>(
     result
 }
 
-/// [`Vector::relative_norm`] of a part of a state.
+/// [`Vector::weighted_norm`] of a part of a state.
 #[inline(always)]
-pub(crate) fn relative_norm<S: Real, X, const N: usize>(
+pub(crate) fn weighted_norm<S: Real, X, const N: usize>(
     [from, to]: [&[S; N]; 2],
     floor: S,
     terms: &[(S, &X)],
@@ -399,14 +399,14 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
     }
 
     #[inline(always)]
-    fn relative_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
+    fn weighted_norm<const K: usize>(&self, other: &Self, floor: S, terms: [(S, &Self); K]) -> S
     where
         S: Real,
     {
         let coordinates = [&self.coordinates, &other.coordinates];
         let velocities = [&self.velocities, &other.velocities];
-        let moved = relative_norm(coordinates, floor, &terms, |x: &Self| &x.coordinates);
-        moved.max(relative_norm(velocities, floor, &terms, |x: &Self| {
+        let moved = weighted_norm(coordinates, floor, &terms, |x: &Self| &x.coordinates);
+        moved.max(weighted_norm(velocities, floor, &terms, |x: &Self| {
             &x.velocities
         }))
     }

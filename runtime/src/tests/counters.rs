@@ -70,10 +70,10 @@ fn a_pose_that_was_set_keeps_the_whole_turns_of_the_counter() {
     state.coordinates_mut()[7] = 3.0 * TAU;
     Crank::set_pose(&mut state, CRANK, turned(2.0));
     assert_eq!(state.coordinates()[7], 3.0 * TAU);
-    Crank::recount(&constants, &mut state);
+    Crank::rewrap(&constants, &mut state);
     assert!((state.coordinates()[7] - (3.0 * TAU + 2.0)).abs() < 1e-14);
     let before = state;
-    Crank::recount(&constants, &mut state);
+    Crank::rewrap(&constants, &mut state);
     assert_eq!(state, before);
 }
 

@@ -190,7 +190,7 @@ impl Mechanism for Crank {
         from_fn(|k| rates.get(k).copied().unwrap_or(turning))
     }
 
-    fn recount<S: Scalar>(c: &Constants<S>, state: &mut State<S, 8, 6>) {
+    fn rewrap<S: Scalar>(c: &Constants<S>, state: &mut State<S, 8, 6>) {
         state.coordinates_mut()[7] = Self::joint_angle(c, state, 0).angle();
     }
 

@@ -50,8 +50,8 @@ fn the_crank_follows_its_law<F: Formulation<f64>>(formulation: F, tolerance: f64
         .unwrap();
     assert_eq!((times, report.poses, report.time), (61, 61, 3.0));
     assert!(report.worst_violation < 1e-24 && !report.stopped);
-    assert!(report.iterations < 4 * report.strides);
-    assert!(report.doubts().is_empty());
+    assert!(report.iterations < 4 * report.steps);
+    assert!(report.warnings().is_empty());
     // More than four turns.
     assert!(report.state.coordinates()[7] > 4.0 * TAU);
 }
@@ -63,7 +63,7 @@ fn a_crank_follows_its_law_and_shows_what_that_takes() {
 }
 
 #[test]
-fn strides_of_several_turns_are_followed_where_the_prediction_is_exact() {
+fn steps_of_several_turns_are_followed_where_the_prediction_is_exact() {
     let crank = crank(9.0);
     let report = KinematicAnalysis::new(&crank, StandardLagrange)
         .run(0.0..=10.0, every(2.0), |sample| {

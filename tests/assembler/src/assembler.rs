@@ -195,7 +195,7 @@ impl Assembler {
         self.coordinates
     }
 
-    /// The counted angles, in the order of their auxiliary states.
+    /// The unwrapped angles, in the order of their auxiliary states.
     #[must_use]
     pub fn angles(&self) -> &[Angle] {
         &self.angles
@@ -277,7 +277,7 @@ impl Assembler {
                 x.fixed_rows_mut::<3>(u + 3).copy_from(&body.rate);
             }
         }
-        self.recount(x.as_mut_slice());
+        self.rewrap(x.as_mut_slice());
         x
     }
 

@@ -85,7 +85,7 @@ impl Joint {
         between_points(scene, between, head, tail, rows)
     }
 
-    /// `theta - f(t)` of the counted angle of `j` against `i`: 1 row.
+    /// `theta - f(t)` of the unwrapped angle of `j` against `i`: 1 row.
     #[must_use]
     pub fn angle_driver(
         scene: &Assembler,

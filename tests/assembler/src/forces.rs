@@ -1,7 +1,7 @@
 //! Forces between bodies: what they add to `g`, their potential energy and their power, derived by
 //! hand.
 //!
-//! A force `F` along a scalar `f` (a length or a counted angle) does the work `F df`, so it adds
+//! A force `F` along a scalar `f` (a length or an unwrapped angle) does the work `F df`, so it adds
 //! `F` times the gradient of `f`; this holds off the constraints too. A force at a point adds the
 //! gradient of `F . P` with `F` held, a moment `A^T M`, with `A` as it is read. Source: Haug
 //! (1989), chapter 11 (springs, dampers and actuators between points and about axes).
@@ -74,8 +74,8 @@ impl Force {
         }
     }
 
-    /// A torsional spring and damper on the counted angle of `j` against `i` about an axis (global
-    /// axes, reference configuration).
+    /// A torsional spring and damper on the unwrapped angle of `j` against `i` about an axis
+    /// (global axes, reference configuration).
     #[must_use]
     pub fn torsional_spring_damper(
         scene: &Assembler,
@@ -108,7 +108,7 @@ impl Force {
         }
     }
 
-    /// A law of `(angle, rate, time)` on the counted angle of `j` against `i` about an axis.
+    /// A law of `(angle, rate, time)` on the unwrapped angle of `j` against `i` about an axis.
     #[must_use]
     pub fn torsional_actuator(
         scene: &Assembler,
@@ -163,7 +163,7 @@ impl Force {
         Self::constant_moment(scene, [body, body], moment)
     }
 
-    /// Its counted angle.
+    /// Its unwrapped angle.
     pub(crate) fn angle_mut(&mut self) -> Option<&mut Angle> {
         match self {
             Self::Spring {

@@ -11,7 +11,7 @@ pub struct Kinematics {
     pub time: f64,
     /// One frame per body, the ground first.
     pub frames: Vec<Frame>,
-    /// The auxiliary states `s` (rad), one per counted angle.
+    /// The auxiliary states `s` (rad), one per unwrapped angle.
     pub turns: Vec<f64>,
 }
 

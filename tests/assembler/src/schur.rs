@@ -1,4 +1,4 @@
-//! The strongest opponent with run-time matrices: multipliers from
+//! The strongest baseline with run-time matrices: multipliers from
 //! `(D M^-1 D^T) lambda = D M^-1 g - gamma*`.
 //!
 //! `M` is diagonal, so the matrix is a sum over the columns of `D` and factorised by Cholesky in

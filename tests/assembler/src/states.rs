@@ -120,7 +120,7 @@ pub fn displace(assembler: &Assembler, x: &mut [f64], motion: &[f64]) {
             x[q + 3..q + 7].copy_from_slice(p.normalize().as_slice());
         }
     }
-    assembler.recount(x);
+    assembler.rewrap(x);
 }
 
 /// Lets the auxiliary states of `x = (q, u)` count up to three turns more or fewer, and drift from

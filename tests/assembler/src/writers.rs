@@ -122,7 +122,7 @@ impl Assembler {
 
     /// Sets every auxiliary state of `x = (q, u)` to the angle itself, with the turns that it
     /// counted before.
-    pub fn recount(&self, x: &mut [f64]) {
+    pub fn rewrap(&self, x: &mut [f64]) {
         if self.angles().is_empty() {
             return;
         }

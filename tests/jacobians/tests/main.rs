@@ -277,7 +277,9 @@ fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulati
     for (size, seed) in [(0.01, 3), (0.3, 4)] {
         let state = beside(&start, size, seed);
         let (matrix, count) = offered(&mut joints, &state);
-        let moving = (0..state.length()).filter(|&k| state.has_part(k)).count();
+        let moving = (0..state.length())
+            .filter(|&k| state.is_independent(k))
+            .count();
         assert_eq!(count, moving);
         let exact = [state, next(&state)]
             .map(|state| by_dual_numbers_of_joints::<M, F>(mechanism, &formulation, &state));

@@ -1,12 +1,12 @@
 //! A kinematic analysis stays on its branch however far apart its reports are.
 
-use holonom::Doubt;
+use holonom::Warning;
 use holonom::joints::{AngleDriver, Cylindrical, Revolute, Spherical};
 use holonom::prelude::*;
 
 use super::linkages::{CRANK_ROCKER, DrivenFourBar, Lengths, Random};
 
-/// The analysis over 36 rad of the crank; strides, and reports that are off.
+/// The analysis over 36 rad of the crank; steps, and reports that are off.
 fn analysed<F: Formulation<f64>>(
     lengths: Lengths,
     formulation: F,
@@ -23,20 +23,20 @@ fn analysed<F: Formulation<f64>>(
         })
         .unwrap_or_else(|error| panic!("{lengths:?}: {error}"));
     assert!(
-        report.doubts().is_empty(),
+        report.warnings().is_empty(),
         "{lengths:?}: {}",
-        report.doubts()
+        report.warnings()
     );
-    (report.strides, wrong)
+    (report.steps, wrong)
 }
 
 #[test]
 fn reports_of_a_crank_rocker_are_right_however_far_apart_they_are() {
     for every_so in [0.5, 2.0, 5.0, 6.0, 6.3, 7.0, 12.0] {
-        let (strides, wrong) = analysed(CRANK_ROCKER, StandardLagrange, every_so);
+        let (steps, wrong) = analysed(CRANK_ROCKER, StandardLagrange, every_so);
         assert_eq!(wrong, 0, "every {every_so} rad");
-        // Strides of up to 0.2 rad, of the coupler or the rocker too.
-        assert!((180..500).contains(&strides), "{strides}");
+        // Steps of up to 0.2 rad, of the coupler or the rocker too.
+        assert!((180..500).contains(&steps), "{steps}");
     }
     let (_, wrong) = analysed(CRANK_ROCKER, AugmentedLagrangian::default(), 7.0);
     assert_eq!(wrong, 0);
@@ -86,10 +86,10 @@ fn a_branch_point_is_passed_straight_on_and_said() {
                 ControlFlow::Continue(())
             })
             .expect("a way");
-        let mut told = report.doubts().into_iter();
-        let is_told = told.any(|doubt| matches!(doubt, Doubt::BranchPoint { .. }));
-        assert_eq!(is_told, is_passed, "{}", report.doubts());
-        assert_eq!(report.doubts().is_empty(), !is_passed);
+        let mut told = report.warnings().into_iter();
+        let is_told = told.any(|warning| matches!(warning, Warning::BranchPoint { .. }));
+        assert_eq!(is_told, is_passed, "{}", report.warnings());
+        assert_eq!(report.warnings().is_empty(), !is_passed);
     }
 }
 
@@ -119,5 +119,5 @@ fn a_turn_between_two_reports_is_followed() {
             ControlFlow::Continue(())
         })
         .expect("a way");
-    assert!(report.strides > 30 && report.shortened > 0, "{report:?}");
+    assert!(report.steps > 30 && report.shortened > 0, "{report:?}");
 }

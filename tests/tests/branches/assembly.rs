@@ -39,7 +39,7 @@ fn every_angle_of_a_crank_is_assembled_on_its_own_branch() {
         let moved = correction.moved.expect("of an assembly");
         assert_eq!(moved.passed, None);
         assert!(correction.violation_after < 1e-24);
-        assert_eq!(moved.strides > 0, degrees > 0);
+        assert_eq!(moved.steps > 0, degrees > 0);
     }
 }
 

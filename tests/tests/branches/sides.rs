@@ -7,7 +7,7 @@ use holonom::joints::{
 };
 use holonom::nalgebra::Quaternion;
 use holonom::prelude::*;
-use holonom::{BodyHandle, Doubt};
+use holonom::{BodyHandle, Warning};
 
 holonom::joint! {
     /// Two axes that are parallel and point the same way.
@@ -130,7 +130,7 @@ fn upside_down<M: MechanismExt + Default>(
 }
 
 #[test]
-fn a_start_upside_down_is_refused_by_name_or_doubted() {
+fn a_start_upside_down_is_refused_by_name_or_warned_of() {
     let fault = upside_down(OwnAligned::HANDLES.body, false).expect_err("upside down");
     assert_eq!(fault, Fault::WrongSide { joint: "joint" });
     assert!(
@@ -139,10 +139,10 @@ fn a_start_upside_down_is_refused_by_name_or_doubted() {
             .starts_with("joint `joint` is upside down")
     );
     let report = upside_down(OwnAligned::HANDLES.body, true).expect("it runs");
-    let mut doubts = report.doubts().into_iter();
-    assert!(doubts.any(|doubt| matches!(doubt, Doubt::WrongSide { joint: "joint", .. })));
+    let mut warnings = report.warnings().into_iter();
+    assert!(warnings.any(|warning| matches!(warning, Warning::WrongSide { joint: "joint", .. })));
     let report = upside_down(OwnInLine::HANDLES.body, false).expect("either way is meant");
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
 }
 
 /// A hinge with axes that are given body by body, and point opposite ways as described.

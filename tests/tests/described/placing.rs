@@ -107,12 +107,12 @@ fn a_crane_is_set_in_any_order() {
         assert!((view.angle_rate(handles.elbow) - rate).abs() < 1e-13);
         assert!((view.displacement(handles.rail) - displacement).abs() < 1e-14);
         assert!((view.displacement_rate(handles.rail) - speed).abs() < 1e-13);
-        let counted = Crane::counted_angles(&state, handles.coil);
+        let counted = Crane::unwrapped_angles(&state, handles.coil);
         assert!((counted[0] - angle).abs() < 1e-13, "{counted:?}");
-        let lean = Crane::counted_angles(&state, handles.lean);
+        let lean = Crane::unwrapped_angles(&state, handles.lean);
         assert!(lean[0].abs() < 1e-14);
         // The motor sees the boom from the cart.
-        let motor = Crane::counted_angles(&state, handles.motor);
+        let motor = Crane::unwrapped_angles(&state, handles.motor);
         assert!((motor[0] + angle).abs() < 1e-13, "{motor:?}");
         // What hangs on the boom stands and moves against it as before.
         for pair in [
@@ -205,7 +205,7 @@ fn sleeves_wires_and_wheels_are_set() {
     assert!((view.displacement(handles.wire) - 0.3).abs() < 1e-14);
     assert!((view.displacement_rate(handles.wire) - 0.1).abs() < 1e-14);
     assert!((view.angle(handles.bearing) - 2.5).abs() < 1e-14);
-    let twist = Loose::counted_angles(&state, handles.twist);
+    let twist = Loose::unwrapped_angles(&state, handles.twist);
     assert!((twist[0] + 9.0).abs() < 1e-14, "{twist:?}");
     // The nearest way where nothing counts.
     loose
@@ -261,7 +261,7 @@ fn what_closes_a_loop_is_not_set() {
     // The crank, and the rest by assembling.
     bars.set_angle(&mut state, handles.first, 0.3)
         .expect("free");
-    let counted = FourBar::counted_angles(&state, handles.mesh);
+    let counted = FourBar::unwrapped_angles(&state, handles.mesh);
     assert!(
         counted.iter().any(|angle| (angle - 0.3).abs() < 1e-14),
         "{counted:?}"

@@ -168,7 +168,7 @@ fn displacements_go_with_all_turns() {
     }
 }
 
-/// Pair and counted angle are two sums of the same increments, which round differently.
+/// Pair and unwrapped angle are two sums of the same increments, which round differently.
 #[test]
 fn a_screw_stays_on_its_thread_in_single_precision() {
     let feed = Feed::new(0.02).expect("acceptable");

@@ -147,6 +147,6 @@ fn end<M: Mechanism>(mechanism: &M, integrator: DormandPrince<f64>) -> Vec<f64> 
         .assembled()
         .run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()))
         .expect("a run");
-    assert!(report.doubts().is_empty());
+    assert!(report.warnings().is_empty());
     report.state.coordinates().as_slice().to_vec()
 }

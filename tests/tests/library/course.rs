@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use holonom::{
     DormandPrince, Fault, StateParts, Tolerance,
     error::NotFinite,
-    integrate::{Advance as _, Course, Integrator, Span, System},
+    integrate::{Advance as _, Integration, Integrator, System, TimeSpan},
     state::{State, Vector},
 };
 
@@ -72,22 +72,22 @@ pub(crate) fn run(
     mut show: impl FnMut(f64, &[f64], f64) -> ControlFlow<()>,
 ) {
     let mut system = Moving(kernels);
-    let span = Span {
+    let span = TimeSpan {
         start,
         end,
         first_output: end,
     };
     let state = system.pad(x, 0.0);
-    let mut course = DormandPrince::new(TOLERANCE)
+    let mut integration = DormandPrince::new(TOLERANCE)
         .start(&mut system, span, state)
         .expect("rates");
     let mut flow = show(start, x, 0.0);
-    while flow.is_continue() && course.time() < end {
-        course.advance(&mut system).expect("a step");
-        let (mut x, work) = system.unpad(course.state());
-        kernels.recount(&mut x);
+    while flow.is_continue() && integration.time() < end {
+        integration.advance(&mut system).expect("a step");
+        let (mut x, work) = system.unpad(integration.state());
+        kernels.rewrap(&mut x);
         let state = system.pad(&x, work);
-        course.replace(state);
-        flow = show(course.time(), &x, work);
+        integration.replace(state);
+        flow = show(integration.time(), &x, work);
     }
 }

@@ -160,7 +160,7 @@ fn slopes(scene: &Scene, time: f64, x: &[f64]) -> Vec<f64> {
             u,
         ]
         .concat();
-        scene.kernels.recount(&mut moved);
+        scene.kernels.rewrap(&mut moved);
         scene.kernels.books(time, &moved).potential
     };
     (0..scene.without.velocities())
@@ -176,7 +176,7 @@ fn with_counters(scene: &Scene, x: &[f64]) -> Vec<f64> {
     let report = scene.kernels.report();
     let (q, u) = x.split_at(scene.without.coordinates());
     let mut full = [q, &vec![0.0; report.auxiliaries], u].concat();
-    scene.kernels.recount(&mut full);
+    scene.kernels.rewrap(&mut full);
     full
 }
 

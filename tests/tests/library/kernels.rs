@@ -43,7 +43,7 @@ pub(crate) trait Kernels {
     fn books(&self, time: f64, x: &[f64]) -> Books;
     /// With multipliers and Euler parameters normalised.
     fn evaluate(&self, time: f64, x: &[f64]) -> Evaluated;
-    fn recount(&self, x: &mut [f64]);
+    fn rewrap(&self, x: &mut [f64]);
     /// What the joint exerts on its body at a place.
     fn reaction(&self, time: f64, x: &[f64], multipliers: &[f64], place: usize) -> Wrench<f64>;
     /// Angle (rad) and displacement (m) of the joint, each with its rate.
@@ -198,9 +198,9 @@ impl<M: Mechanism, E: Element<M>> Kernels for Prepared<M, E> {
         }
     }
 
-    fn recount(&self, x: &mut [f64]) {
+    fn rewrap(&self, x: &mut [f64]) {
         let mut state = state::<M>(x);
-        M::recount(&self.constants, &mut state);
+        M::rewrap(&self.constants, &mut state);
         x.copy_from_slice(&flat::<M>(&state));
     }
 

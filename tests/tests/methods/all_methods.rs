@@ -35,7 +35,7 @@ fn ends<M: JointCoordinates + Default>(
 
 /// The largest difference of elements, relative to those of size 1 and more.
 fn apart<M: JointCoordinates>(a: &M::State<f64>, b: &M::State<f64>) -> f64 {
-    a.relative_norm(b, 1.0, [(1.0, a), (-1.0, b)])
+    a.weighted_norm(b, 1.0, [(1.0, a), (-1.0, b)])
 }
 
 fn moves_alike<M: JointCoordinates + Default>(end: f64) {

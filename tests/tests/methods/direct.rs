@@ -188,7 +188,7 @@ fn what_one_application_leaves_is_of_second_order() {
         let report = loose
             .correct::<FourBar>(&constants, 0.0, &mut state)
             .expect("corrected");
-        assert_eq!((report.iterations, report.excused), (1, 0.0));
+        assert_eq!((report.iterations, report.residual), (1, 0.0));
         [report.violation_before, report.violation_after].map(f64::sqrt)
     };
     let [coarse, fine] = [left(1e-2), left(1e-3)];
@@ -199,8 +199,8 @@ fn what_one_application_leaves_is_of_second_order() {
     // By the default tolerance it counts as left.
     let mut state = displaced::<f64, FourBar>(&model, 3e-3, 3);
     let report = DirectCorrection::default().correct::<FourBar>(&constants, 0.0, &mut state);
-    let excused = report.expect("lessened").excused;
-    assert!((1e-6..1e-4).contains(&excused), "{excused:e}");
+    let residual = report.expect("lessened").residual;
+    assert!((1e-6..1e-4).contains(&residual), "{residual:e}");
 }
 
 /// A parallelogram of spatial hinges: three rows depend on the others.
@@ -244,7 +244,7 @@ struct Parallelogram {
 fn redundant_equations_are_corrected() {
     let model = Parallelogram::default();
     let report = Simulation::new(&model, AugmentedLagrangian::default(), Rk4::every(1e-3))
-        .treatment(&DirectCorrection::default())
+        .post_stabilisation(&DirectCorrection::default())
         .run(0.0..=0.3, every(0.01), |sample| {
             assert!(
                 sample.violation() < 1e-18 && sample.velocity_violation() < 1e-15,
@@ -256,8 +256,8 @@ fn redundant_equations_are_corrected() {
             ControlFlow::Continue(())
         })
         .expect("solvable");
-    println!("{}", report.doubts());
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    println!("{}", report.warnings());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
 }
 
 #[test]
@@ -266,7 +266,7 @@ fn an_arm_pulled_beyond_its_reach_stops() {
     for step in [1e-3, 1e-4] {
         let outcome = Simulation::new(&arm, Penalty::default(), Rk4::every(step))
             .assembled()
-            .treatment(&DirectCorrection::default())
+            .post_stabilisation(&DirectCorrection::default())
             .run(0.0..=3.0, every(0.1), |_| ControlFlow::Continue(()));
         match outcome {
             Err(error) => {
@@ -277,7 +277,7 @@ fn an_arm_pulled_beyond_its_reach_stops() {
                     "{error}"
                 );
             }
-            Ok(report) => panic!("beyond reach: {}", report.doubts()),
+            Ok(report) => panic!("beyond reach: {}", report.warnings()),
         }
     }
 }

@@ -96,7 +96,7 @@ fn it_has_order_2_on_the_heavy_top_and_on_loops() {
     has_order_2(&SliderCrank::default(), 1e-4, 0.05);
 }
 
-/// The largest violations of a run, and whether it is doubted.
+/// The largest violations of a run, and whether it has a warning.
 fn violations<S: holonom::Real, M: Mechanism>(
     model: &M,
     method: GeneralizedAlpha<S>,
@@ -110,7 +110,7 @@ fn violations<S: holonom::Real, M: Mechanism>(
             ControlFlow::Continue(())
         })
         .expect("solvable");
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
     let mut course_state = report.state;
     let constants = model.constants::<S>().expect("sound");
     for (largest, values) in largest.iter_mut().zip([
@@ -121,7 +121,7 @@ fn violations<S: holonom::Real, M: Mechanism>(
             *largest = largest.max(value.to_f64().abs());
         }
     }
-    M::recount(&constants, &mut course_state);
+    M::rewrap(&constants, &mut course_state);
     largest
 }
 
@@ -279,9 +279,9 @@ fn springs_are_followed_or_damped_as_the_theory_has_it_however_stiff() {
 }
 
 /// The spring of a metre pushes to either side of its end: a step that is long for it has two
-/// solutions, and which one is found the run must not leave without a doubt.
+/// solutions, and which one is found the run must not leave without a warning.
 #[test]
-fn steps_with_two_solutions_are_doubted() {
+fn steps_with_two_solutions_are_warned_of() {
     for rho in [0.0, 0.5, 0.8, 1.0] {
         for step in [1e-3, 1e-2, 0.1, 1.0, 10.0] {
             let method = GeneralizedAlpha::every(step).spectral_radius(rho);
@@ -294,10 +294,10 @@ fn steps_with_two_solutions_are_doubted() {
             let Ok(report) = outcome else { continue };
             let place = report.state.coordinates().as_slice()[0] - 0.99;
             let [expected, _] = by_recurrence(rho, 100.0, step, 20);
-            let doubts = report.doubts();
-            println!("{rho} {step} {place:e} {expected:e} {doubts}");
+            let warnings = report.warnings();
+            println!("{rho} {step} {place:e} {expected:e} {warnings}");
             assert!(
-                (place - expected).abs() < 1e-6 || !doubts.is_empty(),
+                (place - expected).abs() < 1e-6 || !warnings.is_empty(),
                 "{rho} {step}"
             );
         }
@@ -420,10 +420,10 @@ fn settings_that_make_no_sense_are_refused() {
     }
 }
 
-/// Steps from good ones to such as nothing can be said of: a run is right, or doubted, or ends with
-/// a fault and its last good state.
+/// Steps from good ones to such as nothing can be said of: a run is right, or has a warning, or
+/// ends with a fault and its last good state.
 #[test]
-fn long_steps_end_with_a_fault_or_are_doubted() {
+fn long_steps_end_with_a_fault_or_are_warned_of() {
     let rod = RodPendulum::default();
     let mut outcomes = [0_usize; 3];
     for rho in [0.0, 0.8, 1.0] {
@@ -446,9 +446,9 @@ fn long_steps_end_with_a_fault_or_are_doubted() {
                     );
                     let exact = RigidPendulum::CHAPTER_15.at(report.time).angle;
                     let error = wrapped(found - exact).abs();
-                    let doubted = !report.doubts().is_empty();
-                    assert!(doubted || error < 0.01, "{rho} {step}: {error}");
-                    outcomes[usize::from(doubted)] += 1;
+                    let warned = !report.warnings().is_empty();
+                    assert!(warned || error < 0.01, "{rho} {step}: {error}");
+                    outcomes[usize::from(warned)] += 1;
                 }
                 Err(error) => {
                     outcomes[2] += 1;
@@ -472,7 +472,7 @@ fn long_steps_end_with_a_fault_or_are_doubted() {
 }
 
 #[test]
-fn treatments_and_closures_go_with_it() {
+fn stabilisations_and_closures_go_with_it() {
     let model = SliderCrank::default();
     let method = GeneralizedAlpha::every(2e-5);
     let plain = end(&model, method, 0.05).0;
@@ -484,9 +484,9 @@ fn treatments_and_closures_go_with_it() {
     println!("{difference:e}");
     // A second order of the step apart: the accelerations of a corrected state are evaluated anew.
     assert!(
-        difference < 1e-3 && treated.doubts().is_empty(),
+        difference < 1e-3 && treated.warnings().is_empty(),
         "{}",
-        treated.doubts()
+        treated.warnings()
     );
     let pushed = |method: GeneralizedAlpha<f64>| {
         let report = Simulation::new(&FourBar::default(), StandardLagrange, method)
@@ -496,7 +496,7 @@ fn treatments_and_closures_go_with_it() {
             })
             .run(0.0..=0.4, every(0.4), |_| ControlFlow::Continue(()))
             .expect("solvable");
-        assert!(report.doubts().is_empty(), "{}", report.doubts());
+        assert!(report.warnings().is_empty(), "{}", report.warnings());
         report.state
     };
     let [coarse, fine, finest] =

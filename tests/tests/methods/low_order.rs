@@ -106,7 +106,7 @@ fn moves_by_new_velocities<M: JointCoordinates + Default>() {
         *place = rate;
     }
     joints.with_new_velocities(time, &start, step, &mut rates);
-    let apart = rates.relative_norm(&wanted, 1.0, [(1.0, &rates), (-1.0, &wanted)]);
+    let apart = rates.weighted_norm(&wanted, 1.0, [(1.0, &rates), (-1.0, &wanted)]);
     assert!(apart <= 1e-12, "{name}: {apart:e}");
 }
 
@@ -166,13 +166,13 @@ fn an_augmented_lagrangian_of_a_known_cost() {
         let (rates, taken, joint_rates) =
             evaluate(formulation.exactly(solutions)).expect("regular");
         assert_eq!(taken, solutions);
-        let apart = rates.relative_norm(&wanted, 1.0, [(1.0, &rates), (-1.0, &wanted)]);
+        let apart = rates.weighted_norm(&wanted, 1.0, [(1.0, &rates), (-1.0, &wanted)]);
         assert!(apart <= last.max(1e-9), "{solutions}: {apart:e}");
         last = apart;
         if solutions == 8 {
             assert!(apart < 1e-9, "{apart:e}");
             let terms = [(1.0, &joint_rates), (-1.0, &wanted_joints)];
-            let apart = joint_rates.relative_norm(&wanted_joints, 1.0, terms);
+            let apart = joint_rates.weighted_norm(&wanted_joints, 1.0, terms);
             assert!(apart < 1e-9, "{apart:e}");
         }
     }

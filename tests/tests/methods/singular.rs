@@ -74,7 +74,7 @@ fn a_step_control_that_gives_up_names_the_joint() {
     assert!(["upper", "lower", "pull"].contains(&joint), "{error}");
 }
 
-/// The same arm in a kinematic analysis: strides come up to the stretched arm, where the equations
+/// The same arm in a kinematic analysis: steps come up to the stretched arm, where the equations
 /// depend on each other.
 #[test]
 fn an_analysis_beyond_reach_names_a_joint() {

@@ -1,7 +1,7 @@
-//! Long runs: right to a hundredth, or doubted.
+//! Long runs: right to a hundredth, or with a warning.
 
 use holonom::prelude::*;
-use holonom::{Doubt, Runs};
+use holonom::{Runs, Warning};
 use holonom_models::{RodPendulum, SimplePendulum};
 
 use holonom_tests::IS_EXHAUSTIVE;
@@ -13,7 +13,7 @@ struct Spinning {
     body: Body,
 }
 
-/// Whether a run is doubted, and the largest change of energy (of what it exchanges) that the
+/// Whether a run has a warning, and the largest change of energy (of what it exchanges) that the
 /// observer saw.
 fn long<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
     model: &M,
@@ -35,15 +35,15 @@ fn long<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
         .expect("nothing stops it");
     let drift = worst / largest;
     println!(
-        "{method:?}, projected: {projected}: energy {drift:.1e}, watch {:?}",
-        report.watch.and_then(|w| w.energy_drift())
+        "{method:?}, projected: {projected}: energy {drift:.1e}, monitor {:?}",
+        report.monitor.and_then(|w| w.energy_drift())
     );
-    println!("{}", report.doubts());
-    (!report.doubts().is_empty(), drift)
+    println!("{}", report.warnings());
+    (!report.warnings().is_empty(), drift)
 }
 
 #[test]
-fn ten_thousand_seconds_of_a_pendulum_are_doubted() {
+fn ten_thousand_seconds_of_a_pendulum_are_warned_of() {
     let rod = RodPendulum::default();
     let ode45 = DormandPrince::<f64>::default();
     // All of them lose the phase of thirty thousand radians at 1e-6.
@@ -67,16 +67,16 @@ fn ten_thousand_seconds_of_a_pendulum_are_doubted() {
 }
 
 #[test]
-fn what_turns_evenly_is_not_doubted() {
-    let (doubted, drift) = long(
+fn what_turns_evenly_is_not_warned_of() {
+    let (warned, drift) = long(
         &Spinning::default(),
         (StandardLagrange, DormandPrince::default(), false),
         if IS_EXHAUSTIVE { 1e4 } else { 1e3 },
     );
-    assert!(!doubted && drift < 1e-12);
+    assert!(!warned && drift < 1e-12);
 }
 
-/// A tolerance that suits the length of the run takes the doubts away.
+/// A tolerance that suits the length of the run takes the warnings away.
 #[test]
 fn a_tight_run_is_trusted() {
     let rod = RodPendulum::default();
@@ -90,33 +90,36 @@ fn a_tight_run_is_trusted() {
     let report = simulation
         .run(0.0..=duration, every(1.0), |_| ControlFlow::Continue(()))
         .expect("nothing stops it");
-    println!("{:?}", report.watch.and_then(|watch| watch.energy_drift()));
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    println!(
+        "{:?}",
+        report.monitor.and_then(|monitor| monitor.energy_drift())
+    );
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
 }
 
 /// Changes of energy that seven digits do not show shift the phase of a long motion: by 0.05 rad
 /// after 10^4 s of a pendulum at h = 0.01.
 #[test]
-fn what_single_precision_cannot_tell_is_doubted() {
+fn what_single_precision_cannot_tell_is_warned_of() {
     let rod = RodPendulum::default();
-    let doubts = |duration: f32| {
+    let warnings = |duration: f32| {
         let report = Simulation::new(&rod, StandardLagrange, Rk4::every(0.01_f32))
             .joint_coordinates()
             .run(0.0..=duration, every(1.0), |_| ControlFlow::Continue(()))
             .expect("nothing stops it");
-        report.doubts()
+        report.warnings()
     };
-    let short = doubts(100.0);
+    let short = warnings(100.0);
     assert!(short.is_empty(), "{short}");
-    let longer = doubts(600.0);
+    let longer = warnings(600.0);
     println!("{longer}");
     let mut longer = longer.into_iter();
-    assert!(longer.any(|doubt| matches!(doubt, Doubt::LongRun { .. })));
+    assert!(longer.any(|warning| matches!(warning, Warning::LongRun { .. })));
     if !IS_EXHAUSTIVE {
         return;
     }
-    let long = doubts(1e4);
+    let long = warnings(1e4);
     println!("{long}");
     let mut long = long.into_iter();
-    assert!(long.any(|doubt| matches!(doubt, Doubt::LongRun { .. } | Doubt::Phase { .. })));
+    assert!(long.any(|warning| matches!(warning, Warning::LongRun { .. } | Warning::Phase { .. })));
 }

@@ -1,5 +1,5 @@
 //! Mechanisms of any size, mass and place, and runs of any length: each is right, or refused, or
-//! doubted by its report.
+//! with a warning in its report.
 //!
 //! Some of each sweep in `cargo test`, all of it with the feature `exhaustive`.
 

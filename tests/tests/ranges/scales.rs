@@ -1,6 +1,6 @@
 //! One mechanism from a micrometre to a kilometre, from a milligram to a kilotonne, at the origin
 //! and 1000 km from it, with the defaults of every formulation: its motion is the same in
-//! proportion, or the run refuses, or its report doubts it.
+//! proportion, or the run refuses, or its report warns of it.
 
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
@@ -119,13 +119,13 @@ const UNIT: Scale = Scale {
 };
 
 /// The displacement of the body over 2.2 times the square root of the size in metres, in sizes, and
-/// whether it is doubted; `None` where it is refused.
+/// whether it has a warning; `None` where it is refused.
 fn displacement<M: Scaled, F: Formulation<f64>>(
     scale: Scale,
     method: F,
     tolerance: Tolerance<f64>,
     projected: bool,
-) -> Option<(Vector3<f64>, holonom::Doubts)> {
+) -> Option<(Vector3<f64>, holonom::Warnings)> {
     let mechanism = M::scaled(scale);
     let duration = 2.2 * scale.size.sqrt();
     let mut simulation =
@@ -143,7 +143,7 @@ fn displacement<M: Scaled, F: Formulation<f64>>(
         ControlFlow::Continue(())
     });
     match outcome {
-        Ok(report) => Some(((end - start) / scale.size, report.doubts())),
+        Ok(report) => Some(((end - start) / scale.size, report.warnings())),
         Err(error) => {
             println!("    {scale:?} {method:?}, projected: {projected}: {error}");
             None
@@ -155,7 +155,7 @@ fn displacement<M: Scaled, F: Formulation<f64>>(
 const RIGHT: f64 = 1e-2;
 
 fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
-    let (mut right, mut doubted, mut refused) = (0, 0, 0);
+    let (mut right, mut warned, mut refused) = (0, 0, 0);
     let sizes = [1e-6, 1.0, 1e3, 1e-3];
     let masses = [1e-6, 1.0, 1e6, 1e-3, 1e3];
     let (sizes, masses) = if IS_EXHAUSTIVE {
@@ -169,7 +169,7 @@ fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
                 for projected in [false, true] {
                     let scale = Scale { size, mass, offset };
                     let tolerance = Tolerance::default();
-                    let Some((found, doubts)) =
+                    let Some((found, warnings)) =
                         displacement::<M, F>(scale, method, tolerance, projected)
                     else {
                         refused += 1;
@@ -179,26 +179,26 @@ fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
                     if error <= RIGHT {
                         right += 1;
                     }
-                    if !doubts.is_empty() {
-                        doubted += 1;
+                    if !warnings.is_empty() {
+                        warned += 1;
                     }
                     assert!(
-                        error <= RIGHT || !doubts.is_empty(),
+                        error <= RIGHT || !warnings.is_empty(),
                         "{scale:?} {method:?}, projected: {projected}: off by {error:e} of the size without a word"
                     );
-                    // Where everything suits, nothing is to be doubted.
+                    // Where everything suits, there are no warnings.
                     let ordinary = (1e-3..=1e3).contains(&size)
                         && (1e-3..=1.0).contains(&mass)
                         && offset == 0.0;
                     assert!(
                         !ordinary || error <= RIGHT,
-                        "{scale:?} {method:?}, projected: {projected}: off by {error:e}: {doubts}"
+                        "{scale:?} {method:?}, projected: {projected}: off by {error:e}: {warnings}"
                     );
                 }
             }
         }
     }
-    println!("{method:?}: {right} right, {doubted} doubted, {refused} refused");
+    println!("{method:?}: {right} right, {warned} warned of, {refused} refused");
 }
 
 fn all<M: Scaled>() {

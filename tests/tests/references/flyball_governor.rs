@@ -96,7 +96,7 @@ fn implicit_steps_are_as_long_as_its_slow_motion() {
     );
     assert_eq!(seen, TIMES.len());
     assert!(report.accepted + report.rejected <= STEPS);
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
 }
 
 #[test]

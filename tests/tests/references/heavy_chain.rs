@@ -41,7 +41,7 @@ fn the_bob_swings_with_coefficients_that_follow_from_its_mass() {
 }
 
 #[test]
-fn a_penalty_too_small_for_the_bob_is_not_excused() {
+fn a_penalty_too_small_for_the_bob_is_not_accepted() {
     // The tensions of four links carry 1000 kg across masses of 1 g: nearly cancelling
     // accelerations, not forces. The augmented Lagrangian with 100 kg gains a percent of them in an
     // iteration.

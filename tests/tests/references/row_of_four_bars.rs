@@ -22,7 +22,7 @@ const PARALLEL: f64 = 1e-10;
 ///
 /// With a projection after every step: without one a violation decides which way the mechanism goes
 /// on, and standard multipliers, penalty and augmented Lagrangian of most settings leave the way of
-/// the parallelograms or are refused (the run is doubted, or ends with a fault).
+/// the parallelograms or are refused (the run has a warning, or ends with a fault).
 fn error<F: Formulation<f64>, I: RunsBoth<QuintupleFourBar, F>>(
     by_joints: bool,
     method: F,

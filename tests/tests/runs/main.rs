@@ -13,5 +13,5 @@ mod properties;
 mod rates;
 mod reactions;
 mod refusals;
+mod stabilisations;
 mod steps;
-mod treatments;

@@ -126,8 +126,8 @@ fn a_closure_that_counts_is_not() {
     assert!(calls.get() > 100);
 }
 
-/// A PI controller at 1 kHz, called once a period, by a run a period and by a stepper: both settle
-/// where it was told.
+/// A PI controller at 1 kHz, called once a period, by a run a period and by a stepper: both
+/// renormalise where it was told.
 #[test]
 fn a_controller_is_called_once_a_period() {
     const PERIOD: f64 = 1e-3;

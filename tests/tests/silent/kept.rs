@@ -1,9 +1,9 @@
 //! Equations that are kept although they depend on others: a motion that passes a singular
-//! configuration is doubted as everywhere.
+//! configuration has a warning as everywhere.
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Doubt, Formulation};
+use holonom::{Formulation, Warning};
 
 /// A parallelogram of hinges with links of 1 m, all equations kept, which turns all around: it
 /// passes the line twice a turn.
@@ -32,7 +32,7 @@ fn run<F: Formulation<f64>>(
     joints: bool,
     rate: f64,
     end: f64,
-) -> Option<(Doubts, f64)> {
+) -> Option<(Warnings, f64)> {
     let mechanism = Parallelogram::default();
     let h = Parallelogram::HANDLES;
     let mut start = mechanism.described_state().expect("parameters");
@@ -67,18 +67,18 @@ fn run<F: Formulation<f64>>(
             .absolute_coordinates()
             .run(0.0..=end, every(0.02), see)
     };
-    run.ok().map(|report| (report.doubts(), off))
+    run.ok().map(|report| (report.warnings(), off))
 }
 
-type Doubts = holonom::Doubts;
+type Warnings = holonom::Warnings;
 
-fn is_near(doubts: &Doubts) -> bool {
-    let mut doubts = (*doubts).into_iter();
-    doubts.any(|doubt| matches!(doubt, Doubt::NearlySingular { .. }))
+fn is_near(warnings: &Warnings) -> bool {
+    let mut warnings = (*warnings).into_iter();
+    warnings.any(|warning| matches!(warning, Warning::NearlySingular { .. }))
 }
 
 #[test]
-fn what_passes_a_singular_configuration_is_doubted() {
+fn what_passes_a_singular_configuration_is_warned_of() {
     let mechanism = Parallelogram::default();
     let augmented = AugmentedLagrangian::of(&mechanism).expect("coefficients");
     let penalty = Penalty::default();
@@ -88,8 +88,8 @@ fn what_passes_a_singular_configuration_is_doubted() {
             run(augmented, joints, 8.0, 4.0),
             run(penalty, joints, 8.0, 4.0),
         ];
-        for (doubts, off) in both.into_iter().flatten() {
-            assert!(is_near(&doubts), "{joints}, off by {off} m: {doubts}");
+        for (warnings, off) in both.into_iter().flatten() {
+            assert!(is_near(&warnings), "{joints}, off by {off} m: {warnings}");
             runs += 1;
         }
     }
@@ -103,9 +103,9 @@ fn what_stays_away_is_not() {
     let mechanism = Parallelogram::default();
     let augmented = AugmentedLagrangian::of(&mechanism).expect("coefficients");
     for joints in [true, false] {
-        let (doubts, off) = run(augmented, joints, 0.5, 0.6).expect("it runs");
+        let (warnings, off) = run(augmented, joints, 0.5, 0.6).expect("it runs");
         assert!(off < 1e-3, "{off}");
-        assert!(!is_near(&doubts), "{doubts}");
+        assert!(!is_near(&warnings), "{warnings}");
     }
 }
 
@@ -130,7 +130,7 @@ struct CrankRocker {
     d: Revolute,
 }
 
-/// A loop that turns all around and is never singular is not doubted, however its steps fall.
+/// A loop that turns all around and is never singular has no warning, however its steps fall.
 #[test]
 fn a_loop_that_is_never_singular_is_not() {
     let mechanism = CrankRocker::default();
@@ -140,7 +140,7 @@ fn a_loop_that_is_never_singular_is_not() {
         .set_angle_rate(&mut start, h.a, 15.0)
         .expect("it carries the crank");
     let augmented = AugmentedLagrangian::of(&mechanism).expect("coefficients");
-    let doubts = |joints: bool, tolerance: f64| {
+    let warnings = |joints: bool, tolerance: f64| {
         let tolerance = Tolerance {
             relative: tolerance,
             absolute: tolerance,
@@ -159,12 +159,12 @@ fn a_loop_that_is_never_singular_is_not() {
                 .absolute_coordinates()
                 .run(0.0..=3.0, every(1.0), nothing)
         };
-        run.expect("it runs").doubts()
+        run.expect("it runs").warnings()
     };
     for tolerance in [1e-4, 1e-6] {
         for joints in [true, false] {
-            let doubts = doubts(joints, tolerance);
-            assert!(!is_near(&doubts), "{tolerance} {joints}: {doubts}");
+            let warnings = warnings(joints, tolerance);
+            assert!(!is_near(&warnings), "{tolerance} {joints}: {warnings}");
         }
     }
 }

@@ -60,7 +60,7 @@ fn a_spring_of_free_length_zero_passes_its_anchor() {
     let dynamics = Simulation::new(&zero, StandardLagrange, DormandPrince::new(ACCURATE));
     let dynamics = dynamics.absolute_coordinates();
     let report = dynamics.run(0.0..=2.0, every(0.01), see).expect("it runs");
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
     Simulation::new(&zero, StandardLagrange, Rk4::every(5e-4))
         .joint_coordinates()
         .run(0.0..=2.0, every(0.01), see)

@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use holonom::joints::{AngleDriver, Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    Adams, AdamsBashforthMoulton4, DormandPrince853, Doubt, Heun, Midpoint, RadauIIA, Runs, Sample,
+    Adams, AdamsBashforthMoulton4, DormandPrince853, Heun, Midpoint, RadauIIA, Runs, Sample,
+    Warning,
 };
 use holonom_models::RodPendulum;
 use holonom_tests::RunsBoth;
@@ -70,9 +71,9 @@ fn reports_within_steps_do_not_disturb_the_balance_of_energy() {
                 simulation.run(0.0..=2.0, reports, observe)
             };
             let report = report.expect("nothing stops it");
-            assert!(report.doubts().is_empty(), "{}", report.doubts());
-            let watch = report.watch.expect("it was watched");
-            watch.energy_drift()
+            assert!(report.warnings().is_empty(), "{}", report.warnings());
+            let monitor = report.monitor.expect("it was monitored");
+            monitor.energy_drift()
         };
         for by_joints in [false, true] {
             let [at_steps, between] = [true, false].map(|at_steps| run(at_steps, by_joints));
@@ -87,7 +88,7 @@ fn reports_within_steps_do_not_disturb_the_balance_of_energy() {
 }
 
 #[test]
-fn orientations_that_lag_are_doubted_in_both_descriptions() {
+fn orientations_that_lag_are_warned_of_in_both_descriptions() {
     let ball = Turning::default();
     for step in [0.01, 0.02, 0.05, 0.1] {
         let simulation = || Simulation::new(&ball, StandardLagrange, Rk4::every(step));
@@ -95,8 +96,11 @@ fn orientations_that_lag_are_doubted_in_both_descriptions() {
         let joints = simulation().joint_coordinates();
         let joints = joints.run(0.0..=10.0, every(10.0), |_| ControlFlow::Continue(()));
         let drifts: [f64; 2] = [bodies.expect("it runs"), joints.expect("it runs")].map(|report| {
-            assert!(!report.doubts().is_empty(), "{step}");
-            report.watch.expect("it was watched").orientation_drift()
+            assert!(!report.warnings().is_empty(), "{step}");
+            report
+                .monitor
+                .expect("it was monitored")
+                .orientation_drift()
         });
         assert!(
             drifts[0] > 0.0 && (drifts[0] / drifts[1] - 1.0).abs() < 1e-6,
@@ -106,7 +110,7 @@ fn orientations_that_lag_are_doubted_in_both_descriptions() {
 }
 
 #[test]
-fn short_steps_that_lag_are_doubted_by_as_much() {
+fn short_steps_that_lag_are_warned_of_by_as_much() {
     fn check<I: Runs<f64, Wheel, StandardLagrange>>(integrator: I, until: f64) {
         let wheel = Wheel::default();
         let mut off = 0.0;
@@ -118,12 +122,15 @@ fn short_steps_that_lag_are_doubted_by_as_much() {
                 ControlFlow::Continue(())
             })
             .expect("nothing stops it");
-        let shifts = report.doubts().into_iter().filter_map(|doubt| match doubt {
-            Doubt::Orientation { shift, .. } => Some(shift),
-            _ => None,
-        });
+        let shifts = report
+            .warnings()
+            .into_iter()
+            .filter_map(|warning| match warning {
+                Warning::Orientation { shift, .. } => Some(shift),
+                _ => None,
+            });
         let shift: f64 = shifts.sum();
-        println!("{until} s: off by {off:e} rad, doubted by {shift:e}");
+        println!("{until} s: off by {off:e} rad, warned of by {shift:e}");
         assert!(off > 1e-2 && shift > 0.8 * off && shift < 2.0 * off);
     }
     check(Midpoint::every(0.01), 10.0);
@@ -177,7 +184,7 @@ fn what_opens_and_closes_between_looks_is_seen() {
             ControlFlow::Continue(())
         })
         .expect("nothing stops it");
-    let seen = report.watch.expect("watched");
+    let seen = report.monitor.expect("monitored");
     let seen = seen.violation(RodPendulum::HANDLES.pivot).length;
     assert!(open > 2e-5 && seen > 0.9 * open, "{seen:e} of {open:e}");
 }

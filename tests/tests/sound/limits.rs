@@ -63,7 +63,7 @@ fn a_pulse_of_a_law_is_not_stepped_over() {
     .expect("nothing stops it");
     let speed = Pushed::velocity(&report.state, Pushed::HANDLES.cart).x;
     assert!((speed - REACHED).abs() < 1e-6, "{speed}");
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
 }
 
 #[test]

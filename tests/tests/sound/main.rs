@@ -1,16 +1,16 @@
-//! Results that were once wrong without a word: each is right now, or refused, or doubted by the
-//! report.
+//! Results that were once wrong without a word: each is right now, or refused, or has a warning
+//! from the report.
 
 #![forbid(unsafe_code)]
 
 mod between;
 mod clock;
 mod digits;
-mod lag;
 mod limits;
 mod orientation;
 mod origins;
 mod outside;
+mod phase_error;
 mod readings;
 mod start;
 mod turns;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use holonom::forces::{Actuator, ConstantMoment, PointForce};
 use holonom::joints::{AngleDriver, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, ImplicitMidpoint, Real, Runs, SemiImplicitEuler};
+use holonom::{ImplicitMidpoint, Real, Runs, SemiImplicitEuler, Warning};
 use holonom_models::RodPendulum;
 
 use crate::between::Wheel;
@@ -71,19 +71,19 @@ struct Far {
     hinge: Revolute,
 }
 
-fn doubts<S: Real, M: Mechanism, I: Runs<S, M, StandardLagrange>>(
+fn warnings<S: Real, M: Mechanism, I: Runs<S, M, StandardLagrange>>(
     mechanism: &M,
     integrator: I,
     duration: S,
-) -> Vec<Doubt> {
+) -> Vec<Warning> {
     let report = Simulation::new(mechanism, StandardLagrange, integrator)
         .run(S::zero()..=duration, every(duration), |_| {
             ControlFlow::Continue(())
         })
         .expect("nothing stops it");
-    let doubts: Vec<Doubt> = report.doubts().into_iter().collect();
-    doubts.iter().for_each(|doubt| println!("{doubt}"));
-    doubts
+    let warnings: Vec<Warning> = report.warnings().into_iter().collect();
+    warnings.iter().for_each(|warning| println!("{warning}"));
+    warnings
 }
 
 /// Its velocities fall below the range of numbers, step by step.
@@ -98,60 +98,60 @@ fn a_motor_that_comes_to_rest_is_corrected_for_ever() {
             .projection(Projection::default())
             .run(0.0..=60.0, every(1.0), |_| ControlFlow::Continue(()))
             .expect("it rests");
-        assert!(report.doubts().is_empty(), "{}", report.doubts());
+        assert!(report.warnings().is_empty(), "{}", report.warnings());
     }
 }
 
-/// `x'' = 5 sin(w t)`: right to 1e-4 at the defaults, which is no reason to doubt.
+/// `x'' = 5 sin(w t)`: right to 1e-4 at the defaults, which is no reason for a warning.
 #[test]
-fn a_fast_force_is_no_reason_to_doubt() {
+fn a_fast_force_is_no_reason_for_a_warning() {
     for frequency in [1.0, 2.0, 20.0, 63.0] {
         let cart = Cart::new(frequency).expect("acceptable");
-        let found = doubts(&cart, DormandPrince::default(), 20.0);
+        let found = warnings(&cart, DormandPrince::default(), 20.0);
         assert!(found.is_empty(), "{frequency} rad/s: {found:?}");
     }
 }
 
 #[test]
-fn steps_that_do_not_follow_a_force_are_doubted() {
-    let found = doubts(&Shaker::default(), Rk4::every(0.2), 20.0);
+fn steps_that_do_not_follow_a_force_are_warned_of() {
+    let found = warnings(&Shaker::default(), Rk4::every(0.2), 20.0);
     assert!(
         found
             .iter()
-            .any(|doubt| matches!(doubt, Doubt::Energy { .. }))
+            .any(|warning| matches!(warning, Warning::Energy { .. }))
     );
     let cart = Cart::new(30.0).expect("acceptable");
-    let found = doubts(&cart, Rk4::every(0.1), 20.0);
+    let found = warnings(&cart, Rk4::every(0.1), 20.0);
     assert!(
         found
             .iter()
-            .any(|doubt| matches!(doubt, Doubt::CoarseSteps { .. }))
+            .any(|warning| matches!(warning, Warning::CoarseSteps { .. }))
     );
-    assert!(doubts(&Shaker::default(), Rk4::every(0.005), 20.0).is_empty());
-    assert!(doubts(&Shaker::default(), DormandPrince::default(), 20.0).is_empty());
+    assert!(warnings(&Shaker::default(), Rk4::every(0.005), 20.0).is_empty());
+    assert!(warnings(&Shaker::default(), DormandPrince::default(), 20.0).is_empty());
 }
 
 /// The energy of a wheel says nothing of its phase.
 #[test]
-fn phases_of_a_wheel_are_doubted_at_long_steps() {
+fn phases_of_a_wheel_are_warned_of_at_long_steps() {
     for step in [0.05, 0.08] {
-        let found = doubts(&Wheel::default(), Rk4::every(step), 100.0);
+        let found = warnings(&Wheel::default(), Rk4::every(step), 100.0);
         assert!(
             found
                 .iter()
-                .any(|doubt| matches!(doubt, Doubt::Orientation { .. })),
+                .any(|warning| matches!(warning, Warning::Orientation { .. })),
             "{step}"
         );
     }
-    assert!(doubts(&Wheel::default(), Rk4::every(0.01), 100.0).is_empty());
-    assert!(doubts(&Wheel::default(), DormandPrince::default(), 100.0).is_empty());
-    assert!(doubts(&Wheel::default(), Rk4::every(0.01_f32), 100.0).is_empty());
+    assert!(warnings(&Wheel::default(), Rk4::every(0.01), 100.0).is_empty());
+    assert!(warnings(&Wheel::default(), DormandPrince::default(), 100.0).is_empty());
+    assert!(warnings(&Wheel::default(), Rk4::every(0.01_f32), 100.0).is_empty());
 }
 
 /// The implicit midpoint rule keeps the energy of a pendulum at any step, and its phase is off by
 /// the square of it.
 #[test]
-fn phases_of_a_method_that_keeps_the_energy_are_doubted_at_long_steps() {
+fn phases_of_a_method_that_keeps_the_energy_are_warned_of_at_long_steps() {
     let rod = RodPendulum::default();
     let run = |step| {
         let mut angles = Vec::new();
@@ -163,9 +163,9 @@ fn phases_of_a_method_that_keeps_the_energy_are_doubted_at_long_steps() {
             })
             .expect("solvable");
         let tells = report
-            .doubts()
+            .warnings()
             .into_iter()
-            .any(|doubt| matches!(doubt, Doubt::LongSteps { .. }));
+            .any(|warning| matches!(warning, Warning::LongSteps { .. }));
         (angles, tells)
     };
     let (exact, _) = run(1e-4);
@@ -182,12 +182,12 @@ fn phases_of_a_method_that_keeps_the_energy_are_doubted_at_long_steps() {
 }
 
 #[test]
-fn a_mechanism_below_the_digits_of_its_place_is_doubted() {
-    let found = doubts(&Far::default(), Rk4::every(1e-4_f32), 0.01);
+fn a_mechanism_below_the_digits_of_its_place_is_warned_of() {
+    let found = warnings(&Far::default(), Rk4::every(1e-4_f32), 0.01);
     assert!(
         found
             .iter()
-            .any(|doubt| matches!(doubt, Doubt::CoarseNumbers { .. }))
+            .any(|warning| matches!(warning, Warning::CoarseNumbers { .. }))
     );
 }
 
@@ -207,7 +207,7 @@ struct Driven {
 
 /// Coordinates go by velocities of the ends of steps: the balance of energy is right to round-off.
 #[test]
-fn velocities_that_are_ahead_of_coordinates_are_doubted() {
+fn velocities_that_are_ahead_of_coordinates_are_warned_of() {
     let driven = Driven::new(0.3).expect("acceptable");
     for step in [0.1, 0.03, 0.01, 0.003, 0.001] {
         let mut angle = f64::NAN;
@@ -220,10 +220,13 @@ fn velocities_that_are_ahead_of_coordinates_are_doubted() {
             .expect("nothing stops it");
         let off: f64 = (angle - 18.0) / TAU;
         let error = TAU * (off - off.round()).abs();
-        let shift = report.doubts().into_iter().find_map(|doubt| match doubt {
-            Doubt::LongSteps { shift } => Some(shift),
-            _ => None,
-        });
+        let shift = report
+            .warnings()
+            .into_iter()
+            .find_map(|warning| match warning {
+                Warning::LongSteps { shift } => Some(shift),
+                _ => None,
+            });
         println!("{step}: {error:e}, {shift:?}");
         assert!(shift.is_some() || error < 1e-2, "{step}: {error:e}");
         assert!(
@@ -241,7 +244,7 @@ fn energies_beyond_all_numbers_are_named() {
         .joint_coordinates()
         .run(0.0..=0.01, every(0.01), |_| ControlFlow::Continue(()))
         .expect("velocities are numbers");
-    let said = report.doubts().to_string();
+    let said = report.warnings().to_string();
     assert_eq!(said, "the energy is beyond all numbers at 0 s");
 }
 
@@ -269,8 +272,8 @@ fn a_fast_rotor_hides_no_lead_of_velocities() {
         let simulation = Simulation::new(&pushed, StandardLagrange, SemiImplicitEuler::every(0.02));
         let simulation = simulation.joint_coordinates();
         let report = simulation.run(0.0..=2.0, every(2.0), |_| ControlFlow::Continue(()));
-        report.expect("nothing stops it").doubts()
+        report.expect("nothing stops it").warnings()
     };
-    let is_told = |doubt| matches!(doubt, Doubt::LongSteps { .. });
+    let is_told = |warning| matches!(warning, Warning::LongSteps { .. });
     assert!(found.into_iter().any(is_told), "{found}");
 }

@@ -70,20 +70,20 @@ fn a_rod_that_flies_off_its_hinge_is_refused() {
         .assembled()
         .run(0.0..=1.0, every(0.1), go)
         .expect("corrected");
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
     let report = simulation()
         .inconsistent_start()
         .run(0.0..=1.0, every(0.1), go)
         .expect("on purpose");
     let told: Vec<String> = report
-        .doubts()
+        .warnings()
         .into_iter()
-        .map(|doubt| doubt.to_string())
+        .map(|warning| warning.to_string())
         .collect();
     println!("{told:?}");
     assert!(
         told.iter()
-            .any(|doubt| doubt.starts_with("joint `hinge` was open by "))
+            .any(|warning| warning.starts_with("joint `hinge` was open by "))
     );
 }
 
@@ -127,5 +127,5 @@ fn numbers_of_five_digits_are_a_start() {
     let report = Simulation::new(&rounded, StandardLagrange, DormandPrince::default())
         .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
         .expect("as good as the numbers are");
-    assert!(report.doubts().is_empty(), "{}", report.doubts());
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
 }

@@ -75,15 +75,18 @@ fn a_spring_that_was_wound_up_stays_so_when_its_poses_are_set() {
     assert!(energy(state) < 2e-3 * wound);
     // A tenth of a turn off is near enough.
     for angle in [TURNS * TAU, TURNS * TAU - 0.6, TURNS * TAU + 3.0] {
-        Clockwork::set_counted_angles(&mut state, handles.spring, &[angle]).expect("one angle");
-        assert_eq!(Clockwork::counted_angles(&state, handles.spring), &[angle]);
+        Clockwork::set_unwrapped_angles(&mut state, handles.spring, &[angle]).expect("one angle");
+        assert_eq!(
+            Clockwork::unwrapped_angles(&state, handles.spring),
+            &[angle]
+        );
         let found = energy(state);
         println!("{found} for {wound}");
         assert!((found / wound - 1.0).abs() < 1e-13, "{found} for {wound}");
     }
     let before = state;
     for angles in [&[][..], &[1.0, 2.0]] {
-        let fault = Clockwork::set_counted_angles(&mut state, handles.spring, angles)
+        let fault = Clockwork::set_unwrapped_angles(&mut state, handles.spring, angles)
             .expect_err("another number of them");
         assert_eq!(
             fault,
@@ -94,9 +97,9 @@ fn a_spring_that_was_wound_up_stays_so_when_its_poses_are_set() {
             }
         );
     }
-    Clockwork::set_counted_angles(&mut state, handles.bearing, &[1.0]).expect_err("none");
+    Clockwork::set_unwrapped_angles(&mut state, handles.bearing, &[1.0]).expect_err("none");
     assert_eq!(state, before);
-    assert!(Clockwork::counted_angles(&state, handles.bearing).is_empty());
+    assert!(Clockwork::unwrapped_angles(&state, handles.bearing).is_empty());
 }
 
 #[test]
@@ -112,7 +115,7 @@ fn a_nut_stays_where_it_was_when_its_pose_is_set() {
     press.assemble(0.0, &mut lost).expect("somewhere else");
     assert!(Press::pose(&lost, handles.nut).position.z < 0.2 * height);
 
-    Press::set_counted_angles(&mut state, handles.thread, &[TURNS * TAU]).expect("one angle");
+    Press::set_unwrapped_angles(&mut state, handles.thread, &[TURNS * TAU]).expect("one angle");
     let report = Simulation::new(&press, StandardLagrange, Rk4::every(0.01))
         .initial_state(state)
         .assembled()
@@ -134,16 +137,16 @@ fn a_gear_counts_two_angles_in_the_order_of_its_definition() {
     Pair::set_pose(&mut state, handles.large, turned(TURNS * TAU, [0.0; 3]));
     let (large, small) = (TURNS * TAU, -2.0 * TURNS * TAU);
     Pair::set_pose(&mut state, handles.small, turned(small, [0.3, 0.0, 0.0]));
-    Pair::set_counted_angles(&mut state, handles.gear, &[small, large]).expect("two angles");
+    Pair::set_unwrapped_angles(&mut state, handles.gear, &[small, large]).expect("two angles");
     let violation = |state: &<Pair as Mechanism>::State<f64>| {
         View::<f64, Pair>::new(&constants, 0.0, state).violation()
     };
     assert!(violation(&state) < 1e-24);
     // They go from one mechanism to another.
     let mut other = pair.described_state::<f64>().expect("described");
-    let angles = Pair::counted_angles(&state, handles.gear).to_vec();
-    Pair::set_counted_angles(&mut other, handles.gear, &angles).expect("two angles");
-    assert_eq!(Pair::counted_angles(&other, handles.gear), angles);
-    Pair::set_counted_angles(&mut state, handles.gear, &[large, small]).expect("two angles");
+    let angles = Pair::unwrapped_angles(&state, handles.gear).to_vec();
+    Pair::set_unwrapped_angles(&mut other, handles.gear, &angles).expect("two angles");
+    assert_eq!(Pair::unwrapped_angles(&other, handles.gear), angles);
+    Pair::set_unwrapped_angles(&mut state, handles.gear, &[large, small]).expect("two angles");
     assert!(violation(&state) > 1e3);
 }

@@ -3,7 +3,7 @@
 
 use holonom::joints::{ConstantVelocity, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
-use holonom::{Doubt, Heun, JointCoordinates, Rk4, Sample};
+use holonom::{Heun, JointCoordinates, Rk4, Sample, Warning};
 use holonom_tests::RunsBoth;
 
 use holonom_tests::IS_EXHAUSTIVE;
@@ -51,7 +51,7 @@ struct Wires {
     wires: Crossing,
 }
 
-/// Whether the report of a run doubts that it passed this joint; `None` of a run that ends with an
+/// Whether the report of a run warns that it passed this joint; `None` of a run that ends with an
 /// error, which says so as well.
 fn is_told<M, F, I>(
     model: &M,
@@ -80,11 +80,11 @@ where
         format!("{method:?}, {integrator:?}, projected: {is_projected}, by joints: {by_joints}");
     match outcome {
         Ok(report) => {
-            println!("{what}: {}", report.doubts());
+            println!("{what}: {}", report.warnings());
             // In joint coordinates the pivot of a single row tells as well.
-            Some(report.doubts().into_iter().any(|doubt| match doubt {
-                Doubt::Vanishing { joint, .. } => joint == expected,
-                Doubt::NearlySingular { joint, .. } => by_joints && joint == expected,
+            Some(report.warnings().into_iter().any(|warning| match warning {
+                Warning::Vanishing { joint, .. } => joint == expected,
+                Warning::NearlySingular { joint, .. } => by_joints && joint == expected,
                 _ => false,
             }))
         }
@@ -145,7 +145,7 @@ fn shafts_against_each_other_are_told() {
 
 /// A third of a turn on, the shafts have not come near to where they point against each other.
 #[test]
-fn shafts_at_an_angle_are_not_doubted() {
+fn shafts_at_an_angle_are_not_warned_of() {
     with_every_formulation(&Shaft::default(), (1.1, "joint"), false);
 }
 
@@ -166,9 +166,9 @@ fn a_start_near_the_crossing_is_told() {
         let simulation = Simulation::new(&wires, StandardLagrange, Rk4::every(0.01));
         let simulation = simulation.initial_state(state);
         let report = simulation.run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
-        let doubts = report.expect("nothing stops it").doubts();
-        let is_told = |doubt| matches!(doubt, Doubt::Vanishing { joint: "wires", .. });
-        assert!(doubts.into_iter().any(is_told), "{place}: {doubts}");
+        let warnings = report.expect("nothing stops it").warnings();
+        let is_told = |warning| matches!(warning, Warning::Vanishing { joint: "wires", .. });
+        assert!(warnings.into_iter().any(is_told), "{place}: {warnings}");
     }
 }
 
@@ -197,14 +197,14 @@ fn steps_of_some_radians_pass_nothing_singular() {
                 simulation.run(0.0..=100.0, every(100.0), seen)
             };
             let report = outcome.expect("nothing stops it");
-            println!("{step}: {}", report.doubts());
-            let is_false = |doubt| {
+            println!("{step}: {}", report.warnings());
+            let is_false = |warning| {
                 matches!(
-                    doubt,
-                    Doubt::Vanishing { .. } | Doubt::NearlySingular { .. }
+                    warning,
+                    Warning::Vanishing { .. } | Warning::NearlySingular { .. }
                 )
             };
-            assert!(!report.doubts().into_iter().any(is_false), "{step}");
+            assert!(!report.warnings().into_iter().any(is_false), "{step}");
         }
     }
 }
@@ -268,7 +268,7 @@ struct FarWires {
     plane: PointOnPlane,
 }
 
-/// Of a mechanism that is large a small part is watched as if it were alone.
+/// Of a mechanism that is large a small part is monitored as if it were alone.
 #[test]
 fn something_far_away_hides_nothing() {
     with_every_formulation(&FarWires::default(), (1.5, "wires"), true);
@@ -287,6 +287,6 @@ struct Rail {
 }
 
 #[test]
-fn arms_that_grow_are_not_doubted() {
+fn arms_that_grow_are_not_warned_of() {
     sweep(&Rail::default(), StandardLagrange, (30.0, "slide"), false);
 }

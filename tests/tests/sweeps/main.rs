@@ -1,5 +1,5 @@
 //! What was once wrong without a word, over formulations, tolerances and steps: each run is right,
-//! or refused, or doubted by its report.
+//! or refused, or with a warning in its report.
 //!
 //! Some of each sweep in `cargo test`, all of it with the feature `exhaustive`.
 

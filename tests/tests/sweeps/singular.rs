@@ -1,12 +1,12 @@
 //! Motions through singular configurations, with every formulation, with and without a projection,
-//! at every tolerance and step: none ends wrong without an error or a doubt, and none goes on for
+//! at every tolerance and step: none ends wrong without an error or a warning, and none goes on for
 //! ever.
 
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
-    Adams, Bdf, BodyHandle, BogackiShampine, DormandPrince853, Doubt, Heun, JointCoordinates,
-    RadauIIA, Rk4, Runs, Sample, SemiImplicitEuler, dynamics::Dynamics, mechanism::Relative,
+    Adams, Bdf, BodyHandle, BogackiShampine, DormandPrince853, Heun, JointCoordinates, RadauIIA,
+    Rk4, Runs, Sample, SemiImplicitEuler, Warning, dynamics::Dynamics, mechanism::Relative,
 };
 use holonom_models::FourBar;
 use holonom_tests::RunsBoth;
@@ -213,29 +213,29 @@ fn run<M: JointCoordinates, F: Formulation<f64>, I: RunsBoth<M, F>>(
     match outcome {
         Ok(report) => {
             let is_right = error <= RIGHT;
-            let doubts = report.doubts();
+            let warnings = report.warnings();
             assert!(report.evaluations <= BUDGET + OVER, "{what}");
             println!(
-                "{what}: off by {error:.1e} m, {} doubts, {} evaluations",
-                doubts.len(),
+                "{what}: off by {error:.1e} m, {} warnings, {} evaluations",
+                warnings.len(),
                 report.evaluations
             );
-            for doubt in doubts {
-                println!("    {doubt}");
+            for warning in warnings {
+                println!("    {warning}");
             }
             assert!(
-                is_right || !doubts.is_empty(),
+                is_right || !warnings.is_empty(),
                 "{what}: wrong without a word"
             );
-            for doubt in doubts {
-                if let Doubt::NearlySingular { joint, .. } = doubt {
+            for warning in warnings {
+                if let Warning::NearlySingular { joint, .. } = warning {
                     assert_eq!(joint, mark.joint, "{what}");
                 }
             }
             // Right or wrong, it was a matter of luck.
-            let told = |doubt: &Doubt| !matches!(doubt, Doubt::CoarseTolerance { .. });
+            let told = |warning: &Warning| !matches!(warning, Warning::CoarseTolerance { .. });
             assert!(
-                doubts.into_iter().any(|doubt| told(&doubt)),
+                warnings.into_iter().any(|warning| told(&warning)),
                 "{what}: passed without a word"
             );
         }
@@ -320,7 +320,7 @@ fn extreme(tolerance: f64, relative: f64) {
 }
 
 #[test]
-fn an_extreme_penalty_factor_is_doubted() {
+fn an_extreme_penalty_factor_is_warned_of() {
     for tolerance in [1e-10, 1e-11] {
         extreme(tolerance, 1e-6);
         extreme(tolerance, 1e-9);
@@ -328,19 +328,19 @@ fn an_extreme_penalty_factor_is_doubted() {
 }
 
 #[test]
-fn an_extreme_penalty_factor_is_doubted_at_a_tight_tolerance() {
+fn an_extreme_penalty_factor_is_warned_of_at_a_tight_tolerance() {
     extreme(1e-10, 1e-11);
 }
 
 #[test]
-fn an_extreme_penalty_factor_is_doubted_at_tight_tolerances() {
+fn an_extreme_penalty_factor_is_warned_of_at_tight_tolerances() {
     extreme(1e-11, 1e-11);
 }
 
 /// By its bodies a mechanism that is open by less than a thousandth passes at a distance that is no
 /// longer small.
 #[test]
-fn what_is_open_by_a_little_is_doubted_from_further() {
+fn what_is_open_by_a_little_is_warned_of_from_further() {
     let (model, mark) = (Rhombus::default(), rhombus());
     let how = (false, false);
     for step in (1..=12).map(|k| 2.5e-4 * f64::from(k)) {
@@ -467,17 +467,17 @@ fn equations_that_are_kept_hide_nothing_by_joints() {
 /// With reports within steps and without, whether a method evaluates for them once a step or for
 /// each.
 #[test]
-fn what_the_watch_looks_at_is_no_part_of_a_run() {
+fn what_the_monitor_looks_at_is_no_part_of_a_run() {
     fn check(integrator: impl Runs<f64, Rhombus, StandardLagrange, Relative>) {
         let model = Rhombus::default();
         for (is_projected, step) in [(false, 0.013), (true, 0.013), (false, 2.0), (true, 2.0)] {
-            let run = |is_watched: bool| {
+            let run = |is_monitored: bool| {
                 let mut simulation = Simulation::new(&model, StandardLagrange, integrator);
                 if is_projected {
                     simulation = simulation.projection(Projection::default());
                 }
-                if !is_watched {
-                    simulation = simulation.unwatched();
+                if !is_monitored {
+                    simulation = simulation.unmonitored();
                 }
                 let simulation = simulation.joint_coordinates();
                 let report = simulation.run(0.0..=2.0, every(step), |_| ControlFlow::Continue(()));
@@ -514,24 +514,24 @@ fn a_fast_rotor_makes_no_loop_singular() {
         let relative = 10.0_f64.powi(-exponent);
         let absolute = 1e-2 * relative;
         let integrator = DormandPrince::new(Tolerance { relative, absolute });
-        let run = |is_watched: bool| {
+        let run = |is_monitored: bool| {
             let mut simulation = Simulation::new(&model, StandardLagrange, integrator).assembled();
-            if !is_watched {
-                simulation = simulation.unwatched();
+            if !is_monitored {
+                simulation = simulation.unmonitored();
             }
             let simulation = simulation.joint_coordinates();
             let report = simulation.run(0.0..=6.0, every(6.0), |_| ControlFlow::Continue(()));
             report.expect("nothing stops it")
         };
-        let (watched, unwatched) = (run(true), run(false));
-        let is_false = |doubt| matches!(doubt, Doubt::NearlySingular { .. });
+        let (monitored, unmonitored) = (run(true), run(false));
+        let is_false = |warning| matches!(warning, Warning::NearlySingular { .. });
         assert!(
-            !watched.doubts().into_iter().any(is_false),
+            !monitored.warnings().into_iter().any(is_false),
             "{}",
-            watched.doubts()
+            monitored.warnings()
         );
-        // What the watch looks at is no part of the run.
-        assert_eq!(watched.evaluations, unwatched.evaluations);
-        assert_eq!(watched.state, unwatched.state);
+        // What the monitor looks at is no part of the run.
+        assert_eq!(monitored.evaluations, unmonitored.evaluations);
+        assert_eq!(monitored.state, unmonitored.state);
     }
 }

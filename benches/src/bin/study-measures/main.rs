@@ -28,9 +28,9 @@ enum Study {
     /// number types, beside a pendulum written by hand and the run-time assembler.
     #[cfg(feature = "compare")]
     Compare(comparison::Compare),
-    /// What accuracy costs: one problem with every description, formulation, treatment after steps,
-    /// integrator, step or tolerance, and number type. An interrupted study goes on with the same
-    /// command.
+    /// What accuracy costs: one problem with every description, formulation, stabilisation after
+    /// steps, integrator, step or tolerance, and number type. An interrupted study goes on with the
+    /// same command.
     #[cfg(feature = "trade")]
     Trade(trade::Trade),
     /// The cheapest setting for an error, or the most exact one for a time, that does so from ten

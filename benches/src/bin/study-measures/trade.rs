@@ -6,15 +6,15 @@ use std::time::Duration;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use holonom_benches::trade::{names, problem, yardstick};
+use holonom_benches::trade::{names, problem, reference_kernel};
 use holonom_study::StudyError;
 use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::page::write_page;
-use holonom_study::timing::{Contestant, Schedule};
+use holonom_study::timing::{Candidate, Schedule};
 use holonom_study::trade::{
-    self, Choice, Family, Formulated, Grid, Processor, Subject, Timing, Treatment, Wish, measure,
-    report,
+    self, Choice, Family, Formulated, Grid, PostStabilisation, Processor, Subject, Timing, Wish,
+    measure, report,
 };
 
 use holonom_benches::output::{announce, bar, show, show_all};
@@ -28,9 +28,9 @@ pub(crate) struct Part {
     /// This formulation alone.
     #[arg(long, value_parser = keys(Method::ALL, Method::key))]
     formulation: Vec<Method>,
-    /// This treatment of states after steps alone.
-    #[arg(long, value_parser = keys(Treatment::ALL, Treatment::key))]
-    treatment: Vec<Treatment>,
+    /// This stabilisation of states after steps alone.
+    #[arg(long, value_parser = keys(PostStabilisation::ALL, PostStabilisation::key))]
+    stabilisation: Vec<PostStabilisation>,
     /// This integrator alone.
     #[arg(long, value_parser = keys(Family::ALL, Family::key))]
     integrator: Vec<Family>,
@@ -74,7 +74,7 @@ impl Part {
         Grid {
             coordinates: chosen(&self.coordinates, all.coordinates),
             formulations,
-            treatments: chosen(&self.treatment, all.treatments),
+            stabilisations: chosen(&self.stabilisation, all.stabilisations),
             families: chosen(&self.integrator, all.families),
             scalars: chosen(&self.scalar, all.scalars),
             ..all
@@ -92,7 +92,7 @@ impl Part {
         let planned = grid.settings(subject);
         let runs = planned.iter().filter(|planned| planned.refused.is_none());
         let runs = u32::try_from(runs.count()).unwrap_or(u32::MAX);
-        // A run and the yardstick take turns; the first round is not counted.
+        // A run and the reference kernel take turns; the first round is not counted.
         let turns = 2 * (u32::from(self.rounds) + 1) * runs;
         let name = subject.facts().name;
         announce(
@@ -109,21 +109,21 @@ impl Part {
         Ok(trade?)
     }
 
-    fn timing<'a>(&self, beside: &'a dyn Fn() -> Contestant<'static>) -> Timing<'a> {
+    fn timing<'a>(&self, beside: &'a dyn Fn() -> Candidate<'static>) -> Timing<'a> {
         Timing {
             schedule: Schedule {
                 rounds: self.rounds.into(),
                 turn: Duration::from_millis(2),
             },
-            yardstick: Some(beside),
+            reference_kernel: Some(beside),
         }
     }
 }
 
-/// The yardstick, as often as it is needed.
-fn beside() -> Result<impl Fn() -> Contestant<'static>, StudyError> {
-    yardstick()?;
-    Ok(|| yardstick().expect("it was made before"))
+/// The reference kernel, as often as it is needed.
+fn beside() -> Result<impl Fn() -> Candidate<'static>, StudyError> {
+    reference_kernel()?;
+    Ok(|| reference_kernel().expect("it was made before"))
 }
 
 #[derive(Debug, Args)]
@@ -148,8 +148,8 @@ pub(crate) fn study(arguments: &Trade) -> Result<(), Box<dyn Error>> {
         let subject = problem(name)?;
         let journal = arguments.out.join(format!("{name}.journal"));
         let trade = arguments.part.measured(&*subject, &journal)?;
-        let courses = report::courses(&*subject)?;
-        let document = report::document(&trade, &courses, &command(name));
+        let histories = report::histories(&*subject)?;
+        let document = report::document(&trade, &histories, &command(name));
         let write = || {
             let written = report::write(&trade, &document, &arguments.out)?;
             // The next study measures anew; a recommendation takes what was measured.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use holonom::Mechanism as _;
-use holonom_benches::opponents;
+use holonom_benches::baselines;
 use holonom_benches::output::{bar, show_all};
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::run::Subject;
@@ -18,7 +18,7 @@ pub(crate) struct Chapter15 {
     /// Where the page, its pictures and chapter15.json go.
     #[arg(long, value_name = "DIR", default_value = "target/study/chapter15")]
     out: PathBuf,
-    /// How many times every contestant is timed.
+    /// How many times every candidate is timed.
     #[arg(long, value_name = "N", default_value_t = 41, value_parser = clap::value_parser!(u16).range(1..))]
     rounds: u16,
 }
@@ -38,7 +38,7 @@ pub(crate) fn study(arguments: &Chapter15) -> Result<(), Box<dyn Error>> {
     };
 
     let bar = bar(1000, "chapter 15")?;
-    let rivals = opponents::rivals(&settings);
+    let rivals = baselines::rivals(&settings);
     let outcomes = chapter15::run::compare(&subject, &settings, rivals, schedule, |done| {
         bar.set_position((1000.0 * done) as u64);
     });

@@ -20,14 +20,14 @@ use holonom_assembler::joints::Joint;
 use holonom_assembler::schur::SchurEvaluator;
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::{Method, Settings};
-use holonom_study::compare::measure::contestant;
-use holonom_study::compare::run::Opponent;
-use holonom_study::timing::Contestant;
+use holonom_study::compare::measure::candidate;
+use holonom_study::compare::run::Baseline;
+use holonom_study::timing::Candidate;
 
 #[cfg(feature = "large")]
 pub(super) use catalogue::{cart_pole, heavy_top, panda, slider_crank, squeezer, ur5};
 
-use crate::opponents::formulation;
+use crate::baselines::formulation;
 
 /// What joins two bodies of a scene: a point and an axis where it has one, global at the reference
 /// configuration.
@@ -174,21 +174,21 @@ pub(super) fn pendulum() -> Assembler {
 
 /// The forms of an assembler in a formulation, timed at some states; a form that cannot be solved
 /// there is left out.
-pub(super) fn opponents(
+pub(super) fn baselines(
     (scene, n): (&'static str, usize),
     assembler: &Assembler,
     states: &[Vec<f64>],
-) -> Vec<Opponent> {
+) -> Vec<Baseline> {
     let settings = Settings::TABLE_15_2;
     let states = &read_by(assembler, states);
-    let mut opponents = Vec::new();
+    let mut baselines = Vec::new();
     let mut enter = |method, solve: Option<_>| {
-        if let Some(contestant) = solve {
-            opponents.push(Opponent {
+        if let Some(candidate) = solve {
+            baselines.push(Baseline {
                 scene,
                 n,
                 method,
-                contestant,
+                candidate,
             });
         }
     };
@@ -209,7 +209,7 @@ pub(super) fn opponents(
         let solve = timed(states, move |x, out| schur.rates(0.0, x, out));
         enter(method, solve);
     }
-    opponents
+    baselines
 }
 
 /// States of a mechanism as an assembler takes them: angles that the mechanism counts behind its
@@ -228,7 +228,7 @@ const FEW: usize = 2;
 fn timed(
     states: &[Vec<f64>],
     mut rates: impl FnMut(&[f64], &mut [f64]) -> Result<(), SolveError> + 'static,
-) -> Option<Contestant<'static>> {
+) -> Option<Candidate<'static>> {
     let size = states.first()?.len();
     let count = if size > 100 { FEW } else { states.len() };
     let states = states[..count.min(states.len())].to_vec();
@@ -243,7 +243,7 @@ fn timed(
         }
         Ok(())
     };
-    contestant(count as u64, work).ok()
+    candidate(count as u64, work).ok()
 }
 
 #[cfg(test)]
@@ -276,6 +276,6 @@ mod tests {
                 "{found} {wanted}"
             );
         }
-        assert_eq!(opponents(("ur5", 1), &assembler, &[x]).len(), 6);
+        assert_eq!(baselines(("ur5", 1), &assembler, &[x]).len(), 6);
     }
 }

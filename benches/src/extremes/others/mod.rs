@@ -4,7 +4,7 @@ pub mod models;
 mod motions;
 
 use holonom_study::extremes::Motion;
-use holonom_study::trade::Treatment;
+use holonom_study::trade::PostStabilisation;
 
 use super::case::Case;
 use super::rod::Rod;
@@ -14,7 +14,7 @@ use motions::period;
 
 pub(super) fn sweep(map: &mut Map) {
     let tree = map.coefficients.ways_of_tree();
-    let split = map.coefficients.ways_of_loop(&[Treatment::None]);
+    let split = map.coefficients.ways_of_loop(&[PostStabilisation::None]);
     map.axis(
         "ratio of masses",
         "1",

@@ -226,7 +226,7 @@ pub(crate) mod tests {
                 Method::AugmentedLagrangian => Iterations {
                     total: 3530,
                     largest: 3,
-                    excused: 0,
+                    unconverged: 0,
                 },
                 _ => Iterations::default(),
             },

@@ -23,7 +23,7 @@ pub fn document(outcomes: &[Outcome], settings: &Settings, target: &Target) -> D
     price.extend(
         outcomes
             .first()
-            .and_then(tables::opponents)
+            .and_then(tables::baselines)
             .map(Block::Table),
     );
     price.push(Block::Table(tables::steps(outcomes)));

@@ -5,7 +5,7 @@ use holonom::{
     AugmentedLagrangian, Baumgarte, BodyHandle, DormandPrince, Fault, Formulation, JointHandle,
     Mechanism, Penalty, Runs, Sample, StandardLagrange, Tolerance,
     dynamics::Dynamics,
-    integrate::Span,
+    integrate::TimeSpan,
     mechanism::{Absolute, HasAngle},
 };
 
@@ -13,8 +13,8 @@ use super::outcome::{Instant, Outcome, Prices};
 use super::{Method, Settings};
 use crate::error::StudyError;
 use crate::pendulum::{RigidPendulum, from_vertical};
-use crate::run::{Recording, contestant, record};
-use crate::timing::{Contestant, Schedule, Timing, race};
+use crate::run::{Recording, candidate, record};
+use crate::timing::{Candidate, Schedule, Timing, race};
 
 /// The pendulum: a mechanism with its rod and its pivot, described as in table 15.1.
 #[derive(Debug)]
@@ -44,14 +44,14 @@ pub struct Rival<'a> {
     /// What kind of code it is.
     pub kind: Kind,
     /// The code.
-    pub contestant: Contestant<'a>,
+    pub candidate: Candidate<'a>,
 }
 
 impl Settings {
     /// From zero to the end, with the first report.
     #[must_use]
-    pub const fn span(&self) -> Span<f64> {
-        Span {
+    pub const fn span(&self) -> TimeSpan<f64> {
+        TimeSpan {
             start: 0.0,
             end: self.end,
             first_output: self.reporting,
@@ -125,16 +125,16 @@ pub fn compare<M: Mechanism, J: HasAngle>(
     entries.extend(
         rivals
             .into_iter()
-            .map(|r| (r.method, Some(r.kind), r.contestant)),
+            .map(|r| (r.method, Some(r.kind), r.candidate)),
     );
 
-    let mut contestants = Vec::with_capacity(entries.len());
+    let mut candidates = Vec::with_capacity(entries.len());
     let mut labels = Vec::with_capacity(entries.len());
-    for (method, kind, contestant) in entries {
+    for (method, kind, candidate) in entries {
         labels.push((method, kind));
-        contestants.push(contestant);
+        candidates.push(candidate);
     }
-    let timings = race(&mut contestants, schedule, |rounds| {
+    let timings = race(&mut candidates, schedule, |rounds| {
         progress((Method::ALL.len() + rounds) as f64 / work);
     })?;
 
@@ -182,7 +182,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
         method: Method,
         formulation: F,
         settings: &Settings,
-    ) -> Result<(Recording<Instant>, Contestant<'a>), StudyError> {
+    ) -> Result<(Recording<Instant>, Candidate<'a>), StudyError> {
         let (span, integrator) = (settings.span(), settings.integrator());
         let recording = self.record(method, formulation, integrator, span)?;
         let dynamics =
@@ -196,7 +196,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
         let start = M::initial_state(dynamics.constants());
         Ok((
             recording,
-            contestant("generated", dynamics, integrator, span, start),
+            candidate("generated", dynamics, integrator, span, start),
         ))
     }
 
@@ -210,7 +210,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
         method: Method,
         formulation: F,
         integrator: I,
-        span: Span<f64>,
+        span: TimeSpan<f64>,
     ) -> Result<Recording<Instant>, StudyError> {
         let read = |sample: &Sample<'_, f64, M>| self.read(sample);
         record::<Chapter15, _, _, _, _>(

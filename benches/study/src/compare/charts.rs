@@ -98,7 +98,7 @@ pub fn price(rows: &[Row]) -> Figure {
         .zip([0, 1]);
     let series = series.map(|(coordinates, slot)| {
         let chosen = rows.iter().filter(|row| {
-            row.is(coordinates, Method::Standard, Precision::Double) && !row.is_yardstick()
+            row.is(coordinates, Method::Standard, Precision::Double) && !row.is_reference()
         });
         let points = chosen.map(|row| (row.operations as f64, row.nanoseconds_throughput));
         Series {
@@ -106,11 +106,11 @@ pub fn price(rows: &[Row]) -> Figure {
             ..line(coordinates.key(), slot, points.collect())
         }
     });
-    let unit = rows.iter().filter(|row| row.is_yardstick());
+    let unit = rows.iter().filter(|row| row.is_reference());
     let unit = unit.map(|row| (row.operations as f64, row.nanoseconds_throughput));
-    let yardstick = Series {
+    let reference_kernel = Series {
         mark: Mark::Dots,
-        ..line("yardstick", 2, unit.collect())
+        ..line("reference kernel", 2, unit.collect())
     };
     Figure {
         name: "price".into(),
@@ -118,7 +118,7 @@ pub fn price(rows: &[Row]) -> Figure {
             title: "Time over operations".into(),
             x: Axis::logarithmic("operations", "1"),
             y: Axis::logarithmic("time", "ns"),
-            series: series.chain([yardstick]).collect(),
+            series: series.chain([reference_kernel]).collect(),
         },
         caption: "One dot for each mechanism: standard multipliers, f64.".into(),
         headline: false,

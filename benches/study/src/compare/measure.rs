@@ -1,4 +1,4 @@
-//! A mechanism in both descriptions, all formulations and both number types, as contestants of a
+//! A mechanism in both descriptions, all formulations and both number types, as candidates of a
 //! race.
 
 use std::cell::RefCell;
@@ -20,13 +20,13 @@ use super::{Coordinates, Precision};
 use crate::chapter15::Method;
 use crate::counted::{Counted, counted};
 use crate::error::StudyError;
-use crate::timing::Contestant;
+use crate::timing::Candidate;
 
 /// The most states that are evaluated in turn.
 const STATES: usize = 64;
 /// What these may take (bytes), so that they stay near the processor.
 const MEMORY: usize = 1 << 14;
-/// How long a contestant works between two looks at the clock (s).
+/// How long a candidate works between two looks at the clock (s).
 const UNINTERRUPTED: f64 = 2e-5;
 
 /// A right-hand side as it is called through the public interface, and what runs below it. Times
@@ -131,21 +131,21 @@ pub struct Case {
     /// Those of a stage of a step, which asks for no multipliers in joint coordinates.
     pub stage: Operations,
     /// What can be timed.
-    pub contestants: Contestants,
+    pub candidates: Candidates,
 }
 
 /// What can be timed of one right-hand side.
 #[derive(Debug)]
-pub struct Contestants {
+pub struct Candidates {
     /// Evaluations that do not depend on each other.
-    pub throughput: Contestant<'static>,
+    pub throughput: Candidate<'static>,
     /// Evaluations at states that the one before has a part in.
-    pub dependent: Contestant<'static>,
+    pub dependent: Candidate<'static>,
     /// Steps of Runge-Kutta from states that do not depend on each other.
-    pub step: Contestant<'static>,
+    pub step: Candidate<'static>,
     /// The kernel alone, at states that do not depend on each other, where one kernel is the whole
     /// right-hand side.
-    pub kernel: Option<Contestant<'static>>,
+    pub kernel: Option<Candidate<'static>>,
 }
 
 /// The cases of one mechanism.
@@ -231,7 +231,7 @@ impl Scene {
                 Some(operations) => operations,
                 None => counted_by_bodies::<M>(method, &self.states)?,
             };
-            Ok(([operations; 2], contestants(bodies, start, step)?))
+            Ok(([operations; 2], candidates(bodies, start, step)?))
         });
         self.take(which, Coordinates::Bodies, method, bodies);
         let joints = Solved::<S, M, F, Relative>::new(formulation).and_then(|joints| {
@@ -244,7 +244,7 @@ impl Scene {
             let rates = format!("rates {}", method.key());
             let stage = kernels.iter().find(|kernel| kernel.name == rates);
             let stage = stage.map_or(operations, |kernel| kernel.operations);
-            Ok(([operations, stage], contestants(joints, start, step)?))
+            Ok(([operations, stage], candidates(joints, start, step)?))
         });
         self.take(which, Coordinates::Joints, method, joints);
     }
@@ -254,10 +254,10 @@ impl Scene {
         (scene, n, precision): (&'static str, usize, Precision),
         coordinates: Coordinates,
         method: Method,
-        outcome: Result<([Operations; 2], Contestants), Fault>,
+        outcome: Result<([Operations; 2], Candidates), Fault>,
     ) {
         match outcome {
-            Ok(([operations, stage], contestants)) => self.cases.push(Case {
+            Ok(([operations, stage], candidates)) => self.cases.push(Case {
                 scene,
                 n,
                 coordinates,
@@ -265,7 +265,7 @@ impl Scene {
                 precision,
                 operations,
                 stage,
-                contestants,
+                candidates,
             }),
             Err(fault) => self.refused.push(Refused {
                 scene,
@@ -390,18 +390,18 @@ fn advance<S: Real, Y: System<S>>(
 ///
 /// # Errors
 /// A fault on this way, or of an evaluation.
-pub fn contestants<S: Real, Y: Subject<S> + 'static>(
+pub fn candidates<S: Real, Y: Subject<S> + 'static>(
     mut subject: Y,
     start: StateOf<S, Y>,
     step: f64,
-) -> Result<Contestants, Fault> {
+) -> Result<Candidates, Fault> {
     let states: Rc<[StateOf<S, Y>]> = states(subject.system(), start, step)?.into();
     let count = states.len() as u64;
     let step = S::constant(step);
     let subject = Rc::new(RefCell::new(subject));
 
     let (shared, places) = (subject.clone(), states.clone());
-    let throughput = contestant(count, move || {
+    let throughput = candidate(count, move || {
         let subject = shared.borrow();
         let mut evaluation = subject.place();
         for state in &*places {
@@ -412,7 +412,7 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
     })?;
 
     let (shared, places) = (subject.clone(), states.clone());
-    let dependent = contestant(count, move || {
+    let dependent = candidate(count, move || {
         let subject = shared.borrow();
         // Nothing is added, but the next evaluation waits for this one.
         let nothing = black_box(S::zero());
@@ -427,7 +427,7 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
     })?;
 
     let (shared, places) = (subject.clone(), states.clone());
-    let steps = contestant(count, move || {
+    let steps = candidate(count, move || {
         let mut subject = shared.borrow_mut();
         let system = subject.system();
         for state in &*places {
@@ -440,7 +440,7 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
 
     let kernel = Y::IS_ONE_KERNEL.then(|| {
         let mut rates = states[0].clone();
-        contestant(count, move || {
+        candidate(count, move || {
             let mut subject = subject.borrow_mut();
             for state in &*states {
                 subject.kernel(black_box(state), &mut rates);
@@ -449,7 +449,7 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
             Ok(())
         })
     });
-    Ok(Contestants {
+    Ok(Candidates {
         throughput,
         dependent,
         step: steps,
@@ -462,16 +462,16 @@ pub fn contestants<S: Real, Y: Subject<S> + 'static>(
 ///
 /// # Errors
 /// A fault of the work, which is done twice.
-pub fn contestant(
+pub fn candidate(
     count: u64,
     mut work: impl FnMut() -> Result<(), Fault> + 'static,
-) -> Result<Contestant<'static>, Fault> {
+) -> Result<Candidate<'static>, Fault> {
     work()?;
     let start = Instant::now();
     work()?;
     let once = start.elapsed().as_secs_f64().max(1e-9);
     let repetitions = (UNINTERRUPTED / once).ceil().clamp(1.0, 1e4) as u64;
-    Ok(Contestant::new("evaluation", move || {
+    Ok(Candidate::new("evaluation", move || {
         for _ in 0..repetitions {
             work().map_err(|fault| StudyError::Run {
                 name: "evaluation".into(),

@@ -1,9 +1,10 @@
 //! What an evaluation of the equations of motion costs: every mechanism in both descriptions, all
-//! formulations and both number types, beside a yardstick and a run-time assembler, in one race.
+//! formulations and both number types, beside a reference kernel and a run-time assembler, in one
+//! race.
 //!
 //! | what | where |
 //! |---|---|
-//! | a mechanism as contestants | [`measure`] |
+//! | a mechanism as candidates | [`measure`] |
 //! | the race, and what came of it | [`run`], [`record`] |
 //! | what is shown of it | [`tables`], [`charts`], [`report`] |
 
@@ -54,5 +55,5 @@ impl Precision {
     }
 }
 
-/// The scene of the yardstick.
-pub const YARDSTICK: &str = "yardstick";
+/// The scene of the reference kernel.
+pub const REFERENCE_KERNEL: &str = "reference kernel";

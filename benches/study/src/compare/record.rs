@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Coordinates, Precision, YARDSTICK};
+use super::{Coordinates, Precision, REFERENCE_KERNEL};
 use crate::chapter15::Method;
 use crate::error::StudyError;
 
 /// One right-hand side in `compare.json`. Times are medians of interleaved rounds (ns).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// The mechanism, `yardstick` for the pendulum written by hand.
+    /// The mechanism, `reference kernel` for the pendulum written by hand.
     pub scene: String,
     /// Links of a chain or windows of a row; 1 for all others.
     pub n: usize,
@@ -39,8 +39,8 @@ pub struct Row {
     /// The kernel alone, without what calls it; `null` where the right-hand side is made of
     /// several.
     pub kernel_nanoseconds: Option<f64>,
-    /// `nanoseconds_throughput` over that of the yardstick.
-    pub yardsticks: f64,
+    /// `nanoseconds_throughput` over that of the reference kernel.
+    pub reference_kernels: f64,
     /// What the program was compiled for.
     pub build: String,
 }
@@ -54,10 +54,10 @@ impl Row {
             && self.scalar == precision.key()
     }
 
-    /// Whether the row is the yardstick.
+    /// Whether the row is the reference kernel.
     #[must_use]
-    pub fn is_yardstick(&self) -> bool {
-        self.scene == YARDSTICK
+    pub fn is_reference(&self) -> bool {
+        self.scene == REFERENCE_KERNEL
     }
 
     /// The mechanism for a reader, with its size where it has one.
@@ -99,7 +99,7 @@ pub fn json(rows: &[Row]) -> Result<String, StudyError> {
             row.nanoseconds_throughput,
             row.nanoseconds_dependent,
             row.rk4_step_nanoseconds,
-            row.yardsticks,
+            row.reference_kernels,
         ];
         let mut all = times.into_iter().chain(optional.into_iter().flatten());
         if !all.all(f64::is_finite) {

@@ -4,17 +4,17 @@ use std::collections::HashMap;
 
 use holonom::mechanism::Operations;
 
-use super::measure::{Case, Contestants, Scene};
+use super::measure::{Candidates, Case, Scene};
 use super::record::Row;
-use super::{Coordinates, Precision, YARDSTICK};
+use super::{Coordinates, Precision, REFERENCE_KERNEL};
 use crate::chapter15::Method;
 use crate::error::StudyError;
 use crate::target::Target;
-use crate::timing::{Contestant, Schedule, race};
+use crate::timing::{Candidate, Schedule, race};
 
 /// The run-time assembler of a mechanism, in one of its forms.
 #[derive(Debug)]
-pub struct Opponent {
+pub struct Baseline {
     /// The mechanism.
     pub scene: &'static str,
     /// As in [`Case`].
@@ -22,58 +22,58 @@ pub struct Opponent {
     /// The formulation.
     pub method: Method,
     /// What to time.
-    pub contestant: Contestant<'static>,
+    pub candidate: Candidate<'static>,
 }
 
-/// The yardstick: its operations and what can be timed of it.
+/// The reference kernel: its operations and what can be timed of it.
 #[derive(Debug)]
-pub struct Yardstick {
+pub struct ReferenceKernel {
     /// The operations of an evaluation.
     pub operations: Operations,
     /// What can be timed.
-    pub contestants: Contestants,
+    pub candidates: Candidates,
 }
 
-/// Times everything in one race, the yardstick first; one row for each case, in their order.
+/// Times everything in one race, the reference kernel first; one row for each case, in their order.
 ///
 /// `progress` is called with the rounds done.
 ///
 /// # Errors
-/// The first error of a contestant, a time that is not finite.
+/// The first error of a candidate, a time that is not finite.
 pub fn run(
-    yardstick: Yardstick,
+    reference_kernel: ReferenceKernel,
     scenes: Vec<Scene>,
-    opponents: Vec<Opponent>,
+    baselines: Vec<Baseline>,
     schedule: Schedule,
     progress: impl FnMut(usize),
 ) -> Result<Vec<Row>, StudyError> {
-    let yardstick = Case {
-        scene: YARDSTICK,
+    let reference_kernel = Case {
+        scene: REFERENCE_KERNEL,
         n: 1,
         coordinates: Coordinates::Bodies,
         method: Method::Standard,
         precision: Precision::Double,
-        operations: yardstick.operations,
-        stage: yardstick.operations,
-        contestants: yardstick.contestants,
+        operations: reference_kernel.operations,
+        stage: reference_kernel.operations,
+        candidates: reference_kernel.candidates,
     };
     let cases = scenes.into_iter().flat_map(|scene| scene.cases);
     let mut all = Vec::new();
-    let entries: Vec<_> = std::iter::once(yardstick)
+    let entries: Vec<_> = std::iter::once(reference_kernel)
         .chain(cases)
         .map(|case| Entry::of(case, &mut all))
         .collect();
     let mut forms: HashMap<_, Vec<usize>> = HashMap::new();
-    for Opponent {
+    for Baseline {
         scene,
         n,
         method,
-        contestant,
-    } in opponents
+        candidate,
+    } in baselines
     {
         let places = forms.entry((scene, n, method.key())).or_default();
         places.push(all.len());
-        all.push(contestant);
+        all.push(candidate);
     }
 
     let timings = race(&mut all, schedule, progress)?;
@@ -104,14 +104,14 @@ pub fn run(
             rk4_step_nanoseconds: step,
             assembler_nanoseconds: assembler.map(fastest),
             kernel_nanoseconds: entry.kernel.map(time),
-            yardsticks: throughput / unit,
+            reference_kernels: throughput / unit,
             build: build.clone(),
         }
     };
     Ok(entries.iter().map(row).collect())
 }
 
-/// A case whose contestants are in the race.
+/// A case whose candidates are in the race.
 struct Entry {
     scene: &'static str,
     n: usize,
@@ -120,23 +120,23 @@ struct Entry {
     precision: Precision,
     operations: Operations,
     stage: Operations,
-    /// Where throughput, dependent evaluations and steps stand among the contestants.
+    /// Where throughput, dependent evaluations and steps stand among the candidates.
     places: [usize; 3],
     kernel: Option<usize>,
 }
 
 impl Entry {
-    fn of(case: Case, all: &mut Vec<Contestant<'static>>) -> Self {
-        let mut enter = |contestant| {
-            all.push(contestant);
+    fn of(case: Case, all: &mut Vec<Candidate<'static>>) -> Self {
+        let mut enter = |candidate| {
+            all.push(candidate);
             all.len() - 1
         };
-        let Contestants {
+        let Candidates {
             throughput,
             dependent,
             step,
             kernel,
-        } = case.contestants;
+        } = case.candidates;
         // The kernel runs beside the evaluation that it is compared with.
         let kernel = kernel.map(&mut enter);
         Self {

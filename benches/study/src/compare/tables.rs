@@ -32,8 +32,8 @@ fn same<'a>(row: &Row, among: &'a [Row], scalar: &str) -> Option<&'a Row> {
 
 /// The name of a row: the mechanism and its description.
 fn name(row: &Row) -> String {
-    if row.is_yardstick() {
-        "yardstick (T)".into()
+    if row.is_reference() {
+        "reference kernel (T)".into()
     } else {
         format!("{}, {}", row.name(), row.coordinates)
     }
@@ -75,7 +75,7 @@ pub fn cost(rows: &[Row], method: Method) -> Table {
             row.stage_operations.to_string(),
             row.path.to_string(),
             time(row.nanoseconds_throughput),
-            ratio(row.yardsticks),
+            ratio(row.reference_kernels),
             time(row.nanoseconds_dependent),
             time(row.rk4_step_nanoseconds),
             optional(row.assembler_nanoseconds, time),
@@ -145,7 +145,7 @@ pub fn precisions(rows: &[Row]) -> Table {
 #[must_use]
 pub fn interface(rows: &[Row]) -> Table {
     let lines = chosen(rows, Method::Standard, Precision::Double).filter_map(|row| {
-        let kernel = row.kernel_nanoseconds.filter(|_| !row.is_yardstick())?;
+        let kernel = row.kernel_nanoseconds.filter(|_| !row.is_reference())?;
         Some(vec![
             name(row),
             time(kernel),

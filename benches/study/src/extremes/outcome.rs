@@ -12,7 +12,7 @@ use crate::trade::{Observation, Reference, Setting, Subject};
 pub enum Outcome {
     /// The error is within [`HOLDS`] times of what is promised, and below [`WRONG`].
     Holds,
-    /// It is larger, and the run's watch says so; or it is below [`WRONG`], but not what is
+    /// It is larger, and the run's monitor says so; or it is below [`WRONG`], but not what is
     /// promised.
     Drifts,
     /// The run ended with an error that says why.
@@ -95,8 +95,8 @@ pub fn judge(
 fn judged(error: f64, promised: f64, run: &Observation) -> Verdict {
     let (outcome, reason) = if error <= (HOLDS * promised).min(WRONG) {
         (Outcome::Holds, String::new())
-    } else if let Some(doubt) = run.doubts.first() {
-        (Outcome::Drifts, doubt.clone())
+    } else if let Some(warning) = run.warnings.first() {
+        (Outcome::Drifts, warning.clone())
     } else if error <= WRONG {
         let reason = format!("the error is {error:.1e}, of {promised:.1e} that is promised");
         (Outcome::Drifts, reason)
@@ -121,16 +121,16 @@ mod tests {
     #[test]
     fn silence_is_wrong_above_a_hundredth() {
         let silent = Observation::default();
-        let doubted = Observation {
-            doubts: vec!["a joint was open".into()],
+        let warned = Observation {
+            warnings: vec!["a joint was open".into()],
             ..Observation::default()
         };
         let outcome = |error, run| judged(error, 1e-4, run).outcome;
         assert_eq!(outcome(9e-4, &silent), Outcome::Holds);
         assert_eq!(outcome(5e-3, &silent), Outcome::Drifts);
         assert_eq!(outcome(5e-2, &silent), Outcome::Wrong);
-        assert_eq!(outcome(5e-2, &doubted), Outcome::Drifts);
+        assert_eq!(outcome(5e-2, &warned), Outcome::Drifts);
         assert_eq!(outcome(f64::NAN, &silent), Outcome::Wrong);
-        assert_eq!(outcome(9e-4, &doubted), Outcome::Holds);
+        assert_eq!(outcome(9e-4, &warned), Outcome::Holds);
     }
 }

@@ -42,7 +42,7 @@ pub fn document(axes: &[Axis], rows: &[Row]) -> Document {
         lead: vec![
             format!(
                 "Motions with closed forms, swept along one axis at a time. ● holds: the error is within {HOLDS} times of what step, tolerance, formulation and number type promise. ◐ drifts: it is larger, and the \
-                 run's watch says so, or it is below {WRONG} of the motion. × fails: the run ends with an error that says why. WRONG: the error is above {WRONG} of the motion and nothing tells."
+                 run's monitor says so, or it is below {WRONG} of the motion. × fails: the run ends with an error that says why. WRONG: the error is above {WRONG} of the motion and nothing tells."
             ),
             "What is promised stands in benches/study/src/extremes/thresholds.rs, with the reason for every number.".into(),
         ],
@@ -103,12 +103,12 @@ fn map(axis: &Axis, rows: &[&Row]) -> Table {
     }
     for row in rows {
         let setting = &row.setting;
-        let treatment = match setting.treatment.as_str() {
+        let stabilisation = match setting.stabilisation.as_str() {
             "none" => String::new(),
             other => format!(", {other}"),
         };
         let name = format!(
-            "{}, {}{treatment}, {}, {}",
+            "{}, {}{stabilisation}, {}, {}",
             setting.coordinates, setting.formulation, setting.integrator, setting.scalar
         );
         let place = lines

@@ -5,7 +5,7 @@ use super::integration::Family;
 use super::measure::Trade;
 use super::observation::Observation;
 use super::record::Row;
-use super::setting::Treatment;
+use super::setting::PostStabilisation;
 use crate::chapter15::Method;
 use crate::chart::{Axis, Chart, Mark, SLOTS, Series};
 use crate::compare::{Coordinates, Precision};
@@ -13,7 +13,7 @@ use crate::document::Figure;
 
 /// A run that is shown over time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
+pub struct History {
     /// Its name in the legend.
     pub name: String,
     /// What was read.
@@ -91,7 +91,7 @@ fn of_integrators(
         &format!("{title}, by {}, steps {}", by.key(), steps.key()),
         x,
         series.collect(),
-        "f64; of each integrator the best formulation and treatment.",
+        "f64; of each integrator the best formulation and stabilisation.",
         false,
     )
 }
@@ -118,22 +118,22 @@ pub fn evaluations(trade: &Trade, by: Coordinates, steps: Steps) -> Option<Figur
 #[must_use]
 pub fn formulations(trade: &Trade, by: Coordinates) -> Option<Figure> {
     let kinds = Method::ALL
-        .map(|method| (method, Treatment::None))
+        .map(|method| (method, PostStabilisation::None))
         .into_iter();
     let corrected =
-        [Method::Standard, Method::Penalty].map(|method| (method, Treatment::Projection));
+        [Method::Standard, Method::Penalty].map(|method| (method, PostStabilisation::Projection));
     let series = kinds
         .chain(corrected)
         .enumerate()
-        .map(|(slot, (method, treatment))| {
+        .map(|(slot, (method, stabilisation))| {
             let rows = trade.rows.iter().filter(|row| {
                 row.is(by, Precision::Double)
                     && row.setting.formulation == method.key()
-                    && row.setting.treatment == treatment.key()
+                    && row.setting.stabilisation == stabilisation.key()
             });
-            let name = match treatment {
-                Treatment::None => method.name().to_owned(),
-                _ => format!("{}, {}", method.name(), treatment.key()),
+            let name = match stabilisation {
+                PostStabilisation::None => method.name().to_owned(),
+                _ => format!("{}, {}", method.name(), stabilisation.key()),
             };
             curve(trade, name, slot, &front(rows))
         });
@@ -160,14 +160,14 @@ pub fn formulations(trade: &Trade, by: Coordinates) -> Option<Figure> {
 
 /// Violation and energy over time of some runs.
 #[must_use]
-pub fn courses(courses: &[Course]) -> Vec<Figure> {
+pub fn histories(histories: &[History]) -> Vec<Figure> {
     let series = |read: fn(&Observation) -> Vec<f64>| {
-        let one = |(slot, course): (usize, &Course)| {
-            let values = read(&course.run);
-            let points = course.run.times.iter().copied().zip(values);
-            line(course.name.clone(), slot, points.collect())
+        let one = |(slot, history): (usize, &History)| {
+            let values = read(&history.run);
+            let points = history.run.times.iter().copied().zip(values);
+            line(history.name.clone(), slot, points.collect())
         };
-        let shown = courses.iter().take(SLOTS).enumerate();
+        let shown = histories.iter().take(SLOTS).enumerate();
         shown.map(one).collect::<Vec<_>>()
     };
     let change = |run: &Observation| {

@@ -8,36 +8,39 @@ use holonom::{
     Simulation, StandardLagrange,
     dynamics::Dynamics,
     every,
-    integrate::Span,
+    integrate::TimeSpan,
     measure::NoForces,
     mechanism::{Absolute, Kernel, Relative},
     run::{TreeRecovery, VelocityProjection},
 };
 
-use super::integration::{Integration, with_own_type};
+use super::integration::{IntegratorSetting, with_own_type};
 use super::movable::{Described, Movable, Studied};
 use super::observation::{Observation, Start, state, stopped};
 use super::problem::Problem;
-use super::setting::{Formulated, Setting, Treatment, augmented_lagrangian, baumgarte, penalty};
+use super::setting::{
+    Formulated, PostStabilisation, Setting, augmented_lagrangian, baumgarte, penalty,
+};
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
-use crate::run::contestant;
-use crate::timing::Contestant;
+use crate::run::candidate;
+use crate::timing::Candidate;
 
 /// Something to be done with a mechanism, once it is known with which numbers, which formulation,
-/// which treatment and which coordinates.
+/// which stabilisation and which coordinates.
 pub(super) trait Task<'a, P: Problem + 'a> {
     type Outcome;
 
     fn run<S: Real + 'static, F: Studied<S> + 'static, C: Described<P::Mechanism>>(
         self,
         formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
+        stabilisation: Stabilisation<'a, S, P::Mechanism>,
     ) -> Result<Self::Outcome, StudyError>;
 }
 
 /// What is done to states after steps.
-pub(super) type Treated<'a, S, M> = Option<Box<dyn holonom::run::Treatment<S, M> + 'a>>;
+pub(super) type Stabilisation<'a, S, M> =
+    Option<Box<dyn holonom::run::PostStabilisation<S, M> + 'a>>;
 
 /// The coordinates that a mechanism offers: those in which it has the fewest equations, and
 /// absolute ones.
@@ -46,16 +49,16 @@ pub(super) trait Offered<P: Problem> {
     const CLOSING: Option<usize>;
     const KERNELS: &'static [Kernel];
 
-    /// The treatment along the tree of the joints.
+    /// The stabilisation along the tree of the joints.
     fn recovery<'a, S: Real + 'static>(
         problem: &'a P,
-    ) -> Result<Treated<'a, S, P::Mechanism>, StudyError>;
+    ) -> Result<Stabilisation<'a, S, P::Mechanism>, StudyError>;
 
     /// Runs a task in joint coordinates.
     fn by_joints<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         task: T,
         formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
+        stabilisation: Stabilisation<'a, S, P::Mechanism>,
     ) -> Result<T::Outcome, StudyError>
     where
         P: 'a;
@@ -67,7 +70,7 @@ impl<P: Problem<Mechanism: JointCoordinates>> Offered<P> for Relative {
 
     fn recovery<'a, S: Real + 'static>(
         problem: &'a P,
-    ) -> Result<Treated<'a, S, P::Mechanism>, StudyError> {
+    ) -> Result<Stabilisation<'a, S, P::Mechanism>, StudyError> {
         let recovery = TreeRecovery::<S, P::Mechanism>::new(problem.mechanism());
         match recovery {
             Ok(recovery) => Ok(Some(Box::new(recovery))),
@@ -78,12 +81,12 @@ impl<P: Problem<Mechanism: JointCoordinates>> Offered<P> for Relative {
     fn by_joints<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         task: T,
         formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
+        stabilisation: Stabilisation<'a, S, P::Mechanism>,
     ) -> Result<T::Outcome, StudyError>
     where
         P: 'a,
     {
-        task.run::<S, F, Self>(formulation, treated)
+        task.run::<S, F, Self>(formulation, stabilisation)
     }
 }
 
@@ -93,14 +96,14 @@ impl<P: Problem> Offered<P> for Absolute {
 
     fn recovery<'a, S: Real + 'static>(
         _problem: &'a P,
-    ) -> Result<Treated<'a, S, P::Mechanism>, StudyError> {
+    ) -> Result<Stabilisation<'a, S, P::Mechanism>, StudyError> {
         Err(without_joints())
     }
 
     fn by_joints<'a, S: Real + 'static, F: Studied<S> + 'static, T: Task<'a, P>>(
         _task: T,
         _formulation: F,
-        _treated: Treated<'a, S, P::Mechanism>,
+        _stabilisation: Stabilisation<'a, S, P::Mechanism>,
     ) -> Result<T::Outcome, StudyError>
     where
         P: 'a,
@@ -132,27 +135,29 @@ fn with_numbers<'a, S: Real + 'static, J: Offered<P>, P: Problem, T: Task<'a, P>
     task: T,
     setting: &Setting,
 ) -> Result<T::Outcome, StudyError> {
-    let treated: Treated<'a, S, P::Mechanism> = match setting.treatment {
-        Treatment::None => None,
-        Treatment::Projection => Some(Box::new(Projection::default())),
-        Treatment::DirectCorrection => Some(Box::new(DirectCorrection::default())),
-        Treatment::VelocityProjection => Some(Box::new(VelocityProjection::default())),
-        Treatment::TreeRecovery => J::recovery(problem)?,
+    let stabilisation: Stabilisation<'a, S, P::Mechanism> = match setting.stabilisation {
+        PostStabilisation::None => None,
+        PostStabilisation::Projection => Some(Box::new(Projection::default())),
+        PostStabilisation::DirectCorrection => Some(Box::new(DirectCorrection::default())),
+        PostStabilisation::VelocityProjection => Some(Box::new(VelocityProjection::default())),
+        PostStabilisation::TreeRecovery => J::recovery(problem)?,
     };
     let by = setting.coordinates;
     match &setting.formulation {
-        Formulated::Standard => described::<S, J, P, T, _>(task, by, StandardLagrange, treated),
+        Formulated::Standard => {
+            described::<S, J, P, T, _>(task, by, StandardLagrange, stabilisation)
+        }
         Formulated::Baumgarte(of) => {
             let formulation: Baumgarte<S> = baumgarte(of);
-            described::<S, J, P, T, _>(task, by, formulation, treated)
+            described::<S, J, P, T, _>(task, by, formulation, stabilisation)
         }
         Formulated::Penalty(of) => {
             let formulation: Penalty<S> = penalty(of);
-            described::<S, J, P, T, _>(task, by, formulation, treated)
+            described::<S, J, P, T, _>(task, by, formulation, stabilisation)
         }
         Formulated::AugmentedLagrangian(of) => {
             let formulation: AugmentedLagrangian<S> = augmented_lagrangian(of);
-            described::<S, J, P, T, _>(task, by, formulation, treated)
+            described::<S, J, P, T, _>(task, by, formulation, stabilisation)
         }
     }
 }
@@ -161,7 +166,7 @@ fn described<'a, S, J, P, T, F>(
     task: T,
     by: Coordinates,
     formulation: F,
-    treated: Treated<'a, S, P::Mechanism>,
+    stabilisation: Stabilisation<'a, S, P::Mechanism>,
 ) -> Result<T::Outcome, StudyError>
 where
     S: Real + 'static,
@@ -171,13 +176,13 @@ where
     F: Studied<S> + 'static,
 {
     match by {
-        Coordinates::Bodies => task.run::<S, F, Absolute>(formulation, treated),
-        Coordinates::Joints => J::by_joints::<S, F, T>(task, formulation, treated),
+        Coordinates::Bodies => task.run::<S, F, Absolute>(formulation, stabilisation),
+        Coordinates::Joints => J::by_joints::<S, F, T>(task, formulation, stabilisation),
     }
 }
 
-fn span_of<S: Real>(span: &Span<f64>) -> Span<S> {
-    Span {
+fn span_of<S: Real>(span: &TimeSpan<f64>) -> TimeSpan<S> {
+    TimeSpan {
         start: S::constant(span.start),
         end: S::constant(span.end),
         first_output: S::constant(span.first_output),
@@ -188,14 +193,14 @@ fn span_of<S: Real>(span: &Span<f64>) -> Span<S> {
 fn simulation<'a, S: Real, P: Problem, F: Studied<S> + 'static>(
     problem: &'a P,
     formulation: F,
-    (integration, start): (Integration, <P::Mechanism as Mechanism>::State<S>),
-    treated: &'a Treated<'_, S, P::Mechanism>,
-) -> Simulation<'a, S, P::Mechanism, F, Integration, NoForces, Absolute> {
+    (integration, start): (IntegratorSetting, <P::Mechanism as Mechanism>::State<S>),
+    stabilisation: &'a Stabilisation<'_, S, P::Mechanism>,
+) -> Simulation<'a, S, P::Mechanism, F, IntegratorSetting, NoForces, Absolute> {
     let simulation =
         Simulation::new(problem.mechanism(), formulation, integration).absolute_coordinates();
     let simulation = simulation.initial_state(start);
-    match treated {
-        Some(treatment) => simulation.treatment(&**treatment),
+    match stabilisation {
+        Some(stabilisation) => simulation.post_stabilisation(&**stabilisation),
         None => simulation,
     }
 }
@@ -213,18 +218,18 @@ impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
     fn run<S: Real + 'static, F: Studied<S> + 'static, C: Described<P::Mechanism>>(
         self,
         formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
+        stabilisation: Stabilisation<'a, S, P::Mechanism>,
     ) -> Result<Observation, StudyError> {
         let with = (
             self.setting.integration,
             state::<S, P::Mechanism>(self.start),
         );
-        let run = simulation::<S, P, F>(self.problem, formulation, with, &treated);
+        let run = simulation::<S, P, F>(self.problem, formulation, with, &stabilisation);
         observed(self.problem, &run.coordinates::<C>())
     }
 }
 
-type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, Integration, NoForces, C>;
+type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, IntegratorSetting, NoForces, C>;
 
 fn observed<S: Real, P: Problem, F: Studied<S>, C>(
     problem: &P,
@@ -245,16 +250,18 @@ where
     let report = run
         .run(span.start..=span.end, every(span.first_output), &mut look)
         .map_err(|error| stopped(problem, &error))?;
-    let watch = report.watch.as_ref();
+    let monitor = report.monitor.as_ref();
     Ok(Observation {
         evaluations: report.evaluations as u64,
         accepted: report.accepted as u64,
         rejected: report.rejected as u64,
-        energy_drift: watch.map_or(f64::NAN, |watch| watch.unaccounted_energy().to_f64().abs()),
-        doubts: report
-            .doubts()
+        energy_drift: monitor.map_or(f64::NAN, |monitor| {
+            monitor.unaccounted_energy().to_f64().abs()
+        }),
+        warnings: report
+            .warnings()
             .into_iter()
-            .map(|doubt| doubt.to_string())
+            .map(|warning| warning.to_string())
             .collect(),
         ..seen
     })
@@ -268,7 +275,7 @@ pub(super) struct Time<'a, 's, P> {
 }
 
 impl<'a, P: Problem> Time<'a, '_, P> {
-    fn bare<S, Y>(&self, system: Y, start: Y::State) -> Contestant<'a>
+    fn bare<S, Y>(&self, system: Y, start: Y::State) -> Candidate<'a>
     where
         S: Real + 'a,
         Y: Movable<S> + 'a,
@@ -278,16 +285,16 @@ impl<'a, P: Problem> Time<'a, '_, P> {
         if P::IS_INLINED {
             with_own_type!(
                 integration,
-                integrator => contestant(name, system, integrator, span, start),
-                contestant(name, system, integration, span, start)
+                integrator => candidate(name, system, integrator, span, start),
+                candidate(name, system, integration, span, start)
             )
         } else {
-            contestant(name, system, integration, span, start)
+            candidate(name, system, integration, span, start)
         }
     }
 }
 
-/// A run without watch and readings; its evaluations.
+/// A run without monitor and readings; its evaluations.
 fn bare_run<S: Real, P: Problem, F: Studied<S>, C>(
     problem: &P,
     run: Run<'_, S, P::Mechanism, F, C>,
@@ -297,7 +304,7 @@ where
 {
     let span = span_of::<S>(&problem.span());
     let report = run
-        .unwatched()
+        .unmonitored()
         .run(span.start..=span.end, every(span.first_output), |sample| {
             std::hint::black_box(sample.state());
             ControlFlow::Continue(())
@@ -307,18 +314,18 @@ where
 }
 
 impl<'a, P: Problem> Task<'a, P> for Time<'a, '_, P> {
-    type Outcome = Contestant<'a>;
+    type Outcome = Candidate<'a>;
 
     fn run<S: Real + 'static, F: Studied<S> + 'static, C: Described<P::Mechanism>>(
         self,
         formulation: F,
-        treated: Treated<'a, S, P::Mechanism>,
-    ) -> Result<Contestant<'a>, StudyError> {
+        stabilisation: Stabilisation<'a, S, P::Mechanism>,
+    ) -> Result<Candidate<'a>, StudyError> {
         let (problem, start) = (self.problem, state::<S, P::Mechanism>(self.start));
-        if treated.is_some() {
+        if stabilisation.is_some() {
             let with = (self.setting.integration, start);
-            return Ok(Contestant::new(self.setting.name(), move || {
-                let run = simulation::<S, P, F>(problem, formulation, with, &treated);
+            return Ok(Candidate::new(self.setting.name(), move || {
+                let run = simulation::<S, P, F>(problem, formulation, with, &stabilisation);
                 bare_run(problem, run.coordinates::<C>())
             }));
         }

@@ -42,19 +42,19 @@ mod tests {
                 coordinates: "bodies".into(),
                 formulation: "standard".into(),
                 coefficients: Vec::new(),
-                treatment: "none".into(),
+                stabilisation: "none".into(),
                 integrator: "rk4".into(),
                 scalar: "f64".into(),
                 step_or_tolerance: 0.1,
             },
             error,
             seconds,
-            yardsticks: None,
+            reference_kernels: None,
             evaluations: 1,
             steps: [1, 1],
             max_violation: 0.0,
             energy_drift_joule: 0.0,
-            doubts: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 

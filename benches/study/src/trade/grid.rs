@@ -1,7 +1,7 @@
 //! Which settings a problem is run with.
 
-use super::integration::{Family, Integration};
-use super::setting::{Choice, Formulated, Setting, Treatment};
+use super::integration::{Family, IntegratorSetting};
+use super::setting::{Choice, Formulated, PostStabilisation, Setting};
 use super::subject::{Facts, Subject};
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
@@ -16,7 +16,7 @@ pub struct Grid {
     /// Formulations, and where their coefficients come from.
     pub formulations: Vec<Choice>,
     /// What is done after steps.
-    pub treatments: Vec<Treatment>,
+    pub stabilisations: Vec<PostStabilisation>,
     /// Methods of integration.
     pub families: Vec<Family>,
     /// Number types.
@@ -35,7 +35,7 @@ impl Default for Grid {
         Self {
             coordinates: vec![Coordinates::Bodies, Coordinates::Joints],
             formulations: Method::ALL.map(Choice::Derived).into(),
-            treatments: Treatment::ALL.into(),
+            stabilisations: PostStabilisation::ALL.into(),
             families: Family::ALL.into(),
             scalars: vec![Precision::Double, Precision::Single],
             most_steps: 50_000.0,
@@ -70,7 +70,7 @@ impl Choice {
         self,
         subject: &dyn Subject,
         scalar: Precision,
-        integration: Integration,
+        integration: IntegratorSetting,
     ) -> (Formulated, bool, Option<String>) {
         match self {
             Self::Given(formulation) => (formulation, false, None),
@@ -124,11 +124,11 @@ impl Grid {
                 let Some(equations) = equations else { continue };
                 let different = if equations == 0 { 1 } else { usize::MAX };
                 for &choice in self.formulations.iter().take(different) {
-                    let treatments = self.treatments.iter().filter(|&&treatment| {
-                        treatment != Treatment::TreeRecovery
+                    let stabilisations = self.stabilisations.iter().filter(|&&stabilisation| {
+                        stabilisation != PostStabilisation::TreeRecovery
                             || (coordinates == Coordinates::Bodies && facts.closing.is_some())
                     });
-                    for &treatment in treatments.take(different) {
+                    for &stabilisation in stabilisations.take(different) {
                         for integration in self.integrations(facts, scalar) {
                             let (formulation, is_derived, refused) =
                                 choice.made(subject, scalar, integration);
@@ -139,7 +139,7 @@ impl Grid {
                                 coordinates,
                                 formulation,
                                 is_derived,
-                                treatment,
+                                stabilisation,
                                 integration,
                                 scalar,
                             };
@@ -152,11 +152,11 @@ impl Grid {
         settings
     }
 
-    fn integrations(&self, facts: &Facts, scalar: Precision) -> Vec<Integration> {
+    fn integrations(&self, facts: &Facts, scalar: Precision) -> Vec<IntegratorSetting> {
         let duration = facts.span.end - facts.span.start;
         let mut integrations = Vec::new();
         for &family in &self.families {
-            let with = |step_or_tolerance| Integration {
+            let with = |step_or_tolerance| IntegratorSetting {
                 family,
                 step_or_tolerance,
             };

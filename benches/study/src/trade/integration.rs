@@ -4,10 +4,10 @@
 use holonom::{
     Fault, Heun, ImplicitMidpoint, Kutta3, Midpoint, Real, Rk4, SemiImplicitEuler, Tolerance,
     integrate::{
-        AdamsCourse, AdamsFixedCourse, AdaptiveCourse, Advance, AlphaEnd, AlphaStep, BdfCourse,
-        BogackiShampine3, Counts, Course, DormandPrince5, DormandPrince8, FixedCourse,
-        GeneralizedAlphaCourse, Integrator, Method, RadauCourse, RigidConstraints, SecondOrder,
-        Span, System,
+        AdamsFixedIntegration, AdamsIntegration, AdaptiveIntegration, Advance, AlphaEnd, AlphaStep,
+        BdfIntegration, BogackiShampine3, Counts, DormandPrince5, DormandPrince8, FixedIntegration,
+        GeneralizedAlphaIntegration, Integration, Integrator, Method, RadauIntegration,
+        RigidConstraints, SecondOrder, System, TimeSpan,
     },
     state::Vector,
 };
@@ -21,16 +21,17 @@ use crate::format::two_digits;
 ///
 /// ```text
 /// /// What it is.
-/// name in the enumeration: "name in JSON", order, Type::constructor(setting), kind, its course;
+/// name in the enumeration: "name in JSON", order, Type::constructor(setting), kind, integration;
 /// ```
 ///
 /// The setting is a `step` or a `tolerance_of`. Methods that do much `beside` their evaluations are
-/// not compiled as their own type for what is timed; a course with large matrices is in a `Box`.
+/// not compiled as their own type for what is timed; an integration with large matrices is in a
+/// `Box`.
 macro_rules! integrators {
     ($dollar:tt $(
         $(#[$about:meta])*
         $family:ident: $key:literal, $order:literal,
-            $method:ident::$new:ident($setting:ident), $kind:ident, $course:ty;
+            $method:ident::$new:ident($setting:ident), $kind:ident, $integration:ty;
     )*) => {
         /// A method of integration.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -67,22 +68,22 @@ macro_rules! integrators {
             }
         }
 
-        /// An [`Integration`] under way.
-        pub enum AnyCourse<S: Real, X: Vector<S>> {
+        /// An [`IntegratorSetting`] under way.
+        pub enum AnyIntegration<S: Real, X: Vector<S>> {
             $(
                 #[doc = concat!("Of [`Family::", stringify!($family), "`].")]
-                $family($course),
+                $family($integration),
             )*
         }
 
-        impl Integration {
+        impl IntegratorSetting {
             fn begin<S: Real, X: Vector<S>>(
                 self,
                 system: &mut Behind<'_, S, X>,
-                span: Span<S>,
+                span: TimeSpan<S>,
                 state: X,
-            ) -> Result<AnyCourse<S, X>, Fault> {
-                type Of<S, X> = AnyCourse<S, X>;
+            ) -> Result<AnyIntegration<S, X>, Fault> {
+                type Of<S, X> = AnyIntegration<S, X>;
                 Ok(match self.family {
                     $(Family::$family => {
                         let integrator = holonom::$method::$new(self.$setting());
@@ -113,9 +114,9 @@ macro_rules! integrators {
 
         pub(crate) use own_type_of as with_own_type;
 
-        macro_rules! on_course {
-            ($dollar any:expr, $dollar course:ident => $dollar then:expr) => {
-                match $dollar any { $(AnyCourse::$family($dollar course) => $dollar then),* }
+        macro_rules! on_integration {
+            ($dollar any:expr, $dollar integration:ident => $dollar then:expr) => {
+                match $dollar any { $(AnyIntegration::$family($dollar integration) => $dollar then),* }
             };
         }
     };
@@ -135,46 +136,46 @@ pub(crate) use as_own_type;
 integrators! { $
     /// Semi-implicit Euler, order 1.
     SemiImplicitEuler: "semi-implicit-euler", 1,
-        SemiImplicitEuler::every(step), bare, FixedCourse<S, X, SemiImplicitEuler>;
+        SemiImplicitEuler::every(step), bare, FixedIntegration<S, X, SemiImplicitEuler>;
     /// The midpoint rule, order 2.
-    Midpoint: "midpoint", 2, Midpoint::every(step), bare, FixedCourse<S, X, Midpoint>;
+    Midpoint: "midpoint", 2, Midpoint::every(step), bare, FixedIntegration<S, X, Midpoint>;
     /// The method of Heun, order 2.
-    Heun: "heun", 2, Heun::every(step), bare, FixedCourse<S, X, Heun>;
+    Heun: "heun", 2, Heun::every(step), bare, FixedIntegration<S, X, Heun>;
     /// The method of Kutta, order 3.
-    Kutta3: "kutta-3", 3, Kutta3::every(step), bare, FixedCourse<S, X, Kutta3>;
+    Kutta3: "kutta-3", 3, Kutta3::every(step), bare, FixedIntegration<S, X, Kutta3>;
     /// The classical method of Runge and Kutta, order 4.
-    Rk4: "rk4", 4, Rk4::every(step), bare, FixedCourse<S, X, Rk4>;
+    Rk4: "rk4", 4, Rk4::every(step), bare, FixedIntegration<S, X, Rk4>;
     /// Dormand and Prince at a fixed step, order 5.
     DormandPrinceFixed: "dormand-prince-fixed", 5,
-        DormandPrince::every(step), bare, FixedCourse<S, X, DormandPrince5>;
+        DormandPrince::every(step), bare, FixedIntegration<S, X, DormandPrince5>;
     /// Dormand and Prince at a fixed step, order 8.
     DormandPrince853Fixed: "dormand-prince-853-fixed", 8,
-        DormandPrince853::every(step), bare, FixedCourse<S, X, DormandPrince8>;
+        DormandPrince853::every(step), bare, FixedIntegration<S, X, DormandPrince8>;
     /// The implicit midpoint rule, order 2.
     ImplicitMidpoint: "implicit-midpoint", 2,
-        ImplicitMidpoint::every(step), beside, FixedCourse<S, X, ImplicitMidpoint>;
+        ImplicitMidpoint::every(step), beside, FixedIntegration<S, X, ImplicitMidpoint>;
     /// Generalized-alpha on rigid constraints with a spectral radius of 0.8, order 2: by bodies
     /// with standard multipliers alone.
     GeneralizedAlpha: "generalized-alpha", 2,
-        GeneralizedAlpha::every(step), beside, GeneralizedAlphaCourse<S, X>;
+        GeneralizedAlpha::every(step), beside, GeneralizedAlphaIntegration<S, X>;
     /// Adams, Bashforth and Moulton at a fixed step, order 4.
     AdamsBashforthMoulton4: "adams-bashforth-moulton-4", 4,
-        AdamsBashforthMoulton4::every(step), bare, AdamsFixedCourse<S, X>;
+        AdamsBashforthMoulton4::every(step), bare, AdamsFixedIntegration<S, X>;
     /// Bogacki and Shampine 3(2) under the control of `ode23`.
     BogackiShampine: "bogacki-shampine", 3,
-        BogackiShampine::new(tolerance_of), bare, AdaptiveCourse<S, X, BogackiShampine3>;
+        BogackiShampine::new(tolerance_of), bare, AdaptiveIntegration<S, X, BogackiShampine3>;
     /// Dormand and Prince 5(4) under the control of `ode45`.
     DormandPrince: "dormand-prince", 5,
-        DormandPrince::new(tolerance_of), bare, AdaptiveCourse<S, X, DormandPrince5>;
+        DormandPrince::new(tolerance_of), bare, AdaptiveIntegration<S, X, DormandPrince5>;
     /// Dormand and Prince 8(5,3) under the same control.
     DormandPrince853: "dormand-prince-853", 8,
-        DormandPrince853::new(tolerance_of), bare, AdaptiveCourse<S, X, DormandPrince8>;
+        DormandPrince853::new(tolerance_of), bare, AdaptiveIntegration<S, X, DormandPrince8>;
     /// Adams of order 1 to 12 under the control of `ode113`.
-    Adams: "adams", 12, Adams::new(tolerance_of), beside, AdamsCourse<S, X>;
+    Adams: "adams", 12, Adams::new(tolerance_of), beside, AdamsIntegration<S, X>;
     /// Backward differentiation of order 1 to 5 under the control of `ode15s`, implicit.
-    Bdf: "bdf", 5, Bdf::new(tolerance_of), beside, Box<BdfCourse<S, X>>;
+    Bdf: "bdf", 5, Bdf::new(tolerance_of), beside, Box<BdfIntegration<S, X>>;
     /// Radau IIA of order 5 under the control of `RADAU5`, implicit.
-    RadauIIA: "radau", 5, RadauIIA::new(tolerance_of), beside, Box<RadauCourse<S, X>>;
+    RadauIIA: "radau", 5, RadauIIA::new(tolerance_of), beside, Box<RadauIntegration<S, X>>;
 }
 
 impl Family {
@@ -202,7 +203,7 @@ pub const FLOOR: f64 = 1e-3;
 
 /// A method with its step or its tolerance: an [`Integrator`] of any number type.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Integration {
+pub struct IntegratorSetting {
     /// The method.
     pub family: Family,
     /// The step (s), or the relative tolerance of a method that chooses its steps; the absolute one
@@ -210,7 +211,7 @@ pub struct Integration {
     pub step_or_tolerance: f64,
 }
 
-impl Integration {
+impl IntegratorSetting {
     pub(crate) fn step<S: Real>(self) -> S {
         S::constant(self.step_or_tolerance)
     }
@@ -235,59 +236,59 @@ impl Integration {
     }
 }
 
-impl<S: Real> Method<S> for Integration {
+impl<S: Real> Method<S> for IntegratorSetting {
     holonom::__hooks_of_method!(with_own_type);
 }
 
-impl<S: Real, Y: Movable<S>> Integrator<S, Y> for Integration {
-    type Course = AnyCourse<S, Y::State>;
+impl<S: Real, Y: Movable<S>> Integrator<S, Y> for IntegratorSetting {
+    type Integration = AnyIntegration<S, Y::State>;
 
     fn start(
         &self,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: Y::State,
-    ) -> Result<AnyCourse<S, Y::State>, Fault> {
+    ) -> Result<AnyIntegration<S, Y::State>, Fault> {
         self.begin(&mut Behind { system }, span, state)
     }
 }
 
-impl<S: Real, X: Vector<S>> Course<S, X> for AnyCourse<S, X> {
+impl<S: Real, X: Vector<S>> Integration<S, X> for AnyIntegration<S, X> {
     fn time(&self) -> S {
-        on_course!(self, course => course.time())
+        on_integration!(self, integration => integration.time())
     }
 
     fn state(&self) -> &X {
-        on_course!(self, course => course.state())
+        on_integration!(self, integration => integration.state())
     }
 
     fn estimate(&self) -> Option<S> {
-        on_course!(self, course => course.estimate())
+        on_integration!(self, integration => integration.estimate())
     }
 
     fn replace(&mut self, state: X) {
-        on_course!(self, course => course.replace(state));
+        on_integration!(self, integration => integration.replace(state));
     }
 
     fn counts(&self) -> Counts {
-        on_course!(self, course => course.counts())
+        on_integration!(self, integration => integration.counts())
     }
 }
 
-impl<S: Real, Y: Movable<S>> Advance<S, Y> for AnyCourse<S, Y::State> {
+impl<S: Real, Y: Movable<S>> Advance<S, Y> for AnyIntegration<S, Y::State> {
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         let system = &mut Behind { system };
-        on_course!(self, course => course.advance(system))
+        on_integration!(self, integration => integration.advance(system))
     }
 
     fn at(&mut self, system: &mut Y, time: S) -> Result<Y::State, Fault> {
         let system = &mut Behind { system };
-        on_course!(self, course => course.at(system, time))
+        on_integration!(self, integration => integration.at(system, time))
     }
 
     fn better_end(&self, system: &mut Y) -> Result<Option<Y::State>, Fault> {
         let system = &mut Behind { system };
-        on_course!(self, course => course.better_end(system))
+        on_integration!(self, integration => integration.better_end(system))
     }
 }
 
@@ -331,8 +332,8 @@ impl<S: Real, X: Vector<S>> System<S> for Behind<'_, S, X> {
         self.system.stage(time, state, rates)
     }
 
-    fn why(&mut self, time: S, state: &X) -> Option<Fault> {
-        self.system.why(time, state)
+    fn diagnose(&mut self, time: S, state: &X) -> Option<Fault> {
+        self.system.diagnose(time, state)
     }
 
     fn jacobian(
@@ -345,8 +346,8 @@ impl<S: Real, X: Vector<S>> System<S> for Behind<'_, S, X> {
         self.system.jacobian_of(time, state, rates, columns)
     }
 
-    fn settle(&mut self, state: &mut X, rates: Option<&mut X>) {
-        self.system.settle(state, rates);
+    fn renormalise(&mut self, state: &mut X, rates: Option<&mut X>) {
+        self.system.renormalise(state, rates);
     }
 }
 

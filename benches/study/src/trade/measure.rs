@@ -9,12 +9,12 @@ use super::journal::Journal;
 use super::observation::{Observation, Start};
 use super::record::{Entry, Key, Row, Stopped, Time};
 use super::reference::{Reference, observed};
-use super::setting::{Setting, Treatment};
+use super::setting::{PostStabilisation, Setting};
 use super::subject::{Facts, Subject};
 use crate::compare::Coordinates;
 use crate::error::StudyError;
 use crate::target::Target;
-use crate::timing::{Contestant, Schedule, race};
+use crate::timing::{Candidate, Schedule, race};
 
 /// What was measured of a problem.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,9 +29,9 @@ pub struct Trade {
     pub settings: Vec<Setting>,
     /// The others.
     pub stopped: Vec<Stopped>,
-    /// The time of an evaluation of the yardstick (s), the median of all that were measured beside
-    /// the runs; `None` without a yardstick.
-    pub yardstick: Option<f64>,
+    /// The time of an evaluation of the reference kernel (s), the median of all that were measured
+    /// beside the runs; `None` without a reference kernel.
+    pub reference_kernel: Option<f64>,
 }
 
 /// How runs are timed.
@@ -41,10 +41,10 @@ pub struct Timing<'a> {
     pub schedule: Schedule,
     /// What is timed in turn with every run, so that a machine whose speed changes is no part of
     /// the ratio.
-    pub yardstick: Option<&'a dyn Fn() -> Contestant<'static>>,
+    pub reference_kernel: Option<&'a dyn Fn() -> Candidate<'static>>,
 }
 
-/// Five rounds of 2 ms, without a yardstick.
+/// Five rounds of 2 ms, without a reference kernel.
 impl Default for Timing<'_> {
     fn default() -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Default for Timing<'_> {
                 rounds: 5,
                 turn: Duration::from_millis(2),
             },
-            yardstick: None,
+            reference_kernel: None,
         }
     }
 }
@@ -79,7 +79,13 @@ pub fn measure(
     let start = subject.start()?;
     let reference = Reference::of(subject, None)?;
     // What is read of the mechanism, and how it moves.
-    let probe = observed(subject, &start, Coordinates::Bodies, Treatment::None, 1e-6)?;
+    let probe = observed(
+        subject,
+        &start,
+        Coordinates::Bodies,
+        PostStabilisation::None,
+        1e-6,
+    )?;
     reference.check(&facts, &probe)?;
     let conditions = conditions(&facts, &start, &reference, &probe)?;
     let mut journal = Journal::<Entry>::open(journal, &conditions)?;
@@ -113,18 +119,18 @@ pub fn measure(
         }
     }
     progress(all.len(), all.len());
-    let mut yardsticks: Vec<_> = rows
+    let mut reference_kernels: Vec<_> = rows
         .iter()
-        .filter_map(|row| Some(row.seconds / row.yardsticks?))
+        .filter_map(|row| Some(row.seconds / row.reference_kernels?))
         .collect();
-    yardsticks.sort_by(f64::total_cmp);
+    reference_kernels.sort_by(f64::total_cmp);
     Ok(Trade {
         facts,
         reference,
         rows,
         settings,
         stopped,
-        yardstick: yardsticks.get(yardsticks.len() / 2).copied(),
+        reference_kernel: reference_kernels.get(reference_kernels.len() / 2).copied(),
     })
 }
 
@@ -186,10 +192,14 @@ fn time(
     start: &Start,
     timing: Timing<'_>,
 ) -> Result<Time, StudyError> {
-    let run = subject.contestant(setting, start)?;
-    let mut contestants = vec![run];
-    contestants.extend(timing.yardstick.map(|yardstick| yardstick()));
-    let timings = race(&mut contestants, timing.schedule, |_| ())?;
+    let run = subject.candidate(setting, start)?;
+    let mut candidates = vec![run];
+    candidates.extend(
+        timing
+            .reference_kernel
+            .map(|reference_kernel| reference_kernel()),
+    );
+    let timings = race(&mut candidates, timing.schedule, |_| ())?;
     let seconds = |place: usize| {
         let timing = timings.get(place)?;
         Some(1e-9 * timing.time.median)
@@ -199,6 +209,6 @@ fn time(
     });
     Ok(Time {
         seconds: run,
-        yardsticks: seconds(1).map(|yardstick| run / yardstick),
+        reference_kernels: seconds(1).map(|reference_kernel| run / reference_kernel),
     })
 }

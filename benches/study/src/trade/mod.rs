@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | a motion, what is read of it and what that should be | [`Problem`] |
-//! | description, formulation, treatment, integrator and number type as values | [`Setting`], [`Grid`] |
+//! | description, formulation, stabilisation, integrator and number type as values | [`Setting`], [`Grid`] |
 //! | a problem in one or two kinds of coordinates, without the mechanism in the type | [`Posed`], [`Subject`] |
 //! | the runs, and what came of them | [`measure`], [`Trade`], [`Row`] |
 //! | the setting that does what is asked for | [`recommend`] |
@@ -31,7 +31,7 @@ pub use crate::chapter15::Method;
 pub use crate::compare::{Coordinates, Precision};
 pub use front::{front, front_by};
 pub use grid::{Grid, Planned};
-pub use integration::{AnyCourse, FLOOR, Family, Integration};
+pub use integration::{AnyIntegration, FLOOR, Family, IntegratorSetting};
 pub use journal::Journal;
 pub use measure::{Timing, Trade, measure};
 pub use movable::{Described, Movable, OnConstraints, Studied};
@@ -40,5 +40,5 @@ pub use problem::{Problem, Quantity};
 pub use recommend::{MARGIN, NEARBY, Processor, Recommendation, STARTS, Wish, recommend};
 pub use record::{Entry, Key, Row, Stopped, Time, csv, json};
 pub use reference::{Reference, Source};
-pub use setting::{Choice, Formulated, Setting, Treatment};
+pub use setting::{Choice, Formulated, PostStabilisation, Setting};
 pub use subject::{Facts, Posed, Subject};

@@ -28,8 +28,8 @@ pub struct Observation {
     pub energies: Vec<f64>,
     /// The largest change of energy (J) that no force accounts for.
     pub energy_drift: f64,
-    /// What the run's watch doubts, in words.
-    pub doubts: Vec<String>,
+    /// What the run's monitor warns of, in words.
+    pub warnings: Vec<String>,
 }
 
 pub(super) fn stopped<P: Problem>(problem: &P, reason: &dyn std::fmt::Display) -> StudyError {

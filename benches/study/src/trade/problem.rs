@@ -1,6 +1,6 @@
 //! A motion to measure a trade on.
 
-use holonom::{Fault, Mechanism, MechanismExt as _, Real, View, integrate::Span};
+use holonom::{Fault, Mechanism, MechanismExt as _, Real, View, integrate::TimeSpan};
 
 /// A motion of a mechanism: what is moved, for how long, what is read of it, and what that should
 /// be.
@@ -8,7 +8,7 @@ use holonom::{Fault, Mechanism, MechanismExt as _, Real, View, integrate::Span};
 /// ```
 /// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
-/// use holonom::{Real, View, integrate::Span};
+/// use holonom::{Real, View, integrate::TimeSpan};
 /// use holonom_study::trade::{Posed, Problem, Quantity, Subject};
 ///
 /// #[derive(Mechanism)]
@@ -31,8 +31,8 @@ use holonom::{Fault, Mechanism, MechanismExt as _, Real, View, integrate::Span};
 ///     fn mechanism(&self) -> &Arm {
 ///         &self.0
 ///     }
-///     fn span(&self) -> Span<f64> {
-///         Span { start: 0.0, end: 5.0, first_output: 0.1 }
+///     fn span(&self) -> TimeSpan<f64> {
+///         TimeSpan { start: 0.0, end: 5.0, first_output: 0.1 }
 ///     }
 ///     fn time_scale(&self) -> f64 {
 ///         1.5
@@ -72,7 +72,7 @@ pub trait Problem {
     }
 
     /// From when to when (s), and the interval between the times at which it is compared.
-    fn span(&self) -> Span<f64>;
+    fn span(&self) -> TimeSpan<f64>;
 
     /// About the period (s) of the fastest motion that matters: the longest step that is tried is a
     /// quarter of it.

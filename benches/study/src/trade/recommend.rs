@@ -1,7 +1,7 @@
 //! The cheapest setting for an error, or the most exact one for a time, tried where the grid was
 //! not.
 
-use super::integration::Integration;
+use super::integration::IntegratorSetting;
 use super::measure::{Timing, Trade, measured};
 use super::observation::Start;
 use super::record::{Entry, Row};
@@ -97,8 +97,8 @@ pub const NEARBY: f64 = 0.01;
 /// nearby differ, and ten of them are not all.
 pub const MARGIN: f64 = 1.5;
 
-/// The best setting of a trade for a wish, of those whose runs are not doubted and do what is asked
-/// for from [`STARTS`] starts nearby as well, against integrations with tight tolerances.
+/// The best setting of a trade for a wish, of those whose runs have no warnings and do what is
+/// asked for from [`STARTS`] starts nearby as well, against integrations with tight tolerances.
 ///
 /// `None` where there is none: the error is below what the settings reach, or the time above what
 /// they take.
@@ -197,7 +197,7 @@ fn refined(
         return Ok(found);
     }
     let setting = Setting {
-        integration: Integration {
+        integration: IntegratorSetting {
             step_or_tolerance: more,
             ..integration
         },
@@ -261,8 +261,8 @@ fn tried(
         if error.is_nan() || error * MARGIN > asked {
             return Err(format!("an error of {error:.1e} from a start nearby"));
         }
-        if let Some(doubt) = run.doubts.first() {
-            return Err(format!("from a start nearby: {doubt}"));
+        if let Some(warning) = run.warnings.first() {
+            return Err(format!("from a start nearby: {warning}"));
         }
         errors.push(error);
     }

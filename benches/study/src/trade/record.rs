@@ -17,7 +17,7 @@ pub struct Key {
     /// See [`Formulated::coefficients`](super::Formulated::coefficients).
     pub coefficients: Vec<f64>,
     /// `none` or `projection`.
-    pub treatment: String,
+    pub stabilisation: String,
     /// The method of integration.
     pub integrator: String,
     /// `f64` or `f32`.
@@ -32,7 +32,7 @@ impl From<&Setting> for Key {
             coordinates: setting.coordinates.key().into(),
             formulation: setting.formulation.method().key().into(),
             coefficients: setting.formulation.coefficients(),
-            treatment: setting.treatment.key().into(),
+            stabilisation: setting.stabilisation.key().into(),
             integrator: setting.integration.family.key().into(),
             scalar: setting.scalar.key().into(),
             step_or_tolerance: setting.integration.step_or_tolerance,
@@ -48,11 +48,11 @@ pub struct Row {
     pub setting: Key,
     /// The largest error at the reporting times, in the unit of the problem.
     pub error: f64,
-    /// The whole run (s), without watch and readings: the median of several.
+    /// The whole run (s), without monitor and readings: the median of several.
     pub seconds: f64,
-    /// `seconds` over the time of an evaluation of the yardstick, measured in turn with the run;
-    /// `null` where there is no yardstick.
-    pub yardsticks: Option<f64>,
+    /// `seconds` over the time of an evaluation of the reference kernel, measured in turn with the
+    /// run; `null` where there is no reference kernel.
+    pub reference_kernels: Option<f64>,
     /// Evaluations of the equations of motion.
     pub evaluations: u64,
     /// Steps that were accepted, and that were tried.
@@ -61,8 +61,8 @@ pub struct Row {
     pub max_violation: f64,
     /// The largest change of energy (J) that no force accounts for.
     pub energy_drift_joule: f64,
-    /// What the run's watch doubts.
-    pub doubts: Vec<String>,
+    /// What the run's monitor warns of.
+    pub warnings: Vec<String>,
 }
 
 /// A setting that does not come to its end, in `<problem>-stopped.json`.
@@ -93,12 +93,12 @@ impl Row {
             setting: setting.into(),
             error,
             seconds: time.seconds,
-            yardsticks: time.yardsticks,
+            reference_kernels: time.reference_kernels,
             evaluations: run.evaluations,
             steps: [run.accepted, run.accepted + run.rejected],
             max_violation: run.violations.iter().copied().fold(0.0, f64::max),
             energy_drift_joule: run.energy_drift,
-            doubts: run.doubts.clone(),
+            warnings: run.warnings.clone(),
         }
     }
 
@@ -108,10 +108,10 @@ impl Row {
         self.setting.coordinates == coordinates.key() && self.setting.scalar == scalar.key()
     }
 
-    /// Whether nothing is doubted.
+    /// Whether there are no warnings.
     #[must_use]
     pub fn is_trusted(&self) -> bool {
-        self.doubts.is_empty()
+        self.warnings.is_empty()
     }
 }
 
@@ -120,8 +120,8 @@ impl Row {
 pub struct Time {
     /// See [`Row::seconds`].
     pub seconds: f64,
-    /// See [`Row::yardsticks`].
-    pub yardsticks: Option<f64>,
+    /// See [`Row::reference kernels`].
+    pub reference_kernels: Option<f64>,
 }
 
 impl Stopped {
@@ -156,7 +156,7 @@ pub fn json<T: Serialize>(rows: &[T]) -> Result<String, StudyError> {
     Ok(text)
 }
 
-/// Rows as CSV; doubts in one field, separated by semicolons.
+/// Rows as CSV; warnings in one field, separated by semicolons.
 ///
 /// # Errors
 /// [`StudyError::Write`] where the rows cannot be written to memory.
@@ -171,19 +171,19 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, StudyError> {
             "coordinates",
             "formulation",
             "coefficients",
-            "treatment",
+            "stabilisation",
             "integrator",
             "scalar",
             "step_or_tolerance",
             "error",
             "seconds",
-            "yardsticks",
+            "reference kernels",
             "evaluations",
             "steps_accepted",
             "steps_tried",
             "max_violation",
             "energy_drift_joule",
-            "doubts",
+            "warnings",
         ])
         .map_err(failed)?;
     for row in rows {
@@ -195,19 +195,19 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, StudyError> {
                 &setting.coordinates,
                 &setting.formulation,
                 &coefficients.join(" "),
-                &setting.treatment,
+                &setting.stabilisation,
                 &setting.integrator,
                 &setting.scalar,
                 &number(setting.step_or_tolerance),
                 &number(row.error),
                 &number(row.seconds),
-                &row.yardsticks.map_or_else(String::new, number),
+                &row.reference_kernels.map_or_else(String::new, number),
                 &row.evaluations.to_string(),
                 &row.steps[0].to_string(),
                 &row.steps[1].to_string(),
                 &number(row.max_violation),
                 &number(row.energy_drift_joule),
-                &row.doubts.join("; "),
+                &row.warnings.join("; "),
             ])
             .map_err(failed)?;
     }

@@ -1,8 +1,8 @@
 //! What readings are compared with.
 
-use super::integration::{Family, Integration};
+use super::integration::{Family, IntegratorSetting};
 use super::observation::{Observation, Start};
-use super::setting::{Choice, Setting, Treatment};
+use super::setting::{Choice, PostStabilisation, Setting};
 use super::subject::{Facts, Subject};
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
@@ -26,7 +26,7 @@ pub enum Source {
     /// The problem: a closed form, or published values.
     Problem,
     /// Two integrations of the study.
-    Integrated,
+    IntegratorSetting,
 }
 
 /// Tolerances of the two integrations.
@@ -67,17 +67,17 @@ impl Reference {
             None => Coordinates::Bodies,
         };
         let ways = [
-            (Coordinates::Bodies, Treatment::Projection, TIGHT[0]),
-            (other, Treatment::None, TIGHT[1]),
+            (Coordinates::Bodies, PostStabilisation::Projection, TIGHT[0]),
+            (other, PostStabilisation::None, TIGHT[1]),
         ];
-        let [first, last] = ways.map(|(coordinates, treatment, tolerance)| {
-            observed(subject, start, coordinates, treatment, tolerance)
+        let [first, last] = ways.map(|(coordinates, stabilisation, tolerance)| {
+            observed(subject, start, coordinates, stabilisation, tolerance)
         });
         let (first, last) = (first?, last?);
         let reference = Self {
             instants: last.times.into_iter().zip(last.values).collect(),
             error: 0.0,
-            source: Source::Integrated,
+            source: Source::IntegratorSetting,
         };
         let error = reference.error_of(subject, &first);
         Ok(Self { error, ..reference })
@@ -151,7 +151,7 @@ impl Reference {
         // A closed form is known at the very time.
         let exact = match self.source {
             Source::Problem => subject.reference(time),
-            Source::Integrated => None,
+            Source::IntegratorSetting => None,
         };
         Some(exact.unwrap_or_else(|| values.clone()))
     }
@@ -163,11 +163,11 @@ pub(super) fn observed(
     subject: &dyn Subject,
     start: &Start,
     coordinates: Coordinates,
-    treatment: Treatment,
+    stabilisation: PostStabilisation,
     tolerance: f64,
 ) -> Result<Observation, StudyError> {
     let with = |method| {
-        let integration = Integration {
+        let integration = IntegratorSetting {
             family: Family::DormandPrince,
             step_or_tolerance: tolerance,
         };
@@ -178,7 +178,7 @@ pub(super) fn observed(
             coordinates,
             formulation,
             is_derived,
-            treatment,
+            stabilisation,
             integration,
             scalar,
         }
@@ -192,7 +192,7 @@ pub(super) fn observed(
 }
 
 /// The reporting times of a span.
-fn times(span: &holonom::integrate::Span<f64>) -> impl Iterator<Item = f64> + use<> {
+fn times(span: &holonom::integrate::TimeSpan<f64>) -> impl Iterator<Item = f64> + use<> {
     let span = *span;
     let whole = ((span.end - span.start) / span.first_output - 1e-9).floor() as u32;
     let multiples = (0..=whole).map(move |k| span.start + f64::from(k) * span.first_output);

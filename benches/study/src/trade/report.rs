@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::charts::{self, Course, Steps};
-use super::integration::{Family, Integration};
+use super::charts::{self, History, Steps};
+use super::integration::{Family, IntegratorSetting};
 use super::measure::Trade;
 use super::recommend::{Processor, Recommendation, STARTS, Wish};
 use super::record::{csv, json};
 use super::reference::Source;
-use super::setting::{Choice, Setting, Treatment};
+use super::setting::{Choice, PostStabilisation, Setting};
 use super::subject::Subject;
 use super::tables;
 use crate::chapter15::Method;
@@ -27,15 +27,15 @@ use crate::target::Target;
 ///
 /// # Errors
 /// Why the mechanism does not stand.
-pub fn courses(subject: &dyn Subject) -> Result<Vec<Course>, StudyError> {
+pub fn histories(subject: &dyn Subject) -> Result<Vec<History>, StudyError> {
     let facts = subject.facts();
     let start = subject.start()?;
     let kinds = Method::ALL
-        .map(|method| (method, Treatment::None))
+        .map(|method| (method, PostStabilisation::None))
         .into_iter();
-    let kinds = kinds.chain([(Method::Standard, Treatment::Projection)]);
-    let course = |(method, treatment): (Method, Treatment)| {
-        let integration = Integration {
+    let kinds = kinds.chain([(Method::Standard, PostStabilisation::Projection)]);
+    let history = |(method, stabilisation): (Method, PostStabilisation)| {
+        let integration = IntegratorSetting {
             family: Family::Rk4,
             step_or_tolerance: facts.time_scale / 64.0,
         };
@@ -46,23 +46,23 @@ pub fn courses(subject: &dyn Subject) -> Result<Vec<Course>, StudyError> {
             coordinates: Coordinates::Bodies,
             formulation,
             is_derived,
-            treatment,
+            stabilisation,
             integration,
             scalar,
         };
-        let name = match treatment {
-            Treatment::None => method.name().to_owned(),
-            _ => format!("{}, {}", method.name(), treatment.key()),
+        let name = match stabilisation {
+            PostStabilisation::None => method.name().to_owned(),
+            _ => format!("{}, {}", method.name(), stabilisation.key()),
         };
         let run = subject.observe(&setting, &start).ok()?;
-        Some(Course { name, run })
+        Some(History { name, run })
     };
-    Ok(kinds.filter_map(course).collect())
+    Ok(kinds.filter_map(history).collect())
 }
 
 /// A trade as a document; `command` is what it was made with.
 #[must_use]
-pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
+pub fn document(trade: &Trade, shown: &[History], command: &str) -> Document {
     let section = |heading: &str, blocks: Vec<Block>| Section {
         heading: heading.into(),
         blocks,
@@ -103,7 +103,7 @@ pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
             vec![Block::Table(tables::limits(trade))],
         ),
     ];
-    let over_time: Vec<_> = charts::courses(shown)
+    let over_time: Vec<_> = charts::histories(shown)
         .into_iter()
         .map(Block::Figure)
         .collect();
@@ -128,13 +128,13 @@ pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
         lead: vec![
             format!("{}.", facts.title),
             format!(
-                "{} runs: descriptions, formulations, treatments after steps, integrators, steps and tolerances, number types. The error is the largest of {} ({}) at the reporting times. {}",
+                "{} runs: descriptions, formulations, stabilisations after steps, integrators, steps and tolerances, number types. The error is the largest of {} ({}) at the reporting times. {}",
                 trade.rows.len() + trade.stopped.len(),
                 facts.quantity.name,
                 facts.quantity.unit,
                 match trade.reference.source {
                     Source::Problem => "The reference is a closed form or published.".into(),
-                    Source::Integrated => format!(
+                    Source::IntegratorSetting => format!(
                         "The reference is an integration with tight tolerances, which another one, by other means, differs from by {}: errors below that say nothing.",
                         scientific(trade.reference.error, 1)
                     ),
@@ -144,12 +144,12 @@ pub fn document(trade: &Trade, shown: &[Course], command: &str) -> Document {
         sections,
         colophon: vec![
             format!("Compiled for {}.", Target::CURRENT),
-            match trade.yardstick {
-                Some(yardstick) => format!(
+            match trade.reference_kernel {
+                Some(reference_kernel) => format!(
                     "T, an evaluation of the pendulum of chapter 15 written by hand, took {} s here.",
-                    scientific(yardstick, 2)
+                    scientific(reference_kernel, 2)
                 ),
-                None => "There was no yardstick.".into(),
+                None => "There was no reference kernel.".into(),
             },
             format!(
                 "holonom {}. Repeat with: {command}. The numbers are in {}.json and {}.csv, beside this page.",
@@ -168,7 +168,7 @@ pub fn summary(trades: &[Trade], command: &str) -> Document {
     Document {
         title: "What accuracy costs".into(),
         lead: vec![
-            "Problems with known answers, each run with every description, formulation, treatment after steps, integrator, step or tolerance and number type. Settings whose runs are doubted are left out.".into(),
+            "Problems with known answers, each run with every description, formulation, stabilisation after steps, integrator, step or tolerance and number type. Settings whose runs have warnings are left out.".into(),
         ],
         sections: vec![
             Section {
@@ -237,12 +237,12 @@ pub fn recommendation(
             .fold(f64::INFINITY, f64::min);
         text.push_str(&if trusted().count() == 0 {
             format!(
-                "No setting of the grid does that: of {} runs none came to its end without a doubt.\n",
+                "No setting of the grid does that: of {} runs none came to its end without a warning.\n",
                 trade.rows.len() + trade.stopped.len()
             )
         } else {
             format!(
-                "No setting of the grid does that from all {STARTS} starts nearby. Of runs that are not doubted, the least error is {least:.1e} {unit}, the shortest time {shortest:.1e} s.\n"
+                "No setting of the grid does that from all {STARTS} starts nearby. Of runs without warnings, the least error is {least:.1e} {unit}, the shortest time {shortest:.1e} s.\n"
             )
         });
         return text;

@@ -2,7 +2,7 @@
 
 use holonom::{AugmentedLagrangian, Baumgarte, Fault, Mechanism, Penalty, Real};
 
-use super::integration::Integration;
+use super::integration::IntegratorSetting;
 use crate::chapter15::Method;
 use crate::compare::{Coordinates, Precision};
 
@@ -39,7 +39,7 @@ impl Formulated {
         method: Method,
         mechanism: &M,
         scalar: Precision,
-        integration: Integration,
+        integration: IntegratorSetting,
     ) -> Result<Self, Fault> {
         match scalar {
             Precision::Double => derived::<f64, M>(method, mechanism, integration),
@@ -139,7 +139,7 @@ fn with_radian(name: &str, [alpha, omega, mu]: [f64; 3], radian: Option<f64>) ->
 fn derived<S: Real, M: Mechanism>(
     method: Method,
     mechanism: &M,
-    integration: Integration,
+    integration: IntegratorSetting,
 ) -> Result<Formulated, Fault> {
     let step = (!integration.family.is_adaptive()).then(|| integration.step::<S>());
     Ok(match method {
@@ -192,7 +192,7 @@ pub(super) fn augmented_lagrangian<S: Real, T: Real>(
 
 /// What is done to a state after every step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Treatment {
+pub enum PostStabilisation {
     /// Nothing.
     None,
     /// Positions and velocities are corrected onto the constraints, see [`holonom::Projection`].
@@ -206,7 +206,7 @@ pub enum Treatment {
     TreeRecovery,
 }
 
-impl Treatment {
+impl PostStabilisation {
     /// All of them.
     pub const ALL: [Self; 5] = [
         Self::None,
@@ -228,12 +228,12 @@ impl Treatment {
         }
     }
 
-    /// The treatment of a name.
+    /// The stabilisation of a name.
     #[must_use]
     pub fn of(key: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
-            .find(|treatment| treatment.key() == key)
+            .find(|stabilisation| stabilisation.key() == key)
     }
 }
 
@@ -248,9 +248,9 @@ pub struct Setting {
     /// a user writes no numbers then.
     pub is_derived: bool,
     /// What is done after every step.
-    pub treatment: Treatment,
+    pub stabilisation: PostStabilisation,
     /// The integrator.
-    pub integration: Integration,
+    pub integration: IntegratorSetting,
     /// The numbers.
     pub scalar: Precision,
 }
@@ -264,8 +264,10 @@ impl Setting {
             Precision::Double => "",
             Precision::Single => "::<f32, _, _, _>",
         };
-        let tree = match self.treatment {
-            Treatment::TreeRecovery => format!("let tree = TreeRecovery::new(&{mechanism})?;\n"),
+        let tree = match self.stabilisation {
+            PostStabilisation::TreeRecovery => {
+                format!("let tree = TreeRecovery::new(&{mechanism})?;\n")
+            }
             _ => String::new(),
         };
         let mut code = format!(
@@ -277,12 +279,16 @@ impl Setting {
         if self.coordinates == Coordinates::Joints {
             code.push_str("    .joint_coordinates()\n");
         }
-        code.push_str(match self.treatment {
-            Treatment::None => "",
-            Treatment::Projection => "    .projection(Projection::default())\n",
-            Treatment::DirectCorrection => "    .treatment(&DirectCorrection::default())\n",
-            Treatment::VelocityProjection => "    .treatment(&VelocityProjection::default())\n",
-            Treatment::TreeRecovery => "    .treatment(&tree)\n",
+        code.push_str(match self.stabilisation {
+            PostStabilisation::None => "",
+            PostStabilisation::Projection => "    .projection(Projection::default())\n",
+            PostStabilisation::DirectCorrection => {
+                "    .post_stabilisation(&DirectCorrection::default())\n"
+            }
+            PostStabilisation::VelocityProjection => {
+                "    .post_stabilisation(&VelocityProjection::default())\n"
+            }
+            PostStabilisation::TreeRecovery => "    .post_stabilisation(&tree)\n",
         });
         code.push_str("    .run(start..=end, every(interval), |sample| {\n        // sample: what is read\n        ControlFlow::Continue(())\n    })?;\n");
         code
@@ -295,7 +301,7 @@ impl Setting {
             Formulated::AugmentedLagrangian(_) if self.is_derived => "AugmentedLagrangian",
             _ => return self.formulation.code(),
         };
-        let Integration {
+        let IntegratorSetting {
             family,
             step_or_tolerance,
         } = self.integration;
@@ -314,24 +320,24 @@ impl Setting {
             "Rk4" | "DormandPrince" => String::new(),
             other => name(other),
         };
-        let treatment = match self.treatment {
-            Treatment::None | Treatment::Projection => String::new(),
-            Treatment::DirectCorrection => name("__study::DirectCorrection"),
-            Treatment::VelocityProjection => name("run::VelocityProjection"),
-            Treatment::TreeRecovery => name("run::TreeRecovery"),
+        let stabilisation = match self.stabilisation {
+            PostStabilisation::None | PostStabilisation::Projection => String::new(),
+            PostStabilisation::DirectCorrection => name("__study::DirectCorrection"),
+            PostStabilisation::VelocityProjection => name("run::VelocityProjection"),
+            PostStabilisation::TreeRecovery => name("run::TreeRecovery"),
         };
-        [integrator, treatment]
+        [integrator, stabilisation]
     }
 
     /// In words.
     #[must_use]
     pub fn name(&self) -> String {
-        let treatment = match self.treatment {
-            Treatment::None => String::new(),
+        let stabilisation = match self.stabilisation {
+            PostStabilisation::None => String::new(),
             other => format!(", {}", other.key()),
         };
         format!(
-            "{}, {}{treatment}, {} {:.1e}, {}",
+            "{}, {}{stabilisation}, {} {:.1e}, {}",
             self.coordinates.key(),
             self.formulation.method().key(),
             self.integration.family.key(),

@@ -5,21 +5,21 @@ use std::marker::PhantomData;
 use holonom::{
     AugmentedLagrangian, Fault, JointCoordinates, Mechanism, Projection, StateParts,
     dynamics::Dynamics,
-    integrate::Span,
+    integrate::TimeSpan,
     mechanism::{Absolute, BodyInfo, BodyKind, Relative},
     state::Array as _,
 };
 
 use super::dispatch::{Observe, Offered, Time, with_formulation};
-use super::integration::Integration;
+use super::integration::IntegratorSetting;
 use super::observation::{Observation, Start, flat, stopped};
 use super::problem::{Problem, Quantity};
-use super::setting::{Formulated, Setting, Treatment};
+use super::setting::{Formulated, PostStabilisation, Setting};
 use crate::chapter15::Method;
 use crate::compare::measure::reported;
 use crate::compare::{Coordinates, Precision};
 use crate::error::StudyError;
-use crate::timing::Contestant;
+use crate::timing::Candidate;
 
 /// What is known of a problem before anything runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct Facts {
     /// A sentence for the reader.
     pub title: String,
     /// From when to when, and the reports (s).
-    pub span: Span<f64>,
+    pub span: TimeSpan<f64>,
     /// See [`Problem::time_scale`] (s).
     pub time_scale: f64,
     /// What an error is of.
@@ -56,7 +56,7 @@ impl Facts {
                 self.name.escape_debug()
             )));
         }
-        let Span {
+        let TimeSpan {
             start,
             end,
             first_output,
@@ -113,25 +113,25 @@ pub trait Subject {
         &self,
         method: Method,
         scalar: Precision,
-        integration: Integration,
+        integration: IntegratorSetting,
     ) -> Result<Formulated, StudyError>;
 
     /// Operations of a stage of a step; `None` where they depend on the state, or where states are
     /// corrected after steps.
     fn operations(&self, setting: &Setting) -> Option<usize>;
 
-    /// One run with the watch, read at the reporting times.
+    /// One run with the monitor, read at the reporting times.
     ///
     /// # Errors
     /// [`StudyError::Run`] with what stopped it.
     fn observe(&self, setting: &Setting, start: &Start) -> Result<Observation, StudyError>;
 
-    /// The same run bare, to be timed: without watch and readings, its dense output at the
+    /// The same run bare, to be timed: without monitor and readings, its dense output at the
     /// reporting times included.
     ///
     /// # Errors
     /// [`StudyError::Run`] with why it cannot start.
-    fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError>;
+    fn candidate(&self, setting: &Setting, start: &Start) -> Result<Candidate<'_>, StudyError>;
 }
 
 /// A problem in the coordinates of its mechanism: in absolute and in joint coordinates, if `C` is
@@ -196,7 +196,7 @@ impl<P: Problem, C: Offered<P>> Subject for Posed<P, C> {
         &self,
         method: Method,
         scalar: Precision,
-        integration: Integration,
+        integration: IntegratorSetting,
     ) -> Result<Formulated, StudyError> {
         let derived = Formulated::of(method, self.problem.mechanism(), scalar, integration);
         derived.map_err(|fault| stopped(&self.problem, &fault))
@@ -215,7 +215,7 @@ impl<P: Problem, C: Offered<P>> Subject for Posed<P, C> {
         with_formulation::<C, P, _>(&self.problem, observe, setting)
     }
 
-    fn contestant(&self, setting: &Setting, start: &Start) -> Result<Contestant<'_>, StudyError> {
+    fn candidate(&self, setting: &Setting, start: &Start) -> Result<Candidate<'_>, StudyError> {
         let time = Time {
             problem: &self.problem,
             setting: *setting,
@@ -238,7 +238,7 @@ fn facts<P: Problem, C: Offered<P>>(problem: &P) -> Facts {
 }
 
 fn operations<P: Problem, C: Offered<P>>(setting: &Setting) -> Option<usize> {
-    if setting.treatment != Treatment::None {
+    if setting.stabilisation != PostStabilisation::None {
         return None;
     }
     let method = setting.formulation.method();

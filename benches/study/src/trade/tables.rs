@@ -9,12 +9,12 @@ use crate::format::{fixed, scientific};
 
 /// A setting in a few words.
 pub(super) fn name(setting: &Key) -> String {
-    let treatment = match setting.treatment.as_str() {
+    let stabilisation = match setting.stabilisation.as_str() {
         "none" => String::new(),
         other => format!(", {other}"),
     };
     format!(
-        "{}, {}{treatment}, {} {}, {}",
+        "{}, {}{stabilisation}, {} {}, {}",
         setting.coordinates,
         setting.formulation,
         setting.integrator,
@@ -32,13 +32,13 @@ fn line(first: String, row: &Row) -> Vec<String> {
         first,
         scientific(row.error, 1),
         scientific(row.seconds, 2),
-        row.yardsticks
+        row.reference_kernels
             .map_or_else(|| "\u{2013}".into(), |x| fixed(x, 0)),
         row.evaluations.to_string(),
         row.steps[0].to_string(),
         scientific(row.max_violation, 1),
         scientific(row.energy_drift_joule, 1),
-        if row.is_trusted() { "" } else { "doubted" }.into(),
+        if row.is_trusted() { "" } else { "warned" }.into(),
     ]
 }
 
@@ -67,7 +67,7 @@ pub fn best(trade: &Trade) -> Table {
         caption: "Nothing is both faster and more exact".into(),
         columns: heads(trade),
         rows: rows.iter().map(|row| line(name(&row.setting), row)).collect(),
-        note: "Time: of the whole run, without watch and readings, the median of several; T is an evaluation of the yardstick, timed in turn with the run. Violation: the largest |Φ| at the reporting times. Energy: the \
+        note: "Time: of the whole run, without monitor and readings, the median of several; T is an evaluation of the reference_kernel, timed in turn with the run. Violation: the largest |Φ| at the reporting times. Energy: the \
                largest change that no force accounts for."
             .into(),
     }
@@ -110,7 +110,7 @@ pub fn limits(trade: &Trade) -> Table {
         let kind = (
             setting.coordinates.as_str(),
             setting.formulation.as_str(),
-            setting.treatment.as_str(),
+            setting.stabilisation.as_str(),
         );
         if !seen.contains(&kind) {
             seen.push(kind);
@@ -123,7 +123,7 @@ pub fn limits(trade: &Trade) -> Table {
                 (
                     setting.coordinates.as_str(),
                     setting.formulation.as_str(),
-                    setting.treatment.as_str(),
+                    setting.stabilisation.as_str(),
                 ) == kind
                     && setting.scalar == scalar
             });
@@ -134,13 +134,13 @@ pub fn limits(trade: &Trade) -> Table {
             None => ["\u{2013}".into(), "\u{2013}".into()],
         };
         let [double, single] = ["f64", "f32"].map(|scalar| cells(least(scalar)));
-        let (coordinates, formulation, treatment) = kind;
-        let treatment = if treatment == "none" {
+        let (coordinates, formulation, stabilisation) = kind;
+        let stabilisation = if stabilisation == "none" {
             String::new()
         } else {
-            format!(", {treatment}")
+            format!(", {stabilisation}")
         };
-        let mut line = vec![format!("{coordinates}, {formulation}{treatment}")];
+        let mut line = vec![format!("{coordinates}, {formulation}{stabilisation}")];
         line.extend(double);
         line.extend(single);
         rows.push(line);
@@ -167,12 +167,12 @@ pub fn most_exact(trades: &[Trade]) -> Table {
         caption: "The least error of any setting".into(),
         columns: of_problems(),
         rows: lines.collect(),
-        note: "Errors against closed forms, and against published or integrated values that are themselves known to 1e-11 or better. Where a motion passes a singular configuration every run is doubted, also if it is right."
+        note: "Errors against closed forms, and against published or integrated values that are themselves known to 1e-11 or better. Where a motion passes a singular configuration every run has a warning, also if it is right."
             .into(),
     }
 }
 
-/// Of each problem the cheapest settings for three errors, of runs that are not doubted where there
+/// Of each problem the cheapest settings for three errors, of runs without warnings where there
 /// are any.
 #[must_use]
 pub fn cheapest_of(trades: &[Trade]) -> Table {
@@ -217,10 +217,10 @@ fn of_problem(trade: &Trade, asked: &str, row: &Row) -> Vec<String> {
         row.steps[0].to_string(),
         row.evaluations.to_string(),
         scientific(row.seconds, 2),
-        row.yardsticks
+        row.reference_kernels
             .map_or_else(|| "\u{2013}".into(), |x| fixed(x, 0)),
         scientific(row.energy_drift_joule, 1),
         scientific(row.max_violation, 1),
-        if row.is_trusted() { "" } else { "doubted" }.into(),
+        if row.is_trusted() { "" } else { "warned" }.into(),
     ]
 }

@@ -9,14 +9,14 @@ use std::time::Duration;
 
 use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Real, View, integrate::Span};
+use holonom::{Real, View, integrate::TimeSpan};
 use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
 use holonom_study::timing::Schedule;
 use holonom_study::trade::{
-    Choice, Entry, Family, Formulated, Grid, Integration, Journal, Posed, Problem, Processor,
-    Quantity, Reference, Setting, Source, Subject, Timing, Treatment, Wish, measure, recommend,
-    report,
+    Choice, Entry, Family, Formulated, Grid, IntegratorSetting, Journal, Posed, PostStabilisation,
+    Problem, Processor, Quantity, Reference, Setting, Source, Subject, Timing, Wish, measure,
+    recommend, report,
 };
 
 #[derive(Mechanism)]
@@ -47,8 +47,8 @@ impl Problem for Falling {
         &self.0
     }
 
-    fn span(&self) -> Span<f64> {
-        Span {
+    fn span(&self) -> TimeSpan<f64> {
+        TimeSpan {
             start: 0.0,
             end: 1.0,
             first_output: 0.25,
@@ -85,7 +85,7 @@ fn timing() -> Timing<'static> {
             rounds: 1,
             turn: Duration::ZERO,
         },
-        yardstick: None,
+        reference_kernel: None,
     }
 }
 
@@ -94,8 +94,8 @@ fn setting(by: Coordinates, family: Family, step_or_tolerance: f64) -> Setting {
         coordinates: by,
         formulation: Formulated::Standard,
         is_derived: false,
-        treatment: Treatment::None,
-        integration: Integration {
+        stabilisation: PostStabilisation::None,
+        integration: IntegratorSetting {
             family,
             step_or_tolerance,
         },
@@ -108,7 +108,7 @@ fn errors_go_with_the_order_of_the_integrator() {
     let subject = falling();
     let start = subject.start().unwrap();
     let reference = Reference::of(&subject, None).unwrap();
-    assert_eq!(reference.source, Source::Integrated);
+    assert_eq!(reference.source, Source::IntegratorSetting);
     assert!(reference.error < 1e-10, "{:e}", reference.error);
     for by in [Coordinates::Bodies, Coordinates::Joints] {
         for family in Family::ALL
@@ -158,15 +158,15 @@ fn a_run_that_is_timed_is_the_run_that_is_read() {
         let moving = |family: &Family| family.moves(by, Method::Standard);
         for family in Family::ALL.into_iter().filter(moving) {
             let value = if family.is_adaptive() { 1e-5 } else { 0.02 };
-            for treatment in Treatment::ALL {
+            for stabilisation in PostStabilisation::ALL {
                 let setting = Setting {
-                    treatment,
+                    stabilisation,
                     ..setting(by, family, value)
                 };
                 let run = subject.observe(&setting, &start).unwrap();
-                let contestant = subject.contestant(&setting, &start).unwrap();
+                let candidate = subject.candidate(&setting, &start).unwrap();
                 let timing =
-                    holonom_study::timing::race(&mut [contestant], timing().schedule, |_| ());
+                    holonom_study::timing::race(&mut [candidate], timing().schedule, |_| ());
                 assert_eq!(
                     timing.unwrap()[0].evaluations,
                     run.evaluations,
@@ -202,7 +202,7 @@ fn an_interrupted_trade_goes_on_and_is_written() {
     let path = directory.join("arm.journal");
     let subject = falling();
     let whole = measure(&subject, &grid(), timing(), &path, |_, _| ()).unwrap();
-    // By bodies in two formulations and two treatments, by joints in one, in two number types.
+    // By bodies in two formulations and two stabilisations, by joints in one, in two number types.
     let settings = grid().settings(&subject);
     assert_eq!(whole.rows.len() + whole.stopped.len(), settings.len());
     assert!(
@@ -211,7 +211,7 @@ fn an_interrupted_trade_goes_on_and_is_written() {
             .map(|planned| planned.setting)
             .filter(|setting| setting.coordinates == Coordinates::Joints)
             .all(|setting| setting.formulation == Formulated::Standard
-                && setting.treatment == Treatment::None)
+                && setting.stabilisation == PostStabilisation::None)
     );
     // What is in the journal is not run again: times, which no run repeats, are the same.
     let lines = fs::read_to_string(&path).unwrap();
@@ -228,8 +228,8 @@ fn an_interrupted_trade_goes_on_and_is_written() {
     };
     assert_eq!(what(&again), what(&whole));
 
-    let courses = report::courses(&subject).unwrap();
-    let document = report::document(&again, &courses, "a command");
+    let histories = report::histories(&subject).unwrap();
+    let document = report::document(&again, &histories, "a command");
     let written = report::write(&again, &document, &directory).unwrap();
     assert!(written.iter().all(|path| path.exists()));
     let json = fs::read_to_string(directory.join("arm.json")).unwrap();
@@ -238,7 +238,7 @@ fn an_interrupted_trade_goes_on_and_is_written() {
     for key in [
         "coordinates",
         "formulation",
-        "treatment",
+        "stabilisation",
         "integrator",
         "scalar",
         "step_or_tolerance",
@@ -247,7 +247,7 @@ fn an_interrupted_trade_goes_on_and_is_written() {
         "evaluations",
         "max_violation",
         "energy_drift_joule",
-        "doubts",
+        "warnings",
     ] {
         assert!(rows.iter().all(|row| row.contains_key(key)), "{key}");
     }

@@ -53,9 +53,9 @@ impl Problem for Hanging {
         &self.block
     }
 
-    fn span(&self) -> Span<f64> {
+    fn span(&self) -> TimeSpan<f64> {
         let [start, end, first_output] = self.span;
-        Span {
+        TimeSpan {
             start,
             end,
             first_output,
@@ -223,7 +223,7 @@ fn problems_that_nothing_can_be_made_of_are_refused() {
 }
 
 #[test]
-fn a_block_in_the_origin_starts_nearby_too_and_is_not_doubted() {
+fn a_block_in_the_origin_starts_nearby_too_and_is_not_warned_of() {
     let subject = Posed::in_both(Hanging::new(40.0));
     let own = subject.start().unwrap();
     let near = subject.start_near(0.01, 1).unwrap();
@@ -233,7 +233,7 @@ fn a_block_in_the_origin_starts_nearby_too_and_is_not_doubted() {
         let run = subject
             .observe(&setting(by, Family::Rk4, 0.02), &own)
             .unwrap();
-        assert_eq!(run.doubts, Vec::<String>::new());
+        assert_eq!(run.warnings, Vec::<String>::new());
     }
 }
 
@@ -280,8 +280,8 @@ impl Problem for Shutting {
         &self.0
     }
 
-    fn span(&self) -> Span<f64> {
-        Span {
+    fn span(&self) -> TimeSpan<f64> {
+        TimeSpan {
             start: 0.0,
             end: 1.0,
             first_output: 0.5,
@@ -316,7 +316,7 @@ fn equations_that_are_kept_are_studied_with_a_compliance() {
             Choice::Derived(Method::Standard),
             Choice::Derived(Method::AugmentedLagrangian),
         ],
-        treatments: vec![Treatment::None],
+        stabilisations: vec![PostStabilisation::None],
         scalars: vec![Precision::Double],
         ..grid()
     };

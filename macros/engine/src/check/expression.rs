@@ -94,7 +94,7 @@ pub(super) struct Context<'a> {
     pub(super) bodies: &'a [Ident],
     pub(super) parameters: &'a [Parameter],
     /// Parameters whose kind is not known.
-    pub(super) doubtful: Vec<&'a Ident>,
+    pub(super) ambiguous: Vec<&'a Ident>,
     /// What `let` has named; without a value where that is faulty.
     pub(super) names: Vec<(Ident, Option<Shaped>)>,
     /// The terms that names and squares may still add to what is written.
@@ -141,7 +141,7 @@ impl Context<'_> {
             .parameters
             .iter()
             .position(|p| p.name == *name && p.kind == ParameterKind::Axis);
-        if axis.is_none() && !self.doubtful.contains(&name) {
+        if axis.is_none() && !self.ambiguous.contains(&name) {
             let axes = self.known(|kind| kind == ParameterKind::Axis);
             let near = did_you_mean(&name.to_string(), axes.iter().map(String::as_str));
             let has = self.has(&axes);
@@ -163,7 +163,7 @@ impl Context<'_> {
     pub(super) fn known(&self, wanted: impl Fn(ParameterKind) -> bool) -> Vec<String> {
         let known = self.parameters.iter().filter(|p| wanted(p.kind));
         known
-            .filter(|p| !self.doubtful.contains(&&p.name))
+            .filter(|p| !self.ambiguous.contains(&&p.name))
             .map(|p| p.name.to_string())
             .collect()
     }
@@ -375,7 +375,7 @@ impl Context<'_> {
         if name == "origin" {
             return Some(Shaped::vector(Term::Origin(body)));
         }
-        if self.doubtful.contains(&name) {
+        if self.ambiguous.contains(&name) {
             return None;
         }
         let Some(parameter) = self
@@ -498,7 +498,7 @@ impl Context<'_> {
         };
         let place = self.parameters.iter().position(|p| p.name == *name);
         match place {
-            _ if self.doubtful.contains(&name) => {}
+            _ if self.ambiguous.contains(&name) => {}
             Some(place) if self.parameters[place].kind.is_number() => {
                 return Some(Shaped::scalar(Term::Scalar(place)));
             }

@@ -63,14 +63,14 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
     }
     let before = faults.any();
     let mut fresh = Faults::new();
-    let (parameters, doubtful) = signature(syntax, &mut fresh);
+    let (parameters, ambiguous) = signature(syntax, &mut fresh);
     let mut reader = Reader {
         syntax,
         context: Context {
             kind: syntax.kind,
             bodies: &syntax.bodies,
             parameters: &parameters,
-            doubtful,
+            ambiguous,
             names: Vec::new(),
             left: Cell::new(Extent::MOST.size),
         },
@@ -525,7 +525,7 @@ fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter
             format!("a {word} connects at least one body, as in `(i, j)`"),
         );
     }
-    let mut doubtful = Vec::new();
+    let mut ambiguous = Vec::new();
     let mut seen: Vec<&Ident> = Vec::new();
     for name in syntax
         .bodies
@@ -551,7 +551,7 @@ fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter
             let found = kind.to_string();
             let known = ParameterKind::ALL.iter().find(|(word, _)| *word == found);
             if known.is_none() {
-                doubtful.push(name);
+                ambiguous.push(name);
                 let words = ParameterKind::ALL.map(|(word, _)| word);
                 let near = did_you_mean(&found, words);
                 faults.at(
@@ -576,5 +576,5 @@ fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter
             }
         })
         .collect();
-    (parameters, doubtful)
+    (parameters, ambiguous)
 }

@@ -135,7 +135,7 @@ impl Context<'_> {
             return None;
         };
         let place = self.parameters.iter().position(|p| p.name == *name);
-        if self.doubtful.contains(&name) {
+        if self.ambiguous.contains(&name) {
             return None;
         }
         let message = match place.map(|place| self.parameters[place].kind) {

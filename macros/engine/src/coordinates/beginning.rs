@@ -37,7 +37,7 @@ impl<'a> Beginning<'a> {
         })
     }
 
-    /// Times and coordinates of the bodies along a tour; none where nothing can move or be told.
+    /// Times and coordinates of the bodies along a sweep; none where nothing can move or be told.
     pub(super) fn stops(&self) -> &[(f64, Vec<f64>)] {
         self.stops.get_or_init(|| closing::stops(&self.whole()))
     }

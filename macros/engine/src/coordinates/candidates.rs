@@ -17,7 +17,7 @@ pub enum Method {
     /// [`Self::MassMatrix`].
     Articulated,
     /// By the mass matrix behind the velocities that the rows determine, where these stand out all
-    /// along a tour of the mechanism and rows have no compliance; else like [`Self::MassMatrix`].
+    /// along a sweep of the mechanism and rows have no compliance; else like [`Self::MassMatrix`].
     Dependent,
 }
 

@@ -3,8 +3,8 @@
 //!
 //! A row that determines a velocity leaves no multiplier to solve for. But the velocity must follow
 //! from the others wherever the rows are independent, not here and there: so the mechanism is led
-//! on a tour, and where some velocities come near to being undetermined by rows that determine
-//! others, the rows stay behind. Where there is no tour, what rows determine by numbers alone is
+//! on a sweep, and where some velocities come near to being undetermined by rows that determine
+//! others, the rows stay behind. Where there is no sweep, what rows determine by numbers alone is
 //! certain ([`certain`]).
 
 use std::collections::BTreeMap;
@@ -19,15 +19,15 @@ use crate::symbolic::evaluate::evaluate;
 
 /// A determinant that falls to this fraction of the volume that its rows span is not relied on.
 pub(super) const STEADY: f64 = 0.1;
-/// Where the volume falls to this fraction of the largest along a tour, the mechanism is near a
+/// Where the volume falls to this fraction of the largest along a sweep, the mechanism is near a
 /// singular position, and no choice is better than another.
 const SINGULAR: f64 = 1e-3;
 /// An entry below this fraction of the largest of its row is round-off.
 pub(super) const ROUND_OFF: f64 = 1e-12;
-/// A tour of fewer stops tells nothing.
+/// A sweep of fewer stops tells nothing.
 const STOPS: usize = 4;
 
-/// Rows of `D` at a stop of a tour.
+/// Rows of `D` at a stop of a sweep.
 struct Stop {
     rows: Vec<Vec<f64>>,
     /// The largest number that each row is made of. In a singular position a row without the
@@ -42,10 +42,10 @@ impl Stop {
     }
 }
 
-/// The inputs of some stops of a tour, the first of which is the reference configuration; none
+/// The inputs of some stops of a sweep, the first of which is the reference configuration; none
 /// where nothing can move or be told.
 #[must_use]
-pub(super) fn tour(
+pub(super) fn sweep(
     arena: &Arena,
     beginning: &Beginning<'_>,
     links: &Links,
@@ -66,10 +66,10 @@ pub(super) fn tour(
     stops.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-/// The values of rows at the stops of a tour.
-fn values(arena: &Arena, rows: &[Vec<Expr>], tour: &[(f64, Vec<f64>)]) -> Option<Vec<Stop>> {
+/// The values of rows at the stops of a sweep.
+fn values(arena: &Arena, rows: &[Vec<Expr>], sweep: &[(f64, Vec<f64>)]) -> Option<Vec<Stop>> {
     let flat: Vec<Expr> = rows.iter().flatten().copied().collect();
-    let stops = tour.iter().map(|(time, coordinates)| {
+    let stops = sweep.iter().map(|(time, coordinates)| {
         let values = evaluate(arena, &flat, |input| match input {
             Input::Coordinate(place) => coordinates.get(place as usize).copied(),
             Input::Time => Some(*time),
@@ -87,14 +87,14 @@ fn values(arena: &Arena, rows: &[Vec<Expr>], tour: &[(f64, Vec<f64>)]) -> Option
 struct Candidate {
     rows: Vec<usize>,
     velocities: Vec<usize>,
-    /// The least determinant along the tour over the volume that the rows span, in columns of like
+    /// The least determinant along the sweep over the volume that the rows span, in columns of like
     /// size.
     steady: f64,
     /// At the first stop, or if this is a singular position, the largest.
     determinant: f64,
 }
 
-/// The rows that are not taken yet, at the stops of a tour.
+/// The rows that are not taken yet, at the stops of a sweep.
 struct Open<'a> {
     rows: Vec<usize>,
     joints: &'a [usize],
@@ -113,10 +113,10 @@ pub(super) fn dependent(
     arena: &Arena,
     (rows, joints): (&[Vec<Expr>], &[usize]),
     alike: &[usize],
-    tour: &[(f64, Vec<f64>)],
+    sweep: &[(f64, Vec<f64>)],
 ) -> (Vec<Pivot>, Vec<f64>) {
     let (mut pivots, mut determinants) = (Vec::new(), Vec::new());
-    let told = values(arena, rows, tour).filter(|stops| stops.len() >= STOPS);
+    let told = values(arena, rows, sweep).filter(|stops| stops.len() >= STOPS);
     let Some(stops) = told else {
         return certain::certain(arena, rows, alike);
     };
@@ -329,7 +329,7 @@ fn passes_zero(before: f64, behind: f64) -> bool {
     before * behind < 0.0 && before.abs() + behind.abs() < 1.0
 }
 
-/// The largest entry of each column and of those alike along a tour, 1 where there is none.
+/// The largest entry of each column and of those alike along a sweep, 1 where there is none.
 fn sizes(stops: &[Stop], alike: &[usize]) -> Vec<f64> {
     let mut sizes = vec![
         0.0_f64;

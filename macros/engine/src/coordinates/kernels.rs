@@ -69,7 +69,7 @@ pub struct JointKernels {
     /// The auxiliary variables among them.
     pub auxiliaries: usize,
     /// Whether one of these is not the integral of velocities.
-    pub recounts: bool,
+    pub rewraps: bool,
     /// Whether every row determines a velocity where rows have no compliance.
     pub determines: bool,
     /// Velocities.
@@ -130,7 +130,7 @@ impl JointKernels {
             turns: links.turns,
             rest: links.rest + auxiliaries,
             auxiliaries,
-            recounts: reduced
+            rewraps: reduced
                 .scene
                 .counters
                 .iter()

@@ -3,8 +3,8 @@
 //!
 //! `#[mechanism(coordinates = "joints")]` adds this description over the same arena, scene and
 //! elimination. The bodies' own equations are then put together from factors, solution and
-//! right-hand sides (`private::evaluate_in_parts`), because reactions and the watch need them once
-//! a step. `"both"` has them fused.
+//! right-hand sides (`private::evaluate_in_parts`), because reactions and the monitor need them
+//! once a step. `"both"` has them fused.
 //!
 //! Tree and links. The joints that declare `motion ..` form a tree (`spanning.rs`). Module `links`
 //! makes one link of every motion: a turn about a coordinate axis, a slide, a screw, or a ball.
@@ -31,7 +31,7 @@
 //! Choice (`candidates.rs`) by operations and path: `L D L^T` from the leaves; articulated
 //! inertias, whose cost is proportional to the length of a chain; rows that determine velocities,
 //! in closed loops (`dependent.rs`). The last are used only where their determinant stands out all
-//! along a tour. With a compliance rows stay behind. Pivots of other rows compare with free bodies
+//! along a sweep. With a compliance rows stay behind. Pivots of other rows compare with free bodies
 //! (`reference.rs`), since their value on links vanishes where these are in line.
 //!
 //! Loops. `handover.rs` counts a mass on either side of a closing point, with `D = P - Q`:

@@ -4,10 +4,10 @@
 //! coordinates that vanishes as well where links are in line: the tree has taken what the row could
 //! act on, and the pivot of the only row of a loop would never be small beside itself. So pivots
 //! are compared with what their rows would be on free bodies, as those of the bodies are: with its
-//! greatest value along a tour where numbers tell, outliers apart, which costs nothing.
+//! greatest value along a sweep where numbers tell, outliers apart, which costs nothing.
 
 use super::beginning::Beginning;
-use super::dependent::tour;
+use super::dependent::sweep;
 use super::system::Reduced;
 use crate::plan::eliminate::Check;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
@@ -15,13 +15,13 @@ use crate::symbolic::evaluate::evaluate;
 use crate::symbolic::vector::{Frame, Triple};
 
 impl Reduced {
-    /// Finds out what the rows are on free bodies, along a tour; `None` of those that no number is
+    /// Finds out what the rows are on free bodies, along a sweep; `None` of those that no number is
     /// known of.
     pub fn find_references(&mut self, beginning: &Beginning<'_>) {
         let mut trial = self.clone();
         let mobilities = trial.mobilities();
         let arena = &trial.scene.space.arena;
-        let stops = tour(arena, beginning, &trial.links);
+        let stops = sweep(arena, beginning, &trial.links);
         let mut known: Vec<Vec<f64>> = vec![Vec::new(); mobilities.len()];
         for (time, coordinates) in &stops {
             let values = evaluate(arena, &mobilities, |input| match input {

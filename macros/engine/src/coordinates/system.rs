@@ -3,7 +3,7 @@
 use super::algebra::{add, apply};
 use super::beginning::Beginning;
 use super::candidates::{Method, Strategy};
-use super::dependent::{dependent, tour};
+use super::dependent::{dependent, sweep};
 use super::frames::Frames;
 use super::handover::Handover;
 use super::kinematics::Kinematics;
@@ -112,14 +112,14 @@ impl Reduced {
 
     /// The velocities that rows determine, with these, and their determinants.
     fn taken_together(mut self, beginning: &Beginning<'_>) -> (Vec<Pivot>, Vec<f64>) {
-        let tour = tour(&self.scene.space.arena, beginning, &self.links);
+        let sweep = sweep(&self.scene.space.arena, beginning, &self.links);
         let (rows, _) = self.rows(Terms::Plain);
         let constraints = self.scene.constraints.iter();
         let joints: Vec<usize> = constraints
             .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
             .collect();
         let alike = self.links.alike();
-        dependent(&self.scene.space.arena, (&rows, &joints), &alike, &tour)
+        dependent(&self.scene.space.arena, (&rows, &joints), &alike, &sweep)
     }
 
     /// The equations, by joint and place, that no velocity changes.

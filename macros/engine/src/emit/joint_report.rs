@@ -116,7 +116,7 @@ impl Writer<'_, JointKernels> {
         let counts = self.counts().into_iter();
         let counts = counts.map(|(name, count)| kernel(&name, count, facade));
         let balls = &kernels.balls;
-        let (auxiliaries, recounts) = (kernels.auxiliaries, kernels.recounts);
+        let (auxiliaries, rewraps) = (kernels.auxiliaries, kernels.rewraps);
         let determines = kernels.determines;
         quote! {
             #facade::__private::JointReport {
@@ -127,7 +127,7 @@ impl Writer<'_, JointKernels> {
                 euler_parameters: &[#(#balls),*],
                 counters: &[#(#counters),*],
                 auxiliaries: #auxiliaries,
-                recounts: #recounts,
+                rewraps: #rewraps,
                 determines: #determines,
             }
         }

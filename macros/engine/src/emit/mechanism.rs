@@ -198,7 +198,7 @@ impl Writer<'_> {
         tokens.extend(self.points());
         tokens.extend(self.displacements());
         tokens.extend(self.sides());
-        tokens.extend(self.recount());
+        tokens.extend(self.rewrap());
         tokens.extend(self.force_readouts());
         tokens.extend(self.user_axes());
         tokens

@@ -153,7 +153,7 @@ impl Writer<'_> {
     }
 
     /// Only where there are auxiliary variables; the trait does nothing by default.
-    pub(super) fn recount(&mut self) -> TokenStream {
+    pub(super) fn rewrap(&mut self) -> TokenStream {
         if self.kernels.counters.outputs.is_empty() {
             return TokenStream::new();
         }
@@ -172,7 +172,7 @@ impl Writer<'_> {
             .map(|place| local(&format!("counted_{place}")))
             .collect();
         quote! {
-            fn recount<__S: #facade::Scalar>(
+            fn rewrap<__S: #facade::Scalar>(
                 #constants: &Self::Constants<__S>,
                 #state: &mut Self::State<__S>,
             ) {

@@ -95,7 +95,7 @@ pub struct Independence {
     pub dropped: bool,
     /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from
     /// the reference configuration on, where there was a choice of equations to be made.
-    pub tour: Vec<(f64, Vec<f64>)>,
+    pub sweep: Vec<(f64, Vec<f64>)>,
 }
 
 impl Independence {

@@ -7,7 +7,7 @@
 
 use super::Plan;
 use super::eliminate::Check;
-use super::order::{Course, Order, Rows, StartValues};
+use super::order::{Order, Rows, Sequence, StartValues};
 use super::reach::Reach;
 use super::system::{Solution, System, Terms, applied_forces, coupling};
 use super::tree::{Tree, tree};
@@ -26,16 +26,16 @@ struct Strategy {
     body_accelerations: bool,
     /// Rows in the axes of the body that is carried.
     body_rows: bool,
-    course: Course,
+    sequence: Sequence,
 }
 
 impl Strategy {
-    const fn new(body_accelerations: bool, body_rows: bool, course: Course) -> Self {
+    const fn new(body_accelerations: bool, body_rows: bool, sequence: Sequence) -> Self {
         Self {
             carried_points: false,
             body_accelerations,
             body_rows,
-            course,
+            sequence,
         }
     }
 
@@ -48,17 +48,17 @@ impl Strategy {
     }
 }
 
-const fn leaves(forbidden: bool, late: Option<Rows>) -> Course {
-    Course::Leaves { forbidden, late }
+const fn leaves(forbidden: bool, late: Option<Rows>) -> Sequence {
+    Sequence::Leaves { forbidden, late }
 }
 
 const LATE: Option<Rows> = Some(Rows::BothEnds);
-const GROUND: Course = Course::BodiesFirst(Rows::Ground);
+const GROUND: Sequence = Sequence::BodiesFirst(Rows::Ground);
 
 /// Without a compliance: what forbids a motion is eliminated with it.
 const RIGID: [Strategy; 6] = {
-    const PAIRS: Course = leaves(true, None);
-    const LATE_PAIRS: Course = leaves(true, LATE);
+    const PAIRS: Sequence = leaves(true, None);
+    const LATE_PAIRS: Sequence = leaves(true, LATE);
     [
         Strategy::new(false, false, PAIRS).at_joints(),
         Strategy::new(true, true, PAIRS).at_joints(),
@@ -71,8 +71,8 @@ const RIGID: [Strategy; 6] = {
 
 /// With a compliance: no motion is forbidden.
 const COMPLIANT: [Strategy; 5] = {
-    const SADDLES: Course = leaves(false, None);
-    const LATE_SADDLES: Course = leaves(false, LATE);
+    const SADDLES: Sequence = leaves(false, None);
+    const LATE_SADDLES: Sequence = leaves(false, LATE);
     [
         Strategy::new(true, true, SADDLES),
         Strategy::new(false, false, SADDLES),
@@ -360,7 +360,7 @@ impl Beginning<'_> {
         plan.refer(&mut scene);
         let coupling = coupling(&mut scene, kinds, &plan);
         let mut order = Order::new(&scene, &coupling, kinds, &self.start, &self.reach);
-        (plan.pivots, plan.determinants) = order.pivots(tree, strategy.course);
+        (plan.pivots, plan.determinants) = order.pivots(tree, strategy.sequence);
         plan
     }
 }

@@ -104,10 +104,10 @@ pub(super) fn factorise_within(
     let mut determinants = determinants.iter();
     let mut place = 0;
     while let Some(&pivot) = pivots.get(place) {
-        let together = elimination.strangers(&pivots[place..]);
+        let together = elimination.mutually_uncoupled(&pivots[place..]);
         if together.len() > 1 {
             place += together.len();
-            elimination.take_strangers(arena, together);
+            elimination.take_uncoupled(arena, together);
             if arena.len() - before > most {
                 return None;
             }
@@ -191,7 +191,7 @@ impl Elimination {
     }
 
     /// The first pivots, if they are accelerations that know nothing of each other.
-    fn strangers(&self, pivots: &[Pivot]) -> Vec<usize> {
+    fn mutually_uncoupled(&self, pivots: &[Pivot]) -> Vec<usize> {
         let mut together: Vec<usize> = Vec::new();
         let mut is_taken = vec![false; self.matrix.size()];
         for pivot in pivots {
@@ -245,7 +245,7 @@ impl Elimination {
     }
 
     /// Eliminates accelerations that know nothing of each other, and rows that waited for it.
-    fn take_strangers(&mut self, arena: &mut Arena, unknowns: Vec<usize>) {
+    fn take_uncoupled(&mut self, arena: &mut Arena, unknowns: Vec<usize>) {
         let pivots = unknowns.iter().map(|&k| self.matrix.get(k, k));
         let inverses = pivots.map(|pivot| arena.reciprocal(pivot)).collect();
         self.eliminate(arena, unknowns, Inverse::Diagonal(inverses));

@@ -62,7 +62,7 @@ struct Part {
 
 /// The order of elimination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Course {
+pub(super) enum Sequence {
     /// Bodies from the leaves, point rows together with the accelerations that they carry, other
     /// rows behind them as soon as they are safe.
     Leaves {
@@ -119,12 +119,12 @@ impl<'a> Order<'a> {
     }
 
     /// Pivots from first to last, and the determinants of the forbidden motions at the start.
-    pub(super) fn pivots(&mut self, tree: &Tree, course: Course) -> (Vec<Pivot>, Vec<f64>) {
+    pub(super) fn pivots(&mut self, tree: &Tree, sequence: Sequence) -> (Vec<Pivot>, Vec<f64>) {
         self.done = vec![false; self.scene.layout.velocities + self.scene.layout.rows];
         self.parts = Vec::new();
-        match course {
-            Course::Leaves { forbidden, late } => self.leaves_first(tree, forbidden, late),
-            Course::BodiesFirst(rows) => (self.bodies_first(tree, rows), Vec::new()),
+        match sequence {
+            Sequence::Leaves { forbidden, late } => self.leaves_first(tree, forbidden, late),
+            Sequence::BodiesFirst(rows) => (self.bodies_first(tree, rows), Vec::new()),
         }
     }
 

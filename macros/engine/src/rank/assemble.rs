@@ -76,7 +76,7 @@ impl Constraints {
                 break;
             }
         }
-        self.recount(&mut at);
+        self.rewrap(&mut at);
         (size <= ASSEMBLED).then_some(at)
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! With a basis `Y` of the combinations of rows that vanish, `Y^T D = 0`, the rows outside a set
 //! `S` are independent where the determinant of the rows `S` of `Y` is not zero. Its sign counts
-//! too: where it changes between two stops of a tour, it is zero between them.
+//! too: where it changes between two stops of a sweep, it is zero between them.
 //!
 //! Where the rows that are kept are independent at a stop, the others are combinations of them,
 //! which are all that is needed (`Exchanges`). Where they are not, the basis is worked out.
@@ -15,17 +15,17 @@ use super::sparse::{Row, Rows, width};
 /// A choice whose determinant falls to this fraction of its largest is looked at again.
 const STEADY: f64 = 0.1;
 
-/// The rows to keep of those of `D` along a tour: those given if they do all along, else the best
+/// The rows to keep of those of `D` along a sweep: those given if they do all along, else the best
 /// that exchanges lead to.
-pub(super) fn steady(kept: Vec<usize>, tour: &[Rows], tolerance: f64) -> Vec<usize> {
-    let count = tour.first().map_or(0, Vec::len);
+pub(super) fn steady(kept: Vec<usize>, sweep: &[Rows], tolerance: f64) -> Vec<usize> {
+    let count = sweep.first().map_or(0, Vec::len);
     let left_out: Vec<usize> = (0..count).filter(|row| !kept.contains(row)).collect();
     if left_out.is_empty() {
         return kept;
     }
-    let exchanged = Exchanges::along(tour, &kept, &left_out, tolerance)
+    let exchanged = Exchanges::along(sweep, &kept, &left_out, tolerance)
         .and_then(|exchanges| exchanges.best(tolerance));
-    exchanged.unwrap_or_else(|| steady_by_bases(kept, left_out, tour, tolerance))
+    exchanged.unwrap_or_else(|| steady_by_bases(kept, left_out, sweep, tolerance))
 }
 
 /// Whether a determinant with the given values is better than one whose least value is given.
@@ -50,9 +50,9 @@ struct Stop {
 impl Exchanges {
     /// `None` where the kept rows hardly stand out from each other although others do. Stops of
     /// less than the rank are passed over.
-    fn along(tour: &[Rows], kept: &[usize], left_out: &[usize], tolerance: f64) -> Option<Self> {
+    fn along(sweep: &[Rows], kept: &[usize], left_out: &[usize], tolerance: f64) -> Option<Self> {
         let mut stops: Vec<Stop> = Vec::new();
-        for rows in tour {
+        for rows in sweep {
             let basis: Rows = kept.iter().map(|&row| rows[row].clone()).collect();
             let Some(normal) = sound(&basis) else {
                 if independent(std::slice::from_ref(rows), tolerance).len() < kept.len() {
@@ -229,11 +229,11 @@ impl Stop {
 fn steady_by_bases(
     kept: Vec<usize>,
     mut left_out: Vec<usize>,
-    tour: &[Rows],
+    sweep: &[Rows],
     tolerance: f64,
 ) -> Vec<usize> {
     let count = kept.len() + left_out.len();
-    let combinations = combinations(tour, kept.len(), tolerance);
+    let combinations = combinations(sweep, kept.len(), tolerance);
     let Some(Determinants { mut least, largest }) = determinants(&combinations, &left_out) else {
         return kept;
     };
@@ -273,7 +273,7 @@ fn best_exchange(
     best
 }
 
-/// Determinants along a tour, with the sign that most of them have.
+/// Determinants along a sweep, with the sign that most of them have.
 struct Determinants {
     least: f64,
     largest: f64,
@@ -307,9 +307,9 @@ fn determinants(combinations: &[Matrix], left_out: &[usize]) -> Option<Determina
 
 /// The combinations of rows that vanish, stop by stop: unit vectors at right angles to each other,
 /// turned like those before. Stops of less than the rank are passed over.
-fn combinations(tour: &[Rows], rank: usize, tolerance: f64) -> Vec<Matrix> {
+fn combinations(sweep: &[Rows], rank: usize, tolerance: f64) -> Vec<Matrix> {
     let mut bases: Vec<Matrix> = Vec::new();
-    for rows in tour {
+    for rows in sweep {
         let length = width(rows);
         let dense: Matrix = rows.iter().map(|row| row.dense(length)).collect();
         let columns = orthonormal(&transpose(&dense), tolerance);
@@ -394,7 +394,7 @@ mod tests {
     #[test]
     fn rows_that_hold_nothing_are_never_chosen() {
         // One of three that turn, all of which vanish somewhere, and one of round-off.
-        let tour = |stops: usize| -> Vec<Rows> {
+        let sweep = |stops: usize| -> Vec<Rows> {
             (0..stops)
                 .map(|k| {
                     let angle = 0.1 + 0.3 * k as f64;
@@ -406,9 +406,13 @@ mod tests {
         for stops in [1, 2, 5, 30, 200] {
             for kept in [0, 1, 3] {
                 let left_out = (0..4).filter(|&row| row != kept).collect();
-                let by_bases = steady_by_bases(vec![kept], left_out, &tour(stops), 1e-7);
+                let by_bases = steady_by_bases(vec![kept], left_out, &sweep(stops), 1e-7);
                 assert_ne!(by_bases, [2], "{stops} stops");
-                assert_ne!(steady(vec![kept], &tour(stops), 1e-7), [2], "{stops} stops");
+                assert_ne!(
+                    steady(vec![kept], &sweep(stops), 1e-7),
+                    [2],
+                    "{stops} stops"
+                );
             }
         }
     }
@@ -445,14 +449,14 @@ mod tests {
         let mut changed = 0;
         let mut decided = 0;
         for seed in 0..200 {
-            let tour = tumbling(seed);
-            let kept = independent(&tour[..1], 1e-7);
+            let sweep = tumbling(seed);
+            let kept = independent(&sweep[..1], 1e-7);
             let left_out: Vec<usize> = (0..7).filter(|row| !kept.contains(row)).collect();
             if kept.len() < 4 {
                 continue;
             }
-            let by_bases = steady_by_bases(kept.clone(), left_out.clone(), &tour, 1e-7);
-            let exchanges = Exchanges::along(&tour, &kept, &left_out, 1e-7);
+            let by_bases = steady_by_bases(kept.clone(), left_out.clone(), &sweep, 1e-7);
+            let exchanges = Exchanges::along(&sweep, &kept, &left_out, 1e-7);
             let Some(found) = exchanges.and_then(|exchanges| exchanges.best(1e-7)) else {
                 continue;
             };

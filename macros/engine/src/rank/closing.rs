@@ -7,7 +7,7 @@ use super::random::Random;
 use super::span::{Span, independent};
 use super::sparse::{Row, Rows};
 use super::walk::walk;
-use super::{choice, tour};
+use super::{choice, sweep};
 use crate::model::Model;
 
 /// The equations, by joint and place, of the given joints that follow from those of all others and
@@ -20,9 +20,9 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     let mut configurations = walk(&constraints, start.clone(), None, &mut random);
     let mut way = Vec::new();
     if constraints.is_driven() {
-        let course = tour::course(&constraints, &start, |_| None);
-        way = course.reached[..course.followed].to_vec();
-        configurations.extend(course.reached);
+        let passage = sweep::in_time(&constraints, &start, |_| None);
+        way = passage.reached[..passage.followed].to_vec();
+        configurations.extend(passage.reached);
     }
     let layout = model.layout();
     let is_closing: Vec<bool> = (0..layout.rows)
@@ -48,15 +48,15 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     let rows: Vec<usize> = (0..layout.rows).filter(|&row| is_closing[row]).collect();
     if rank < rows.len() {
         let heading = random.motion(layout.velocities);
-        let mut tour = tour::tour(&constraints, &start, heading);
+        let mut sweep = sweep::sweep(&constraints, &start, heading);
         // One way through the start.
-        tour.reverse();
-        tour.extend(
+        sweep.reverse();
+        sweep.extend(
             way.iter()
                 .filter_map(|at| constraints.directions(at, TOLERANCE)),
         );
-        let tour: Vec<Rows> = tour.iter().map(stands_out).collect();
-        kept = choice::steady(kept, &tour, TOLERANCE);
+        let sweep: Vec<Rows> = sweep.iter().map(stands_out).collect();
+        kept = choice::steady(kept, &sweep, TOLERANCE);
     }
     let following = (0..rows.len()).filter(|place| !kept.contains(place));
     Some(
@@ -73,8 +73,8 @@ pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
     if !model.independence.likes.is_empty() {
         return Vec::new();
     }
-    if !model.independence.tour.is_empty() {
-        return model.independence.tour.clone();
+    if !model.independence.sweep.is_empty() {
+        return model.independence.sweep.clone();
     }
     let mut random = Random::new();
     let constraints = Constraints::new(model, |velocities| random.motion(velocities));
@@ -85,7 +85,7 @@ pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
         return Vec::new();
     };
     let heading = random.motion(model.layout().velocities);
-    let stops = tour::stops(&constraints, &start, heading, None).into_iter();
+    let stops = sweep::stops(&constraints, &start, heading, None).into_iter();
     stops.map(|(at, _)| (at.time, at.coordinates)).collect()
 }
 

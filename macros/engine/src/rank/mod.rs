@@ -6,7 +6,7 @@
 //! to, each put back onto the constraints, and the largest counts.
 //!
 //! Which equations to leave out is a choice, and one that is sound here may be singular after half
-//! a turn. So where there is a choice, the mechanism is led on a tour through its motion, and rows
+//! a turn. So where there is a choice, the mechanism is led on a sweep through its motion, and rows
 //! are kept that stand out from each other all along.
 //!
 //! Where the time stands in an equation, rows may depend on each other at the start only, and
@@ -33,7 +33,7 @@
 //!   is dormant. It follows from nothing and is not dropped. Nor is any row where the walk finds
 //!   only a start that leaves motion free.
 //!
-//! Time (`tour.rs`). The walk has up to 100 steps. They end where a smooth step of time begins, is
+//! Time (`sweep.rs`). The walk has up to 100 steps. They end where a smooth step of time begins, is
 //! half done or ends. The first 60 have motions of up to 0.3 rad; the choice of rows is judged
 //! along them. The others go on as long as the demanded velocities tell where they lead, up to a
 //! day. Angles over turns are counted along all ways.
@@ -48,9 +48,9 @@
 //! unless its points and axes are given by `local(..)`. Where no configuration satisfies all
 //! equations, rows are kept from the first on, then from the last on.
 //!
-//! Motions of a joint (`specimen.rs`, `moves.rs`). Two free bodies get the joint and are displaced
-//! by random amounts of every motion. The equations must hold, no motion may have a part along a
-//! gradient, and the rank must leave as many motions. If the equations hold for no trial
+//! Motions of a joint (`test_assembly.rs`, `moves.rs`). Two free bodies get the joint and are
+//! displaced by random amounts of every motion. The equations must hold, no motion may have a part
+//! along a gradient, and the rank must leave as many motions. If the equations hold for no trial
 //! parameters, or the motions agree for one kind of them, the definition is accepted. Then only a
 //! mechanism can tell, by the same function. A definition that arrives from another crate is not
 //! compared again.
@@ -73,8 +73,8 @@ mod normal;
 mod random;
 mod span;
 mod sparse;
-pub mod specimen;
-mod tour;
+mod sweep;
+pub mod test_assembly;
 mod walk;
 
 use std::collections::BTreeSet;
@@ -129,20 +129,20 @@ pub fn judge(model: &Model) -> Independence {
     if has_choice && constraints.is_driven() {
         let agrees =
             |near: &Configuration| contradiction::agreeing(&constraints, &start, &found.kept, near);
-        let course = tour::course(&constraints, &start, agrees);
-        let followed = course.reached.iter().take(course.followed);
+        let passage = sweep::in_time(&constraints, &start, agrees);
+        let followed = passage.reached.iter().take(passage.followed);
         way = followed
             .filter_map(|at| constraints.directions(at, TOLERANCE))
             .collect();
-        missed = course.missed;
+        missed = passage.missed;
         let mut configurations = found.configurations;
-        let last = course.reached.len().saturating_sub(1);
+        let last = passage.reached.len().saturating_sub(1);
         for from in [last / 4, last / 2, last] {
-            if let Some(from) = course.reached.get(from) {
+            if let Some(from) = passage.reached.get(from) {
                 configurations.extend(walk(&constraints, from.clone(), None, &mut random));
             }
         }
-        configurations.extend(course.reached);
+        configurations.extend(passage.reached);
         let Some(later) = Found::at(&constraints, configurations) else {
             return not(Rank::NotDecided);
         };
@@ -184,15 +184,15 @@ pub fn judge(model: &Model) -> Independence {
             };
         }
         let heading = random.motion(model.layout().velocities);
-        let mut tour: Vec<Rows>;
-        (stops, tour) = tour::stops(&constraints, &start, heading, Some(&kept))
+        let mut sweep: Vec<Rows>;
+        (stops, sweep) = sweep::stops(&constraints, &start, heading, Some(&kept))
             .into_iter()
             .map(|(at, rows)| ((at.time, at.coordinates), rows))
             .unzip();
         // One way through the start.
-        tour.reverse();
-        tour.extend(way);
-        kept = choice::steady(kept, &tour, TOLERANCE);
+        sweep.reverse();
+        sweep.extend(way);
+        kept = choice::steady(kept, &sweep, TOLERANCE);
         by_chance = contradiction::by_chance(
             &constraints,
             &start,
@@ -218,7 +218,7 @@ pub fn judge(model: &Model) -> Independence {
         is_alone,
         is_driven: constraints.is_driven(),
         likes: constraints.values.clone(),
-        tour: stops,
+        sweep: stops,
         ..not(Rank::Decided { rank, at_start })
     }
 }

@@ -398,7 +398,7 @@ impl Constraints {
     }
 
     /// Auxiliary variables as the angles that they count.
-    pub(super) fn recount(&self, at: &mut Configuration) {
+    pub(super) fn rewrap(&self, at: &mut Configuration) {
         if let Some([_, angles]) = &self.counted
             && let Some(angles) = self.evaluate(angles, at)
         {

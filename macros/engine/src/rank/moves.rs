@@ -308,7 +308,7 @@ impl Pair {
                 self.constraints.place(&mut at, body, pose);
             }
         }
-        self.constraints.recount(&mut at);
+        self.constraints.rewrap(&mut at);
         (all, at)
     }
 

@@ -241,10 +241,10 @@ pub(crate) fn counter_rates(scene: &Scene) -> Kernel {
 
 /// The auxiliary variables, as the angles that they count.
 pub(crate) fn counters(scene: &Scene) -> Kernel {
-    with_scene(scene, counted_angles)
+    with_scene(scene, unwrapped_angles)
 }
 
-fn counted_angles(scene: &mut Scene) -> Vec<Expr> {
+fn unwrapped_angles(scene: &mut Scene) -> Vec<Expr> {
     let Scene {
         space,
         motion,

@@ -313,7 +313,7 @@ impl<'a> Comparison<'a> {
         }
         let angles: Vec<f64> = equations.angles.iter().map(|(angle, _)| *angle).collect();
         let found = inputs.of(&kernels.counters);
-        self.within("counted angles", &found, &angles, scale)?;
+        self.within("unwrapped angles", &found, &angles, scale)?;
         self.kernels = Some(kernels);
         Ok(())
     }
@@ -336,8 +336,8 @@ impl<'a> Comparison<'a> {
         rows.map(|row| in_axes(model, row, false)).collect()
     }
 
-    /// `r' = v`, `p' = 1/2 L(p)^T w`, rates of counted angles; of the Euler parameters of principal
-    /// axes.
+    /// `r' = v`, `p' = 1/2 L(p)^T w`, rates of unwrapped angles; of the Euler parameters of
+    /// principal axes.
     pub(crate) fn coordinate_rates(&self, state: &State, equations: &Equations) -> Vec<f64> {
         let mut rates = Vec::new();
         for (place, body) in self.model.bodies.iter().enumerate() {

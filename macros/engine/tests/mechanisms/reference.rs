@@ -21,7 +21,7 @@ pub(crate) struct State {
     pub(crate) poses: Vec<(Numbers, [f64; 4])>,
     /// Of each body: velocity, angular velocity in its axes.
     pub(crate) rates: Vec<(Numbers, Numbers)>,
-    /// Whole turns of every counted angle.
+    /// Whole turns of every unwrapped angle.
     pub(crate) turns: Vec<f64>,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct Equations {
     pub(crate) power: f64,
     /// What is positive on the sides of the joints that are meant.
     pub(crate) sides: Vec<f64>,
-    /// The counted angles, and their rates.
+    /// The unwrapped angles, and their rates.
     pub(crate) angles: Vec<(f64, f64)>,
     /// The largest number on the way.
     pub(crate) scale: f64,

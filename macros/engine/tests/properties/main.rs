@@ -43,7 +43,7 @@ struct State {
     poses: Vec<([f64; 3], [f64; 4])>,
     /// Of each body: velocity, angular velocity in its axes.
     rates: Vec<([f64; 3], [f64; 3])>,
-    /// Whole turns of every counted angle.
+    /// Whole turns of every unwrapped angle.
     turns: Vec<f64>,
 }
 

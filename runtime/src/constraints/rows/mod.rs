@@ -351,7 +351,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     /// that vanishes counts as it is.
     pub(crate) fn units(&self, radian: S) -> M::Multipliers<S> {
         let mut units = M::Multipliers::<S>::zeros();
-        let elements = units.as_mut_slice().iter_mut().zip(self.meanings());
+        let elements = units.as_mut_slice().iter_mut().zip(self.row_units());
         elements.for_each(|(unit, (size, is_length))| {
             let metre = if is_length {
                 size
@@ -366,7 +366,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
 
     /// What one metre or one radian is in the unit of each row, and whether it is metres that the
     /// row speaks of.
-    pub(crate) fn meanings(&self) -> impl Iterator<Item = (S, bool)> + '_ {
+    pub(crate) fn row_units(&self) -> impl Iterator<Item = (S, bool)> + '_ {
         let parts = self.translation.as_slice().iter();
         let parts = parts
             .zip(self.rotation.as_slice())

@@ -2,9 +2,9 @@
 
 mod choice;
 mod coefficients;
-mod course;
+mod integration;
 
-pub use course::AdamsCourse;
+pub use integration::AdamsIntegration;
 
 use super::controlled::controlled;
 
@@ -42,5 +42,5 @@ controlled! {
     /// let ode113 = Adams::new(Tolerance { relative: 1e-6, absolute: 1e-9 });
     /// assert_eq!(ode113, Adams::default());
     /// ```
-    Adams, AdamsCourse
+    Adams, AdamsIntegration
 }

@@ -4,8 +4,8 @@ use super::pairs::{Rods, Spinning, angles, compared, pairs, starts};
 use super::{Equation, Moves, curve, curved, distance, equation, span};
 use crate::Fault;
 use crate::integrate::{
-    Adams, Advance as _, Counts, Course as _, DormandPrince, DormandPrince853, Integrator as _,
-    Method, Span, StepLimits, System, Tolerance,
+    Adams, Advance as _, Counts, DormandPrince, DormandPrince853, Integration as _,
+    Integrator as _, Method, StepLimits, System, TimeSpan, Tolerance,
 };
 
 fn tolerance(relative: f64) -> Tolerance<f64> {
@@ -28,15 +28,15 @@ fn run<I: Moves<N>, const N: usize>(
         calls += 1;
         rates(time, state)
     });
-    let mut course = method.start(&mut system, span(end, end), start).unwrap();
-    while course.time() < end {
-        let from = course.time();
-        course.advance(&mut system).unwrap();
-        longest = longest.max(course.time() - from);
+    let mut integration = method.start(&mut system, span(end, end), start).unwrap();
+    while integration.time() < end {
+        let from = integration.time();
+        integration.advance(&mut system).unwrap();
+        longest = longest.max(integration.time() - from);
     }
-    let (state, counts) = (*course.state(), course.counts());
-    assert_eq!(course.time(), end);
-    drop((course, system));
+    let (state, counts) = (*integration.state(), integration.counts());
+    assert_eq!(integration.time(), end);
+    drop((integration, system));
     assert_eq!(counts.evaluations, calls);
     (state, counts, longest)
 }
@@ -167,26 +167,26 @@ fn output_within_steps_is_as_exact_as_their_ends() {
     for exponent in 3..=12 {
         let relative = 10.0_f64.powi(-exponent);
         let mut system = equation(curved);
-        let mut course = Adams::new(tolerance(relative))
+        let mut integration = Adams::new(tolerance(relative))
             .start(&mut system, span(10.0, 10.0), curve(0.0))
             .unwrap();
         let (mut at_ends, mut within, mut seed) = (relative, 0.0_f64, 1_u32);
-        while course.time() < 10.0 {
-            let start = course.time();
-            course.advance(&mut system).unwrap();
-            let evaluations = course.counts().evaluations;
-            at_ends = at_ends.max(distance(*course.state(), curve(course.time())));
+        while integration.time() < 10.0 {
+            let start = integration.time();
+            integration.advance(&mut system).unwrap();
+            let evaluations = integration.counts().evaluations;
+            at_ends = at_ends.max(distance(*integration.state(), curve(integration.time())));
             for _ in 0..10 {
                 seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
                 let part = f64::from(seed) / f64::from(u32::MAX);
-                let time = start + part * (course.time() - start);
-                let state = course.at(&mut system, time).unwrap();
+                let time = start + part * (integration.time() - start);
+                let state = integration.at(&mut system, time).unwrap();
                 within = within.max(distance(state, curve(time)));
             }
-            let end = course.at(&mut system, course.time()).unwrap();
+            let end = integration.at(&mut system, integration.time()).unwrap();
             assert_eq!(
                 (end, evaluations),
-                (*course.state(), course.counts().evaluations)
+                (*integration.state(), integration.counts().evaluations)
             );
         }
         assert!(
@@ -218,20 +218,20 @@ fn pairs_turn_as_angles_do() {
         let (of_pairs, of_angles) = starts([4.0]);
         let [mut turning, mut numbers] = [Counts::default(); 2];
         let mut system = pairs(Spinning);
-        let mut course = method
+        let mut integration = method
             .start(&mut system, span(10.0, 10.0), of_pairs)
             .unwrap();
-        while course.time() < 10.0 {
-            course.advance(&mut system).unwrap();
-            turning = course.counts();
+        while integration.time() < 10.0 {
+            integration.advance(&mut system).unwrap();
+            turning = integration.counts();
         }
         let mut system = angles(Spinning);
-        let mut course = method
+        let mut integration = method
             .start(&mut system, span(10.0, 10.0), of_angles)
             .unwrap();
-        while course.time() < 10.0 {
-            course.advance(&mut system).unwrap();
-            numbers = course.counts();
+        while integration.time() < 10.0 {
+            integration.advance(&mut system).unwrap();
+            numbers = integration.counts();
         }
         let ratio = turning.accepted as f64 / numbers.accepted as f64;
         assert!((0.7..1.4).contains(&ratio), "{turning:?} {numbers:?}");
@@ -241,19 +241,19 @@ fn pairs_turn_as_angles_do() {
 /// A spring whose energy is put right after every step.
 fn corrected(relative: f64, is_corrected: bool) -> (f64, Counts) {
     let mut system = equation(|_: f64, &[q, u]: &[f64; 2]| [u, -q]);
-    let mut course = Adams::new(tolerance(relative))
+    let mut integration = Adams::new(tolerance(relative))
         .start(&mut system, span(50.0, 50.0), [1.0, 0.0])
         .unwrap();
-    while course.time() < 50.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 50.0 {
+        integration.advance(&mut system).unwrap();
         if is_corrected {
-            let [q, u] = *course.state();
+            let [q, u] = *integration.state();
             let length = q.hypot(u);
-            course.replace([q / length, u / length]);
+            integration.replace([q / length, u / length]);
         }
     }
     let exact = [50.0_f64.cos(), -(50.0_f64.sin())];
-    (distance(*course.state(), exact), course.counts())
+    (distance(*integration.state(), exact), integration.counts())
 }
 
 #[test]
@@ -274,26 +274,26 @@ fn a_corrected_state_goes_on_at_its_step_and_order() {
     }
     // Before any step.
     let mut system = equation(|_: f64, &[y]: &[f64; 1]| [-y]);
-    let mut course = Adams::<f64>::default()
+    let mut integration = Adams::<f64>::default()
         .start(&mut system, span(1.0, 1.0), [1.0])
         .unwrap();
-    course.replace([2.0]);
-    while course.time() < 1.0 {
-        course.advance(&mut system).unwrap();
+    integration.replace([2.0]);
+    while integration.time() < 1.0 {
+        integration.advance(&mut system).unwrap();
     }
-    assert!((course.state()[0] - 2.0 * (-1.0_f64).exp()).abs() < 1e-5);
+    assert!((integration.state()[0] - 2.0 * (-1.0_f64).exp()).abs() < 1e-5);
 }
 
 /// A slope and a state that are brought into a normal form together.
 #[test]
-fn states_are_settled_with_their_slopes() {
+fn states_are_renormalised_with_their_slopes() {
     struct Scaled(usize);
     impl System<f64> for Scaled {
         type State = [f64; 2];
         fn rates(&mut self, _: f64, &[a, b]: &[f64; 2]) -> Result<[f64; 2], Fault> {
             Ok([-b, a])
         }
-        fn settle(&mut self, state: &mut [f64; 2], rates: Option<&mut [f64; 2]>) {
+        fn renormalise(&mut self, state: &mut [f64; 2], rates: Option<&mut [f64; 2]>) {
             let length = state[0].hypot(state[1]);
             *state = state.map(|x| x / length);
             let rates = rates.expect("they are known");
@@ -302,17 +302,17 @@ fn states_are_settled_with_their_slopes() {
         }
     }
     let mut system = Scaled(0);
-    let mut course = Adams::new(tolerance(1e-7))
+    let mut integration = Adams::new(tolerance(1e-7))
         .start(&mut system, span(20.0, 20.0), [1.0, 0.0])
         .unwrap();
-    while course.time() < 20.0 {
-        course.advance(&mut system).unwrap();
-        let [a, b] = *course.state();
+    while integration.time() < 20.0 {
+        integration.advance(&mut system).unwrap();
+        let [a, b] = *integration.state();
         assert!((a.hypot(b) - 1.0).abs() < 1e-15);
     }
-    assert_eq!(system.0, course.counts().accepted);
+    assert_eq!(system.0, integration.counts().accepted);
     let exact = [20.0_f64.cos(), 20.0_f64.sin()];
-    assert!(distance(*course.state(), exact) < 1e-5);
+    assert!(distance(*integration.state(), exact) < 1e-5);
 }
 
 #[test]
@@ -340,11 +340,11 @@ fn limits_are_kept() {
     );
     assert!(distance(end, curve(10.0)) < 1e-6);
     let mut system = equation(curved);
-    let mut course = held
+    let mut integration = held
         .start(&mut system, span(10.0, 10.0), curve(0.0))
         .unwrap();
-    course.advance(&mut system).unwrap();
-    assert_eq!(course.time(), 1e-3);
+    integration.advance(&mut system).unwrap();
+    assert_eq!(integration.time(), 1e-3);
     for value in [0.0, -1.0, f64::NAN] {
         let start = held
             .least_step(value)
@@ -356,40 +356,43 @@ fn limits_are_kept() {
 #[test]
 fn single_precision_works_with_a_tolerance_beyond_its_digits() {
     let mut system: Equation<'_, _, 2> = equation(|_: f32, &[q, u]: &[f32; 2]| [u, -q]);
-    let span = Span {
+    let span = TimeSpan {
         start: 0.0,
         end: 5.0,
         first_output: 5.0,
     };
-    let mut course = Adams::new(Tolerance {
+    let mut integration = Adams::new(Tolerance {
         relative: 1e-9_f32,
         absolute: 1e-9,
     })
     .start(&mut system, span, [1.0, 0.0])
     .unwrap();
-    while course.time() < 5.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 5.0 {
+        integration.advance(&mut system).unwrap();
     }
-    let [q, u] = course.state().map(f64::from);
+    let [q, u] = integration.state().map(f64::from);
     let error = distance([q, u], [5.0_f64.cos(), -(5.0_f64.sin())]);
     assert!(
-        error < 1e-5 && course.counts().accepted < 500,
+        error < 1e-5 && integration.counts().accepted < 500,
         "{error:e} {:?}",
-        course.counts()
+        integration.counts()
     );
 }
 
 #[test]
 fn a_course_that_is_copied_goes_on_alike() {
     let mut system = equation(curved);
-    let mut course = Adams::new(tolerance(1e-9))
+    let mut integration = Adams::new(tolerance(1e-9))
         .start(&mut system, span(5.0, 5.0), curve(0.0))
         .unwrap();
     for _ in 0..20 {
-        course.advance(&mut system).unwrap();
+        integration.advance(&mut system).unwrap();
     }
-    let mut copy = course.clone();
-    course.advance(&mut system).unwrap();
+    let mut copy = integration.clone();
+    integration.advance(&mut system).unwrap();
     copy.advance(&mut system).unwrap();
-    assert_eq!((course.time(), course.state()), (copy.time(), copy.state()));
+    assert_eq!(
+        (integration.time(), integration.state()),
+        (copy.time(), copy.state())
+    );
 }

@@ -4,7 +4,8 @@ use super::pairs::{Spinning, pairs, starts};
 use super::{Spring, curve, curved, distance, equation, errors, order, span};
 use crate::Fault;
 use crate::integrate::{
-    AdamsBashforthMoulton4, Advance as _, Counts, Course as _, Integrator as _, Rk4, Span, System,
+    AdamsBashforthMoulton4, Advance as _, Counts, Integration as _, Integrator as _, Rk4, System,
+    TimeSpan,
 };
 
 #[test]
@@ -27,18 +28,18 @@ fn it_is_exact_for_polynomials_and_ends_at_the_end() {
             assert!(t <= end);
             [1.0 + t * (2.0 + t * (3.0 + 4.0 * t))]
         });
-        let mut course = AdamsBashforthMoulton4::every(0.1)
+        let mut integration = AdamsBashforthMoulton4::every(0.1)
             .start(&mut system, span(end, end), [0.0])
             .unwrap();
-        while course.time() < end {
-            course.advance(&mut system).unwrap();
-            let t = course.time();
+        while integration.time() < end {
+            integration.advance(&mut system).unwrap();
+            let t = integration.time();
             let exact = t * (1.0 + t * (1.0 + t * (1.0 + t)));
-            assert!((course.state()[0] - exact).abs() < 1e-14);
+            assert!((integration.state()[0] - exact).abs() < 1e-14);
         }
-        assert_eq!(course.time(), end);
+        assert_eq!(integration.time(), end);
         // The slope at the end is nobody's.
-        let counts = course.counts();
+        let counts = integration.counts();
         assert_eq!(
             counts,
             Counts {
@@ -47,8 +48,8 @@ fn it_is_exact_for_polynomials_and_ends_at_the_end() {
                 rejected: 0
             }
         );
-        course.at(&mut system, 0.99 * end).unwrap();
-        assert_eq!(course.counts().evaluations, evaluations);
+        integration.at(&mut system, 0.99 * end).unwrap();
+        assert_eq!(integration.counts().evaluations, evaluations);
         drop(system);
         assert_eq!(calls, evaluations);
     }
@@ -58,13 +59,13 @@ fn it_is_exact_for_polynomials_and_ends_at_the_end() {
 fn pairs_turn_as_angles_do() {
     let end = |step: f64| {
         let (mut system, (start, _)) = (pairs(Spinning), starts([4.0]));
-        let mut course = AdamsBashforthMoulton4::every(step)
+        let mut integration = AdamsBashforthMoulton4::every(step)
             .start(&mut system, span(3.0, 3.0), start)
             .unwrap();
-        while course.time() < 3.0 {
-            course.advance(&mut system).unwrap();
+        while integration.time() < 3.0 {
+            integration.advance(&mut system).unwrap();
         }
-        let [pair] = *course.state().pairs();
+        let [pair] = *integration.state().pairs();
         assert!((pair[0].hypot(pair[1]) - 1.0).abs() < 4.0 * f64::EPSILON);
         pair
     };
@@ -80,27 +81,27 @@ fn pairs_turn_as_angles_do() {
 fn it_is_as_exact_as_the_classical_method_for_as_many_evaluations() {
     let exact = [10.0_f64.cos(), -(10.0_f64.sin())];
     let multistep = {
-        let mut course = AdamsBashforthMoulton4::every(0.05)
+        let mut integration = AdamsBashforthMoulton4::every(0.05)
             .start(&mut Spring, span(10.0, 10.0), [1.0, 0.0])
             .unwrap();
-        while course.time() < 10.0 {
-            course.advance(&mut Spring).unwrap();
+        while integration.time() < 10.0 {
+            integration.advance(&mut Spring).unwrap();
         }
         (
-            course.counts().evaluations,
-            distance(*course.state(), exact),
+            integration.counts().evaluations,
+            distance(*integration.state(), exact),
         )
     };
     let classical = {
-        let mut course = Rk4::every(0.1)
+        let mut integration = Rk4::every(0.1)
             .start(&mut Spring, span(10.0, 10.0), [1.0, 0.0])
             .unwrap();
-        while course.time() < 10.0 {
-            course.advance(&mut Spring).unwrap();
+        while integration.time() < 10.0 {
+            integration.advance(&mut Spring).unwrap();
         }
         (
-            course.counts().evaluations,
-            distance(*course.state(), exact),
+            integration.counts().evaluations,
+            distance(*integration.state(), exact),
         )
     };
     assert!(
@@ -118,21 +119,21 @@ fn it_is_as_exact_as_the_classical_method_for_as_many_evaluations() {
 #[test]
 fn a_corrected_state_keeps_the_slopes_before() {
     let run = |is_corrected: bool| {
-        let mut course = AdamsBashforthMoulton4::every(0.05)
+        let mut integration = AdamsBashforthMoulton4::every(0.05)
             .start(&mut Spring, span(10.0, 10.0), [1.0, 0.0])
             .unwrap();
-        while course.time() < 10.0 {
-            course.advance(&mut Spring).unwrap();
+        while integration.time() < 10.0 {
+            integration.advance(&mut Spring).unwrap();
             if is_corrected {
-                let [q, u] = *course.state();
+                let [q, u] = *integration.state();
                 let length = q.hypot(u);
-                course.replace([q / length, u / length]);
+                integration.replace([q / length, u / length]);
             }
         }
         let exact = [10.0_f64.cos(), -(10.0_f64.sin())];
         (
-            course.counts().evaluations,
-            distance(*course.state(), exact),
+            integration.counts().evaluations,
+            distance(*integration.state(), exact),
         )
     };
     let [plain, corrected] = [run(false), run(true)];
@@ -149,13 +150,13 @@ fn a_corrected_state_keeps_the_slopes_before() {
 fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
     let mut system = equation(|_, &[a, b]: &[f64; 2]| [-b, a]);
     let method = AdamsBashforthMoulton4::every(0.25);
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(25.0, 25.0), [1.0, 0.0])
         .unwrap();
-    while course.time() < 25.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 25.0 {
+        integration.advance(&mut system).unwrap();
     }
-    let [a, b] = *course.state();
+    let [a, b] = *integration.state();
     let length = a.hypot(b) - 1.0;
     let (sine, cosine) = 25.0_f64.sin_cos();
     let angle = 2.0 * (b * cosine - a * sine).atan2(a * cosine + b * sine);
@@ -170,19 +171,19 @@ fn an_angle_is_off_by_less_than_the_length_of_euler_parameters() {
 #[test]
 fn single_precision_and_faults() {
     let mut system = equation(|_: f32, &[y]: &[f32; 1]| [-y]);
-    let span = Span {
+    let span = TimeSpan {
         start: 0.0,
         end: 1.0,
         first_output: 1.0,
     };
-    let mut course = AdamsBashforthMoulton4::every(0.01_f32)
+    let mut integration = AdamsBashforthMoulton4::every(0.01_f32)
         .start(&mut system, span, [1.0])
         .unwrap();
-    while course.time() < 1.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 1.0 {
+        integration.advance(&mut system).unwrap();
     }
-    assert!((course.state()[0] - (-1.0_f32).exp()).abs() < 1e-6);
-    assert_eq!(course.counts().evaluations, 3 * 4 + 97 * 2);
+    assert!((integration.state()[0] - (-1.0_f32).exp()).abs() < 1e-6);
+    assert_eq!(integration.counts().evaluations, 3 * 4 + 97 * 2);
 
     /// Without rates from `t = 0.55` on.
     struct Until;
@@ -206,15 +207,15 @@ fn single_precision_and_faults() {
             Ok(())
         }
     }
-    let mut course = AdamsBashforthMoulton4::every(0.1)
+    let mut integration = AdamsBashforthMoulton4::every(0.1)
         .start(&mut Until, super::span(1.0, 1.0), curve(0.0))
         .unwrap();
     let fault = loop {
-        if let Err(fault) = course.advance(&mut Until) {
+        if let Err(fault) = integration.advance(&mut Until) {
             break fault;
         }
     };
     assert!(matches!(fault, Fault::NotDriven { .. }), "{fault}");
-    assert!((course.time() - 0.5).abs() < 1e-15 && course.counts().accepted == 5);
-    assert!(distance(*course.state(), curve(0.5)) < 1e-4);
+    assert!((integration.time() - 0.5).abs() < 1e-15 && integration.counts().accepted == 5);
+    assert!(distance(*integration.state(), curve(0.5)) < 1e-4);
 }

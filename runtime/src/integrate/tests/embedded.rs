@@ -2,7 +2,7 @@
 
 use super::{Moves, curve, curved, distance, equation, errors, order, span};
 use crate::integrate::{
-    Advance as _, BogackiShampine, Course as _, DormandPrince853, Integrator as _, Tolerance,
+    Advance as _, BogackiShampine, DormandPrince853, Integration as _, Integrator as _, Tolerance,
 };
 
 #[test]
@@ -31,23 +31,23 @@ fn dormand_and_prince_have_order_eight_and_an_interpolant_of_order_seven() {
 /// Evaluations, accepted and rejected steps, and the largest error at ends and in middles of steps.
 fn run(method: impl Moves<2>, is_looked_into: bool) -> (usize, usize, usize, f64) {
     let mut system = equation(curved);
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(5.0, 5.0), curve(0.0))
         .unwrap();
     let mut worst = 0.0_f64;
-    while course.time() < 5.0 {
-        let start = course.time();
-        course.advance(&mut system).unwrap();
-        worst = worst.max(distance(*course.state(), curve(course.time())));
+    while integration.time() < 5.0 {
+        let start = integration.time();
+        integration.advance(&mut system).unwrap();
+        worst = worst.max(distance(*integration.state(), curve(integration.time())));
         if is_looked_into {
             for part in [0.3, 0.5, 0.9] {
-                let time = start + part * (course.time() - start);
-                let state = course.at(&mut system, time).unwrap();
+                let time = start + part * (integration.time() - start);
+                let state = integration.at(&mut system, time).unwrap();
                 worst = worst.max(distance(state, curve(time)));
             }
         }
     }
-    let counts = course.counts();
+    let counts = integration.counts();
     (counts.evaluations, counts.accepted, counts.rejected, worst)
 }
 
@@ -98,14 +98,20 @@ fn an_order_pays_where_it_is_asked_for() {
 fn a_course_that_is_copied_goes_on_alike() {
     let mut system = equation(curved);
     let method = DormandPrince853::new(tolerance(1e-9));
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(5.0, 5.0), curve(0.0))
         .unwrap();
-    course.advance(&mut system).unwrap();
-    let mut copy = course.clone();
-    course.advance(&mut system).unwrap();
+    integration.advance(&mut system).unwrap();
+    let mut copy = integration.clone();
+    integration.advance(&mut system).unwrap();
     copy.advance(&mut system).unwrap();
-    assert_eq!((course.time(), course.state()), (copy.time(), copy.state()));
-    let middle = 0.9 * course.time();
-    assert_eq!(course.at(&mut system, middle), copy.at(&mut system, middle));
+    assert_eq!(
+        (integration.time(), integration.state()),
+        (copy.time(), copy.state())
+    );
+    let middle = 0.9 * integration.time();
+    assert_eq!(
+        integration.at(&mut system, middle),
+        copy.at(&mut system, middle)
+    );
 }

@@ -8,10 +8,10 @@ fn ended<I: Integrator<f64, Y>, Y: System<f64, State = [f64; 1]>>(
     method: I,
     system: &mut Y,
 ) -> (Fault, f64, [f64; 1]) {
-    let mut course = method.start(system, span(2.0, 2.0), [1.0]).unwrap();
+    let mut integration = method.start(system, span(2.0, 2.0), [1.0]).unwrap();
     loop {
-        if let Err(fault) = course.advance(system) {
-            return (fault, course.time(), *course.state());
+        if let Err(fault) = integration.advance(system) {
+            return (fault, integration.time(), *integration.state());
         }
     }
 }
@@ -55,12 +55,12 @@ fn a_fault_leaves_the_last_good_state() {
         assert!((end - (-time).exp()).abs() < 1e-5);
     }
 
-    let mut course = Rk4::every(0.3)
+    let mut integration = Rk4::every(0.3)
         .start(&mut Cliff, span(2.0, 2.0), [1.0])
         .unwrap();
-    while course.advance(&mut Cliff).is_ok() {}
-    assert!((course.time() - 0.9).abs() < 1e-15);
-    assert!((course.state()[0] - (-course.time()).exp()).abs() < 1e-3);
+    while integration.advance(&mut Cliff).is_ok() {}
+    assert!((integration.time() - 0.9).abs() < 1e-15);
+    assert!((integration.state()[0] - (-integration.time()).exp()).abs() < 1e-3);
 }
 
 #[test]
@@ -148,11 +148,11 @@ fn the_stage_that_is_not_finite_is_asked_why() {
             continue;
         }
         let mut system = hole();
-        let mut course = Rk4::every(1.0)
+        let mut integration = Rk4::every(1.0)
             .start(&mut system, span(2.0, 2.0), [1.0])
             .unwrap();
-        assert_eq!(course.advance(&mut system), Err(WHY));
-        assert_eq!((course.time(), *course.state()), (0.0, [1.0]));
+        assert_eq!(integration.advance(&mut system), Err(WHY));
+        assert_eq!((integration.time(), *integration.state()), (0.0, [1.0]));
         // With control of the step it gets as near as steps resolve, and each trial is asked once.
         for (fault, reached, [end]) in [
             ended(DormandPrince::default(), &mut hole()),
@@ -199,13 +199,13 @@ fn a_slope_for_output_that_is_not_finite_is_refused() {
         calls: (0, 0),
     };
     system.time = f64::INFINITY;
-    let mut course = Rk4::every(0.5)
+    let mut integration = Rk4::every(0.5)
         .start(&mut system, span(2.0, 2.0), [1.0])
         .unwrap();
-    course.advance(&mut system).unwrap();
+    integration.advance(&mut system).unwrap();
     for left in [Some(f64::NAN), Some(f64::INFINITY), None] {
         (system.time, system.left) = (0.4, left);
-        assert_eq!(course.at(&mut system, 0.25), Err(WHY));
+        assert_eq!(integration.at(&mut system, 0.25), Err(WHY));
     }
 }
 

@@ -3,8 +3,8 @@
 use super::{Equation, Spring, curve, curved, distance, equation, errors, order, span};
 use crate::Fault;
 use crate::integrate::{
-    Advance as _, Course as _, ImplicitMidpoint, Integrator as _, NoStages, OneStep as _, Slopes,
-    Start, System,
+    Advance as _, ImplicitMidpoint, Integration as _, Integrator as _, NoStages, OneStep as _,
+    Slopes, StepStart, System,
 };
 use crate::state::JointState;
 
@@ -62,21 +62,21 @@ impl System<f64> for Pendulum {
 
 #[test]
 fn a_way_back_leads_to_the_start() {
-    fn stride<Y: System<f64>>(system: &mut Y, state: &Y::State, step: f64) -> Y::State {
+    fn step<Y: System<f64>>(system: &mut Y, state: &Y::State, step: f64) -> Y::State {
         let slope = &system.rates(0.0, state).unwrap();
-        let start = Start {
+        let start = StepStart {
             time: 0.0,
             state,
             slope,
         };
         ImplicitMidpoint
-            .stride(&mut Slopes::new(system), start, step, &mut NoStages)
+            .advanced(&mut Slopes::new(system), start, step, &mut NoStages)
             .unwrap()
     }
     let start = JointState::from_parts([[2.0_f64.cos(), 2.0_f64.sin()]], [], [0.3]);
     let mut forward = start;
     for _ in 0..1000 {
-        forward = stride(&mut Pendulum, &forward, 0.02);
+        forward = step(&mut Pendulum, &forward, 0.02);
     }
     let energy = |state: &JointState<f64, 1, 0, 1>| {
         0.5 * state.rates()[0].powi(2) - 9.81 * state.pairs()[0][0]
@@ -85,7 +85,7 @@ fn a_way_back_leads_to_the_start() {
     assert!((energy(&forward) - energy(&start)).abs() < 0.05);
     let mut back = forward;
     for _ in 0..1000 {
-        back = stride(&mut Pendulum, &back, -0.02);
+        back = step(&mut Pendulum, &back, -0.02);
     }
     let [[rate], [wanted]] = [*back.rates(), *start.rates()];
     assert!((rate - wanted).abs() < 1e-11, "{:e}", rate - wanted);
@@ -93,7 +93,7 @@ fn a_way_back_leads_to_the_start() {
     // With the velocity turned round it goes the same way back.
     let mut mirrored = JointState::from_parts(*forward.pairs(), [], forward.rates().map(|u| -u));
     for _ in 0..1000 {
-        mirrored = stride(&mut Pendulum, &mirrored, 0.02);
+        mirrored = step(&mut Pendulum, &mirrored, 0.02);
     }
     assert!((mirrored.rates()[0] + wanted).abs() < 1e-11);
     assert!(distance(mirrored.pairs()[0], start.pairs()[0]) < 1e-11);
@@ -103,13 +103,13 @@ fn a_way_back_leads_to_the_start() {
 fn iterations_are_few_and_counted() {
     let run = |step: f64| {
         let mut system = equation(curved);
-        let mut course = ImplicitMidpoint::every(step)
+        let mut integration = ImplicitMidpoint::every(step)
             .start(&mut system, span(2.0, 2.0), curve(0.0))
             .unwrap();
-        while course.time() < 2.0 {
-            course.advance(&mut system).unwrap();
+        while integration.time() < 2.0 {
+            integration.advance(&mut system).unwrap();
         }
-        let counts = course.counts();
+        let counts = integration.counts();
         counts.evaluations as f64 / counts.accepted as f64
     };
     let [short, long] = [run(0.01), run(0.2)];

@@ -52,8 +52,8 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
 }
 
-fn span(end: f64, first_output: f64) -> Span<f64> {
-    Span {
+fn span(end: f64, first_output: f64) -> TimeSpan<f64> {
+    TimeSpan {
         start: 0.0,
         end,
         first_output,
@@ -63,17 +63,17 @@ fn span(end: f64, first_output: f64) -> Span<f64> {
 /// The largest error at the ends of steps and at five times within each.
 fn errors<I: Moves<2>>(method: I) -> (f64, f64) {
     let mut system = equation(curved);
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(2.0, 2.0), curve(0.0))
         .unwrap();
     let (mut at_ends, mut within) = (0.0_f64, 0.0_f64);
-    while course.time() < 2.0 {
-        let start = course.time();
-        course.advance(&mut system).unwrap();
-        at_ends = at_ends.max(distance(*course.state(), curve(course.time())));
+    while integration.time() < 2.0 {
+        let start = integration.time();
+        integration.advance(&mut system).unwrap();
+        at_ends = at_ends.max(distance(*integration.state(), curve(integration.time())));
         for part in 1..6 {
-            let time = start + (course.time() - start) * f64::from(part) / 6.0;
-            let state = course.at(&mut system, time).unwrap();
+            let time = start + (integration.time() - start) * f64::from(part) / 6.0;
+            let state = integration.at(&mut system, time).unwrap();
             within = within.max(distance(state, curve(time)));
         }
     }
@@ -112,39 +112,39 @@ fn dormand_prince_has_order_five_and_an_interpolant_of_order_four() {
 #[test]
 fn the_fixed_step_ends_at_the_end() {
     let mut system = equation(curved);
-    let mut course = Rk4::every(0.3)
+    let mut integration = Rk4::every(0.3)
         .start(&mut system, span(1.0, 1.0), curve(0.0))
         .unwrap();
-    while course.time() < 1.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 1.0 {
+        integration.advance(&mut system).unwrap();
     }
-    assert_eq!(course.time(), 1.0);
+    assert_eq!(integration.time(), 1.0);
     assert_eq!(
-        course.counts(),
+        integration.counts(),
         Counts {
             evaluations: 16,
             accepted: 4,
             rejected: 0
         }
     );
-    assert!(distance(*course.state(), curve(1.0)) < 1e-3);
+    assert!(distance(*integration.state(), curve(1.0)) < 1e-3);
 }
 
 #[test]
 fn single_steps_agree_with_a_course() {
     let mut system = equation(curved);
-    let mut course = DormandPrince::every(0.25)
+    let mut integration = DormandPrince::every(0.25)
         .start(&mut system, span(1.0, 1.0), curve(0.0))
         .unwrap();
     let mut state = curve(0.0);
     for step in 0..4 {
-        course.advance(&mut system).unwrap();
+        integration.advance(&mut system).unwrap();
         DormandPrince5
             .step(&mut system, 0.25 * f64::from(step), &mut state, 0.25)
             .unwrap();
-        assert_eq!(*course.state(), state);
+        assert_eq!(*integration.state(), state);
     }
-    assert_eq!(course.counts().evaluations, 24);
+    assert_eq!(integration.counts().evaluations, 24);
 }
 
 #[test]
@@ -160,17 +160,17 @@ fn the_adaptive_method_counts_six_evaluations_a_trial_and_one() {
         [-y + 50.0 * (-200.0 * (time - 3.0) * (time - 3.0)).exp()]
     });
     let integrator = DormandPrince::new(tolerance);
-    let mut course = integrator
+    let mut integration = integrator
         .start(&mut system, span(10.0, 10.0), [1.0])
         .unwrap();
-    while course.time() < 10.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 10.0 {
+        integration.advance(&mut system).unwrap();
     }
     let Counts {
         evaluations,
         accepted,
         rejected,
-    } = course.counts();
+    } = integration.counts();
     assert!(rejected > 2);
     assert_eq!(evaluations, 6 * (accepted + rejected) + 1);
     drop(system);
@@ -192,10 +192,10 @@ fn the_first_step_is_that_of_ode45() {
         relative: 1e-6,
         absolute: 1e-9,
     });
-    let mut course = integrator
+    let mut integration = integrator
         .start(&mut system, span(10.0, 0.02), [1.0])
         .unwrap();
-    course.advance(&mut system).unwrap();
+    integration.advance(&mut system).unwrap();
     // 0.8 rtol^(1/5) / 100, at the sixth stage.
     let expected = 0.8 * 1e-6_f64.powf(0.2) / 100.0;
     drop(system);
@@ -210,21 +210,21 @@ fn the_adaptive_method_keeps_its_tolerance() {
             absolute: 1e-3 * relative,
         });
         let mut system = equation(curved);
-        let mut course = integrator
+        let mut integration = integrator
             .start(&mut system, span(5.0, 5.0), curve(0.0))
             .unwrap();
         let mut worst = 0.0_f64;
-        while course.time() < 5.0 {
-            let start = course.time();
-            course.advance(&mut system).unwrap();
-            let middle = 0.5 * (start + course.time());
+        while integration.time() < 5.0 {
+            let start = integration.time();
+            integration.advance(&mut system).unwrap();
+            let middle = 0.5 * (start + integration.time());
             worst = worst.max(distance(
-                course.at(&mut system, middle).unwrap(),
+                integration.at(&mut system, middle).unwrap(),
                 curve(middle),
             ));
-            worst = worst.max(distance(*course.state(), curve(course.time())));
+            worst = worst.max(distance(*integration.state(), curve(integration.time())));
         }
-        assert_eq!(course.time(), 5.0);
+        assert_eq!(integration.time(), 5.0);
         assert!(worst < 30.0 * relative, "{worst:e} at {relative:e}");
     }
 }
@@ -236,31 +236,31 @@ fn single_precision_works_with_a_tolerance_beyond_its_digits() {
         absolute: 1e-9,
     });
     let mut system = equation(|_: f32, &[y]: &[f32; 1]| [-y]);
-    let span = Span {
+    let span = TimeSpan {
         start: 0.0,
         end: 1.0,
         first_output: 1.0,
     };
-    let mut course = integrator.start(&mut system, span, [1.0]).unwrap();
-    while course.time() < 1.0 {
-        course.advance(&mut system).unwrap();
+    let mut integration = integrator.start(&mut system, span, [1.0]).unwrap();
+    while integration.time() < 1.0 {
+        integration.advance(&mut system).unwrap();
     }
-    assert!((course.state()[0] - (-1.0_f32).exp()).abs() < 1e-5);
+    assert!((integration.state()[0] - (-1.0_f32).exp()).abs() < 1e-5);
 }
 
 #[test]
 fn a_replaced_state_is_evaluated_anew() {
     let mut system = equation(|_: f64, &[y]: &[f64; 1]| [-y]);
-    let mut course = DormandPrince::<f64>::default()
+    let mut integration = DormandPrince::<f64>::default()
         .start(&mut system, span(1.0, 0.1), [1.0])
         .unwrap();
-    course.advance(&mut system).unwrap();
-    let evaluations = course.counts().evaluations;
-    course.replace([2.0]);
-    let start = course.time();
-    course.advance(&mut system).unwrap();
-    assert_eq!(course.counts().evaluations, evaluations + 7);
-    assert!((course.state()[0] - 2.0 * (start - course.time()).exp()).abs() < 1e-6);
+    integration.advance(&mut system).unwrap();
+    let evaluations = integration.counts().evaluations;
+    integration.replace([2.0]);
+    let start = integration.time();
+    integration.advance(&mut system).unwrap();
+    assert_eq!(integration.counts().evaluations, evaluations + 7);
+    assert!((integration.state()[0] - 2.0 * (start - integration.time()).exp()).abs() < 1e-6);
 }
 
 /// Problem C03: a step of RK4 at a constant angular velocity multiplies `|p|^2` by
@@ -298,7 +298,7 @@ fn the_cubic_of_plain_vectors_is_one_sum() {
     for part in 0..=64 {
         let theta = f64::from(part) / 64.0 * 0.9;
         let step = 0.37;
-        let stride = Stride {
+        let record = StepRecord {
             step,
             from: &from,
             first: &first,
@@ -315,7 +315,7 @@ fn the_cubic_of_plain_vectors_is_one_sum() {
             (bend * rest, &first),
             (-(bend * theta), &last),
         ]);
-        assert_eq!(dense::cubic(&stride, theta), expected);
+        assert_eq!(dense::cubic(&record, theta), expected);
     }
 }
 
@@ -393,12 +393,12 @@ fn semi_implicit_euler_keeps_its_energy_and_has_order_one() {
     let error = |[q, u]: [f64; 2]| distance([q, u], [1.0_f64.cos(), -(1.0_f64.sin())]);
     let found = order((error(at(0.01, 100)), error(at(0.005, 200))));
     assert!((found - 1.0).abs() < 0.05, "{found}");
-    let mut course = SemiImplicitEuler::every(0.01)
+    let mut integration = SemiImplicitEuler::every(0.01)
         .start(&mut Spring, span(1.0, 1.0), [1.0, 0.0])
         .unwrap();
-    while course.time() < 1.0 {
-        course.advance(&mut Spring).unwrap();
+    while integration.time() < 1.0 {
+        integration.advance(&mut Spring).unwrap();
     }
-    assert!(distance(*course.state(), at(0.01, 100)) < 1e-14);
-    assert_eq!(course.counts().evaluations, 100);
+    assert!(distance(*integration.state(), at(0.01, 100)) < 1e-14);
+    assert_eq!(integration.counts().evaluations, 100);
 }

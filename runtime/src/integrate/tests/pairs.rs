@@ -100,16 +100,16 @@ fn end<S: Real, I: Integrator<S, Y>, Y: System<S>>(
     duration: S,
     state: Y::State,
 ) -> (Y::State, Counts) {
-    let span = Span {
+    let span = TimeSpan {
         start: S::zero(),
         end: duration,
         first_output: duration,
     };
-    let mut course = method.start(&mut system, span, state).unwrap();
-    while course.time() < duration {
-        course.advance(&mut system).unwrap();
+    let mut integration = method.start(&mut system, span, state).unwrap();
+    while integration.time() < duration {
+        integration.advance(&mut system).unwrap();
     }
-    (course.state().clone(), course.counts())
+    (integration.state().clone(), integration.counts())
 }
 
 /// By how much (rad) a pair is ahead of an angle.
@@ -215,18 +215,18 @@ fn a_wheel_turns_by_many_turns_in_a_step() {
     fn check<I: Integrator<f64, Pairs<(Wheel, [f64; 1])>>>(method: I) {
         let mut system = pairs(Wheel);
         let (start, _) = starts([100.0]);
-        let mut course = method.start(&mut system, span(10.0, 10.0), start).unwrap();
-        while course.time() < 10.0 {
-            let from = course.time();
-            course.advance(&mut system).unwrap();
+        let mut integration = method.start(&mut system, span(10.0, 10.0), start).unwrap();
+        while integration.time() < 10.0 {
+            let from = integration.time();
+            integration.advance(&mut system).unwrap();
             for part in 0..=4 {
-                let time = from + 0.25 * f64::from(part) * (course.time() - from);
-                let [pair] = *course.at(&mut system, time).unwrap().pairs();
+                let time = from + 0.25 * f64::from(part) * (integration.time() - from);
+                let [pair] = *integration.at(&mut system, time).unwrap().pairs();
                 assert!(ahead(pair, 100.0 * time).abs() < 1e-11);
                 assert!(off(pair).abs() < 4.0 * f64::EPSILON);
             }
         }
-        assert!(course.counts().accepted < 30);
+        assert!(integration.counts().accepted < 30);
     }
     check(Rk4::every(0.5));
     check(DormandPrince::every(0.5));
@@ -241,17 +241,17 @@ where
 {
     let (mut of_pairs, mut of_angles) = (pairs(Spinning), angles(Spinning));
     let (turned, plain) = starts([speed]);
-    let mut course = method.start(&mut of_pairs, span(3.0, 3.0), turned).unwrap();
+    let mut integration = method.start(&mut of_pairs, span(3.0, 3.0), turned).unwrap();
     let mut plain = method.start(&mut of_angles, span(3.0, 3.0), plain).unwrap();
     let mut exact = starts([speed]).1;
     let (mut difference, mut at_ends, mut within, mut reached) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
-    while course.time() < 3.0 {
-        let start = course.time();
-        course.advance(&mut of_pairs).unwrap();
+    while integration.time() < 3.0 {
+        let start = integration.time();
+        integration.advance(&mut of_pairs).unwrap();
         plain.advance(&mut of_angles).unwrap();
         for part in 1..=6 {
-            let time = start + (course.time() - start) * f64::from(part) / 6.0;
-            let state = course.at(&mut of_pairs, time).unwrap();
+            let time = start + (integration.time() - start) * f64::from(part) / 6.0;
+            let state = integration.at(&mut of_pairs, time).unwrap();
             let [angle] = *plain.at(&mut of_angles, time).unwrap().coordinates();
             difference = difference.max(ahead(state.pairs()[0], angle).abs());
             assert!(off(state.pairs()[0]).abs() < 4.0 * f64::EPSILON);
@@ -261,7 +261,7 @@ where
                 |state: &Turned<f64, 1>| ahead(state.pairs()[0], exact.coordinates()[0]).abs();
             within = within.max(error(&state));
             if part == 6 {
-                at_ends = at_ends.max(error(course.state()));
+                at_ends = at_ends.max(error(integration.state()));
             }
         }
     }

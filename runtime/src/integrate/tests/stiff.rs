@@ -7,7 +7,7 @@ use std::vec::Vec;
 use super::{Moves, curve, curved, distance, equation, span};
 use crate::error::Fault;
 use crate::integrate::{
-    Advance as _, Bdf, Counts, Course as _, Integrator, RadauIIA, System, Tolerance,
+    Advance as _, Bdf, Counts, Integration as _, Integrator, RadauIIA, System, Tolerance,
 };
 use crate::state::joint_state::JointState;
 use crate::state::vector::Vector;
@@ -30,20 +30,23 @@ fn bdf(relative: f64) -> Bdf<f64> {
 /// Counts, and the largest error at and within steps.
 fn run(method: impl Moves<2>) -> (Counts, f64, f64) {
     let mut system = equation(curved);
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(5.0, 5.0), curve(0.0))
         .unwrap();
     let (mut at_ends, mut within) = (0.0_f64, 0.0_f64);
-    while course.time() < 5.0 {
-        let start = course.time();
-        course.advance(&mut system).unwrap();
-        at_ends = at_ends.max(distance(*course.state(), curve(course.time())));
+    while integration.time() < 5.0 {
+        let start = integration.time();
+        integration.advance(&mut system).unwrap();
+        at_ends = at_ends.max(distance(*integration.state(), curve(integration.time())));
         for part in [0.1, 0.4, 0.7] {
-            let time = start + part * (course.time() - start);
-            within = within.max(distance(course.at(&mut system, time).unwrap(), curve(time)));
+            let time = start + part * (integration.time() - start);
+            within = within.max(distance(
+                integration.at(&mut system, time).unwrap(),
+                curve(time),
+            ));
         }
     }
-    (course.counts(), at_ends, within)
+    (integration.counts(), at_ends, within)
 }
 
 #[test]
@@ -88,15 +91,15 @@ fn evaluations_are_counted(method: impl Moves<2>) {
         calls += 1;
         curved(time, state)
     });
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(5.0, 5.0), curve(0.0))
         .unwrap();
-    while course.time() < 5.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 5.0 {
+        integration.advance(&mut system).unwrap();
     }
-    assert_eq!(course.time(), 5.0);
-    let counts = course.counts();
-    drop((course, system));
+    assert_eq!(integration.time(), 5.0);
+    let counts = integration.counts();
+    drop((integration, system));
     assert_eq!(counts.evaluations, calls);
 }
 
@@ -122,14 +125,14 @@ fn robertson(time: f64, &[a, b, c]: &[f64; 3]) -> [f64; 3] {
 
 fn relaxation(method: impl Moves<2>, asked: f64, most: Counts) {
     let mut system = equation(van_der_pol);
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(2.0, 2.0), [2.0, -0.66])
         .unwrap();
     let mut at_one = None;
-    while course.time() < 2.0 {
-        course.advance(&mut system).unwrap();
-        if course.time() >= 1.0 && at_one.is_none() {
-            at_one = Some(course.at(&mut system, 1.0).unwrap());
+    while integration.time() < 2.0 {
+        integration.advance(&mut system).unwrap();
+        if integration.time() >= 1.0 && at_one.is_none() {
+            at_one = Some(integration.at(&mut system, 1.0).unwrap());
         }
     }
     let known = [
@@ -138,14 +141,14 @@ fn relaxation(method: impl Moves<2>, asked: f64, most: Counts) {
             [-1.863_646_254_808_13, 0.753_543_086_543_546],
         ),
         (
-            *course.state(),
+            *integration.state(),
             [1.706_167_732_170_456, -0.892_809_701_024_825_7],
         ),
     ];
     for (state, known) in known {
         assert!(distance(state, known) < asked, "{state:?} {known:?}");
     }
-    let counts = course.counts();
+    let counts = integration.counts();
     assert!(
         counts.accepted < most.accepted && counts.evaluations < most.evaluations,
         "{counts:?}"
@@ -169,21 +172,21 @@ fn relaxation_oscillations_come_out_as_published() {
 
 fn slow_reactions(method: impl Moves<3>, accepted: usize) {
     let mut system = equation(robertson);
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(40.0, 0.4), [1.0, 0.0, 0.0])
         .unwrap();
-    while course.time() < 40.0 {
-        course.advance(&mut system).unwrap();
+    while integration.time() < 40.0 {
+        integration.advance(&mut system).unwrap();
     }
     let known = [
         0.715_827_068_719_394,
         9.185_534_764_557_338e-6,
         0.284_163_745_745_841_3,
     ];
-    for (value, known) in course.state().iter().zip(known) {
+    for (value, known) in integration.state().iter().zip(known) {
         assert!((value / known - 1.0).abs() < 1e-6, "{value} {known}");
     }
-    let counts = course.counts();
+    let counts = integration.counts();
     assert!(counts.accepted < accepted, "{counts:?}");
 }
 
@@ -219,20 +222,22 @@ impl System<f64> for Pair {
 fn angles_turn(method: impl Integrator<f64, Pair>, (asked, accepted): (f64, usize)) {
     // Beyond the top, so that angles count turns.
     let start = JointState::from_parts([[1.0, 0.0]; 2], [], [2.5; 2]);
-    let mut course = method.start(&mut Pair, span(20.0, 20.0), start).unwrap();
-    while course.time() < 20.0 {
-        let from = course.time();
-        course.advance(&mut Pair).unwrap();
-        let middle = course.at(&mut Pair, 0.5 * (from + course.time())).unwrap();
-        for state in [*course.state(), middle] {
+    let mut integration = method.start(&mut Pair, span(20.0, 20.0), start).unwrap();
+    while integration.time() < 20.0 {
+        let from = integration.time();
+        integration.advance(&mut Pair).unwrap();
+        let middle = integration
+            .at(&mut Pair, 0.5 * (from + integration.time()))
+            .unwrap();
+        for state in [*integration.state(), middle] {
             let [[c, s], _] = *state.pairs();
             let [u, _] = *state.rates();
             let gain = (0.5 * u * u - c - 2.125).abs();
-            assert!(gain < asked, "{gain:e} at {}", course.time());
+            assert!(gain < asked, "{gain:e} at {}", integration.time());
             assert!((c * c + s * s - 1.0).abs() < 1e-14);
         }
     }
-    let counts = course.counts();
+    let counts = integration.counts();
     assert!(counts.accepted < accepted, "{counts:?}");
 }
 
@@ -244,16 +249,16 @@ fn angles_on_a_circle_turn_in_implicit_steps() {
 
 fn replaced(method: impl Moves<1>) {
     let mut system = equation(|_: f64, &[y]: &[f64; 1]| [-1e4 * (y - 1.0)]);
-    let mut course = method.start(&mut system, span(1.0, 1.0), [1.0]).unwrap();
-    while course.time() < 1.0 {
-        course.advance(&mut system).unwrap();
-        course.replace([1.001]);
-        assert_eq!(*course.state(), [1.001]);
+    let mut integration = method.start(&mut system, span(1.0, 1.0), [1.0]).unwrap();
+    while integration.time() < 1.0 {
+        integration.advance(&mut system).unwrap();
+        integration.replace([1.001]);
+        assert_eq!(*integration.state(), [1.001]);
     }
-    let mut course = method.start(&mut system, span(1.0, 1.0), [1.001]).unwrap();
+    let mut integration = method.start(&mut system, span(1.0, 1.0), [1.001]).unwrap();
     for _ in 0..20 {
-        course.advance(&mut system).unwrap();
-        let (time, [state]) = (course.time(), *course.state());
+        integration.advance(&mut system).unwrap();
+        let (time, [state]) = (integration.time(), *integration.state());
         let error = (state - 1.0 - 1e-3 * (-1e4 * time).exp()).abs();
         assert!(error < 3e-8, "{error:e} at {time:e}");
     }
@@ -268,16 +273,16 @@ fn a_state_that_is_replaced_is_gone_on_from() {
 /// A motion that is corrected after every step, here onto `|state| = 1`.
 fn corrected(method: impl Moves<2>, asked: f64) {
     let mut system = equation(|_: f64, &[x, y]: &[f64; 2]| [-y, x]);
-    let mut course = method
+    let mut integration = method
         .start(&mut system, span(10.0, 10.0), [1.0, 0.0])
         .unwrap();
-    while course.time() < 10.0 {
-        course.advance(&mut system).unwrap();
-        let [x, y] = *course.state();
+    while integration.time() < 10.0 {
+        integration.advance(&mut system).unwrap();
+        let [x, y] = *integration.state();
         let length = x.hypot(y);
-        course.replace([x / length, y / length]);
+        integration.replace([x / length, y / length]);
     }
-    let error = distance(*course.state(), [10.0_f64.cos(), 10.0_f64.sin()]);
+    let error = distance(*integration.state(), [10.0_f64.cos(), 10.0_f64.sin()]);
     assert!(error < asked, "{error:e}");
 }
 
@@ -312,15 +317,15 @@ impl System<f64> for Hole {
 fn held_up(method: impl Integrator<f64, Hole>) {
     for told in [true, false] {
         let mut system = Hole(told);
-        let mut course = method.start(&mut system, span(1.0, 1.0), [1.0]).unwrap();
+        let mut integration = method.start(&mut system, span(1.0, 1.0), [1.0]).unwrap();
         let fault = loop {
-            if let Err(fault) = course.advance(&mut system) {
+            if let Err(fault) = integration.advance(&mut system) {
                 break fault;
             }
         };
         assert_eq!(fault, if told { WHY } else { Fault::StateNotFinite });
-        assert!(course.time() <= 0.5 && course.time() > 0.5 - 1e-12);
-        assert!((course.state()[0] - (-course.time()).exp()).abs() < 1e-6);
+        assert!(integration.time() <= 0.5 && integration.time() > 0.5 - 1e-12);
+        assert!((integration.state()[0] - (-integration.time()).exp()).abs() < 1e-6);
     }
 }
 
@@ -332,17 +337,21 @@ fn what_cannot_be_gone_on_from_is_told_and_the_last_state_kept() {
 
 fn single_precision(method: impl Moves<1, f32>) {
     let mut system = equation(|time: f32, &[y]: &[f32; 1]| [-1e4 * (y - time.cos()) - time.sin()]);
-    let span = crate::integrate::Span {
+    let span = crate::integrate::TimeSpan {
         start: 0.0,
         end: 3.0,
         first_output: 3.0,
     };
-    let mut course = method.start(&mut system, span, [2.0]).unwrap();
-    while course.time() < 3.0 {
-        course.advance(&mut system).unwrap();
+    let mut integration = method.start(&mut system, span, [2.0]).unwrap();
+    while integration.time() < 3.0 {
+        integration.advance(&mut system).unwrap();
     }
-    assert!((course.state()[0] - 3.0_f32.cos()).abs() < 1e-3);
-    assert!(course.counts().accepted < 100, "{:?}", course.counts());
+    assert!((integration.state()[0] - 3.0_f32.cos()).abs() < 1e-3);
+    assert!(
+        integration.counts().accepted < 100,
+        "{:?}",
+        integration.counts()
+    );
 }
 
 /// A state of a user's own kind, with the three functions that a [`Vector`] must have.

@@ -37,14 +37,14 @@ fn tableau<K: OneStep<f64, Reader>>(scheme: K) -> (Vec<f64>, Vec<[f64; MOST]>, [
         times: vec![0.0],
         rows: vec![nothing],
     };
-    let start = Start {
+    let start = StepStart {
         time: 0.0,
         state: &nothing,
         slope: &slope(0),
     };
     let mut stages = scheme.stages(&nothing);
     let result = scheme
-        .stride(&mut Slopes::new(&mut reader), start, 1.0, &mut stages)
+        .advanced(&mut Slopes::new(&mut reader), start, 1.0, &mut stages)
         .unwrap();
     (reader.times, reader.rows, result)
 }
@@ -97,7 +97,7 @@ fn tableaus_meet_the_conditions_of_their_order_and_not_of_the_next() {
 fn nothing_is_missed_where_all_slopes_are_the_same() {
     fn check<K: EmbeddedPair<f64>>(pair: K) {
         let same = [1.0];
-        let stride = Stride {
+        let record = StepRecord {
             step: 1.0,
             from: &[0.0],
             first: &same,
@@ -105,7 +105,7 @@ fn nothing_is_missed_where_all_slopes_are_the_same() {
             to: &[0.0],
             last: &same,
         };
-        let error = pair.error(&stride, 1.0);
+        let error = pair.error(&record, 1.0);
         assert!(error < 1e-14, "{pair:?}: {error}");
     }
     check(BogackiShampine3);

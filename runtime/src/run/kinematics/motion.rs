@@ -1,4 +1,4 @@
-//! A driven motion that is followed in strides.
+//! A driven motion that is followed in steps.
 
 use crate::assembly::assembled;
 use crate::constraints::apart::{apart, counted_apart, reach};
@@ -13,31 +13,31 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::{Absolute, Evaluation};
 use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
+use crate::monitor::Passage;
 use crate::state::vector::{Array, StateParts};
-use crate::watch::Passage;
 
-/// The largest turn (rad), or movement in lengths of the mechanism, of a stride: velocities and
+/// The largest turn (rad), or movement in lengths of the mechanism, of a step: velocities and
 /// accelerations predict one to about a thousandth.
 const TURN: f64 = 0.2;
 
-/// The same near a singular configuration, where branches are near to each other: a stride is half
+/// The same near a singular configuration, where branches are near to each other: a step is half
 /// as long as the way there, but no shorter than this.
 const TURN_NEAR_SINGULAR: f64 = 0.02;
 
-/// How far the pose of a stride may be from the prediction: a part of its turn, and what a motion
+/// How far the pose of a step may be from the prediction: a part of its turn, and what a motion
 /// that begins from rest may do (rad).
 const OFF: [f64; 2] = [0.1, 0.01];
 
-/// The same of its velocities, over the time of the stride.
+/// The same of its velocities, over the time of the step.
 const OFF_BY_VELOCITY: [f64; 2] = [0.25, 0.02];
 
-/// How often strides are halved below the longest: a pose that is not found from there is beyond a
+/// How often steps are halved below the longest: a pose that is not found from there is beyond a
 /// limit of the motion.
 const HALVINGS: i32 = 30;
 
-/// A rest of the way of up to this many strides is gone in one, so that round-off leaves no sliver
+/// A rest of the way of up to this many steps is gone in one, so that round-off leaves no sliver
 /// of it; halfway between one and two.
-const LAST_STRIDE: f64 = 1.5;
+const LAST_STEP: f64 = 1.5;
 
 /// A pose that was found, with velocities, accelerations and multipliers.
 pub(super) struct Found<S: Real, M: Mechanism> {
@@ -58,14 +58,14 @@ impl<S: Real, M: Mechanism> Copy for Found<S, M> {}
 pub(super) struct Motion<S: Real, M: Mechanism, F: Formulation<S>, A> {
     pub(super) dynamics: Dynamics<S, M, F, A, Absolute>,
     projection: Projection<S>,
-    pub(super) strides: usize,
+    pub(super) steps: usize,
     pub(super) shortened: usize,
     pub(super) iterations: usize,
     pub(super) passage: Passage<S, M>,
     /// The length of the mechanism (m).
     length: S,
-    /// How long a stride may be (s) as far as those before tell, and the longest so far.
-    stride: Option<S>,
+    /// How long a step may be (s) as far as those before tell, and the longest so far.
+    step: Option<S>,
     longest: S,
 }
 
@@ -86,12 +86,12 @@ where
         Self {
             dynamics,
             projection,
-            strides: 0,
+            steps: 0,
             shortened: 0,
             iterations: 0,
             passage: Passage::from(start),
             length,
-            stride: None,
+            step: None,
             longest: S::zero(),
         }
     }
@@ -148,7 +148,7 @@ where
         }
     }
 
-    /// The pose at a later time. Strides follow the motion: by how far it leads, and by how well it
+    /// The pose at a later time. Steps follow the motion: by how far it leads, and by how well it
     /// is predicted.
     pub(super) fn follow(
         &mut self,
@@ -161,26 +161,26 @@ where
         loop {
             let rest = to - found.time;
             let bound = self.bound(&found);
-            let mut stride = rest.min(bound);
-            if let Some(last) = self.stride {
-                stride = stride.min(last);
+            let mut step = rest.min(bound);
+            if let Some(last) = self.step {
+                step = step.min(last);
             }
-            let time = if rest <= stride * S::constant(LAST_STRIDE) {
+            let time = if rest <= step * S::constant(LAST_STEP) {
                 to
             } else {
-                found.time + stride
+                found.time + step
             };
-            let stride = time - found.time;
-            match self.stride(&found, time) {
+            let step = time - found.time;
+            match self.step(&found, time) {
                 Ok((next, motion)) => {
                     self.take(&next, motion);
-                    self.strides += 1;
-                    self.longest = self.longest.max(stride);
-                    // Where a stride was too long, the next ones are no longer than this one.
+                    self.steps += 1;
+                    self.longest = self.longest.max(step);
+                    // Where a step was too long, the next ones are no longer than this one.
                     if has_failed {
-                        self.stride = Some(stride);
+                        self.step = Some(step);
                     } else {
-                        self.stride = self.stride.map(|last| last.max(stride) * S::constant(2.0));
+                        self.step = self.step.map(|last| last.max(step) * S::constant(2.0));
                     }
                     has_failed = false;
                     if time >= to {
@@ -191,20 +191,20 @@ where
                 }
                 Err(fault) => {
                     let least =
-                        self.longest.max(stride) * S::constant(2.0).powf(-f64::from(HALVINGS));
+                        self.longest.max(step) * S::constant(2.0).powf(-f64::from(HALVINGS));
                     let least = least.max(S::constant(16.0) * found.time.ulp());
-                    if stride <= least || !retried(&fault) {
+                    if step <= least || !retried(&fault) {
                         return Err(self.ended(&found, fault));
                     }
                     self.shortened += 1;
                     has_failed = true;
-                    self.stride = Some(stride * S::constant(0.5));
+                    self.step = Some(step * S::constant(0.5));
                 }
             }
         }
     }
 
-    /// How long a stride may be (s) for its turn, by velocities and accelerations.
+    /// How long a step may be (s) for its turn, by velocities and accelerations.
     fn bound(&self, from: &Found<S, M>) -> S {
         let speed = reach::<S, M>(from.state.velocities(), self.length).size;
         let accelerations = from.evaluation.rates.velocities();
@@ -223,8 +223,8 @@ where
         }
     }
 
-    /// The pose after a stride, and how far (rad) it led.
-    fn stride(&mut self, from: &Found<S, M>, time: S) -> Result<(Found<S, M>, S), Fault> {
+    /// The pose after a step, and how far (rad) it led.
+    fn step(&mut self, from: &Found<S, M>, time: S) -> Result<(Found<S, M>, S), Fault> {
         let accelerations = from.evaluation.rates.velocities();
         let constants = self.dynamics.constants();
         let step = time - from.time;
@@ -285,7 +285,7 @@ where
     }
 }
 
-/// Whether a shorter stride may help.
+/// Whether a shorter step may help.
 fn retried(fault: &Fault) -> bool {
     matches!(
         fault,

@@ -343,7 +343,7 @@ fn what_is_not_finite_is_found() {
             assert!(!state.plus([(0.1, &slope)]).is_finite());
             assert!(
                 !state
-                    .relative_norm(&state, 1e-3, [(0.1, &slope)])
+                    .weighted_norm(&state, 1e-3, [(0.1, &slope)])
                     .is_finite()
             );
         }
@@ -383,7 +383,7 @@ fn increments_of_angles_are_measured_in_radians() {
         JointState::from_parts([pair(0.3), pair(1e-9)], [-4.0], [1e-6]);
     let other = JointState::from_parts([pair(0.3), pair(1e-9)], [3.0], [2e-6]);
     let slope = |a, b, rest, rate| JointState::from_parts([[a, 9.0], [b, 9.0]], [rest], [rate]);
-    let norm = |floor, slope| state.relative_norm(&other, floor, [(0.5, &slope), (-0.25, &slope)]);
+    let norm = |floor, slope| state.weighted_norm(&other, floor, [(0.5, &slope), (-0.25, &slope)]);
     assert_eq!(norm(1e-3, slope(8.0, -16.0, 0.0, 0.0)), 4.0);
     assert_eq!(norm(1e-3, slope(-16.0, 8.0, 0.0, 0.0)), 4.0);
     assert_eq!(norm(2.0, slope(8.0, -16.0, 0.0, 0.0)), 2.0);

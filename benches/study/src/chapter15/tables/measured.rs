@@ -35,7 +35,7 @@ pub fn prices(outcomes: &[Outcome]) -> Table {
                 }),
             ]
         },
-        "Whole runs over 10 s divided by their evaluations; the median of many runs, all contestants taking turns in one \
+        "Whole runs over 10 s divided by their evaluations; the median of many runs, all candidates taking turns in one \
          process. The assembler builds the same equations at run time from a list of bodies and joints with dense \
          matrices; it runs through the same integrator, in the fastest form that it has for the formulation.",
     )
@@ -43,7 +43,7 @@ pub fn prices(outcomes: &[Outcome]) -> Table {
 
 /// The forms of one formulation against each other; `None` where there is only one.
 #[must_use]
-pub fn opponents(outcome: &Outcome) -> Option<Table> {
+pub fn baselines(outcome: &Outcome) -> Option<Table> {
     let ours = &outcome.prices.generated.time;
     let rows: Vec<_> = outcome
         .prices

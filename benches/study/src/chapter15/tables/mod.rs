@@ -3,7 +3,7 @@
 mod measured;
 mod printed;
 
-pub use measured::{accuracy, opponents, prices, steps, violation};
+pub use measured::{accuracy, baselines, prices, steps, violation};
 pub use printed::{data, evaluations, parameters};
 
 use super::outcome::Outcome;
@@ -35,7 +35,7 @@ fn by_method(
 
 #[cfg(test)]
 mod tests {
-    use super::{accuracy, data, evaluations, opponents, parameters, prices, steps, violation};
+    use super::{accuracy, baselines, data, evaluations, parameters, prices, steps, violation};
     use crate::chapter15::outcome::tests::made_up;
     use crate::chapter15::{Method, Settings};
 
@@ -48,7 +48,7 @@ mod tests {
             parameters(&settings),
             evaluations(&outcomes),
             prices(&outcomes),
-            opponents(&outcomes[0]).unwrap(),
+            baselines(&outcomes[0]).unwrap(),
             steps(&outcomes),
             accuracy(&outcomes),
             violation(&outcomes, &settings),
@@ -79,14 +79,14 @@ mod tests {
     }
 
     #[test]
-    fn the_cheapest_form_of_the_assembler_is_the_opponent() {
+    fn the_cheapest_form_of_the_assembler_is_the_baseline() {
         let outcomes = Method::ALL.map(made_up);
         let table = prices(&outcomes);
         assert_eq!(
             table.rows[0][1..],
             ["50.0", "45.0 … 55.0", "2000", "1800 … 2200", "40.0"]
         );
-        let forms = opponents(&outcomes[0]).unwrap().rows;
+        let forms = baselines(&outcomes[0]).unwrap().rows;
         let names: Vec<_> = forms.iter().map(|row| row[0].as_str()).collect();
         assert_eq!(
             names,
@@ -95,11 +95,11 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_opponent_is_a_dash() {
+    fn a_missing_baseline_is_a_dash() {
         let mut outcome = made_up(Method::Penalty);
         outcome.prices.assembler.clear();
         assert_eq!(prices(&[outcome.clone()]).rows[0][3..], ["–", "–", "–"]);
-        assert_eq!(opponents(&outcome), None);
+        assert_eq!(baselines(&outcome), None);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use holonom::GeneralizedAlpha;
 use holonom::SemiImplicitEuler;
-use holonom::integrate::{Integrator, OneStep, Span, System};
+use holonom::integrate::{Integrator, OneStep, TimeSpan, System};
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 
@@ -31,7 +31,7 @@ fn main() {
     let on = |_: &Sample<'_, f64, Rod>| ControlFlow::Continue(());
     let _ = Simulation::new(&rod, StandardLagrange, alpha).joint_coordinates().run(0.0..=1.0, every(0.1), on);
     let _ = Simulation::new(&rod, Penalty::default(), alpha).run(0.0..=1.0, every(0.1), on);
-    let span = Span { start: 0.0, end: 1.0, first_output: 1.0 };
+    let span = TimeSpan { start: 0.0, end: 1.0, first_output: 1.0 };
     let _ = alpha.start(&mut Decay, span, [1.0]);
     let _ = SemiImplicitEuler.step(&mut Decay, 0.0, &mut [1.0], 0.1);
 }

@@ -4,7 +4,7 @@
 //! right: `tests/tests/alarms.rs`, an upright rod by joints.
 
 use super::{Violation, exceeds};
-use crate::constraints::row_units::Meanings;
+use crate::constraints::row_units::RowUnits;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::JointInfo;
@@ -46,7 +46,7 @@ impl<S: Real, M: Mechanism> Worst<S, M> {
         }
     }
 
-    pub(super) fn of(&self, rows: &Meanings<S, M>, joint: &JointInfo) -> Violation<S> {
+    pub(super) fn of(&self, rows: &RowUnits<S, M>, joint: &JointInfo) -> Violation<S> {
         let mut violation = Violation {
             length: S::zero(),
             angle: S::zero(),

@@ -8,7 +8,7 @@ use super::coefficients::{Coefficients, HIGHEST, Row};
 use crate::error::Fault;
 use crate::integrate::controller::Controller;
 use crate::integrate::record::{Reached, reached};
-use crate::integrate::{Advance, Counts, Course, Slopes, Span, System, named};
+use crate::integrate::{Advance, Counts, Integration, Slopes, System, TimeSpan, named};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
@@ -19,7 +19,7 @@ const FIRST_POWER: f64 = 2.0;
 
 /// An integration with [`Adams`] under way.
 #[derive(Clone)]
-pub struct AdamsCourse<S: Real, X: Vector<S>> {
+pub struct AdamsIntegration<S: Real, X: Vector<S>> {
     controller: Controller<S>,
     /// The size and the order of the next step.
     next_step: S,
@@ -41,11 +41,11 @@ enum Trial<S, X> {
     Rejected { errors: Errors<S> },
 }
 
-impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
+impl<S: Real, X: Vector<S>> AdamsIntegration<S, X> {
     pub(super) fn start<Y: System<S, State = X>>(
         method: &Adams<S>,
         system: &mut Y,
-        span: Span<S>,
+        span: TimeSpan<S>,
         state: X,
     ) -> Result<Self, Fault> {
         let Adams { tolerance, limits } = method;
@@ -117,10 +117,10 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         let size = self
             .reached
             .state
-            .relative_norm(predicted, floor, [(step, surprise)]);
+            .weighted_norm(predicted, floor, [(step, surprise)]);
         let less = |order: usize| {
             let terms = [(step, &phi[order + 1]), (step, surprise)];
-            let size = self.reached.state.relative_norm(predicted, floor, terms);
+            let size = self.reached.state.weighted_norm(predicted, floor, terms);
             size * c.sigma[order + 1] * coefficient(order)
         };
         let error = size * (c.g[k] - c.g[k + 1]);
@@ -198,7 +198,7 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
         }
         let above = (k < self.coefficients.equal && !errors.lowers).then(|| {
             let floor = self.controller.floor;
-            from.relative_norm(&self.reached.state, floor, [(step, &phi[k + 2])])
+            from.weighted_norm(&self.reached.state, floor, [(step, &phi[k + 2])])
                 * coefficient(k + 1)
         });
         let allowed = S::constant(0.5) * self.controller.relative;
@@ -206,11 +206,11 @@ impl<S: Real, X: Vector<S>> AdamsCourse<S, X> {
     }
 }
 
-impl<S: Real, X: Vector<S>> Course<S, X> for AdamsCourse<S, X> {
+impl<S: Real, X: Vector<S>> Integration<S, X> for AdamsIntegration<S, X> {
     reached!();
 }
 
-impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsCourse<S, Y::State> {
+impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsIntegration<S, Y::State> {
     fn advance(&mut self, system: &mut Y) -> Result<(), Fault> {
         if !self.reached.is_known {
             self.renew(system)?;
@@ -223,7 +223,7 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsCourse<S, Y::State> {
             let end = self.controller.end_of(time, size, stretched);
             let outcome = self.attempt(system, size, end);
             if let Ok(Trial::Accepted { mut state, errors }) = outcome {
-                system.settle(&mut state, Some(&mut self.reached.slope));
+                system.renormalise(&mut state, Some(&mut self.reached.slope));
                 self.reached.counts.accepted += 1;
                 self.reached.estimate = Some(errors.here);
                 self.reached.time = end;

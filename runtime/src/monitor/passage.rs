@@ -1,14 +1,14 @@
 //! Whether a way that is followed from pose to pose passed a singular configuration.
 
-use super::doubt::{Doubt, Doubts};
 use super::gradients::Gradients;
 use super::limits;
 use super::singular::Approach;
 use super::verdict::above;
+use super::warning::{Warning, Warnings};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::{Mechanism, Pivot};
 
-/// Pivots and gradients along a way of short strides.
+/// Pivots and gradients along a way of short steps.
 pub(crate) struct Passage<S: Scalar, M: Mechanism> {
     approach: Approach<S>,
     gradients: Gradients<S, M>,
@@ -66,9 +66,9 @@ impl<S: Real, M: Mechanism> Passage<S, M> {
         self.branch_point().map(|(joint, ..)| joint)
     }
 
-    pub(crate) fn doubts(&self) -> Doubts {
+    pub(crate) fn warnings(&self) -> Warnings {
         let found = self.branch_point();
-        Doubts::of([found.map(|(joint, fall, time)| Doubt::BranchPoint {
+        Warnings::of([found.map(|(joint, fall, time)| Warning::BranchPoint {
             joint,
             fall: fall.to_f64(),
             time: time.to_f64(),

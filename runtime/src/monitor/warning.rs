@@ -1,4 +1,4 @@
-//! What is to be doubted of a run.
+//! The warnings of a run.
 
 use core::array::IntoIter;
 use core::fmt;
@@ -10,9 +10,9 @@ use crate::error::readable::Measured;
 /// to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Doubt {
-    /// The run was not watched.
-    Unwatched,
+pub enum Warning {
+    /// The run was not monitored.
+    Unmonitored,
     /// A joint was on a side of its equations that is not meant: as after a start that was accepted
     /// as it is.
     WrongSide {
@@ -146,7 +146,7 @@ pub enum Doubt {
         travel: f64,
     },
     /// Corrections or evaluations were accepted that did not converge.
-    Excused {
+    Unconverged {
         /// Corrections of a projection or a direct correction.
         corrections: usize,
         /// Evaluations of the augmented Lagrangian.
@@ -156,10 +156,10 @@ pub enum Doubt {
     },
 }
 
-impl fmt::Display for Doubt {
+impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Unwatched => write!(f, "nothing was watched: the run was told not to"),
+            Self::Unmonitored => write!(f, "the run was not monitored"),
             Self::WrongSide { joint, time } => write!(
                 f,
                 "joint `{joint}` is upside down at {} s: its equations hold on a side that its definition excludes; start with `.assembled()`, or set its \
@@ -297,7 +297,7 @@ impl fmt::Display for Doubt {
                 Measured(bias),
                 Measured(travel)
             ),
-            Self::Excused {
+            Self::Unconverged {
                 corrections,
                 evaluations,
                 time,
@@ -331,71 +331,71 @@ fn amount(
     }
 }
 
-/// The kinds of doubt that one run may raise.
+/// The kinds of warning that one run may raise.
 const KINDS: usize = 16;
 
-/// What is to be doubted of a run, the gravest first; empty where nothing is.
+/// The warnings of a run, the gravest first; empty where nothing is.
 ///
-/// `Display` writes a line for each, and "no doubts" where there are none.
+/// `Display` writes a line for each, and "no warnings" where there are none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Doubts {
-    doubts: [Option<Doubt>; KINDS],
+pub struct Warnings {
+    warnings: [Option<Warning>; KINDS],
 }
 
-impl Doubts {
-    pub(super) fn new(doubts: [Option<Doubt>; KINDS]) -> Self {
-        Self { doubts }
+impl Warnings {
+    pub(super) fn new(warnings: [Option<Warning>; KINDS]) -> Self {
+        Self { warnings }
     }
 
     /// Of some that were found.
-    pub(crate) fn of<const N: usize>(found: [Option<Doubt>; N]) -> Self {
-        let mut doubts = [None; KINDS];
-        doubts
+    pub(crate) fn of<const N: usize>(found: [Option<Warning>; N]) -> Self {
+        let mut warnings = [None; KINDS];
+        warnings
             .iter_mut()
             .zip(found)
-            .for_each(|(place, doubt)| *place = doubt);
-        Self { doubts }
+            .for_each(|(place, warning)| *place = warning);
+        Self { warnings }
     }
 
-    /// Of a run that was not watched.
-    pub(crate) fn unwatched() -> Self {
-        let mut doubts = [None; KINDS];
-        if let Some(first) = doubts.first_mut() {
-            *first = Some(Doubt::Unwatched);
+    /// Of a run that was not monitored.
+    pub(crate) fn unmonitored() -> Self {
+        let mut warnings = [None; KINDS];
+        if let Some(first) = warnings.first_mut() {
+            *first = Some(Warning::Unmonitored);
         }
-        Self { doubts }
+        Self { warnings }
     }
 
-    /// Whether the run can be trusted as far as the watch can tell.
+    /// Whether the run can be trusted as far as the monitor can tell.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.doubts.iter().all(Option::is_none)
+        self.warnings.iter().all(Option::is_none)
     }
 
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.doubts.iter().flatten().count()
+        self.warnings.iter().flatten().count()
     }
 }
 
-impl IntoIterator for Doubts {
-    type Item = Doubt;
-    type IntoIter = Flatten<IntoIter<Option<Doubt>, KINDS>>;
+impl IntoIterator for Warnings {
+    type Item = Warning;
+    type IntoIter = Flatten<IntoIter<Option<Warning>, KINDS>>;
 
     fn into_iter(self) -> Self::IntoIter {
-        self.doubts.into_iter().flatten()
+        self.warnings.into_iter().flatten()
     }
 }
 
-impl fmt::Display for Doubts {
+impl fmt::Display for Warnings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_empty() {
-            return f.write_str("no doubts");
+            return f.write_str("no warnings");
         }
-        for (place, doubt) in self.into_iter().enumerate() {
+        for (place, warning) in self.into_iter().enumerate() {
             let separator = if place > 0 { "\n" } else { "" };
-            write!(f, "{separator}{doubt}")?;
+            write!(f, "{separator}{warning}")?;
         }
         Ok(())
     }

@@ -1,13 +1,13 @@
 //! Whether a mechanism is at rest, as far as its numbers tell.
 //!
 //! It costs two evaluations at the start, and distances a step while rest lasts. Without it what
-//! stands still is doubted: `tests/tests/quiet.rs`.
+//! stands still has no warning: `tests/tests/quiet.rs`.
 //!
 //! Relative measures compare with what the motion itself is. Where nothing moves but round-off, or
 //! what a tolerance or a compliance lets move, they compare an error with itself.
 
 use super::limits;
-use super::{Watch, exceeds};
+use super::{Monitor, exceeds};
 use crate::constraints::extent::farthest;
 use crate::math::scalar::Real;
 use crate::math::vec3::square;
@@ -35,7 +35,7 @@ impl<S: Real> Rest<S> {
     }
 }
 
-/// What the watch is told before the first step, beside the state.
+/// What the monitor is told before the first step, beside the state.
 pub(crate) struct Beginning<'a, S: Real, M: Mechanism> {
     /// Accelerations at the start, and where every coordinate is changed in its last digit.
     pub(crate) accelerations: [&'a M::Velocities<S>; 2],
@@ -77,7 +77,7 @@ fn shaken<S: Real, M: Mechanism>(state: &M::State<S>, length: S) -> M::State<S> 
     shaken
 }
 
-impl<S: Real, M: Mechanism> Watch<S, M> {
+impl<S: Real, M: Mechanism> Monitor<S, M> {
     /// A state whose coordinates are changed in their last digit.
     pub(crate) fn shaken(&self, state: &M::State<S>) -> M::State<S> {
         shaken::<S, M>(state, self.length)
@@ -152,7 +152,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         if !self.rest.lasts {
             return;
         }
-        let (now, first) = (state.coordinates(), self.lag.first().coordinates());
+        let (now, first) = (state.coordinates(), self.phase_error.first().coordinates());
         let (now, first) = (now.as_slice(), first.as_slice());
         let mut way = S::constant(0.25) * turned * self.length;
         for body in M::REPORT.bodies {

@@ -14,7 +14,7 @@ const STEP: f64 = 0.3;
 
 /// The rows of `D` at configurations along a motion that the constraints leave free, straight on as
 /// far as they let it: a few turns of what turns fastest. None where nothing can move.
-pub(super) fn tour(
+pub(super) fn sweep(
     constraints: &Constraints,
     start: &Configuration,
     heading: Vec<f64>,
@@ -58,7 +58,7 @@ fn largest(motion: &[f64]) -> f64 {
 }
 
 /// Where a mechanism gets to as time goes on.
-pub(super) struct Course {
+pub(super) struct Passage {
     /// Configurations that satisfy all equations, in the order of time.
     pub(super) reached: Vec<Configuration>,
     /// How many of them, from the first, are so near to each other that rows can be followed from
@@ -84,13 +84,13 @@ const HALVINGS: usize = 6;
 /// constant speed gets far and a late law is met; they end where a smooth step begins, is half done
 /// or ends. Where equations cannot be satisfied to round-off, `agrees` may have a configuration
 /// near an aimed one that will do.
-pub(super) fn course(
+pub(super) fn in_time(
     constraints: &Constraints,
     start: &Configuration,
     agrees: impl Fn(&Configuration) -> Option<Configuration>,
-) -> Course {
+) -> Passage {
     let breaks = &constraints.breaks;
-    let mut course = Course {
+    let mut passage = Passage {
         reached: Vec::new(),
         followed: 0,
         missed: Vec::new(),
@@ -98,17 +98,17 @@ pub(super) fn course(
     let mut at = start.clone();
     let mut step = FIRST;
     let mut trials = 0;
-    while course.reached.len() < STOPS + FAR_STOPS && at.time < LAST {
+    while passage.reached.len() < STOPS + FAR_STOPS && at.time < LAST {
         let Some(velocity) = constraints.velocity(&at) else {
             break;
         };
-        let is_near = course.reached.len() < STOPS;
+        let is_near = passage.reached.len() < STOPS;
         if is_near {
             step = step.min(STEP / largest(&velocity));
         }
         let next_break = breaks.iter().copied().find(|time| *time > at.time);
         let mut next = None;
-        while next.is_none() && course.missed.len() <= HALVINGS && trials < TRIALS {
+        while next.is_none() && passage.missed.len() <= HALVINGS && trials < TRIALS {
             trials += 1;
             let time = (at.time + step).min(next_break.unwrap_or(f64::INFINITY));
             step = time - at.time;
@@ -119,24 +119,24 @@ pub(super) fn course(
             if distance.is_some_and(|far| far <= STEP) {
                 next = constraints.assembled(&aimed).or_else(|| agrees(&aimed));
                 if next.is_none() {
-                    course.missed.push(aimed);
+                    passage.missed.push(aimed);
                 }
             }
             if next.is_none() {
                 step *= 0.5;
             }
             if time <= at.time {
-                return course;
+                return passage;
             }
         }
         let Some(next) = next else {
             break;
         };
-        course.followed += usize::from(is_near);
-        course.missed.clear();
-        course.reached.push(next.clone());
+        passage.followed += usize::from(is_near);
+        passage.missed.clear();
+        passage.reached.push(next.clone());
         at = next;
         step *= 2.0;
     }
-    course
+    passage
 }

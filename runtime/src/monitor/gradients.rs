@@ -187,7 +187,7 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         lengths
     }
 
-    /// The course of the least fall.
+    /// The history of the least fall.
     pub(super) fn approach(&self) -> &Approach<S> {
         &self.approach
     }

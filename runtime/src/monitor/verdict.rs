@@ -1,25 +1,25 @@
-//! From what the watch saw to what is to be doubted.
+//! From what the monitor saw to warnings.
 
-use super::doubt::{Doubt, Doubts};
 use super::limits;
-use super::{Violation, Watch, Worst, exceeds};
+use super::warning::{Warning, Warnings};
+use super::{Monitor, Violation, Worst, exceeds};
 use crate::integrate::ErrorModel;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::JointInfo;
 
-impl<S: Real, M: Mechanism> Watch<S, M> {
-    /// What is to be doubted.
+impl<S: Real, M: Mechanism> Monitor<S, M> {
+    /// Warnings.
     #[must_use]
-    pub(crate) fn doubts(&self) -> Doubts {
-        Doubts::new([
+    pub(crate) fn warnings(&self) -> Warnings {
+        Warnings::new([
             self.wrong_side(),
             self.energy(),
             self.open(),
             self.slipping(),
             self.nearly_singular(),
             self.vanishing(),
-            self.excuses(),
+            self.unconverged_warning(),
             self.phase(),
             self.long_run(),
             self.compliance(),
@@ -32,21 +32,21 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         ])
     }
 
-    fn wrong_side(&self) -> Option<Doubt> {
+    fn wrong_side(&self) -> Option<Warning> {
         let (joint, time) = self.wrong?;
-        Some(Doubt::WrongSide {
+        Some(Warning::WrongSide {
             joint: M::REPORT.joints.get(joint)?.name,
             time: time.to_f64(),
         })
     }
 
-    fn energy(&self) -> Option<Doubt> {
+    fn energy(&self) -> Option<Warning> {
         if self.rests() {
             return None;
         }
         let (change, time) = self.balance.worst();
         let change = change.quotient(self.lives());
-        above(change.abs(), limits::ENERGY).then(|| Doubt::Energy {
+        above(change.abs(), limits::ENERGY).then(|| Warning::Energy {
             change: change.to_f64(),
             time: time.to_f64(),
         })
@@ -54,14 +54,14 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// How often the motion has forgotten what it was: an error counts that has come about since.
     fn lives(&self) -> S {
-        self.memory.lives(&self.pace)
+        self.memory.lives(&self.measure)
     }
 
-    fn phase(&self) -> Option<Doubt> {
+    fn phase(&self) -> Option<Warning> {
         let change = self.balance.drift().quotient(self.lives());
         let shift = S::constant(0.5) * change.abs() * self.travel;
-        let shift = shift.quotient(self.lives()) * self.memory.part_of_vibrations(&self.pace);
-        (above(shift, limits::PHASE) && self.energy().is_none()).then(|| Doubt::Phase {
+        let shift = shift.quotient(self.lives()) * self.memory.part_of_vibrations(&self.measure);
+        (above(shift, limits::PHASE) && self.energy().is_none()).then(|| Warning::Phase {
             change: change.to_f64(),
             travel: self.travel.to_f64(),
             shift: shift.to_f64(),
@@ -70,21 +70,21 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Round-off of velocities changes the energy like a random walk, whose end tells little of its
     /// way. Only where nothing works on the mechanism: forces and drivers set a phase of their own.
-    fn long_run(&self) -> Option<Doubt> {
+    fn long_run(&self) -> Option<Warning> {
         if !self.balance.is_of_a_closed_system() || self.phase().is_some() {
             return None;
         }
         let change = S::constant(limits::ROUND_OFF) * S::EPSILON;
         let change = change * S::constant(self.steps as f64).sqrt();
         let shift = S::constant(0.5) * change * self.travel;
-        above(shift, limits::PHASE).then(|| Doubt::LongRun {
+        above(shift, limits::PHASE).then(|| Warning::LongRun {
             steps: self.steps,
             travel: self.travel.to_f64(),
             shift: shift.to_f64(),
         })
     }
 
-    fn open(&self) -> Option<Doubt> {
+    fn open(&self) -> Option<Warning> {
         let length = S::constant(limits::OPEN) * self.length;
         let (
             info,
@@ -94,7 +94,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
                 time,
             },
         ) = self.worst(&self.position, (length, S::constant(limits::OPEN)))?;
-        Some(Doubt::Open {
+        Some(Warning::Open {
             joint: info.name,
             length: length.to_f64(),
             angle: angle.to_f64(),
@@ -102,7 +102,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         })
     }
 
-    fn slipping(&self) -> Option<Doubt> {
+    fn slipping(&self) -> Option<Warning> {
         if self.rests() {
             return None;
         }
@@ -127,7 +127,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
                 (limit * spin).max(least.quotient(self.length)),
             ),
         )?;
-        Some(Doubt::Slipping {
+        Some(Warning::Slipping {
             joint: info.name,
             length: length.to_f64(),
             angle: angle.to_f64(),
@@ -180,12 +180,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         found
     }
 
-    fn nearly_singular(&self) -> Option<Doubt> {
+    fn nearly_singular(&self) -> Option<Warning> {
         let approach = self.approach.as_ref()?;
         let fall = approach.fall();
         let nearest = self.smallest_pivot()?;
         let is_near = self.is_near(fall) || approach.may_have_passed();
-        is_near.then(|| Doubt::NearlySingular {
+        is_near.then(|| Warning::NearlySingular {
             joint: nearest.joint,
             fall: fall.to_f64(),
             time: nearest.time.to_f64(),
@@ -194,7 +194,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Whether pivots, or squares of gradients, that fell so far tell of a singular configuration.
     /// A mechanism that is open by a little passes one at a distance whose square goes with that;
-    /// of one that is open by more all is doubted.
+    /// of one that is open by more all is reported.
     fn is_near(&self, fall: S) -> bool {
         let open = self.largest_violation();
         let passed = !above(open, limits::OPEN) && fall < S::constant(limits::PASSED_OPEN) * open;
@@ -213,29 +213,29 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     /// Gradients count by their squares, as pivots do.
-    fn vanishing(&self) -> Option<Doubt> {
+    fn vanishing(&self) -> Option<Warning> {
         let shortest = self.shortest_gradient()?;
         let fall = shortest.relative * shortest.relative;
         let may_have_passed = self.gradients.approach().may_have_passed();
         let is_near = self.is_near(fall) || may_have_passed;
-        (is_near && self.nearly_singular().is_none()).then(|| Doubt::Vanishing {
+        (is_near && self.nearly_singular().is_none()).then(|| Warning::Vanishing {
             joint: shortest.joint,
             length: shortest.relative.to_f64(),
             time: shortest.time.to_f64(),
         })
     }
 
-    fn excuses(&self) -> Option<Doubt> {
-        let time = self.excused.since?;
-        Some(Doubt::Excused {
-            corrections: self.excused.corrections,
-            evaluations: self.excused.evaluations,
+    fn unconverged_warning(&self) -> Option<Warning> {
+        let time = self.unconverged.since?;
+        Some(Warning::Unconverged {
+            corrections: self.unconverged.corrections,
+            evaluations: self.unconverged.evaluations,
             time: time.to_f64(),
         })
     }
 
     /// Only where there is no balance of energy that tells more.
-    fn many_steps(&self) -> Option<Doubt> {
+    fn many_steps(&self) -> Option<Warning> {
         if self.rests() || self.balance.tells(limits::ENERGY) {
             return None;
         }
@@ -249,37 +249,40 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         let mean = self.estimated.quotient(steps).powf(estimate_power);
         let sum = S::constant(estimate_share) * mean * steps;
         let sum = sum.quotient(self.lives());
-        above(sum, limits::ADDED_UP).then(|| Doubt::ManySteps {
+        above(sum, limits::ADDED_UP).then(|| Warning::ManySteps {
             steps: self.steps,
             error: sum.to_f64(),
         })
     }
 
     /// Only where nothing controls the steps.
-    fn coarse_steps(&self) -> Option<Doubt> {
-        let share = self.balance.doubt_of_work();
+    fn coarse_steps(&self) -> Option<Warning> {
+        let share = self.balance.warning_of_work();
         // The work of a first step is not known, that of the next ones depends on it.
         let begun = self.steps > 8 && !self.rests();
-        let doubted = begun && self.tolerance.is_none() && above(share, limits::FOLLOWED);
-        doubted.then(|| Doubt::CoarseSteps {
+        let warned = begun && self.tolerance.is_none() && above(share, limits::FOLLOWED);
+        warned.then(|| Warning::CoarseSteps {
             share: share.to_f64(),
         })
     }
 
     /// Of methods whose energy does not tell.
-    fn long_steps(&self) -> Option<Doubt> {
+    fn long_steps(&self) -> Option<Warning> {
         if self.rests() {
             return None;
         }
-        let mut shift = self.lag.worst();
+        let mut shift = self.phase_error.worst();
         if !above(shift, limits::PHASE) {
-            shift = shift.max(self.silent_shift().min(self.lag.missed(self.fastest)));
+            shift = shift.max(
+                self.silent_shift()
+                    .min(self.phase_error.missed(self.fastest)),
+            );
         }
         // What is off at the worst is known as it dies out.
         let lives = self.lives() * self.memory.fed(self.balance.gained());
         let shift = shift.quotient(lives.max(S::one())).max(self.led_shift());
-        let shift = shift * self.memory.part_of_vibrations(&self.pace);
-        above(shift, limits::PHASE).then(|| Doubt::LongSteps {
+        let shift = shift * self.memory.part_of_vibrations(&self.measure);
+        above(shift, limits::PHASE).then(|| Warning::LongSteps {
             shift: shift.to_f64(),
         })
     }
@@ -300,30 +303,30 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a
     /// rate changes by over so much time.
     fn led_shift(&self) -> S {
-        S::constant(self.model.velocity_lead) * self.longest * self.changed
+        S::constant(self.model.stagger) * self.longest * self.changed
     }
 
-    fn coarse(&self) -> Option<Doubt> {
+    fn coarse(&self) -> Option<Warning> {
         let (_, absolute) = self.tolerance?;
         let moved = self.travel > S::zero() && !self.rests();
         let moved = moved && !M::REPORT.bodies.is_empty();
         let coarse = absolute > S::constant(limits::COARSE) * self.length;
-        (coarse && moved).then(|| Doubt::CoarseTolerance {
+        (coarse && moved).then(|| Warning::CoarseTolerance {
             absolute: absolute.to_f64(),
             size: self.length.to_f64(),
         })
     }
 
-    fn resolution(&self) -> Option<Doubt> {
+    fn resolution(&self) -> Option<Warning> {
         let coarse = self.resolution > S::constant(limits::COARSE) * self.length;
-        coarse.then(|| Doubt::CoarseNumbers {
+        coarse.then(|| Warning::CoarseNumbers {
             resolution: self.resolution.to_f64(),
             size: self.length.to_f64(),
         })
     }
 
-    fn orientation(&self) -> Option<Doubt> {
-        // On average over the steps; those that turn further stretch more, and are off by less of
+    fn orientation(&self) -> Option<Warning> {
+        // On average over the steps; those that turn further drift more, and are off by less of
         // it.
         let half = S::constant(0.5) * self.travel.quotient(S::constant(self.steps as f64));
         let error = S::constant(self.model.angle_error);
@@ -333,20 +336,20 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         } else {
             error
         };
-        let shift = self.stretched.sum() * error;
-        let doubted = above(self.stretch, limits::LENGTH) || above(shift, limits::PHASE);
-        doubted.then(|| Doubt::Orientation {
-            drift: self.stretch.to_f64(),
+        let shift = self.norm_drift.sum() * error;
+        let warned = above(self.largest_drift, limits::LENGTH) || above(shift, limits::PHASE);
+        warned.then(|| Warning::Orientation {
+            drift: self.largest_drift.to_f64(),
             shift: shift.to_f64(),
         })
     }
 
-    fn compliance(&self) -> Option<Doubt> {
+    fn compliance(&self) -> Option<Warning> {
         let bias = self.compliance.bias();
         if bias == S::zero() || self.rests() {
             return None;
         }
-        above(bias * self.travel, limits::BIAS).then(|| Doubt::Compliance {
+        above(bias * self.travel, limits::BIAS).then(|| Warning::Compliance {
             bias: bias.to_f64(),
             travel: self.travel.to_f64(),
         })

@@ -1,14 +1,14 @@
-//! What the watch over a run costs: the time of a watched run over that of an unwatched one, both
-//! in one process in turn, medians of the ratios.
+//! What the monitor of a run costs: the time of a monitored run over that of an unmonitored one,
+//! both in one process in turn, medians of the ratios.
 //!
 //! ```text
-//! cargo run --release -p holonom-benches --features watch-cost --bin watch-cost
+//! cargo run --release -p holonom-benches --features monitor-cost --bin monitor-cost
 //! ```
 //!
 //! An argument selects the rows whose names contain it, such as `"UR5 relative"`. Rotors turn at
 //! 300 rad/s, beside a pendulum and on it. The program ends with an error where a ratio is above
-//! its bound: 1.3, and 1.6 for pendulums. One run has a dozen steps, so that what the watch does at
-//! the start counts.
+//! its bound: 1.3, and 1.6 for pendulums. One run has a dozen steps, so that what the monitor does
+//! at the start counts.
 
 #![forbid(unsafe_code)]
 
@@ -116,29 +116,29 @@ struct Scene<M> {
     bound: f64,
 }
 
-/// The median ratio, the time of an unwatched step (s), and the number of steps.
+/// The median ratio, the time of an unmonitored step (s), and the number of steps.
 fn cost<M, I>(scene: &Scene<M>, integrator: I, is_relative: bool) -> (f64, f64, usize)
 where
     M: JointCoordinates,
     I: Runs<f64, M, StandardLagrange, Absolute> + Runs<f64, M, StandardLagrange, Relative>,
 {
-    let simulation = |is_watched| {
+    let simulation = |is_monitored| {
         let simulation = Simulation::new(&scene.mechanism, StandardLagrange, integrator);
-        if is_watched {
+        if is_monitored {
             simulation
         } else {
-            simulation.unwatched()
+            simulation.unmonitored()
         }
     };
     let nothing = |_: &Sample<'_, f64, M>| ControlFlow::Continue(());
     let (span, reports) = (|| 0.0..=scene.end, || every(scene.end));
-    let run = |is_watched| {
+    let run = |is_monitored| {
         let began = Instant::now();
         let report = if is_relative {
-            let simulation = simulation(is_watched).joint_coordinates();
+            let simulation = simulation(is_monitored).joint_coordinates();
             simulation.run(span(), reports(), nothing)
         } else {
-            let simulation = simulation(is_watched).absolute_coordinates();
+            let simulation = simulation(is_monitored).absolute_coordinates();
             simulation.run(span(), reports(), nothing)
         };
         let report = report.unwrap_or_else(|error| panic!("{}: {error}", scene.name));
@@ -147,13 +147,13 @@ where
     let (_, steps) = run(false);
     let (once, _) = run(false);
     let times = (LEAST / once).ceil() as usize;
-    let several = |is_watched| (0..times).map(|_| run(is_watched).0).sum::<f64>();
+    let several = |is_monitored| (0..times).map(|_| run(is_monitored).0).sum::<f64>();
     let mut ratios = Vec::with_capacity(PAIRS);
     let mut bare = Vec::with_capacity(PAIRS);
     for _ in 0..PAIRS {
-        let (watched, unwatched) = (several(true), several(false));
-        ratios.push(watched / unwatched);
-        bare.push(unwatched / (times * steps) as f64);
+        let (monitored, unmonitored) = (several(true), several(false));
+        ratios.push(monitored / unmonitored);
+        bare.push(unmonitored / (times * steps) as f64);
     }
     (median(ratios), median(bare), steps)
 }

@@ -1,4 +1,4 @@
-//! From where on a run is to be doubted: every limit with its reason.
+//! From where on a run has a warning: every limit with its reason.
 //!
 //! A result is taken to be trusted where it is right to about a hundredth.
 

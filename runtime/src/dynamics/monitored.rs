@@ -1,4 +1,4 @@
-//! What the watch wants to know of a mechanism under way.
+//! What the monitor asks for of a mechanism under way.
 
 use super::evaluate::{Evaluate, Parts};
 use super::{Dynamics, Evaluator, vanishes};
@@ -9,8 +9,8 @@ use crate::mechanism::absolute::as_read;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::mechanism::orientations::with_unit_orientations;
+use crate::monitor::{Beginning, Monitor, Seen, Step};
 use crate::state::vector::{Array, MovingState, StateParts, Vector as _};
-use crate::watch::{Beginning, Seen, Step, Watch};
 
 /// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as
 /// the forces do.
@@ -57,8 +57,8 @@ where
     #[inline(always)]
     pub(super) fn count(&mut self, parts: &Parts<S>) {
         if F::ITERATED && parts.iterations > 1 {
-            let excused = usize::from(parts.excused);
-            self.iterations.excused = self.iterations.excused.saturating_add(excused);
+            let unconverged = usize::from(parts.unconverged);
+            self.iterations.unconverged = self.iterations.unconverged.saturating_add(unconverged);
             self.iterations.total = self.iterations.total.saturating_add(parts.iterations);
             self.iterations.largest = self.iterations.largest.max(parts.iterations);
         }
@@ -74,11 +74,11 @@ where
         self.seen = seen;
     }
 
-    /// Shows the end of a step to the watch: a state, and the bodies in it.
+    /// Shows the end of a step to the monitor: a state, and the bodies in it.
     #[inline]
-    pub(crate) fn watch(
+    pub(crate) fn monitor(
         &mut self,
-        watch: &mut Watch<S, M>,
+        monitor: &mut Monitor<S, M>,
         time: S,
         state: &C::State<S>,
         bodies: &M::State<S>,
@@ -88,28 +88,28 @@ where
             constants: self.constants(),
             time,
             state: bodies,
-            power: self.power_with(watch.lead(time), time, state, bodies),
-            pivot: self.pivot(watch.steps(), time, bodies),
-            stretch: self.seen.stretch,
+            power: self.power_with(monitor.stagger(time), time, state, bodies),
+            pivot: self.pivot(monitor.steps(), time, bodies),
+            drift: self.seen.drift,
             estimate,
             is_mended: C::Orientation::NORMALISED && !C::Orientation::NORMALISED_RATES,
         };
-        if Self::YIELDS && watch.steps().is_multiple_of(BIAS_EVERY) {
-            self.show_bias(watch, time, bodies);
+        if Self::YIELDS && monitor.steps().is_multiple_of(BIAS_EVERY) {
+            self.show_bias(monitor, time, bodies);
         }
-        watch.step(step);
+        monitor.step(step);
     }
 
-    /// Shows the watch what acts at the start of a run, by two evaluations: whether anything moves,
-    /// and what round-off there is.
+    /// Shows the monitor what acts at the start of a run, by two evaluations: whether anything
+    /// moves, and what round-off there is.
     #[inline(never)]
-    pub(crate) fn begin(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
-        let there = self.evaluation(time, &watch.shaken(state));
+    pub(crate) fn begin(&self, monitor: &mut Monitor<S, M>, time: S, state: &M::State<S>) {
+        let there = self.evaluation(time, &monitor.shaken(state));
         let (Ok(here), Ok(there)) = (self.evaluation(time, state), there) else {
             return;
         };
         if Self::YIELDS {
-            self.show_bias(watch, time, state);
+            self.show_bias(monitor, time, state);
         }
         let bias = if F::Terms::COMPLIANT {
             self.inconsistency(time, state, &here).0
@@ -122,13 +122,13 @@ where
             mass: &M::mass(self.constants()),
             bias,
         };
-        watch.begin(state, &beginning);
+        monitor.begin(state, &beginning);
     }
 
     #[inline(never)]
-    fn show_bias(&self, watch: &mut Watch<S, M>, time: S, state: &M::State<S>) {
+    fn show_bias(&self, monitor: &mut Monitor<S, M>, time: S, state: &M::State<S>) {
         if let Ok(evaluation) = self.evaluation(time, state) {
-            watch.yielded(
+            monitor.yielded(
                 &self.absolute.compliances,
                 &evaluation.multipliers,
                 evaluation.rates.velocities(),
@@ -304,8 +304,8 @@ where
     /// Finds the joint of the smallest pivot of a run: once, at the end, so that no step has to
     /// know it.
     #[cold]
-    pub(crate) fn name_smallest_pivot(&self, watch: &mut Watch<S, M>) {
-        let Some((time, bodies)) = watch.nearest() else {
+    pub(crate) fn name_smallest_pivot(&self, monitor: &mut Monitor<S, M>) {
+        let Some((time, bodies)) = monitor.nearest() else {
             return;
         };
         let pivot = if !C::IS_RELATIVE && !F::Terms::COMPLIANT {
@@ -315,7 +315,7 @@ where
         } else {
             self.pivot_of(time, &bodies)
         };
-        watch.name(pivot.joint.to_f64() as usize);
+        monitor.name(pivot.joint.to_f64() as usize);
     }
 }
 

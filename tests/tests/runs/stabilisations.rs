@@ -6,18 +6,18 @@ use holonom::prelude::*;
 use holonom::{
     __study::DirectCorrection,
     JointCoordinates,
-    run::{Treatment, TreeRecovery, VelocityProjection},
+    run::{PostStabilisation, TreeRecovery, VelocityProjection},
 };
 use holonom_models::{FourBar, RodPendulum, SliderCrank, VariableLengthPendulum};
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
 
 /// The largest errors (rad) of the angle of the rod of chapter 15 over ten seconds, read from its
 /// Euler parameters and from its position, and the largest `Phi^T Phi`.
-fn errors(treatment: Option<&dyn Treatment<f64, RodPendulum>>) -> [f64; 3] {
+fn errors(stabilisation: Option<&dyn PostStabilisation<f64, RodPendulum>>) -> [f64; 3] {
     let rod = RodPendulum::default();
     let mut run = Simulation::new(&rod, StandardLagrange, Rk4::every(0.01));
-    if let Some(treatment) = treatment {
-        run = run.treatment(treatment);
+    if let Some(stabilisation) = stabilisation {
+        run = run.post_stabilisation(stabilisation);
     }
     let mut largest = [0.0_f64; 3];
     let handles = RodPendulum::HANDLES;
@@ -74,17 +74,17 @@ fn the_direct_correction_is_as_exact_as_that_by_the_mass() {
     assert!(none[1] > 10.0 * direct[1], "{none:?}");
 }
 
-/// A run of a slider-crank by a treatment; its largest violations of positions and velocities, and
-/// by how much its bearing, a joint of the tree, was open (m).
+/// A run of a slider-crank by a stabilisation; its largest violations of positions and velocities,
+/// and by how much its bearing, a joint of the tree, was open (m).
 fn cranked<I: holonom::Runs<f64, SliderCrank, StandardLagrange>>(
-    treatment: &dyn Treatment<f64, SliderCrank>,
+    stabilisation: &dyn PostStabilisation<f64, SliderCrank>,
     integrator: I,
 ) -> [f64; 3] {
     assert!(!SliderCrank::JOINT_REPORT.closing.contains(&"bearing"));
     let crank = SliderCrank::default();
     let mut largest = [0.0_f64; 2];
     let report = Simulation::new(&crank, StandardLagrange, integrator)
-        .treatment(treatment)
+        .post_stabilisation(stabilisation)
         .run(0.0..=0.1, every(0.005), |sample| {
             largest[0] = largest[0].max(sample.violation());
             largest[1] = largest[1].max(sample.velocity_violation());
@@ -92,36 +92,36 @@ fn cranked<I: holonom::Runs<f64, SliderCrank, StandardLagrange>>(
         })
         .expect("solvable");
     assert!(
-        report.doubts().is_empty(),
+        report.warnings().is_empty(),
         "{integrator:?}: {}",
-        report.doubts()
+        report.warnings()
     );
-    let watch = report.watch.as_ref().expect("watched");
-    let bearing = watch.violation(SliderCrank::HANDLES.bearing);
+    let monitor = report.monitor.as_ref().expect("monitored");
+    let bearing = monitor.violation(SliderCrank::HANDLES.bearing);
     [largest[0], largest[1], bearing.length]
 }
 
 #[test]
-fn every_treatment_works_with_every_integrator() {
+fn every_stabilisation_works_with_every_integrator() {
     let tree = TreeRecovery::new(&SliderCrank::default()).expect("sound");
     let tolerance = Tolerance {
         relative: 1e-8,
         absolute: 1e-10,
     };
     macro_rules! with_all {
-        ($treatment:expr) => {
+        ($stabilisation:expr) => {
             [
-                cranked($treatment, Rk4::every(1e-4)),
-                cranked($treatment, holonom::Heun::every(1e-5)),
-                cranked($treatment, holonom::DormandPrince853::every(5e-4)),
-                cranked($treatment, holonom::BogackiShampine::new(tolerance)),
-                cranked($treatment, DormandPrince::new(tolerance)),
-                cranked($treatment, holonom::DormandPrince853::new(tolerance)),
-                cranked($treatment, holonom::ImplicitMidpoint::every(2e-5)),
-                cranked($treatment, holonom::AdamsBashforthMoulton4::every(5e-5)),
-                cranked($treatment, holonom::Adams::new(tolerance)),
-                cranked($treatment, holonom::Bdf::new(tolerance)),
-                cranked($treatment, holonom::RadauIIA::new(tolerance)),
+                cranked($stabilisation, Rk4::every(1e-4)),
+                cranked($stabilisation, holonom::Heun::every(1e-5)),
+                cranked($stabilisation, holonom::DormandPrince853::every(5e-4)),
+                cranked($stabilisation, holonom::BogackiShampine::new(tolerance)),
+                cranked($stabilisation, DormandPrince::new(tolerance)),
+                cranked($stabilisation, holonom::DormandPrince853::new(tolerance)),
+                cranked($stabilisation, holonom::ImplicitMidpoint::every(2e-5)),
+                cranked($stabilisation, holonom::AdamsBashforthMoulton4::every(5e-5)),
+                cranked($stabilisation, holonom::Adams::new(tolerance)),
+                cranked($stabilisation, holonom::Bdf::new(tolerance)),
+                cranked($stabilisation, holonom::RadauIIA::new(tolerance)),
             ]
         };
     }
@@ -161,7 +161,7 @@ fn recovery_leaves_what_stands_as_it_stands() {
         let before = state;
         let constants = model.constants().expect("sound");
         let tree = TreeRecovery::new(model).expect("sound");
-        assert_eq!(tree.treat(&constants, 0.0, &mut state), Ok(0.0));
+        assert_eq!(tree.stabilise(&constants, 0.0, &mut state), Ok(0.0));
         let pairs = holonom::StateParts::coordinates(&before);
         let after = holonom::StateParts::coordinates(&state);
         let slices = [pairs, after].map(holonom::state::Array::as_slice);
@@ -179,18 +179,19 @@ fn recovery_keeps_the_turns_that_are_counted() {
     let model = VariableLengthPendulum::default();
     let torsion = VariableLengthPendulum::HANDLES.torsion;
     let mut state = model.described_state::<f64>().expect("sound");
-    let first = VariableLengthPendulum::counted_angles(&state, torsion)[0];
+    let first = VariableLengthPendulum::unwrapped_angles(&state, torsion)[0];
     let turned = first + 3.0 * core::f64::consts::TAU;
-    VariableLengthPendulum::set_counted_angles(&mut state, torsion, &[turned]).expect("one angle");
+    VariableLengthPendulum::set_unwrapped_angles(&mut state, torsion, &[turned])
+        .expect("one angle");
     let constants = model.constants().expect("sound");
     let tree = TreeRecovery::new(&model).expect("sound");
-    assert_eq!(tree.treat(&constants, 0.0, &mut state), Ok(0.0));
-    let after = VariableLengthPendulum::counted_angles(&state, torsion)[0];
+    assert_eq!(tree.stabilise(&constants, 0.0, &mut state), Ok(0.0));
+    let after = VariableLengthPendulum::unwrapped_angles(&state, torsion)[0];
     assert!((after - turned).abs() < 1e-12, "{after} {turned}");
 }
 
 #[test]
-fn the_last_of_two_treatments_counts() {
+fn the_last_of_two_stabilisations_counts() {
     let rod = RodPendulum::default();
     let tree = TreeRecovery::new(&rod).expect("sound");
     let end = |run: Simulation<'_, f64, _, _, _>| {
@@ -198,14 +199,18 @@ fn the_last_of_two_treatments_counts() {
         report.expect("solvable").state
     };
     let new = || Simulation::new(&rod, StandardLagrange, Rk4::every(0.02));
-    let alone = end(new().treatment(&tree));
+    let alone = end(new().post_stabilisation(&tree));
     assert_eq!(
-        end(new().projection(Projection::default()).treatment(&tree)),
+        end(new()
+            .projection(Projection::default())
+            .post_stabilisation(&tree)),
         alone
     );
     let projected = end(new().projection(Projection::default()));
     assert_eq!(
-        end(new().treatment(&tree).projection(Projection::default())),
+        end(new()
+            .post_stabilisation(&tree)
+            .projection(Projection::default())),
         projected
     );
     assert_ne!(alone, projected);

@@ -1,6 +1,6 @@
 //! What a run has found, for a reader: violations by joint, pivots, energy.
 
-use super::Watch;
+use super::Monitor;
 use super::limits;
 use super::worst::Worst;
 use crate::math::scalar::Real;
@@ -10,9 +10,9 @@ use crate::mechanism::kernels::Mechanism;
 /// What was accepted although it did not converge, near a singular configuration or after one
 /// application of a pseudo-inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Excused<S> {
+pub struct Unconverged<S> {
     /// Corrections of a [`Projection`](crate::Projection), or of another
-    /// [`Treatment`](crate::run::Treatment) that left more than its tolerance.
+    /// [`PostStabilisation`](crate::run::PostStabilisation) that left more than its tolerance.
     pub corrections: usize,
     /// Evaluations of the augmented Lagrangian.
     pub evaluations: usize,
@@ -55,7 +55,7 @@ pub struct ShortestGradient<S> {
     pub time: S,
 }
 
-impl<S: Real, M: Mechanism> Watch<S, M> {
+impl<S: Real, M: Mechanism> Monitor<S, M> {
     /// By how much a joint was open, at the worst: over the steps that were looked at, every
     /// sixteenth and the last one, or more where violations decay; not at reporting times only.
     #[must_use]
@@ -128,7 +128,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// to length 1.
     #[must_use]
     pub fn orientation_drift(&self) -> S {
-        self.stretch
+        self.largest_drift
     }
 
     /// What a body is off by at the worst because its coordinates lag behind (rad, or lengths of
@@ -136,14 +136,14 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// steps tell: they do not tell of a motion that takes errors apart. Estimated with methods of
     /// order 2, zero with others.
     #[must_use]
-    pub fn lag(&self) -> S {
-        self.lag.worst()
+    pub fn phase_error(&self) -> S {
+        self.phase_error.worst()
     }
 
     /// What was accepted without convergence.
     #[must_use]
-    pub fn excused(&self) -> Excused<S> {
-        self.excused
+    pub fn unconverged(&self) -> Unconverged<S> {
+        self.unconverged
     }
 
     /// How far the mechanism moved, in radians of its fastest body.

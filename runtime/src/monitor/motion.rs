@@ -9,7 +9,7 @@ use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
 /// The lengths (m) by which bodies move in a radian.
-pub(super) struct Pace<S: Scalar, M: Mechanism> {
+pub(super) struct MotionMeasure<S: Scalar, M: Mechanism> {
     /// Of each body in the place of its first velocity; in that of the second what the square of a
     /// speed is to be multiplied by (1/m^2).
     lengths: M::Velocities<S>,
@@ -27,15 +27,15 @@ pub(super) struct Motion<S> {
     pub(super) spin: S,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Pace<S, M> {
+impl<S: Scalar, M: Mechanism> Clone for MotionMeasure<S, M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Scalar, M: Mechanism> Copy for Pace<S, M> {}
+impl<S: Scalar, M: Mechanism> Copy for MotionMeasure<S, M> {}
 
-impl<S: Real, M: Mechanism> Pace<S, M> {
+impl<S: Real, M: Mechanism> MotionMeasure<S, M> {
     /// Of a mechanism of an extent (m), with its rows at the start of a run.
     pub(super) fn at(rows: &Rows<S, M>, state: &M::State<S>, extent: S) -> Self {
         let mut lengths = M::Velocities::<S>::zeros();

@@ -6,7 +6,7 @@ use holonom::forces::{Actuator, ConstantMoment, SpringDamper, TorsionalActuator}
 use holonom::joints::{AngleDriver, Prismatic, Revolute};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::{Doubt, Doubts, GeneralizedAlpha, Heun, ImplicitMidpoint, Midpoint, Runs};
+use holonom::{GeneralizedAlpha, Heun, ImplicitMidpoint, Midpoint, Runs, Warning, Warnings};
 use holonom_tests::RunsBoth;
 
 /// A cart on a spring and a damper, 1 rad/s, drawn out by a metre.
@@ -37,8 +37,8 @@ fn exact(ratio: f64, time: f64) -> f64 {
     (-ratio * time).exp() * (phase.cos() + ratio / own * phase.sin())
 }
 
-/// What the cart is off by at the worst (m), and what is doubted; `None` where the step is refused.
-fn oscillation<I, C>(ratio: f64, integrator: I) -> Option<(f64, Doubts)>
+/// What the cart is off by at the worst (m), and the warnings; `None` where the step is refused.
+fn oscillation<I, C>(ratio: f64, integrator: I) -> Option<(f64, Warnings)>
 where
     I: Runs<f64, Oscillator, StandardLagrange, C>,
     C: Coordinates<Oscillator>,
@@ -52,12 +52,12 @@ where
             off = off.max((place - exact(ratio, sample.time())).abs());
             ControlFlow::Continue(())
         });
-    Some((off, report.ok()?.doubts()))
+    Some((off, report.ok()?.warnings()))
 }
 
 /// What is estimated is what they are off by, where it is little and the energy does not swing.
 #[test]
-fn oscillations_that_are_off_are_doubted() {
+fn oscillations_that_are_off_are_warned_of() {
     let mut refused = 0;
     for ratio in [0.0, 1e-3, 0.01, 0.05, 0.1, 0.3, 0.7] {
         for step in [0.01, 0.03, 0.1, 0.2, 0.3, 0.5] {
@@ -73,15 +73,15 @@ fn oscillations_that_are_off_are_doubted() {
                 ("damped alpha", oscillation::<_, Absolute>(ratio, damped)),
             ];
             for (name, run) in runs {
-                let Some((off, doubts)) = run else {
+                let Some((off, warnings)) = run else {
                     refused += 1;
                     continue;
                 };
-                let shift = doubts.into_iter().find_map(|doubt| match doubt {
-                    Doubt::LongSteps { shift } => Some(shift),
+                let shift = warnings.into_iter().find_map(|warning| match warning {
+                    Warning::LongSteps { shift } => Some(shift),
                     _ => None,
                 });
-                let all = doubts.to_string();
+                let all = warnings.to_string();
                 // The bound of generalized-alpha is three times that of an oscillation, and one
                 // that hardly swings is off by less.
                 let is_coarse = name.ends_with("alpha") || ratio > 0.1;
@@ -92,7 +92,7 @@ fn oscillations_that_are_off_are_doubted() {
                     "{ratio} {step} {name}: {off:e}, {all}"
                 );
                 assert!(
-                    off > right || doubts.is_empty(),
+                    off > right || warnings.is_empty(),
                     "{ratio} {step} {name}: {off:e}, {all}"
                 );
                 let nearly = shift.is_none_or(|shift| (shift / off - 1.0).abs() < 0.15);
@@ -141,17 +141,17 @@ struct Driven {
     motor: AngleDriver,
 }
 
-/// What is doubted of a run of 20 s.
-macro_rules! doubts {
+/// The warnings of a run of 20 s.
+macro_rules! warnings {
     ($simulation:expr) => {
         $simulation
             .run(0.0..=20.0, every(1.0), |_| ControlFlow::Continue(()))
             .expect("nothing stops it")
-            .doubts()
+            .warnings()
     };
 }
 
-fn doubts_of_exact_motions<I>(integrator: I) -> [Doubts; 5]
+fn warnings_of_exact_motions<I>(integrator: I) -> [Warnings; 5]
 where
     I: Runs<f64, Thrown, StandardLagrange>
         + RunsBoth<Wheel, StandardLagrange>
@@ -162,11 +162,11 @@ where
     let driven = Driven::default();
     let projection = Projection::default();
     [
-        doubts!(Simulation::new(&thrown, StandardLagrange, integrator)),
-        doubts!(Simulation::new(&free, StandardLagrange, integrator).joint_coordinates()),
-        doubts!(Simulation::new(&pushed, StandardLagrange, integrator).joint_coordinates()),
-        doubts!(Simulation::new(&driven, StandardLagrange, integrator).projection(projection)),
-        doubts!(
+        warnings!(Simulation::new(&thrown, StandardLagrange, integrator)),
+        warnings!(Simulation::new(&free, StandardLagrange, integrator).joint_coordinates()),
+        warnings!(Simulation::new(&pushed, StandardLagrange, integrator).joint_coordinates()),
+        warnings!(Simulation::new(&driven, StandardLagrange, integrator).projection(projection)),
+        warnings!(
             Simulation::new(&driven, StandardLagrange, integrator)
                 .joint_coordinates()
                 .projection(projection)
@@ -174,19 +174,19 @@ where
     ]
 }
 
-/// What a method does exactly, or a projection takes back, is no reason to doubt, however long the
-/// steps are.
+/// What a method does exactly, or a projection takes back, is no reason for a warning, however long
+/// the steps are.
 #[test]
-fn exact_motions_are_not_doubted() {
+fn exact_motions_are_not_warned_of() {
     for step in [0.1, 0.03, 0.01] {
         let runs = [
-            doubts_of_exact_motions(Heun::every(step)),
-            doubts_of_exact_motions(Midpoint::every(step)),
-            doubts_of_exact_motions(ImplicitMidpoint::every(step)),
+            warnings_of_exact_motions(Heun::every(step)),
+            warnings_of_exact_motions(Midpoint::every(step)),
+            warnings_of_exact_motions(ImplicitMidpoint::every(step)),
         ];
-        for doubts in runs.iter().flatten() {
-            let is_told = |doubt| matches!(doubt, Doubt::LongSteps { .. });
-            assert!(!doubts.into_iter().any(is_told), "{step}: {doubts}");
+        for warnings in runs.iter().flatten() {
+            let is_told = |warning| matches!(warning, Warning::LongSteps { .. });
+            assert!(!warnings.into_iter().any(is_told), "{step}: {warnings}");
         }
     }
 }
@@ -204,11 +204,14 @@ fn a_wheel_by_its_bodies_is_off_by_what_is_said() {
                 ControlFlow::Continue(())
             })
             .expect("nothing stops it");
-        let shift = report.doubts().into_iter().find_map(|doubt| match doubt {
-            Doubt::LongSteps { shift } => Some(shift),
-            _ => None,
-        });
-        let shift = shift.expect("it is doubted");
+        let shift = report
+            .warnings()
+            .into_iter()
+            .find_map(|warning| match warning {
+                Warning::LongSteps { shift } => Some(shift),
+                _ => None,
+            });
+        let shift = shift.expect("it is warned");
         assert!((shift / off - 1.0).abs() < 0.02, "{step}: {off}, {shift}");
     }
 }
@@ -250,17 +253,17 @@ struct Weight {
 /// What is missed across the motion, or of the velocities, is no lag; a bound by the length of the
 /// steps tells.
 #[test]
-fn what_is_no_lag_is_doubted() {
+fn what_is_no_lag_is_warned_of() {
     fn with<I>(integrator: I)
     where
         I: Runs<f64, Across, StandardLagrange> + Runs<f64, Weight, StandardLagrange>,
     {
         let (across, weight) = (Across::default(), Weight::default());
         for found in [
-            doubts!(Simulation::new(&across, StandardLagrange, integrator)),
-            doubts!(Simulation::new(&weight, StandardLagrange, integrator)),
+            warnings!(Simulation::new(&across, StandardLagrange, integrator)),
+            warnings!(Simulation::new(&weight, StandardLagrange, integrator)),
         ] {
-            let is_told = |doubt| matches!(doubt, Doubt::LongSteps { .. });
+            let is_told = |warning| matches!(warning, Warning::LongSteps { .. });
             assert!(found.into_iter().any(is_told), "{integrator:?}: {found}");
         }
     }
@@ -289,13 +292,13 @@ struct Late {
 
 /// Of what rests nothing lags behind.
 #[test]
-fn a_late_start_is_not_doubted() {
+fn a_late_start_is_not_warned_of() {
     fn with(integrator: impl RunsBoth<Late, StandardLagrange>) {
         let late = Late::default();
         let simulation = Simulation::new(&late, StandardLagrange, integrator).joint_coordinates();
         let report = simulation.run(0.0..=200.0, every(1.0), |_| ControlFlow::Continue(()));
-        let doubts = report.expect("nothing stops it").doubts();
-        assert!(doubts.is_empty(), "{integrator:?}: {doubts}");
+        let warnings = report.expect("nothing stops it").warnings();
+        assert!(warnings.is_empty(), "{integrator:?}: {warnings}");
     }
     with(Heun::every(0.02));
     with(Midpoint::every(0.02));

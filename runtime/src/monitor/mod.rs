@@ -1,8 +1,8 @@
-//! The watch over a run: what tells whether its result can be trusted.
+//! The monitor of a run: what tells whether its result can be trusted.
 //!
 //! The run shows it a record of every step. Every indicator is a value in a file of its own, whose
 //! head says what it costs and what nothing else finds; `verdict.rs` makes warnings of them, with
-//! the limits of `limits.rs`, and [`Doubts`] lists these at the end.
+//! the limits of `limits.rs`, and [`Warnings`] lists these at the end.
 //!
 //! | indicator | file | looks at |
 //! |---|---|---|
@@ -12,8 +12,8 @@
 //! | energy | `energy.rs` | the power in every step, energies in every sixteenth |
 //! | compliance | `compliance.rs` | every sixteenth step of a penalty |
 //! | memory | `memory.rs` | every sixteenth step |
-//! | phase | `lag.rs` | every fourth step of a method of order 2 |
-//! | orientation | `stretched.rs` | every step |
+//! | phase | `phase_error.rs` | every fourth step of a method of order 2 |
+//! | orientation | `norm_drift.rs` | every step |
 //! | rest | `rest.rs` | every step while it lasts |
 //!
 //! It looks at the coordinates that run: in relative ones at the joints that close loops, by the
@@ -36,48 +36,48 @@
 //!
 //! Energy. The work of forces is summed by a parabola through three steps. Its difference from the
 //! trapezoid counts as unknown; a smaller change of energy counts as none. Motion is measured body
-//! by body (`pace.rs`), so that something far away makes nothing slow. Phase errors:
+//! by body (`motion.rs`), so that something far away makes nothing slow. Phase errors:
 //! `docs/decisions/012-phase-of-order-2.md`. A formulation with a compliance has no pivots, so its
 //! system is factorised once more per step, without the compliance.
 //!
 //! `passage.rs` follows pivots and gradients along assemblies and kinematic analyses.
 
 mod compliance;
-mod doubt;
 mod energy;
 mod found;
 mod gradients;
-mod lag;
 mod limits;
 mod memory;
-mod pace;
+mod motion;
+mod norm_drift;
 mod passage;
+mod phase_error;
 mod rest;
 mod seen;
 mod singular;
-mod stretched;
 mod verdict;
+mod warning;
 mod within;
 mod worst;
 
-use crate::constraints::row_units::{Meanings, characteristic_length};
+use crate::constraints::row_units::{RowUnits, characteristic_length};
 use crate::constraints::rows::Rows;
-pub use doubt::{Doubt, Doubts};
-pub use found::{Excused, ShortestGradient, SmallestPivot, Violation};
+pub use found::{ShortestGradient, SmallestPivot, Unconverged, Violation};
 pub(crate) use passage::Passage;
 pub(crate) use rest::Beginning;
 pub(crate) use seen::Seen;
+pub use warning::{Warning, Warnings};
 pub(crate) use within::{Asked, Nearness};
 
 use self::compliance::Compliance;
 use self::energy::Balance;
 use self::gradients::Gradients;
-use self::lag::Lag;
 use self::memory::Memory;
-use self::pace::{Motion, Pace};
+use self::motion::{Motion, MotionMeasure};
+use self::norm_drift::NormDrift;
+use self::phase_error::PhaseError;
 use self::rest::Rest;
 use self::singular::Approach;
-use self::stretched::Stretched;
 use self::worst::Worst;
 use crate::constraints::extent::resolution;
 use crate::constraints::side::wrong;
@@ -97,10 +97,10 @@ const EVERY: usize = 16;
 /// How many steps at the start of a run are all looked at.
 const EACH: usize = 4;
 
-/// What the watch over a run saw: violations by joint, pivots, energy.
-pub struct Watch<S: Scalar, M: Mechanism> {
-    rows: Meanings<S, M>,
-    pace: Pace<S, M>,
+/// What the monitor of a run saw: violations by joint, pivots, energy.
+pub struct Monitor<S: Scalar, M: Mechanism> {
+    rows: RowUnits<S, M>,
+    measure: MotionMeasure<S, M>,
     /// The length of the mechanism (m) at the start.
     length: S,
     start: S,
@@ -128,15 +128,15 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     time: S,
     taken: S,
     /// The largest `| |p| - 1 |` of a step, and the sums of all.
-    stretch: S,
-    stretched: Stretched<S>,
+    largest_drift: S,
+    norm_drift: NormDrift<S>,
     /// The rate (1/s) at which the formulation takes violations away; zero where they stay.
     decay: S,
     /// How the errors of the method grow.
     model: ErrorModel,
     /// The sum of the errors that the control estimated, relative to the state.
     estimated: S,
-    lag: Lag<S, M>,
+    phase_error: PhaseError<S, M>,
     memory: Memory<S, M>,
     /// The longest step (s).
     longest: S,
@@ -149,8 +149,8 @@ pub struct Watch<S: Scalar, M: Mechanism> {
     changed: S,
     /// What the digits of the positions resolve at the start (m).
     resolution: S,
-    /// Steps, and what was excused in them.
-    excused: Excused<S>,
+    /// Steps, and what was unconverged in them.
+    unconverged: Unconverged<S>,
     /// The tolerance of a method that controls its steps: relative, absolute.
     tolerance: Option<(S, S)>,
     steps: usize,
@@ -187,7 +187,7 @@ fn exceeds<S: Real>(value: S, bound: S) -> bool {
     !within
 }
 
-/// A step, as the watch sees it.
+/// A step, as the monitor sees it.
 pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     pub(crate) constants: &'a M::Constants<S>,
     pub(crate) time: S,
@@ -198,21 +198,21 @@ pub(crate) struct Step<'a, S: Scalar, M: Mechanism> {
     /// The relative pivot at this state; `None` where it was not looked at.
     pub(crate) pivot: Option<S>,
     /// The largest `| |p| - 1 |` of a body at the end of the step.
-    pub(crate) stretch: S,
+    pub(crate) drift: S,
     /// Whether it was mended, so that every step adds another.
     pub(crate) is_mended: bool,
     /// The error of the step as its control estimated it, relative to the state.
     pub(crate) estimate: Option<S>,
 }
 
-impl<S: Real, M: Mechanism> Watch<S, M> {
+impl<S: Real, M: Mechanism> Monitor<S, M> {
     pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
         let kinetic = M::kinetic_energy(constants, state);
         let length = characteristic_length::<S, M>(constants, state);
         let rows = &Rows::at(constants, time, state);
         Self {
-            rows: Meanings::of(rows),
-            pace: Pace::at(rows, state, length),
+            rows: RowUnits::of(rows),
+            measure: MotionMeasure::at(rows, state, length),
             length,
             start: time,
             position: Worst::none(time),
@@ -230,12 +230,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             looked: S::zero(),
             time,
             taken: time,
-            stretch: S::zero(),
-            stretched: Stretched::none(),
+            largest_drift: S::zero(),
+            norm_drift: NormDrift::none(),
             decay: S::zero(),
             model: ErrorModel::default(),
             estimated: S::zero(),
-            lag: Lag::none(state),
+            phase_error: PhaseError::none(state),
             memory: Memory::whole(time, state, kinetic),
             cubes: [S::zero(); 2],
             longest: S::zero(),
@@ -243,7 +243,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             fastest: S::zero(),
             changed: S::zero(),
             resolution: resolution::<S, M>(state),
-            excused: Excused {
+            unconverged: Unconverged {
                 corrections: 0,
                 evaluations: 0,
                 since: None,
@@ -254,7 +254,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
     }
 
-    /// The watch over a run in coordinates in which those joints alone keep equations.
+    /// The monitor of a run in coordinates in which those joints alone keep equations.
     pub(crate) fn of_joints(mut self, keeps_equations: fn(&str) -> bool) -> Self {
         self.gradients = self.gradients.of_joints(keeps_equations);
         self
@@ -265,7 +265,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self.speeds.map(S::sqrt)
     }
 
-    /// The watch over a run with this method.
+    /// The monitor of a run with this method.
     pub(crate) fn over<I: Method<S>>(mut self, integrator: &I) -> Self {
         let tolerance = integrator.tolerance();
         self.tolerance = tolerance.map(|tolerance| (tolerance.relative, tolerance.absolute));
@@ -273,7 +273,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         self
     }
 
-    /// The watch over a run by a formulation that takes violations away at this rate (1/s).
+    /// The monitor of a run by a formulation that takes violations away at this rate (1/s).
     pub(crate) fn decaying(mut self, rate: Option<S>) -> Self {
         self.decay = rate.unwrap_or(S::zero());
         self
@@ -288,7 +288,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             state,
             power,
             pivot,
-            stretch,
+            drift,
             is_mended,
             estimate,
         } = step;
@@ -314,9 +314,9 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
             let fall = self.gradients.measure(constants, (time, state));
             self.gradients.look(time, fall, self.travel);
         }
-        self.stretch = self.stretch.max(stretch);
+        self.largest_drift = self.largest_drift.max(drift);
         if is_mended {
-            self.stretched.add::<M>(state, stretch);
+            self.norm_drift.add::<M>(state, drift);
         }
         self.steps = self.steps.saturating_add(1);
     }
@@ -357,7 +357,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     fn motion(&mut self, time: S, state: &M::State<S>) {
-        let Motion { rate, speed, spin } = self.pace.motion(state);
+        let Motion { rate, speed, spin } = self.measure.motion(state);
         let [fastest, widest] = self.speeds;
         self.speeds = [fastest.max(speed), widest.max(spin)];
         let turned = rate * (time - self.time);
@@ -372,8 +372,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
         }
         self.rate = rate;
         self.fastest = self.fastest.max(rate);
-        if self.model.velocity_lead > 0.0 {
-            self.changed = self.changed.max(self.pace.change(state));
+        if self.model.stagger > 0.0 {
+            self.changed = self.changed.max(self.measure.change(state));
         }
         self.longest = self.longest.max(time - self.time);
         self.time = time;
@@ -415,8 +415,8 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// By how much time (s) velocities at the end of a step are ahead of coordinates; `None` where
     /// they are not.
     #[inline]
-    pub(crate) fn lead(&self, end: S) -> Option<S> {
-        let lead = self.model.velocity_lead;
+    pub(crate) fn stagger(&self, end: S) -> Option<S> {
+        let lead = self.model.stagger;
         (lead > 0.0).then(|| S::constant(lead) * (end - self.time))
     }
 
@@ -428,12 +428,12 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
 
     /// Whether the next step is to be judged by a rule of higher order.
     pub(crate) fn judges(&self) -> bool {
-        Lag::<S, M>::is_due(self.steps)
+        PhaseError::<S, M>::is_due(self.steps)
     }
 
     /// Takes where the next step has led to, and where a rule of higher order leads.
     pub(crate) fn judge(&mut self, ends: [&M::State<S>; 2]) {
-        self.lag.take(&self.pace, ends);
+        self.phase_error.take(&self.measure, ends);
     }
 
     /// Forces may jump here.
@@ -442,25 +442,25 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     }
 
     /// Counts a correction that was accepted without convergence.
-    pub(crate) fn excuse_correction(&mut self, time: S) {
-        self.excused.corrections = self.excused.corrections.saturating_add(1);
-        self.excused.since.get_or_insert(time);
+    pub(crate) fn accept_unconverged_correction(&mut self, time: S) {
+        self.unconverged.corrections = self.unconverged.corrections.saturating_add(1);
+        self.unconverged.since.get_or_insert(time);
     }
 
     /// Takes how many evaluations of the run were accepted without convergence up to a time.
     #[inline]
-    pub(crate) fn excuse_evaluations(&mut self, evaluations: usize, time: S) {
-        if evaluations > self.excused.evaluations {
-            self.excused.evaluations = evaluations;
-            self.excused.since.get_or_insert(time);
+    pub(crate) fn accept_unconverged_evaluations(&mut self, evaluations: usize, time: S) {
+        if evaluations > self.unconverged.evaluations {
+            self.unconverged.evaluations = evaluations;
+            self.unconverged.since.get_or_insert(time);
         }
     }
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Watch<S, M> {
+impl<S: Scalar, M: Mechanism> Clone for Monitor<S, M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Scalar, M: Mechanism> Copy for Watch<S, M> {}
+impl<S: Scalar, M: Mechanism> Copy for Monitor<S, M> {}

@@ -1,9 +1,9 @@
 //! By how much coordinates lag behind, with a method of low order whose energy does not tell.
 //!
 //! It costs two evaluations in every fourth step of a method of order 2, and nothing with others.
-//! Only it finds the phase error of an oscillation: `tests/tests/sound/lag.rs`.
+//! Only it finds the phase error of an oscillation: `tests/tests/sound/phase_error.rs`.
 
-use super::pace::Pace;
+use super::motion::MotionMeasure;
 use crate::math::quaternion::{conjugate, product};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
@@ -30,32 +30,32 @@ const HARDLY: f64 = 1e-2;
 /// by the squares of the velocities, it is that of the motion proper. Times the velocity it is what
 /// a body is off by. Translations and rotations count by themselves: a fast spin would hide what an
 /// axis does.
-pub(super) struct Lag<S: Scalar, M: Mechanism> {
+pub(super) struct PhaseError<S: Scalar, M: Mechanism> {
     /// Of each translation and each rotation the sums of what was missed along the velocity, and of
     /// the squares of velocities, and what it is off by at the worst.
     sums: M::Velocities<S>,
     /// How far each was from where it began, in how many steps it moved, and the square of its
     /// largest velocity.
-    courses: M::Velocities<S>,
+    tracks: M::Velocities<S>,
     first: M::State<S>,
     /// The sums of what bodies missed at the most, whatever its direction: of coordinates, and of
     /// velocities (1/s).
     missed: [S; 2],
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Lag<S, M> {
+impl<S: Scalar, M: Mechanism> Clone for PhaseError<S, M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Scalar, M: Mechanism> Copy for Lag<S, M> {}
+impl<S: Scalar, M: Mechanism> Copy for PhaseError<S, M> {}
 
-impl<S: Real, M: Mechanism> Lag<S, M> {
+impl<S: Real, M: Mechanism> PhaseError<S, M> {
     pub(super) fn none(start: &M::State<S>) -> Self {
         Self {
             sums: M::Velocities::<S>::zeros(),
-            courses: M::Velocities::<S>::zeros(),
+            tracks: M::Velocities::<S>::zeros(),
             first: *start,
             missed: [S::zero(); 2],
         }
@@ -72,12 +72,12 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
     }
 
     /// Takes where a step has led to, and where a rule of higher order leads.
-    pub(super) fn take(&mut self, pace: &Pace<S, M>, [end, better]: [&M::State<S>; 2]) {
+    pub(super) fn take(&mut self, measure: &MotionMeasure<S, M>, [end, better]: [&M::State<S>; 2]) {
         let first = self.first;
         let velocities = end.velocities().as_slice();
         let mut most = [S::zero(); 2];
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
-            let part = S::one().quotient(pace.length_of(body));
+            let part = S::one().quotient(measure.length_of(body));
             let translation = |from: &M::State<S>, to: &M::State<S>| {
                 let [from, to] = [from.coordinates().as_slice(), to.coordinates().as_slice()];
                 let [from, to]: [[S; 3]; 2] =
@@ -129,7 +129,7 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
     fn add(&mut self, place: usize, motion: &Motion<S>) {
         let here = square(&motion.velocity);
         let [mut along, mut speeds, mut worst]: [S; 3] = read(self.sums.as_slice(), place);
-        let [way, mut moving, fastest]: [S; 3] = read(self.courses.as_slice(), place);
+        let [way, mut moving, fastest]: [S; 3] = read(self.tracks.as_slice(), place);
         if here > S::constant(STARTS) * fastest {
             // What was before is rest.
             (along, speeds, moving) = (S::zero(), S::zero(), S::zero());
@@ -147,8 +147,8 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         }
         let way = square(&motion.way).sqrt().max(way);
         write(self.sums.as_mut_slice(), place, [along, speeds, worst]);
-        let course = [way, moving, fastest];
-        write(self.courses.as_mut_slice(), place, course);
+        let track = [way, moving, fastest];
+        write(self.tracks.as_mut_slice(), place, track);
     }
 
     /// What a body is off by, at the worst (rad), or over what it has moved by where that is less
@@ -181,7 +181,7 @@ impl<S: Real, M: Mechanism> Lag<S, M> {
         for part in parts {
             let place = body.velocity + part;
             let [_, _, off]: [S; 3] = read(self.sums.as_slice(), place);
-            let [way] = read(self.courses.as_slice(), place);
+            let [way] = read(self.tracks.as_slice(), place);
             largest = larger(largest, [way, off]);
         }
         largest

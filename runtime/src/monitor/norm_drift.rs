@@ -14,14 +14,14 @@ use crate::state::vector::{Array, StateParts};
 /// What was lost in the steps in which one body turned fastest, along its angular velocity, and in
 /// the steps before.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretched<S> {
+pub(super) struct NormDrift<S> {
     before: S,
     along: [S; 3],
     /// The place of the velocity of that body.
     body: usize,
 }
 
-impl<S: Real> Stretched<S> {
+impl<S: Real> NormDrift<S> {
     pub(super) fn none() -> Self {
         Self {
             before: S::zero(),
@@ -32,9 +32,9 @@ impl<S: Real> Stretched<S> {
 
     /// Adds what was lost in a step that has led to a state.
     #[inline]
-    pub(super) fn add<M: Mechanism>(&mut self, state: &M::State<S>, stretch: S) {
+    pub(super) fn add<M: Mechanism>(&mut self, state: &M::State<S>, drift: S) {
         let round_off = S::constant(4.0) * S::EPSILON;
-        if stretch <= round_off {
+        if drift <= round_off {
             return;
         }
         let velocities = state.velocities().as_slice();
@@ -57,7 +57,7 @@ impl<S: Real> Stretched<S> {
             };
         }
         if size > S::zero() {
-            let part = (stretch - round_off).quotient(size.sqrt());
+            let part = (drift - round_off).quotient(size.sqrt());
             for (sum, x) in self.along.iter_mut().zip(spin) {
                 *sum = x.fused(part, *sum);
             }

@@ -13,7 +13,7 @@ pub(super) struct Nearest<S> {
     pub(super) time: S,
 }
 
-/// The course of the relative pivot over the steps of a run.
+/// The history of the relative pivot over the steps of a run.
 ///
 /// A pivot goes with the square of the distance from the configuration in which it vanishes, and
 /// steps may pass over that. So three steps in which the middle one is least are looked at twice: a

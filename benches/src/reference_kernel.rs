@@ -1,5 +1,5 @@
-//! The yardstick of all times: the rod pendulum of chapter 15, written by hand as a careful person
-//! would.
+//! The reference kernel of all times: the rod pendulum of chapter 15, written by hand as a careful
+//! person would.
 //!
 //! Positions and Euler parameters of length 1, point rows along global axes, angular velocities
 //! along the rod's own axes. The masses are eliminated first, which leaves
@@ -164,11 +164,11 @@ pub fn evaluate<S: Scalar>(state: &State<S>) -> (State<S>, [S; 5]) {
     (rates, [x1, x2, x3, x4, x5])
 }
 
-/// The yardstick as a system that integrators move.
+/// The reference kernel as a system that integrators move.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Yardstick;
+pub struct ReferenceKernel;
 
-impl<S: Real> System<S> for Yardstick {
+impl<S: Real> System<S> for ReferenceKernel {
     type State = State<S>;
 
     #[inline(always)]
@@ -190,16 +190,16 @@ impl<S: Real> System<S> for Yardstick {
     }
 }
 
-/// The yardstick as a contestant: the bare function, which no interface stands before.
+/// The reference kernel as a candidate: the bare function, which no interface stands before.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Written(Yardstick);
+pub struct Written(ReferenceKernel);
 
 impl<S: Real> Subject<S> for Written {
-    type System = Yardstick;
+    type System = ReferenceKernel;
     type Evaluation = (State<S>, [S; 5]);
 
     #[inline(always)]
-    fn system(&mut self) -> &mut Yardstick {
+    fn system(&mut self) -> &mut ReferenceKernel {
         &mut self.0
     }
 

@@ -1,8 +1,8 @@
-//! What the watch wants to know of the way between two ends of steps.
+//! What the monitor asks for of the way between two ends of steps.
 
 use super::singular::Approach;
 use super::verdict::above;
-use super::{Watch, limits};
+use super::{Monitor, limits};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 
@@ -31,10 +31,10 @@ impl<S: Real> Nearness<S> {
         }
     }
 
-    /// Whether a course through three states shows no sign of something singular in between.
-    pub(crate) fn keep_away(course: [Self; 3]) -> bool {
-        keeps_away(course.map(|nearness| nearness.pivot))
-            && keeps_away(course.map(|nearness| nearness.gradient))
+    /// Whether a way through three states shows no sign of something singular in between.
+    pub(crate) fn keep_away(states: [Self; 3]) -> bool {
+        keeps_away(states.map(|nearness| nearness.pivot))
+            && keeps_away(states.map(|nearness| nearness.gradient))
     }
 }
 
@@ -49,7 +49,7 @@ fn keeps_away<S: Real>(squares: [Option<S>; 3]) -> bool {
     bend < S::constant(0.25) * a.min(b).min(c)
 }
 
-impl<S: Real, M: Mechanism> Watch<S, M> {
+impl<S: Real, M: Mechanism> Monitor<S, M> {
     /// The end of the last step.
     pub(crate) fn time(&self) -> S {
         self.time
@@ -99,7 +99,7 @@ impl<S: Real, M: Mechanism> Watch<S, M> {
     /// How fast the mechanism moves at the most (rad/s): at the end of the last step, or in a
     /// state.
     pub(crate) fn faster(&self, state: &M::State<S>) -> S {
-        self.rate.max(self.pace.of(state))
+        self.rate.max(self.measure.of(state))
     }
 
     /// How near a state is, by its pivot, if there is one.

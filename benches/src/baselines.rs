@@ -12,7 +12,7 @@ use holonom_assembler::schur::SchurEvaluator;
 use holonom_assembler::smatrix;
 use holonom_study::chapter15::run::{Kind, Rival};
 use holonom_study::chapter15::{Method, Settings};
-use holonom_study::run::contestant;
+use holonom_study::run::candidate;
 
 /// `x = (r, p, v, w)` of one body: position (m, global), Euler parameters, velocity (m/s, global),
 /// angular velocity (rad/s, body axes).
@@ -170,18 +170,18 @@ impl System<f64> for StaticElimination {
     }
 }
 
-/// All opponents in all formulations of chapter 15, ready for the race.
+/// All baselines in all formulations of chapter 15, ready for the race.
 #[must_use]
 pub fn rivals(settings: &Settings) -> Vec<Rival<'static>> {
     let (span, integrator) = (settings.span(), settings.integrator());
     let mut rivals = Vec::new();
     for method in Method::ALL {
         let system = Textbook::of(method, settings);
-        let contestant = contestant("assembler, whole matrix", system, integrator, span, START);
+        let candidate = candidate("assembler, whole matrix", system, integrator, span, START);
         rivals.push(Rival {
             method,
             kind: Kind::Assembler,
-            contestant,
+            candidate,
         });
     }
     let (alpha, beta) = settings.baumgarte;
@@ -190,7 +190,7 @@ pub fn rivals(settings: &Settings) -> Vec<Rival<'static>> {
         (Method::Baumgarte, alpha, beta),
     ] {
         let system = Schur::new(a, b);
-        let contestant = contestant(
+        let candidate = candidate(
             "assembler, Schur complement",
             system,
             integrator,
@@ -200,20 +200,20 @@ pub fn rivals(settings: &Settings) -> Vec<Rival<'static>> {
         rivals.push(Rival {
             method,
             kind: Kind::Assembler,
-            contestant,
+            candidate,
         });
     }
     let (method, kind) = (Method::Standard, Kind::StaticMatrices);
     rivals.extend(
         [
-            contestant(
+            candidate(
                 "static matrices, Schur complement",
                 StaticSchur::default(),
                 integrator,
                 span,
                 START,
             ),
-            contestant(
+            candidate(
                 "static matrices, whole matrix",
                 StaticElimination::default(),
                 integrator,
@@ -221,10 +221,10 @@ pub fn rivals(settings: &Settings) -> Vec<Rival<'static>> {
                 START,
             ),
         ]
-        .map(|contestant| Rival {
+        .map(|candidate| Rival {
             method,
             kind,
-            contestant,
+            candidate,
         }),
     );
     rivals
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn all_opponents_agree() {
+    fn all_baselines_agree() {
         let x = state(-0.7, -3.0);
         let expected = Textbook::new(Formulation::Standard).rates(0.0, &x).unwrap();
         // The closed form: I phi'' = -m g d cos(theta), theta from the horizontal.

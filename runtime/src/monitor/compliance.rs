@@ -4,7 +4,7 @@
 //! other formulations. Only it finds a penalty that is too small for the masses, whose energy is
 //! right.
 
-use crate::constraints::row_units::Meanings;
+use crate::constraints::row_units::RowUnits;
 use crate::math::scalar::Real;
 use crate::math::vec3::{read, square};
 use crate::mechanism::kernels::Mechanism;
@@ -31,15 +31,15 @@ impl<S: Real> Compliance<S> {
     /// and multipliers of the rows.
     pub(super) fn take<M: Mechanism>(
         &mut self,
-        (meanings, extent): (&Meanings<S, M>, S),
+        (units, extent): (&RowUnits<S, M>, S),
         (compliances, multipliers): (&M::Multipliers<S>, &M::Multipliers<S>),
         accelerations: &M::Velocities<S>,
     ) {
         let rows = multipliers.as_slice().iter().zip(compliances.as_slice());
-        let rows = rows.zip(meanings.factors()).enumerate();
+        let rows = rows.zip(units.factors()).enumerate();
         for (row, ((&multiplier, &compliance), &factor)) in rows {
             let left = (compliance * multiplier * factor).abs();
-            let length = if meanings.is_length(row) {
+            let length = if units.is_length(row) {
                 S::one()
             } else {
                 extent

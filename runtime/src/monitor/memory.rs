@@ -7,9 +7,9 @@
 //! says where it is. A circle of translations counts as a vibration.
 //!
 //! It costs the power of the forces, twice, with every look at the energies. Without it right runs
-//! of damped vibrations are doubted after some hundred radians: `tests/tests/alarms.rs`.
+//! of damped vibrations have warnings after some hundred radians: `tests/tests/alarms.rs`.
 
-use super::pace::Pace;
+use super::motion::MotionMeasure;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{minus, read, square, write};
 use crate::mechanism::kernels::Mechanism;
@@ -127,7 +127,7 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
 
     /// Whether a body goes on in one direction, so that nothing brings it back to where it would
     /// be.
-    fn goes_on(&self, pace: &Pace<S, M>) -> bool {
+    fn goes_on(&self, measure: &MotionMeasure<S, M>) -> bool {
         if M::REPORT.time.constraints {
             return false;
         }
@@ -145,7 +145,7 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
             } else {
                 [S::zero(); 2]
             };
-            [way(place, pace.length_of(index)), rotation]
+            [way(place, measure.length_of(index)), rotation]
         };
         let all = || (0..M::REPORT.bodies.len()).flat_map(ways);
         let longest = all().fold(S::zero(), |longest, [path, _]| longest.max(path));
@@ -156,7 +156,7 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
 
     /// The part of the radians of motion by lengths of bodies that vibrations of more than a length
     /// leave of them: a vibration of many lengths has the radians of one of one length.
-    pub(super) fn part_of_vibrations(&self, pace: &Pace<S, M>) -> S {
+    pub(super) fn part_of_vibrations(&self, measure: &MotionMeasure<S, M>) -> S {
         let [mut by_lengths, mut by_ways] = [S::zero(); 2];
         let mut take = |place: usize, length: S| {
             let [path] = read(self.lengths.as_slice(), place);
@@ -170,13 +170,13 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
             by_ways = by_ways.max(path.quotient(length.max(amplitude)));
         };
         for (index, body) in M::REPORT.bodies.iter().enumerate() {
-            take(body.velocity, pace.length_of(index));
+            take(body.velocity, measure.length_of(index));
             if body.kind == BodyKind::Rigid {
                 take(body.velocity + 3, S::one());
             }
         }
         let part = by_ways.quotient(by_lengths);
-        if part < S::one() && !self.goes_on(pace) {
+        if part < S::one() && !self.goes_on(measure) {
             part
         } else {
             S::one()
@@ -187,11 +187,11 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
     /// would have fallen, with the mean energy that is in it. At least one.
     ///
     /// That of a vibration is twice its kinetic energy.
-    pub(super) fn lives(&self, pace: &Pace<S, M>) -> S {
+    pub(super) fn lives(&self, measure: &MotionMeasure<S, M>) -> S {
         let mean = self.action.quotient(self.time - self.start);
         let energy = S::constant(2.0) * (mean - self.least);
         let lives = (S::constant(0.5) * self.taken).quotient(energy);
-        if lives > S::one() && lives.is_finite() && energy > S::zero() && !self.goes_on(pace) {
+        if lives > S::one() && lives.is_finite() && energy > S::zero() && !self.goes_on(measure) {
             lives
         } else {
             S::one()

@@ -147,7 +147,7 @@ impl<S: Real> Balance<S> {
 
     /// How much of the work is not known, whatever its sign: large where forces change faster than
     /// steps follow.
-    pub(super) fn doubt_of_work(&self) -> S {
+    pub(super) fn warning_of_work(&self) -> S {
         if self.unsure > S::zero() {
             self.unsure.quotient(self.turnover)
         } else {

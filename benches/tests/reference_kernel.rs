@@ -1,8 +1,8 @@
 //! The pendulum written by hand against the generated one, and its operations.
 
 use holonom::{Mechanism, Scalar as _, StandardLagrange, StateParts as _, dynamics::Dynamics};
-use holonom_benches::opponents::START;
-use holonom_benches::yardstick::{State, evaluate};
+use holonom_benches::baselines::START;
+use holonom_benches::reference_kernel::{State, evaluate};
 use holonom_models::RodPendulum;
 use holonom_study::counted::{Counted, counted};
 

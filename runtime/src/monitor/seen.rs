@@ -2,7 +2,7 @@
 
 use crate::math::scalar::Real;
 
-/// Kept by [`Dynamics`](crate::dynamics::Dynamics) at every evaluation, for the watch to read at
+/// Kept by [`Dynamics`](crate::dynamics::Dynamics) at every evaluation, for the monitor to read at
 /// the end of a step.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen<S> {
@@ -10,14 +10,14 @@ pub(crate) struct Seen<S> {
     /// more than to look again at the end of a run.
     pub(crate) pivot: S,
     /// The largest `| |p| - 1 |` of a body at the end of the last step, before it was mended.
-    pub(crate) stretch: S,
+    pub(crate) drift: S,
 }
 
 impl<S: Real> Seen<S> {
     pub(crate) fn nothing() -> Self {
         Self {
             pivot: S::one(),
-            stretch: S::zero(),
+            drift: S::zero(),
         }
     }
 }
