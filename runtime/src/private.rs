@@ -6,9 +6,9 @@ pub use crate::dynamics::likes::{Like, check_likes};
 pub use crate::error::ParameterFault;
 pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
-    Driven, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle, HasDisplacement, Joint,
-    JointCounter, JointInfo, JointMotion, JointReport, Kernel, Operations, Orientation, Pivot,
-    Rank, RedundantRow, Relative, Stabilisation, Terms,
+    Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
+    HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointReport, Kernel, Marker,
+    MarkerKind, Operations, Orientation, Pivot, Rank, RedundantRow, Relative, Stabilisation, Terms,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -321,6 +321,7 @@ macro_rules! __stub_mechanism {
                     bodies: &[],
                     joints: &[],
                     forces: &[],
+                    markers: &[],
                     carriers: &[],
                     blocks: &[],
                     coordinates: 0,

@@ -15,6 +15,7 @@ use crate::mechanism::handle::{
 use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
+use crate::mechanism::report::MarkerKind;
 use crate::state::vector::Array;
 
 /// A state at a time, with everything that can be read from it by handle.
@@ -126,6 +127,53 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     #[must_use]
     pub fn point_velocity(&self, body: BodyHandle<M>, point: Vector3<S>) -> Vector3<S> {
         M::point_velocity(self.state, body, point)
+    }
+
+    /// A point (m, global) or direction (global) that a joint or force names, by its place in
+    /// [`Report::markers`](crate::Report::markers). Zeros for a marker that is not there.
+    #[must_use]
+    pub fn marker(&self, place: usize) -> Vector3<S> {
+        let components = M::marker(self.constants, place);
+        let marker = M::REPORT.markers.get(place);
+        let Some((marker, body)) = marker.and_then(|marker| Some((marker, marker.body?))) else {
+            return Vector3::from(components);
+        };
+        let (state, body) = (self.state_of_kernels(), BodyHandle::<M>::new(body));
+        let [x, y, z] = crate::measure::reaction::in_global_axes::<S, M>(&state, body, components);
+        let turned = Vector3::new(x, y, z);
+        match marker.kind {
+            MarkerKind::Point => {
+                let [x0, y0, z0] = self.pose(body).position.into();
+                Vector3::new(x0 + x, y0 + y, z0 + z)
+            }
+            MarkerKind::Axis | MarkerKind::Vector => turned,
+        }
+    }
+
+    /// Gravity (m/s^2, global): the force on the first body less that of every force field on it,
+    /// over its mass. Zero without a body.
+    #[must_use]
+    pub fn gravity(&self) -> Vector3<S> {
+        let state = self.state_of_kernels();
+        let [mut x, mut y, mut z] = [S::zero(); 3];
+        if let [fx, fy, fz, ..] = *M::forces(self.constants, self.time, &state).as_slice() {
+            [x, y, z] = [fx, fy, fz];
+        }
+        for (index, force) in M::REPORT.forces.iter().enumerate() {
+            let places = force.bodies.iter().enumerate();
+            for (place, _) in places.filter(|(_, body)| **body == Some(0)) {
+                let load = M::force_load(self.constants, self.time, &state, index, place);
+                let [fx, fy, fz, ..] = load;
+                [x, y, z] = [x - fx, y - fy, z - fz];
+            }
+        }
+        match M::mass::<S>(self.constants).as_slice() {
+            [mass, ..] => {
+                let part = mass.reciprocal();
+                Vector3::new(part * x, part * y, part * z)
+            }
+            [] => Vector3::new(x, y, z),
+        }
     }
 
     /// The angle of a joint (rad), zero in the configuration that the attributes describe, positive

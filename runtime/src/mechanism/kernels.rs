@@ -248,6 +248,13 @@ pub trait Mechanism: Sized + 'static {
         state: &Self::State<S>,
     ) -> <Self::State<S> as StateParts<S>>::Coordinates;
 
+    /// A point or direction that a joint or force names, by its place in [`Report::markers`]: in
+    /// principal axes of its body, a point from the centre of mass (m); in global axes on the
+    /// ground. Zeros for a marker that is not there.
+    fn marker<S: Scalar>(_constants: &Self::Constants<S>, _marker: usize) -> [S; 3] {
+        [S::zero(); 3]
+    }
+
     /// Sets every auxiliary variable to its exact value for the orientations in the state: an angle
     /// that counts turns becomes the one that is nearest to the value it has. Without effect where
     /// there are none.

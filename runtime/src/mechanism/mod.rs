@@ -28,6 +28,6 @@ pub use kernels::{
 };
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{
-    Block, BodyInfo, BodyKind, Carrier, ExplicitTime, ForceInfo, JointInfo, Kernel, Operations,
-    Rank, RedundantRow,
+    Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
+    Marker, MarkerKind, Operations, Rank, RedundantRow,
 };

@@ -11,6 +11,9 @@ pub struct Report {
     pub joints: &'static [JointInfo],
     /// The forces in the order of the fields.
     pub forces: &'static [ForceInfo],
+    /// The points and directions that joints and forces name, fixed on their bodies: see
+    /// [`crate::Mechanism::marker`].
+    pub markers: &'static [Marker],
     /// What carries each body in the spanning tree.
     pub carriers: &'static [Carrier],
     /// The blocks of the Jacobian, in the order of [`crate::Mechanism::jacobian`].
@@ -228,6 +231,42 @@ pub struct ForceInfo {
     /// How many it has: the angles that its definition counts turns of, in the order in which they
     /// stand there.
     pub auxiliaries: usize,
+}
+
+/// A point or direction that a joint or force names, on one of its bodies; Adams has the word. Two
+/// bodies on a hinge have a marker each for its point and for its axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Marker {
+    /// The joint or force.
+    pub of: ElementPlace,
+    /// The place of the body in `between`.
+    pub place: usize,
+    /// The body; `None` for the ground.
+    pub body: Option<usize>,
+    /// The name in the definition, such as `"point"`.
+    pub name: &'static str,
+    /// Point or direction.
+    pub kind: MarkerKind,
+}
+
+/// A joint or a force by its place in a [`Report`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementPlace {
+    /// A place in [`Report::joints`].
+    Joint(usize),
+    /// A place in [`Report::forces`].
+    Force(usize),
+}
+
+/// What a [`Marker`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MarkerKind {
+    /// A point (m).
+    Point,
+    /// A direction of length 1.
+    Axis,
+    /// A vector of any length.
+    Vector,
 }
 
 /// A block of the Jacobian `D`: the rows of one joint against the velocities of one body.

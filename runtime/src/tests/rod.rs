@@ -98,6 +98,7 @@ impl Mechanism for Rod {
             undetermined: &[],
         }],
         forces: &[],
+        markers: &[],
         carriers: &[Carrier {
             body: None,
             joint: Some(0),

@@ -8,6 +8,7 @@ mod flat;
 mod forces;
 mod inputs;
 mod kinematics;
+mod markers;
 mod observer;
 mod properties;
 mod rates;

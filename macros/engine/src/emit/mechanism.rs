@@ -196,6 +196,7 @@ impl Writer<'_> {
     fn readouts(&mut self) -> TokenStream {
         let mut tokens = self.angles();
         tokens.extend(self.points());
+        tokens.extend(self.markers());
         tokens.extend(self.displacements());
         tokens.extend(self.sides());
         tokens.extend(self.rewrap());

@@ -152,6 +152,34 @@ impl Writer<'_> {
         }
     }
 
+    /// Only where joints or forces name points or directions.
+    pub(super) fn markers(&mut self) -> TokenStream {
+        if self.kernels.readouts.markers.is_empty() {
+            return TokenStream::new();
+        }
+        let facade = self.facade;
+        let (constants, marker) = (local("constants"), local("marker"));
+        let mut arms = TokenStream::new();
+        for (at, marker) in self.kernels.readouts.markers.iter().enumerate() {
+            let StraightLine {
+                statements,
+                outputs,
+            } = self.line(&marker.components);
+            arms.extend(quote!(#at => { #statements [#(#outputs),*] }));
+        }
+        quote! {
+            fn marker<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #marker: usize,
+            ) -> [__S; 3] {
+                match #marker {
+                    #arms
+                    _ => [__S::zero(); 3],
+                }
+            }
+        }
+    }
+
     /// Only where there are auxiliary variables; the trait does nothing by default.
     pub(super) fn rewrap(&mut self) -> TokenStream {
         if self.kernels.counters.outputs.is_empty() {

@@ -6,9 +6,10 @@ use quote::quote;
 use super::joint::kind;
 use crate::coordinates::spanning::Spanning;
 use crate::model::mechanism::Layout;
-use crate::model::{Element, Model, Rank};
+use crate::model::{Element, Model, ParameterKind, Rank};
 use crate::plan::Plan;
 use crate::plan::kernels::Kernels;
+use crate::plan::readouts::Marker;
 use crate::plan::system::Terms;
 use crate::plan::time::ExplicitTime;
 use crate::symbolic::arena::{Input, Node, Stage};
@@ -218,6 +219,8 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             }
         }
     });
+    let markers = kernels.readouts.markers.iter();
+    let markers = markers.map(|found| marker(model, found, facade));
     let mut carriers = vec![TokenStream::new(); model.bodies.len()];
     for carried in Spanning::new(model).carried {
         let [body, joint] = [carried.by, carried.joint].map(option);
@@ -265,6 +268,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             bodies: &[#(#bodies),*],
             joints: &[#(#joints),*],
             forces: &[#(#forces),*],
+            markers: &[#(#markers),*],
             carriers: &[#(#carriers),*],
             blocks: &[#(#blocks),*],
             coordinates: #coordinates,
@@ -278,6 +282,37 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             curved: #curved,
             kernels: &[#(#counts),*],
             plan: #plan,
+        }
+    }
+}
+
+fn marker(model: &Model, marker: &Marker, facade: &TokenStream) -> TokenStream {
+    let Marker {
+        element,
+        place,
+        parameter,
+        ..
+    } = *marker;
+    let count = model.joints.len();
+    let (element, of) = match model.joints.get(element) {
+        Some(joint) => (joint, quote!(Joint(#element))),
+        None => {
+            let force = element - count;
+            (&model.forces[force], quote!(Force(#force)))
+        }
+    };
+    let parameter = &model.definition(element).parameters[parameter];
+    let name = parameter.name.to_string();
+    let kind = match parameter.kind {
+        ParameterKind::Point => quote!(Point),
+        ParameterKind::Axis => quote!(Axis),
+        _ => quote!(Vector),
+    };
+    let body = option(element.bodies[place]);
+    quote! {
+        #facade::__private::Marker {
+            of: #facade::__private::ElementPlace::#of, place: #place, body: #body, name: #name,
+            kind: #facade::__private::MarkerKind::#kind,
         }
     }
 }

@@ -20,11 +20,26 @@ pub struct Readouts {
     pub sides: Vec<(usize, Kernel)>,
     /// The reaction point of each joint on each of its bodies.
     pub points: Vec<(usize, usize, Kernel)>,
+    /// The points and directions that joints and forces name, on each of their bodies.
+    pub markers: Vec<Marker>,
     /// The potential energy of each force, and the power of what it does besides.
     pub energies: Vec<Kernel>,
     /// The force (global axes) and the moment about the centre of mass (principal axes) of each
     /// force on each of its bodies.
     pub loads: Vec<(usize, usize, Kernel)>,
+}
+
+/// A point or direction that an element names, fixed on one of its bodies.
+#[derive(Clone, Debug)]
+pub struct Marker {
+    /// The place of the joint, or behind the joints that of the force.
+    pub element: usize,
+    /// The place of the body in `between`.
+    pub place: usize,
+    /// The place of the parameter in the definition.
+    pub parameter: usize,
+    /// Its components in principal axes, a point from the centre of mass; global on the ground.
+    pub components: Kernel,
 }
 
 impl Readouts {
@@ -36,6 +51,7 @@ impl Readouts {
             displacements: displacements(scene, model),
             sides: sides(scene, model),
             points: points(scene, model),
+            markers: markers(scene, model),
             energies: (0..model.forces.len())
                 .map(|force| with_scene(scene, |scene| scene.energy_and_power(force).into()))
                 .collect(),
@@ -105,6 +121,23 @@ fn points(scene: &Scene, model: &Model) -> Vec<(usize, usize, Kernel)> {
         }
     }
     points
+}
+
+fn markers(scene: &Scene, model: &Model) -> Vec<Marker> {
+    let mut markers = Vec::new();
+    for (element, parameters) in scene.copies.iter().enumerate() {
+        for (parameter, copies) in parameters.iter().enumerate() {
+            let vectors = copies.iter().flat_map(|copies| &copies.vector);
+            markers.extend(vectors.enumerate().map(|(place, &vector)| Marker {
+                element,
+                place,
+                parameter,
+                components: with_scene(scene, |_| vector.into()),
+            }));
+        }
+    }
+    debug_assert!(scene.copies.len() == model.joints.len() + model.forces.len());
+    markers
 }
 
 fn displacements(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
