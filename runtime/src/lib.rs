@@ -107,7 +107,6 @@ pub mod joints;
 ///         let on_bob = sample.reaction(handles.ball, handles.bob).expect("no singular position");
 ///         let (time, angle) = (sample.time(), sample.angle(handles.hinge));
 ///         println!("{time:.3} s: hinge {angle:.3} rad, ball {:.3} N", on_bob.force.norm());
-///         ControlFlow::Continue(())
 ///     })?;
 /// assert!(report.worst_violation < 1e-24);
 /// assert_eq!(Swing::REPORT.degrees_of_freedom, 4);

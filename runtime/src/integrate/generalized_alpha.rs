@@ -85,7 +85,6 @@ use crate::state::vector::Vector;
 /// let pendulum = Pendulum::default();
 /// Simulation::new(&pendulum, StandardLagrange, method).run(0.0..=2.0, every(0.1), |sample| {
 ///     assert!(sample.violation() < 1e-12);
-///     ControlFlow::Continue(())
 /// })?;
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```

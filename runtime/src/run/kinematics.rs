@@ -16,7 +16,7 @@ use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Warnings;
-use crate::run::output::{Reporting, Schedule, check_interval};
+use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval};
 use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts};
 
@@ -168,9 +168,9 @@ where
     A: AppliedForces<S, M>,
 {
     /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at
-    /// the reporting times and at the end; `ControlFlow::Break(())` stops it, so an observer that
-    /// never does so ends with `ControlFlow::Continue(())`. [`every_step`](crate::every_step)
-    /// reports at start and end.
+    /// the reporting times and at the end. An observer that returns `ControlFlow::Break(())` stops
+    /// it; one that returns nothing never does. [`every_step`](crate::every_step) reports at start
+    /// and end.
     ///
     /// # Errors
     /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a
@@ -178,15 +178,17 @@ where
     /// motion free all the same, [`Fault::NotConverged`] where no pose is found, and what an
     /// evaluation or a run may refuse. The state is of zeros where a parameter was refused and no
     /// initial state had been given.
-    pub fn run<O>(
+    pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
         mut observe: O,
     ) -> KinematicResult<S, M>
     where
-        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
     {
+        let mut observe = |sample: &Sample<'_, S, M>| observe(sample).into_flow();
         let (start, end) = interval.into_inner();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
         let mut last_good = (start, self.initial.unwrap_or_else(zeros));

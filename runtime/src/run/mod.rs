@@ -34,7 +34,7 @@ pub(crate) mod within;
 
 pub use companion::{BodyError, Verification};
 pub use kinematics::KinematicResult;
-pub use output::Reporting;
+pub use output::{IntoFlow, Reporting};
 pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use recorder::RecordError;

@@ -1,4 +1,6 @@
-//! When a run reports.
+//! When a run reports, and what its observer may return.
+
+use core::ops::ControlFlow;
 
 use crate::error::Fault;
 use crate::error::setting::interval;
@@ -20,6 +22,30 @@ pub enum Reporting<S> {
         /// How many steps.
         steps: usize,
     },
+}
+
+/// What an observer of a run returns: nothing, or `ControlFlow<()>`, whose `Break(())` stops the
+/// run.
+#[diagnostic::on_unimplemented(
+    message = "an observer does not return `{Self}`",
+    label = "nothing, or `ControlFlow<()>`",
+    note = "end the closure with `;`, or with `ControlFlow::Continue(())` and `ControlFlow::Break(())`"
+)]
+pub trait IntoFlow {
+    /// Whether the run goes on.
+    fn into_flow(self) -> ControlFlow<()>;
+}
+
+impl IntoFlow for () {
+    fn into_flow(self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+impl IntoFlow for ControlFlow<()> {
+    fn into_flow(self) -> Self {
+        self
+    }
 }
 
 impl<S> Reporting<S> {

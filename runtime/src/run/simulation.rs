@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
-use core::ops::{ControlFlow, RangeInclusive};
+use core::ops::RangeInclusive;
 
 use crate::assembly::assembled;
 use crate::assembly::consistent_start::check_start;
@@ -19,7 +19,7 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
 use crate::run::companion::Companion;
-use crate::run::output::{Reporting, Schedule, check_interval};
+use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval};
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
 use crate::run::sample::Sample;
@@ -199,7 +199,6 @@ where
     ///     .run(0.0..=10.0, every(0.1), |sample| {
     ///         let error = sample.error_of(|view| view.angle(Rod::HANDLES.hinge));
     ///         assert!(error.expect("it is verified") < 1e-4);
-    ///         ControlFlow::Continue(())
     ///     })?;
     /// let worst = report.verification.and_then(|found| found.worst()).expect("one body");
     /// println!("{} is off by {:e} rad", worst.body, worst.rotation);
@@ -294,8 +293,8 @@ where
     C: Coordinates<M>,
 {
     /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the
-    /// reporting times and at the end; `ControlFlow::Break(())` stops the run, so an observer that
-    /// never does so ends with `ControlFlow::Continue(())`.
+    /// reporting times and at the end. An observer that returns `ControlFlow::Break(())` stops the
+    /// run; one that returns nothing never does.
     ///
     /// An interval of length zero reports once and evaluates nothing.
     ///
@@ -304,7 +303,7 @@ where
     /// setting that is not acceptable, a singular configuration, no convergence, a step too small,
     /// numbers out of range. The state is of zeros where a parameter was refused and no initial
     /// state had been given.
-    pub fn run<O>(
+    pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
@@ -312,8 +311,10 @@ where
     ) -> RunResult<S, M>
     where
         I: Runs<S, M, F, C, A>,
-        O: FnMut(&Sample<'_, S, M>) -> ControlFlow<()>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
     {
+        let mut observe = |sample: &Sample<'_, S, M>| observe(sample).into_flow();
         let (start, end) = interval.into_inner();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
         let mut last_good = (start, self.initial.unwrap_or_else(zeros));
@@ -398,7 +399,7 @@ where
 ///     I: Runs<f64, M, StandardLagrange>,
 /// {
 ///     let simulation = Simulation::new(mechanism, StandardLagrange, method);
-///     let run = simulation.run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()));
+///     let run = simulation.run(0.0..=1.0, every(0.1), |_| ());
 ///     run.map_or(0, |report| report.evaluations)
 /// }
 /// ```

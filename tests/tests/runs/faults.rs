@@ -64,7 +64,9 @@ fn a_state_that_is_not_finite_is_refused() {
             let state = broken(&rod, place, value);
             let error = Simulation::new(&rod, StandardLagrange, DormandPrince::default())
                 .initial_state(state)
-                .run(2.0..=3.0, every(0.1), |_| panic!("it must not begin"))
+                .run(2.0..=3.0, every(0.1), |_| -> () {
+                    panic!("it must not begin")
+                })
                 .expect_err("not finite");
             assert_eq!((error.time, error.fault), (2.0, Fault::StateNotFinite));
             assert_eq!(
@@ -100,7 +102,9 @@ fn an_orientation_without_length_names_its_body() {
         let error = Simulation::new(&rod, Penalty::default(), DormandPrince::default())
             .orientation::<Raw>()
             .initial_state(state)
-            .run(2.0..=3.0, every(0.1), |_| panic!("it must not begin"))
+            .run(2.0..=3.0, every(0.1), |_| -> () {
+                panic!("it must not begin")
+            })
             .expect_err("no orientation");
         assert_eq!(
             error.to_string(),
@@ -383,7 +387,9 @@ fn what_cannot_be_assembled_is_left_as_it_was() {
     assert_eq!(state, before);
     let error = Simulation::new(&parted, Penalty::default(), Rk4::every(0.1))
         .assembled()
-        .run(0.0..=1.0, every(0.1), |_| panic!("it must not begin"))
+        .run(0.0..=1.0, every(0.1), |_| -> () {
+            panic!("it must not begin")
+        })
         .expect_err("impossible");
     assert!(matches!(error.fault, Fault::NotConverged { .. }), "{error}");
     assert_eq!((error.time, error.state), (0.0, before));

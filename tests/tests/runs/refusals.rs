@@ -23,7 +23,9 @@ fn names(fault: &Fault, expected: &str, bad: f64) {
 fn refused<F: Formulation<f64>>(method: F) -> Fault {
     let rod = RodPendulum::default();
     let error = Simulation::new(&rod, method, Rk4::every(0.1))
-        .run(0.0..=1.0, every_step(), |_| panic!("it must not begin"))
+        .run(0.0..=1.0, every_step(), |_| -> () {
+            panic!("it must not begin")
+        })
         .expect_err("a bad coefficient");
     assert_eq!(error.time, 0.0);
     let by_stepper = Stepper::new(&rod, method, Rk4).expect_err("refused");
