@@ -156,6 +156,24 @@ pub enum Warning {
     },
 }
 
+impl Warning {
+    /// When (s) the run met what it warns of; `None` of what is true of the whole run.
+    #[must_use]
+    pub const fn time(&self) -> Option<f64> {
+        match *self {
+            Self::WrongSide { time, .. }
+            | Self::Open { time, .. }
+            | Self::Slipping { time, .. }
+            | Self::NearlySingular { time, .. }
+            | Self::Vanishing { time, .. }
+            | Self::BranchPoint { time, .. }
+            | Self::Energy { time, .. }
+            | Self::Unconverged { time, .. } => Some(time),
+            _ => None,
+        }
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {

@@ -1,0 +1,93 @@
+//! The data of a page, as the viewer reads it (`viewer/src/data.js`).
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde::{Serialize, Serializer};
+
+/// Everything that a page shows.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Page<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) bodies: &'a [Body],
+    pub(crate) elements: &'a [Element],
+    pub(crate) markers: &'a [Marker],
+    /// Gravity (m/s^2), which points down.
+    pub(crate) gravity: [f64; 3],
+    pub(crate) times: &'a [f64],
+    /// Seven numbers a body and frame: position (m) and Euler parameters, the scalar first.
+    pub(crate) poses: Floats<'a>,
+    /// Six numbers an arrow and frame: point (m) and force (N).
+    pub(crate) loads: Floats<'a>,
+    pub(crate) arrows: &'a [Arrow],
+    pub(crate) show_arrows: bool,
+    pub(crate) traces: &'a [Trace],
+    pub(crate) readings: Vec<Reading<'a>>,
+    pub(crate) warnings: &'a [Remark],
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Body {
+    pub(crate) name: &'static str,
+    pub(crate) particle: bool,
+}
+
+/// A joint or a force.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Element {
+    pub(crate) name: &'static str,
+    pub(crate) kind: &'static str,
+    #[serde(rename = "type")]
+    pub(crate) of: &'static str,
+    pub(crate) bodies: &'static [Option<usize>],
+}
+
+/// A point or direction in the user's axes of its body, a point from the centre of mass.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Marker {
+    pub(crate) element: usize,
+    pub(crate) place: usize,
+    pub(crate) body: Option<usize>,
+    pub(crate) name: &'static str,
+    pub(crate) kind: &'static str,
+    pub(crate) at: [f64; 3],
+}
+
+/// A reaction of a joint on the body at a place of its `between`.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Arrow {
+    pub(crate) joint: usize,
+    pub(crate) place: usize,
+}
+
+/// A point of a body whose way is drawn.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Trace {
+    pub(crate) name: String,
+    pub(crate) body: usize,
+    pub(crate) at: [f64; 3],
+}
+
+#[derive(Serialize)]
+pub(crate) struct Reading<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) unit: &'a str,
+    pub(crate) values: Floats<'a>,
+}
+
+/// A warning of the run, and when.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Remark {
+    pub(crate) text: String,
+    pub(crate) time: Option<f64>,
+}
+
+/// Numbers in single precision, little-endian, in base 64.
+pub(crate) struct Floats<'a>(pub(crate) &'a [f32]);
+
+impl Serialize for Floats<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let bytes: Vec<u8> = self.0.iter().flat_map(|x| x.to_le_bytes()).collect();
+        serializer.serialize_str(&STANDARD.encode(bytes))
+    }
+}

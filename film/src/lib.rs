@@ -1,0 +1,52 @@
+//! Films of mechanisms: a run, recorded into one HTML page that opens from disk, without a network
+//! or a server.
+//!
+//! ```
+//! use holonom::joints::Revolute;
+//! use holonom::prelude::*;
+//! use holonom_film::Film;
+//!
+//! #[derive(Mechanism)]
+//! #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+//! struct Pendulum {
+//!     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+//!     rod: Body,
+//!     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+//!     hinge: Revolute,
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let pendulum = Pendulum::default();
+//! let handles = Pendulum::HANDLES;
+//! let mut film = Film::new();
+//! film.trace(handles.rod, "tip", [0.0, 0.5, 0.0]);
+//! let report = Simulation::new(&pendulum, StandardLagrange, DormandPrince::default()).run(
+//!     0.0..=5.0,
+//!     every(1.0 / 60.0),
+//!     |sample| {
+//!         film.record(sample);
+//!         film.reading("angle", "rad", sample.angle(handles.hinge));
+//!     },
+//! )?;
+//! film.warnings(&report.warnings());
+//! # let folder = std::env::temp_dir();
+//! film.save(folder.join("pendulum.html"))?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A picture needs no geometry: the generator knows the points and axes of every joint
+//! ([`Report::markers`](holonom::Report::markers)). A body is the hull of the points that joints
+//! and forces name on it. A joint looks like its kind, a spring is a coil. So a wrong point is
+//! seen.
+//!
+//! The page plays, loops and seeks, and is turned by mouse or touch. It draws reactions as arrows,
+//! traces, the readings over time and the warnings of the run. Keys: space, arrows, `F` fit, `I`
+//! `X` `Y` `Z` views, `O` orthographic, `R` reactions, `T` traces, `H` parts, `D` dark.
+//!
+//! The drawing is done by three.js, of which the page holds what it needs: below 700 kB.
+
+mod data;
+mod record;
+
+pub use record::{Film, FilmError};

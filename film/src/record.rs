@@ -1,0 +1,339 @@
+//! What is recorded of a run.
+
+use std::marker::PhantomData;
+use std::path::Path;
+use std::{error, fmt, fs, io};
+
+use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind};
+use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, Warnings};
+
+use crate::data::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Trace};
+
+/// The page with empty places for the title's data.
+const PAGE: &str = include_str!("page.html");
+/// Where the data goes.
+const PLACE: &str = "/*FILM*/";
+
+/// A film of a mechanism: see the crate's page.
+#[derive(Clone, Debug)]
+pub struct Film<M> {
+    title: String,
+    markers: Vec<Marker>,
+    gravity: [f64; 3],
+    arrows: Vec<Arrow>,
+    shows_arrows: bool,
+    times: Vec<f64>,
+    poses: Vec<f32>,
+    loads: Vec<f32>,
+    traces: Vec<Trace>,
+    readings: Vec<Values>,
+    warnings: Vec<Remark>,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+#[derive(Clone, Debug)]
+struct Values {
+    name: String,
+    unit: String,
+    values: Vec<f32>,
+}
+
+impl<M: Mechanism> Default for Film<M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<M: Mechanism> Film<M> {
+    /// A film without frames. Its title is the name of the mechanism's struct.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            title: M::REPORT.name.into(),
+            markers: Vec::new(),
+            gravity: [0.0; 3],
+            arrows: Vec::new(),
+            shows_arrows: false,
+            times: Vec::new(),
+            poses: Vec::new(),
+            loads: Vec::new(),
+            traces: Vec::new(),
+            readings: Vec::new(),
+            warnings: Vec::new(),
+            mechanism: PhantomData,
+        }
+    }
+
+    /// Sets the title.
+    #[must_use]
+    pub fn titled(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Records the reactions of joints too, which are then drawn as arrows: one evaluation more a
+    /// frame. An arrow is the force of a joint on the second of its bodies, or on the first where
+    /// the second is the ground.
+    #[must_use]
+    pub fn with_reactions(mut self) -> Self {
+        self.shows_arrows = true;
+        self
+    }
+
+    /// Draws the way of a point of a body, given from the centre of mass along the user's body axes
+    /// (m).
+    pub fn trace(&mut self, body: BodyHandle<M>, name: impl Into<String>, point: [f64; 3]) {
+        self.traces.push(Trace {
+            name: name.into(),
+            body: body.index(),
+            at: point,
+        });
+    }
+
+    /// Records a frame: an observer may be this alone, `|sample| film.record(sample)`.
+    pub fn record<S: Real>(&mut self, sample: &Sample<'_, S, M>) {
+        if self.times.is_empty() {
+            self.begin(sample);
+        }
+        self.times.push(sample.time().to_f64());
+        for body in 0..M::REPORT.bodies.len() {
+            let (position, orientation) = placement(sample, body);
+            let [x, y, z] = position.into();
+            let [i, j, k, w] = orientation.coords.into();
+            let pose = [x, y, z, w, i, j, k].map(|number| number as f32);
+            self.poses.extend(pose);
+        }
+        for arrow in &self.arrows {
+            let joint = JointHandle::<M, ()>::new(arrow.joint);
+            let wrench = sample.reaction_on_place(joint, arrow.place);
+            let load = wrench.map_or([f32::NAN; 6], |wrench| {
+                let [x, y, z] = wrench.point.map(Real::to_f64).into();
+                let [fx, fy, fz] = wrench.force.map(Real::to_f64).into();
+                [x, y, z, fx, fy, fz].map(|number: f64| number as f32)
+            });
+            self.loads.extend(load);
+        }
+    }
+
+    /// Records a reading at the last frame; lines of one unit share a chart. Call it in the
+    /// observer after [`Film::record`]. Frames without it are left out of the line.
+    pub fn reading<S: Real>(&mut self, name: &str, unit: &str, value: S) {
+        let Some(frame) = self.times.len().checked_sub(1) else {
+            return;
+        };
+        let known = |values: &Values| values.name == name && values.unit == unit;
+        let place = self.readings.iter().position(known).unwrap_or_else(|| {
+            self.readings.push(Values {
+                name: name.into(),
+                unit: unit.into(),
+                values: Vec::new(),
+            });
+            self.readings.len() - 1
+        });
+        let values = &mut self.readings[place].values;
+        values.resize(frame, f32::NAN);
+        values.push(value.to_f64() as f32);
+    }
+
+    /// Shows the warnings of a run, with a mark at the time of each that has one.
+    pub fn warnings(&mut self, warnings: &Warnings) {
+        self.warnings = warnings
+            .into_iter()
+            .map(|warning| Remark {
+                text: warning.to_string(),
+                time: warning.time(),
+            })
+            .collect();
+    }
+
+    /// The number of frames.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.times.len()
+    }
+
+    /// The page.
+    ///
+    /// # Errors
+    /// [`FilmError::Empty`] without a frame; [`FilmError::NotFinite`] where a position is not a
+    /// number.
+    pub fn html(&self) -> Result<String, FilmError> {
+        if self.times.is_empty() {
+            return Err(FilmError::Empty);
+        }
+        let numbers = (7 * M::REPORT.bodies.len()).max(1);
+        if let Some(place) = self.poses.iter().position(|x| !x.is_finite()) {
+            let time = self.times.get(place / numbers).copied();
+            return Err(FilmError::NotFinite {
+                time: time.unwrap_or(f64::NAN),
+            });
+        }
+        let (bodies, elements) = (bodies::<M>(), elements::<M>());
+        let full: Vec<Vec<f32>> = self
+            .readings
+            .iter()
+            .map(|reading| {
+                let mut values = reading.values.clone();
+                values.resize(self.times.len(), f32::NAN);
+                values
+            })
+            .collect();
+        let readings = self.readings.iter().zip(&full);
+        let page = Page {
+            title: &self.title,
+            bodies: &bodies,
+            elements: &elements,
+            markers: &self.markers,
+            gravity: self.gravity,
+            times: &self.times,
+            poses: Floats(&self.poses),
+            loads: Floats(&self.loads),
+            arrows: &self.arrows,
+            show_arrows: self.shows_arrows,
+            traces: &self.traces,
+            readings: readings
+                .map(|(reading, values)| Reading {
+                    name: &reading.name,
+                    unit: &reading.unit,
+                    values: Floats(values),
+                })
+                .collect(),
+            warnings: &self.warnings,
+        };
+        let data = serde_json::to_string(&page).map_err(|error| FilmError::Write(error.into()))?;
+        // A name may hold what ends a script.
+        let data = data.replace('<', "\\u003c");
+        Ok(PAGE.replacen(PLACE, &data, 1))
+    }
+
+    /// Writes the page to a file.
+    ///
+    /// # Errors
+    /// As [`Film::html`]; [`FilmError::Write`] where the file cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), FilmError> {
+        fs::write(path, self.html()?).map_err(FilmError::Write)
+    }
+
+    /// What does not change: markers on their bodies, gravity, the places of arrows.
+    fn begin<S: Real>(&mut self, sample: &Sample<'_, S, M>) {
+        self.gravity = sample.gravity().map(Real::to_f64).into();
+        self.markers = M::REPORT
+            .markers
+            .iter()
+            .enumerate()
+            .map(|(index, marker)| {
+                let mut at = sample.marker(index).map(Real::to_f64);
+                if let Some(body) = marker.body {
+                    let (position, orientation) = placement(sample, body);
+                    if marker.kind == MarkerKind::Point {
+                        at -= position;
+                    }
+                    at = UnitQuaternion::new_normalize(orientation).inverse() * at;
+                }
+                Marker {
+                    element: match marker.of {
+                        ElementPlace::Joint(joint) => joint,
+                        ElementPlace::Force(force) => M::REPORT.joints.len() + force,
+                    },
+                    place: marker.place,
+                    body: marker.body,
+                    name: marker.name,
+                    kind: match marker.kind {
+                        MarkerKind::Point => "point",
+                        MarkerKind::Axis => "axis",
+                        MarkerKind::Vector => "vector",
+                    },
+                    at: at.into(),
+                }
+            })
+            .collect();
+        if self.shows_arrows {
+            let joints = M::REPORT.joints.iter().enumerate();
+            self.arrows = joints
+                .filter(|(_, joint)| joint.has_point && joint.rows > 0)
+                .filter_map(|(index, joint)| {
+                    let place = joint.bodies.iter().rposition(Option::is_some)?;
+                    Some(Arrow {
+                        joint: index,
+                        place,
+                    })
+                })
+                .collect();
+        }
+    }
+}
+
+/// Position and orientation of a body in double precision.
+fn placement<S: Real, M: Mechanism>(
+    sample: &Sample<'_, S, M>,
+    body: usize,
+) -> (Vector3<f64>, Quaternion<f64>) {
+    let pose = sample.pose(BodyHandle::<M>::new(body));
+    let [i, j, k, w] = pose.orientation.coords.into();
+    let [w, i, j, k] = [w, i, j, k].map(Real::to_f64);
+    (pose.position.map(Real::to_f64), Quaternion::new(w, i, j, k))
+}
+
+fn bodies<M: Mechanism>() -> Vec<Body> {
+    let bodies = M::REPORT.bodies.iter();
+    bodies
+        .map(|body| Body {
+            name: body.name,
+            particle: body.kind == BodyKind::Particle,
+        })
+        .collect()
+}
+
+fn elements<M: Mechanism>() -> Vec<Element> {
+    let joints = M::REPORT.joints.iter().map(|joint| Element {
+        name: joint.name,
+        kind: joint.kind,
+        of: "joint",
+        bodies: joint.bodies,
+    });
+    let forces = M::REPORT.forces.iter().map(|force| Element {
+        name: force.name,
+        kind: force.kind,
+        of: "force",
+        bodies: force.bodies,
+    });
+    joints.chain(forces).collect()
+}
+
+/// Why there is no page.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum FilmError {
+    /// No frame was recorded.
+    Empty,
+    /// A position is not a number.
+    NotFinite {
+        /// The time of the frame (s).
+        time: f64,
+    },
+    /// The file could not be written.
+    Write(io::Error),
+}
+
+impl fmt::Display for FilmError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => write!(
+                f,
+                "the film has no frame: call `film.record(sample)` in the observer of a run"
+            ),
+            Self::NotFinite { time } => write!(f, "a position at {time} s is not a number"),
+            Self::Write(_) => write!(f, "the film could not be written"),
+        }
+    }
+}
+
+impl error::Error for FilmError {
+    fn source(&self) -> Option<&(dyn error::Error + 'static)> {
+        match self {
+            Self::Write(error) => Some(error),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Pages are read as the viewer reads them: by the data in them.
+
+use std::error::Error;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use holonom::prelude::*;
+use holonom_film::{Film, FilmError};
+use holonom_models::{FourBar, RodPendulum, SqueezingMechanism};
+use serde_json::Value;
+
+/// The data of a page.
+fn data(page: &str) -> Value {
+    let (_, behind) = page
+        .split_once("<script type=\"application/json\" id=\"film\">")
+        .expect("the page has a place for data");
+    let (data, _) = behind.split_once("</script>").expect("it ends");
+    serde_json::from_str(data).expect("it is JSON")
+}
+
+fn floats(value: &Value) -> Vec<f32> {
+    let bytes = STANDARD
+        .decode(value.as_str().expect("text"))
+        .expect("base 64");
+    let numbers = bytes.chunks_exact(4);
+    numbers
+        .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four bytes")))
+        .collect()
+}
+
+fn vector(value: &Value) -> Vector3<f64> {
+    let number = |k: usize| value[k].as_f64().expect("a number");
+    Vector3::new(number(0), number(1), number(2))
+}
+
+/// Markers of one element and name meet where its joint is closed, in every frame: bodies stand
+/// where they are drawn.
+#[test]
+fn both_markers_of_a_hinge_meet_in_every_frame() -> Result<(), Box<dyn Error>> {
+    let mut film = Film::new();
+    Simulation::new(
+        &SqueezingMechanism::default(),
+        StandardLagrange,
+        DormandPrince::default(),
+    )
+    .run(0.0..=0.03, every(0.003), |sample| film.record(sample))?;
+    let page = data(&film.html()?);
+    let bodies = page["bodies"].as_array().expect("bodies").len();
+    let poses = floats(&page["poses"]);
+    assert_eq!((film.frames(), poses.len()), (11, 11 * 7 * bodies));
+    let global = |frame: usize, marker: &Value| {
+        let at = vector(&marker["at"]);
+        let Some(body) = marker["body"].as_u64() else {
+            return at;
+        };
+        let first = (frame * bodies + body as usize) * 7;
+        let [x, y, z, w, i, j, k] = std::array::from_fn(|n| f64::from(poses[first + n]));
+        let turn = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));
+        Vector3::new(x, y, z) + turn * at
+    };
+    let markers = page["markers"].as_array().expect("markers");
+    let mut pairs = 0;
+    for (index, element) in page["elements"]
+        .as_array()
+        .expect("elements")
+        .iter()
+        .enumerate()
+    {
+        if element["kind"] != "Revolute" {
+            continue;
+        }
+        let points: Vec<_> = markers
+            .iter()
+            .filter(|marker| marker["element"] == index && marker["kind"] == "point")
+            .collect();
+        let [first, second] = points[..] else {
+            panic!("{element}: {} points", points.len());
+        };
+        for frame in 0..film.frames() {
+            let apart = (global(frame, first) - global(frame, second)).norm();
+            assert!(apart < 1e-6, "{element}, frame {frame}: {apart:e} m");
+        }
+        pairs += 1;
+    }
+    assert!(pairs > 5, "{pairs} hinges");
+    Ok(())
+}
+
+#[test]
+fn arrows_are_the_reactions() -> Result<(), Box<dyn Error>> {
+    let mut film = Film::new().with_reactions();
+    let mut expected = Vec::new();
+    let handles = RodPendulum::HANDLES;
+    Simulation::new(
+        &RodPendulum::default(),
+        StandardLagrange,
+        DormandPrince::default(),
+    )
+    .run(0.0..=1.0, every(0.25), |sample| {
+        film.record(sample);
+        let reaction = sample
+            .reaction(handles.pivot, handles.rod)
+            .expect("regular");
+        expected.extend(reaction.force.iter().map(|&x| x as f32));
+    })?;
+    let page = data(&film.html()?);
+    assert_eq!(page["arrows"].as_array().expect("arrows").len(), 1);
+    let loads = floats(&page["loads"]);
+    let forces: Vec<f32> = loads
+        .chunks(6)
+        .flat_map(|load| load[3..].to_vec())
+        .collect();
+    assert_eq!(forces, expected);
+    let gravity = vector(&page["gravity"]);
+    assert!(
+        (gravity - Vector3::new(0.0, 0.0, -9.81)).norm() < 1e-12,
+        "{gravity}"
+    );
+    Ok(())
+}
+
+#[test]
+fn readings_have_a_value_for_each_frame_and_warnings_their_time() -> Result<(), Box<dyn Error>> {
+    let mut film = Film::new();
+    let method = AugmentedLagrangian::default();
+    let report = Simulation::new(&FourBar::default(), method, DormandPrince::default())
+        .absolute_coordinates()
+        .projection(Projection::default())
+        .run(0.0..=1.0, every(0.1), |sample| {
+            film.record(sample);
+            if sample.time() > 0.35 {
+                film.reading("energy", "J", sample.energy());
+            }
+        })?;
+    film.warnings(&report.warnings());
+    let page = data(&film.html()?);
+    let values = floats(&page["readings"][0]["values"]);
+    assert_eq!(values.len(), film.frames());
+    assert_eq!(values.iter().filter(|value| value.is_nan()).count(), 4);
+    let time = page["warnings"][0]["time"].as_f64().expect("it has a time");
+    assert!((time - 0.708).abs() < 0.01, "{time}"); // its links lie on one line there
+    Ok(())
+}
+
+#[test]
+fn a_title_cannot_end_the_data() -> Result<(), Box<dyn Error>> {
+    let title = "</script><script>alert(1)</script><!-- \u{2028}";
+    let mut film = Film::new().titled(title);
+    Simulation::new(&RodPendulum::default(), StandardLagrange, Rk4::every(0.1)).run(
+        0.0..=0.1,
+        every(0.1),
+        |sample| film.record(sample),
+    )?;
+    assert_eq!(data(&film.html()?)["title"], title);
+    Ok(())
+}
+
+#[test]
+fn a_film_without_frames_is_refused() {
+    let film = Film::<RodPendulum>::new();
+    let error = film.save("nowhere.html").expect_err("it is empty");
+    assert!(matches!(error, FilmError::Empty));
+    assert!(error.to_string().contains("film.record(sample)"));
+    assert!(!std::path::Path::new("nowhere.html").exists());
+}
+
+#[test]
+fn what_cannot_be_written_says_why() -> Result<(), Box<dyn Error>> {
+    let mut film = Film::new();
+    Simulation::new(&RodPendulum::default(), StandardLagrange, Rk4::every(0.1)).run(
+        0.0..=0.1,
+        every(0.1),
+        |sample| film.record(sample),
+    )?;
+    let error = film
+        .save("no/such/folder/film.html")
+        .expect_err("no folder");
+    assert!(matches!(error, FilmError::Write(_)));
+    assert!(error.source().is_some());
+    Ok(())
+}
+
+/// What a page weighs beside its data.
+#[test]
+fn the_page_is_below_700_kilobytes_and_asks_no_network() {
+    let page = include_str!("../src/page.html");
+    assert!(page.len() < 700_000, "{}", page.len());
+    let asks = [
+        "src=\"http",
+        "href=\"http",
+        "@import",
+        "fetch(\"http",
+        "import(\"http",
+    ];
+    assert!(asks.iter().all(|ask| !page.contains(ask)));
+}

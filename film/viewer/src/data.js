@@ -1,0 +1,38 @@
+// What a film holds: read from the page, with the numbers of all frames in flat arrays.
+
+const floats = (text) => {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Float32Array(bytes.buffer);
+};
+
+export const film = JSON.parse(document.getElementById("film").textContent);
+
+film.poses = floats(film.poses);
+film.loads = floats(film.loads);
+for (const reading of film.readings) reading.values = floats(reading.values);
+
+/** Numbers of a body in a frame: position, then Euler parameters with the scalar first. */
+export const POSE = 7;
+/** Numbers of an arrow in a frame: point, then force. */
+export const LOAD = 6;
+
+/** The frame before a time, and how far the time is on to the next. */
+export function frameAt(time) {
+  const { times } = film;
+  let [low, high] = [0, times.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  const next = Math.min(low + 1, times.length - 1);
+  const step = times[next] - times[low];
+  return { low, next, part: step > 0 ? Math.min(1, Math.max(0, (time - times[low]) / step)) : 0 };
+}
+
+/** Markers of a body (`null` is the ground) that are points, and what names them. */
+export const points = (body) => film.markers.filter((m) => m.body === body && m.kind === "point");
+
+/** The markers of an element by the place of its body. */
+export const markersOf = (element, place) =>
+  film.markers.filter((m) => m.element === element && m.place === place);

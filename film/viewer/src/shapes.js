@@ -1,0 +1,248 @@
+// What bodies, joints and forces look like. Lengths are fractions of the size of the mechanism.
+
+import * as THREE from "three";
+import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
+import { film, markersOf, points } from "./data.js";
+
+const UP = new THREE.Vector3(0, 1, 0);
+const vector = (at) => new THREE.Vector3(...at);
+
+/** Colours of bodies: apart in hue and in lightness, on light and on dark ground. */
+const COLOURS = [0x4c8eda, 0xe8853d, 0x4fae6a, 0xc85f8e, 0x8e77d6, 0xc9a227, 0x3aa6a6, 0xa8734b];
+export const colourOf = (index) => COLOURS[index % COLOURS.length];
+
+const METAL = { metalness: 0.35, roughness: 0.42 };
+const dark = () => new THREE.MeshStandardMaterial({ color: 0x4a5260, ...METAL });
+
+function mesh(geometry, material, name) {
+  const made = new THREE.Mesh(geometry, material);
+  made.castShadow = true;
+  made.receiveShadow = true;
+  made.userData.name = name;
+  return made;
+}
+
+/** Turns something that is made along y into a direction. */
+function along(object, direction) {
+  object.quaternion.setFromUnitVectors(UP, direction.clone().normalize());
+  return object;
+}
+
+/** Points on a ball. */
+function ball(centre, radius) {
+  const golden = Math.PI * (3 - Math.sqrt(5));
+  return Array.from({ length: 64 }, (_, k) => {
+    const y = 1 - (2 * (k + 0.5)) / 64;
+    const around = Math.sqrt(1 - y * y);
+    const turned = golden * k;
+    const unit = new THREE.Vector3(Math.cos(turned) * around, y, Math.sin(turned) * around);
+    return unit.multiplyScalar(radius).add(centre);
+  });
+}
+
+/** Places that differ by more than a hair. */
+function distinct(places, size) {
+  const kept = [];
+  for (const place of places)
+    if (kept.every((known) => known.distanceTo(place) > 1e-3 * size)) kept.push(place);
+  return kept;
+}
+
+/** A body: bars from point to point of its joints and to its centre of mass, the shortest that
+ * join all, and a plate where three points or more span one. Of a body that nothing names a point
+ * of, a cube. */
+export function body(index, size) {
+  const { name, particle } = film.bodies[index];
+  const group = new THREE.Group();
+  const material = new THREE.MeshStandardMaterial({ color: colourOf(index), ...METAL });
+  const radius = 0.018 * size;
+  const named = distinct(points(index).map((m) => vector(m.at)), size);
+  if (particle || named.length === 0) {
+    const shape = particle
+      ? new THREE.SphereGeometry(2.2 * radius, 32, 20)
+      : new THREE.BoxGeometry(5 * radius, 5 * radius, 5 * radius);
+    group.add(mesh(shape, material, name));
+    return group;
+  }
+  const all = distinct([...named, new THREE.Vector3()], size);
+  for (const [from, to] of shortest(all)) group.add(capsule(from, to, radius, material, name));
+  if (all.length === 1) group.add(mesh(new THREE.SphereGeometry(2.2 * radius, 32, 20), material, name));
+  if (named.length > 2 && !inLine(named)) {
+    const hull = new ConvexGeometry(named.flatMap((corner) => ball(corner, 0.55 * radius)));
+    const plate = material.clone();
+    Object.assign(plate, { transparent: true, opacity: 0.42, depthWrite: false });
+    group.add(mesh(hull, plate, name));
+  }
+  return group;
+}
+
+/** The shortest lines that join all places (Prim). */
+function shortest(places) {
+  const lines = [];
+  const joined = [places[0]];
+  const rest = places.slice(1);
+  while (rest.length) {
+    let best = [Infinity];
+    for (const from of joined)
+      rest.forEach((to, k) => {
+        const far = from.distanceTo(to);
+        if (far < best[0]) best = [far, from, k];
+      });
+    const [to] = rest.splice(best[2], 1);
+    lines.push([best[1], to]);
+    joined.push(to);
+  }
+  return lines;
+}
+
+function inLine(places) {
+  const line = new THREE.Line3(places[0], places[1]);
+  const nearest = new THREE.Vector3();
+  return places.every((place) => {
+    line.closestPointToPoint(place, false, nearest);
+    return nearest.distanceTo(place) < 0.02 * line.distance();
+  });
+}
+
+function capsule(from, to, radius, material, name) {
+  const way = to.clone().sub(from);
+  const made = mesh(new THREE.CapsuleGeometry(radius, way.length(), 8, 24), material, name);
+  along(made, way);
+  made.position.copy(from).addScaledVector(way, 0.5);
+  return made;
+}
+
+/** A rod between two places. */
+export function rod(from, to, radius, material, name) {
+  const way = to.clone().sub(from);
+  const made = mesh(new THREE.CylinderGeometry(radius, radius, way.length(), 20), material, name);
+  along(made, way.lengthSq() ? way : UP);
+  made.position.copy(from).addScaledVector(way, 0.5);
+  return made;
+}
+
+/** The centre of mass: a ball in quarters, as in drawings. */
+export function centreOfMass(size, name) {
+  const group = new THREE.Group();
+  const radius = 0.014 * size;
+  for (let octant = 0; octant < 8; octant++) {
+    const light = (octant ^ (octant >> 1) ^ (octant >> 2)) & 1;
+    const material = new THREE.MeshBasicMaterial({
+      color: light ? 0xf4f4f4 : 0x1c1f26, depthTest: false, transparent: true });
+    const turn = ((octant & 3) * Math.PI) / 2;
+    const below = octant > 3 ? Math.PI / 2 : 0;
+    const shape = new THREE.SphereGeometry(radius, 8, 6, turn, Math.PI / 2, below, Math.PI / 2);
+    const part = mesh(shape, material, `centre of mass of ${name}`);
+    part.renderOrder = 5;
+    part.castShadow = false;
+    group.add(part);
+  }
+  return group;
+}
+
+const HINGES = /^(Revolute|Cylindrical|Screw|Gear|AngleDriver|TorsionalSpring|Bearing)/;
+export const SLIDES = /^(Prismatic|Translational|Slide|Sleeve|PositionDriver)/;
+
+/** A joint, on the body at its first place: hinge, slide, ball, cross or a plain mark. A slide's rail
+ * is as long as what slides goes. */
+export function joint(element, size, slid) {
+  const { kind, name } = film.elements[element];
+  const markers = markersOf(element, 0);
+  const group = new THREE.Group();
+  const said = `${name}: ${kind}`;
+  const at = markers.find((m) => m.kind === "point");
+  const axes = markers.filter((m) => m.kind === "axis").map((m) => vector(m.at));
+  const radius = 0.03 * size;
+  if (!at) return group;
+  const place = new THREE.Group();
+  place.position.set(...at.at);
+  group.add(place);
+  const material = dark();
+  if (SLIDES.test(kind) && axes.length) {
+    const [low, high] = slid ?? [-4 * radius, 4 * radius];
+    const length = high - low + 5 * radius;
+    const rail = mesh(new THREE.BoxGeometry(0.8 * radius, length, 0.8 * radius), material, said);
+    along(rail, axes[0]).position.copy(axes[0]).multiplyScalar(0.5 * (low + high));
+    place.add(rail);
+  } else if (/^Universal|^ConstantVelocity/.test(kind)) {
+    for (const axis of axes.length ? axes : [UP]) {
+      const pin = new THREE.CylinderGeometry(0.35 * radius, 0.35 * radius, 3.2 * radius, 20);
+      place.add(along(mesh(pin, material, said), axis));
+    }
+    place.add(mesh(new THREE.SphereGeometry(0.7 * radius, 24, 16), material, said));
+  } else if (axes.length && (HINGES.test(kind) || axes.length === 1)) {
+    const length = /^Cylindrical|^Screw/.test(kind) ? 6 : 2.4;
+    const pin = new THREE.CylinderGeometry(0.62 * radius, 0.62 * radius, length * radius, 32);
+    place.add(along(mesh(pin, material, said), axes[0]));
+    const collar = new THREE.TorusGeometry(0.82 * radius, 0.16 * radius, 12, 40);
+    const ring = mesh(collar, material, said);
+    ring.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), axes[0].clone().normalize());
+    place.add(ring);
+  } else {
+    place.add(mesh(new THREE.SphereGeometry(radius, 28, 20), material, said));
+  }
+  return group;
+}
+
+/** What stands on the ground at a point: a foot that points down. */
+export function foot(at, down, size) {
+  const radius = 0.05 * size;
+  const material = new THREE.MeshStandardMaterial({ color: 0x8a93a3, metalness: 0.1, roughness: 0.8 });
+  const cone = mesh(new THREE.ConeGeometry(radius, 1.5 * radius, 4, 1), material, "ground");
+  along(cone, down.clone().negate());
+  cone.position.set(...at).addScaledVector(down, 0.75 * radius);
+  return cone;
+}
+
+/** A coil between two places that move: made once along y with length 1, then stretched. */
+export function coil(size, turns = 9) {
+  class Helix extends THREE.Curve {
+    getPoint(t, target = new THREE.Vector3()) {
+      const wound = Math.min(1, Math.max(0, (t - 0.1) / 0.8));
+      const off = 0.028 * size * Math.min(1, Math.min(t, 1 - t) / 0.1);
+      const angle = 2 * Math.PI * turns * wound;
+      return target.set(off * Math.cos(angle), t, off * Math.sin(angle));
+    }
+  }
+  const material = new THREE.MeshStandardMaterial({ color: 0x9aa3b2, metalness: 0.6, roughness: 0.35 });
+  return (from, to, previous) => {
+    // Only the centre line is stretched: the wire keeps its thickness.
+    const length = from.distanceTo(to);
+    const helix = new Helix();
+    const line = { getPoint: (t, v) => helix.getPoint(t, v).multiply({ x: 1, y: length, z: 1 }) };
+    const curve = Object.assign(new THREE.Curve(), line);
+    const geometry = new THREE.TubeGeometry(curve, 24 * turns, 0.0055 * size, 7);
+    const made = previous ?? mesh(geometry, material);
+    if (previous) {
+      previous.geometry.dispose();
+      previous.geometry = geometry;
+    }
+    if (length > 0) along(made, to.clone().sub(from));
+    made.position.copy(from);
+    return made;
+  };
+}
+
+/** An arrow that is set anew in every frame. */
+export function arrow(colour, size) {
+  const group = new THREE.Group();
+  const material = new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.9 });
+  const shaft = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 12), material);
+  const head = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 20), material);
+  group.add(shaft, head);
+  group.renderOrder = 4;
+  group.children.forEach((part) => (part.renderOrder = 4));
+  group.setArrow = (at, way) => {
+    const length = way.length();
+    group.visible = Number.isFinite(length) && length > 0.004 * size;
+    if (!group.visible) return;
+    const tip = Math.min(0.045 * size, 0.4 * length);
+    shaft.scale.set(0.006 * size, length - tip, 0.006 * size);
+    shaft.position.y = 0.5 * (length - tip);
+    head.scale.set(0.36 * tip, tip, 0.36 * tip);
+    head.position.y = length - 0.5 * tip;
+    along(group, way);
+    group.position.copy(at);
+  };
+  return group;
+}

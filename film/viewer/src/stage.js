@@ -1,0 +1,236 @@
+// The mechanism on a stage: bodies, joints, forces and traces, moved to a time.
+
+import * as THREE from "three";
+import { film, frameAt, LOAD, markersOf, points, POSE } from "./data.js";
+import * as shapes from "./shapes.js";
+
+const vector = (at) => new THREE.Vector3(...at);
+
+/** Where the bodies' points are in all frames. */
+function cloud() {
+  const places = points(null).map((marker) => vector(marker.at));
+  const turn = new THREE.Quaternion();
+  const stride = Math.max(1, Math.floor(film.times.length / 120));
+  for (let frame = 0; frame < film.times.length; frame += stride) {
+    film.bodies.forEach((_, body) => {
+      const [at, p] = poseIn(frame, body, turn);
+      places.push(at.clone());
+      for (const marker of points(body)) places.push(vector(marker.at).applyQuaternion(p).add(at));
+    });
+  }
+  return places.length ? places : [new THREE.Vector3()];
+}
+
+/** Position and orientation of a body in a frame. */
+function poseIn(frame, body, turn = new THREE.Quaternion()) {
+  const first = (frame * film.bodies.length + body) * POSE;
+  const [x, y, z, e0, e1, e2, e3] = film.poses.subarray(first, first + POSE);
+  return [new THREE.Vector3(x, y, z), turn.set(e1, e2, e3, e0).normalize()];
+}
+
+/** How far the second body's point of a slide goes along the axis, from the first body's point. */
+function slid(index) {
+  const element = film.elements[index];
+  const markers = (place, kind) => markersOf(index, place).find((m) => m.kind === kind);
+  const [from, axis, to] = [markers(0, "point"), markers(0, "axis"), markers(1, "point")];
+  if (!shapes.SLIDES.test(element.kind) || !from || !axis || !to) return undefined;
+  let [low, high] = [0, 0];
+  const global = (marker, frame) => {
+    const at = vector(marker.at);
+    if (marker.body === null) return at;
+    const [place, turn] = poseIn(frame, marker.body);
+    return at.applyQuaternion(turn).add(place);
+  };
+  const turned = (frame) => {
+    const way = vector(axis.at);
+    return axis.body === null ? way : way.applyQuaternion(poseIn(frame, axis.body)[1]);
+  };
+  for (let frame = 0; frame < film.times.length; frame++) {
+    const far = global(to, frame).sub(global(from, frame)).dot(turned(frame));
+    [low, high] = [Math.min(low, far), Math.max(high, far)];
+  }
+  return [low, high];
+}
+
+/** The size of the mechanism as it stands at the start: what pins and rods are measured by. */
+function sizeAtStart() {
+  const box = new THREE.Box3();
+  for (const marker of points(null)) box.expandByPoint(vector(marker.at));
+  film.bodies.forEach((_, body) => {
+    const [at, turn] = poseIn(0, body);
+    box.expandByPoint(at);
+    for (const marker of points(body))
+      box.expandByPoint(vector(marker.at).applyQuaternion(turn).add(at));
+  });
+  return box.isEmpty() ? 0 : box.getSize(new THREE.Vector3()).length();
+}
+
+export function stage(scene) {
+  const places = cloud();
+  const box = new THREE.Box3().setFromPoints(places);
+  const reach = box.getSize(new THREE.Vector3()).length();
+  const size = sizeAtStart() || reach || 1;
+  const down = vector(film.gravity);
+  const isFlat = box.max.z - box.min.z < 0.02 * size;
+  const free = isFlat ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);
+  const up = down.lengthSq() > 0 ? down.clone().negate().normalize() : free;
+  const ground = new THREE.Group();
+  const bodies = film.bodies.map((_, index) => shapes.body(index, size));
+  const layers = {
+    bodies: new THREE.Group(), joints: new THREE.Group(), forces: new THREE.Group(),
+    reactions: new THREE.Group(), traces: new THREE.Group(), centres: new THREE.Group(),
+  };
+  scene.add(ground, ...Object.values(layers));
+  bodies.forEach((body) => layers.bodies.add(body));
+
+  // Groups that move with a body but are shown and hidden with a layer of their own.
+  const riders = [];
+  const ride = (layer, body, object) => {
+    if (body === null) {
+      ground.add(object);
+    } else {
+      layer.add(object);
+      riders.push([body, object]);
+    }
+  };
+  film.bodies.forEach((body, index) => {
+    if (!body.particle) ride(layers.centres, index, shapes.centreOfMass(size, body.name));
+  });
+  const elements = film.elements.map((element, index) => {
+    const parts = [];
+    if (element.type === "joint") {
+      const object = shapes.joint(index, size, slid(index));
+      const holder = new THREE.Group();
+      holder.add(object);
+      parts.push(object);
+      if (element.bodies[0] === null) layers.joints.add(holder);
+      else ride(layers.joints, element.bodies[0], holder);
+    }
+    element.bodies.forEach((body, place) => {
+      if (body !== null) return;
+      for (const marker of markersOf(index, place).filter((m) => m.kind === "point"))
+        ground.add(shapes.foot(marker.at, up.clone().negate(), size));
+    });
+    return parts;
+  });
+
+  // Springs, dampers and cables: a coil or line between their two points.
+  const lines = [];
+  film.elements.forEach((element, index) => {
+    const ends = element.bodies.flatMap((body, place) =>
+      markersOf(index, place).filter((m) => m.kind === "point"));
+    const isLine = element.type === "force" || /^Distance|Length/.test(element.kind);
+    const pair = linePair(element, ends);
+    if (!isLine || !pair) return;
+    const isCoil = element.type === "force" && /Spring|Bushing/.test(element.kind);
+    lines.push({ index, pair, draw: isCoil ? shapes.coil(size) : null, object: null });
+  });
+
+  // Arrows: what was recorded of joints, on a scale that fits the largest.
+  let largest = 0;
+  for (let k = 3; k < film.loads.length; k += LOAD) {
+    const force = Math.hypot(film.loads[k], film.loads[k + 1], film.loads[k + 2]);
+    if (Number.isFinite(force)) largest = Math.max(largest, force);
+  }
+  const perMetre = largest > 0 ? rounded(largest / (0.35 * size)) : 1;
+  const arrows = film.arrows.map(() => shapes.arrow(0xd6455d, size));
+  arrows.forEach((arrow) => layers.reactions.add(arrow));
+
+  // Traces: the whole way faint, what was passed strong.
+  const traces = film.traces.map((trace, k) => {
+    const way = new Float32Array(3 * film.times.length);
+    const at = new THREE.Vector3();
+    film.times.forEach((_, frame) => {
+      const [origin, turn] = poseIn(frame, trace.body);
+      at.set(...trace.at).applyQuaternion(turn).add(origin).toArray(way, 3 * frame);
+    });
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(way, 3));
+    const colour = shapes.colourOf(trace.body);
+    const all = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity: 0.25 }));
+    const passed = new THREE.Line(geometry.clone(), new THREE.LineBasicMaterial({ color: colour }));
+    const dot = new THREE.Mesh(new THREE.SphereGeometry(0.012 * size, 16, 12), new THREE.MeshBasicMaterial({ color: colour }));
+    dot.userData.name = trace.name;
+    layers.traces.add(all, passed, dot);
+    return { way, passed, dot, k };
+  });
+
+  const [a, b] = [new THREE.Quaternion(), new THREE.Quaternion()];
+  function place(object, body, { low, next, part }) {
+    const count = film.bodies.length;
+    const p = film.poses.subarray((low * count + body) * POSE);
+    const q = film.poses.subarray((next * count + body) * POSE);
+    object.position.set(...[0, 1, 2].map((k) => p[k] + part * (q[k] - p[k])));
+    a.set(p[4], p[5], p[6], p[3]).normalize();
+    b.set(q[4], q[5], q[6], q[3]).normalize();
+    object.quaternion.copy(a).slerp(b, part);
+  }
+  const placed = (marker) => {
+    const at = vector(marker.at);
+    if (marker.body === null) return at;
+    const body = bodies[marker.body];
+    return at.applyQuaternion(body.quaternion).add(body.position);
+  };
+
+  function show(time) {
+    const frame = frameAt(time);
+    bodies.forEach((body, index) => place(body, index, frame));
+    for (const [body, object] of riders) {
+      object.position.copy(bodies[body].position);
+      object.quaternion.copy(bodies[body].quaternion);
+    }
+    for (const line of lines) {
+      const [from, to] = line.pair.map(placed);
+      const said = `${film.elements[line.index].name}: ${film.elements[line.index].kind}`;
+      if (line.draw) {
+        const made = line.draw(from, to, line.object);
+        if (!line.object) layers.forces.add(made);
+        line.object = made;
+      } else {
+        if (line.object) {
+          layers.forces.remove(line.object);
+          line.object.geometry.dispose();
+        }
+        line.material ??= new THREE.MeshStandardMaterial({ color: 0x9aa3b2, metalness: 0.5, roughness: 0.4 });
+        line.object = shapes.rod(from, to, 0.006 * size, line.material, said);
+        layers.forces.add(line.object);
+      }
+      line.object.userData.name = said;
+      line.object.visible = !line.hidden;
+    }
+    const nearest = frame.part < 0.5 ? frame.low : frame.next;
+    arrows.forEach((arrow, k) => {
+      const [x, y, z, fx, fy, fz] = film.loads.subarray((nearest * arrows.length + k) * LOAD);
+      arrow.setArrow(new THREE.Vector3(x, y, z), new THREE.Vector3(fx, fy, fz).divideScalar(perMetre));
+    });
+    for (const { way, passed, dot } of traces) {
+      passed.geometry.setDrawRange(0, frame.low + 1);
+      const [from, to] = [3 * frame.low, 3 * frame.next];
+      dot.position.set(...[0, 1, 2].map((k) => way[from + k] + frame.part * (way[to + k] - way[from + k])));
+    }
+  }
+
+  const hide = (kind, index, hidden) => {
+    if (kind === "body") bodies[index].visible = !hidden;
+    else {
+      elements[index].forEach((part) => (part.visible = !hidden));
+      lines.filter((line) => line.index === index).forEach((line) => (line.hidden = hidden));
+    }
+  };
+  return { box, places, size, up, layers, show, hide, perMetre };
+}
+
+/** The two points that a line goes between: on different bodies, named differently where it can be. */
+function linePair(element, ends) {
+  if (element.bodies.length < 2 || ends.length < 2) return null;
+  const names = [...new Set(ends.map((m) => m.name))];
+  const first = ends.find((m) => m.place === 0 && m.name === names[0]);
+  const second = ends.find((m) => m.place === 1 && m.name === (names[1] ?? names[0]));
+  return first && second ? [first, second] : null;
+}
+
+/** The next number of the form 1, 2 or 5 times a power of ten. */
+function rounded(value) {
+  const ten = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 5, 10].map((k) => k * ten).find((k) => k >= value);
+}
