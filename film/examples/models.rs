@@ -127,6 +127,7 @@ where
     }
     let path = folder.join(file).with_extension("html");
     film.save(&path)?;
+    film.save_svg(path.with_extension("svg"))?;
     println!("{}: {} frames", path.display(), film.frames());
     Ok(())
 }

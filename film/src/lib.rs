@@ -47,6 +47,7 @@
 //! The drawing is done by three.js, of which the page holds what it needs: below 700 kB.
 
 mod data;
+mod picture;
 mod record;
 
 pub use record::{Film, FilmError};

@@ -9,6 +9,7 @@ use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, Warnings};
 
 use crate::data::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Trace};
+use crate::picture::Subject;
 
 /// The page with empty places for the title's data.
 const PAGE: &str = include_str!("page.html");
@@ -159,16 +160,7 @@ impl<M: Mechanism> Film<M> {
     /// [`FilmError::Empty`] without a frame; [`FilmError::NotFinite`] where a position is not a
     /// number.
     pub fn html(&self) -> Result<String, FilmError> {
-        if self.times.is_empty() {
-            return Err(FilmError::Empty);
-        }
-        let numbers = (7 * M::REPORT.bodies.len()).max(1);
-        if let Some(place) = self.poses.iter().position(|x| !x.is_finite()) {
-            let time = self.times.get(place / numbers).copied();
-            return Err(FilmError::NotFinite {
-                time: time.unwrap_or(f64::NAN),
-            });
-        }
+        self.check()?;
         let (bodies, elements) = (bodies::<M>(), elements::<M>());
         let full: Vec<Vec<f32>> = self
             .readings
@@ -205,6 +197,48 @@ impl<M: Mechanism> Film<M> {
         // A name may hold what ends a script.
         let data = data.replace('<', "\\u003c");
         Ok(PAGE.replacen(PLACE, &data, 1))
+    }
+
+    /// A moving picture for a README or a page of documentation: an SVG that loops without a
+    /// program, in light and dark. Plane motions are seen along their normal, others from a corner.
+    ///
+    /// # Errors
+    /// As [`Film::html`].
+    pub fn svg(&self) -> Result<String, FilmError> {
+        self.check()?;
+        let subject = Subject {
+            title: &self.title,
+            elements: &elements::<M>(),
+            markers: &self.markers,
+            traces: &self.traces,
+            gravity: self.gravity,
+            bodies: M::REPORT.bodies.len(),
+            times: &self.times,
+            poses: &self.poses,
+        };
+        Ok(subject.svg())
+    }
+
+    /// Writes the moving picture to a file.
+    ///
+    /// # Errors
+    /// As [`Film::save`].
+    pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<(), FilmError> {
+        fs::write(path, self.svg()?).map_err(FilmError::Write)
+    }
+
+    /// Whether there is something to show.
+    fn check(&self) -> Result<(), FilmError> {
+        if self.times.is_empty() {
+            return Err(FilmError::Empty);
+        }
+        let numbers = (7 * M::REPORT.bodies.len()).max(1);
+        match self.poses.iter().position(|x| !x.is_finite()) {
+            Some(place) => Err(FilmError::NotFinite {
+                time: self.times[place / numbers],
+            }),
+            None => Ok(()),
+        }
     }
 
     /// Writes the page to a file.

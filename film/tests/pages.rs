@@ -181,6 +181,44 @@ fn what_cannot_be_written_says_why() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// The picture is well formed, and everything in it moves through the same number of frames.
+#[test]
+fn a_picture_is_an_animated_drawing() -> Result<(), Box<dyn Error>> {
+    let handles = SqueezingMechanism::HANDLES;
+    let mut film = Film::new().titled("a < b & c");
+    film.trace(handles.triangle, "corner", [0.0, 0.01, 0.0]);
+    Simulation::new(
+        &SqueezingMechanism::default(),
+        StandardLagrange,
+        DormandPrince::default(),
+    )
+    .run(0.0..=0.03, every(0.001), |sample| film.record(sample))?;
+    let svg = film.svg()?;
+    let document = roxmltree::Document::parse(&svg)?;
+    let named = |name: &'static str| document.descendants().filter(move |n| n.has_tag_name(name));
+    assert_eq!(
+        named("title").next().and_then(|n| n.text()),
+        Some("a < b & c")
+    );
+    assert!(
+        named("line").count() >= 7,
+        "{} lines",
+        named("line").count()
+    );
+    assert_eq!(named("polyline").count(), 1);
+    for animated in named("animate") {
+        let values = animated.attribute("values").unwrap_or_default().split(';');
+        let values: Vec<f64> = values.map(str::parse).collect::<Result<_, _>>()?;
+        assert_eq!(values.len(), film.frames());
+        assert!(
+            values.iter().all(|value| (0.0..=700.0).contains(value)),
+            "{values:?}"
+        );
+    }
+    assert!(named("animate").count() > 20);
+    Ok(())
+}
+
 /// What a page weighs beside its data.
 #[test]
 fn the_page_is_below_700_kilobytes_and_asks_no_network() {

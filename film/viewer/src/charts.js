@@ -18,7 +18,7 @@ export const digits = (value) => {
 function marks(low, high, count) {
   const raw = (high - low) / count || 1;
   const ten = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 5, 10].map((k) => k * ten).find((k) => k >= raw);
+  const step = [1, 2, 5, 10].map((k) => k * ten).find((k) => k >= 0.7 * raw);
   const found = [];
   for (let mark = Math.ceil(low / step) * step; mark <= high + 1e-9 * step; mark += step)
     found.push(Math.abs(mark) < 1e-9 * step ? 0 : mark);

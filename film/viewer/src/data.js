@@ -30,8 +30,11 @@ export function frameAt(time) {
   return { low, next, part: step > 0 ? Math.min(1, Math.max(0, (time - times[low]) / step)) : 0 };
 }
 
-/** Markers of a body (`null` is the ground) that are points, and what names them. */
-export const points = (body) => film.markers.filter((m) => m.body === body && m.kind === "point");
+/** Points of a body (`null` is the ground): markers, and what is traced. */
+export const points = (body) => [
+  ...film.markers.filter((m) => m.body === body && m.kind === "point"),
+  ...film.traces.filter((trace) => trace.body === body),
+];
 
 /** The markers of an element by the place of its body. */
 export const markersOf = (element, place) =>
