@@ -237,11 +237,15 @@ where
                 break;
             }
         }
-        let Some((seen, _)) = start else {
+        let Some((seen, (time, state))) = start else {
             return Ok(false);
         };
         // What output within the step evaluates is not what the monitor is shown, which is its end.
         self.dynamics.recall(seen);
+        // The monitor is not shown this step any more: the one before it was the last.
+        if let Some(monitor) = self.monitor.as_mut().filter(|_| self.log.flow.is_break()) {
+            monitor.end_of_steps(self.dynamics.constants(), time, &state);
+        }
         Ok(true)
     }
 

@@ -13,4 +13,5 @@ mod outside;
 mod phase_error;
 mod readings;
 mod start;
+mod stopped;
 mod turns;
