@@ -14,4 +14,5 @@ mod phase_error;
 mod readings;
 mod start;
 mod stopped;
+mod told;
 mod turns;
