@@ -86,6 +86,7 @@ where
     ) {
         let constants = self.constants();
         let index = monitor.steps();
+        let look = monitor.look_at(constants, time, bodies);
         let step = MonitoredStep {
             constants,
             start: monitor.time(),
@@ -93,7 +94,7 @@ where
             index,
             state: bodies,
             motion: monitor.motion(time, bodies),
-            look: monitor.look_at(constants, time, bodies),
+            look: look.as_ref(),
             estimate,
             power: self.power_with(monitor.stagger(time), time, state, bodies),
             pivot: self.pivot(index, time, bodies),

@@ -1,8 +1,8 @@
 //! What a penalty leaves of the accelerations that its constraints ask for.
 //!
 //! It costs an evaluation of the bodies in every sixteenth step of a penalty, and nothing with
-//! other formulations. Only it finds a penalty that is too small for the masses, whose energy is
-//! right.
+//! other formulations. Only it finds a penalty that is too small for the masses while the energy
+//! is right. A test has its warning, beside others: `tests/tests/sound/told.rs`.
 
 use super::limits::above;
 use super::record::RunFacts;

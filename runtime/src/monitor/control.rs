@@ -1,8 +1,8 @@
 //! Whether the tolerance of a step control suits the mechanism and the number of steps.
 //!
-//! It costs a sum a step. Only it finds an absolute tolerance that is as large as the mechanism
-//! (`tests/tests/sweeps/singular.rs`), and that errors add up where forces leave no balance of
-//! energy (`tests/tests/alarms.rs`).
+//! It costs a sum a step. Only it finds an absolute tolerance that is large beside the mechanism
+//! (`tests/tests/sound/told.rs`), and errors that add up where forces leave no balance of energy
+//! (`tests/tests/alarms.rs`).
 
 use super::limits::{self, above};
 use super::record::{MonitoredStep, RunFacts};

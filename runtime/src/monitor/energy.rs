@@ -54,7 +54,7 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         if M::REPORT.time.potential {
             self.work_by_time(step);
         }
-        if let Some(look) = &step.look {
+        if let Some(look) = step.look {
             self.look(step.end, look);
         }
     }

@@ -75,7 +75,7 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
 
     #[inline]
     pub(super) fn step(&mut self, step: &MonitoredStep<'_, S, M>) {
-        if let Some(look) = &step.look {
+        if let Some(look) = step.look {
             self.look(step.constants, (step.end, step.state), look);
         }
     }

@@ -197,7 +197,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.control.step(step);
         self.energy.step(step);
         self.memory.step(step);
-        if let Some(look) = &step.look {
+        if let Some(look) = step.look {
             self.violations.look(step.end, look);
             self.looked = step.end;
         }

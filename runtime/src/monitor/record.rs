@@ -17,7 +17,7 @@ pub(crate) struct MonitoredStep<'a, S: Scalar, M: Mechanism> {
     pub(crate) state: &'a M::State<S>,
     pub(crate) motion: Motion<S>,
     /// What is evaluated at the end of some steps only.
-    pub(crate) look: Option<Look<S, M>>,
+    pub(crate) look: Option<&'a Look<S, M>>,
     /// The error as the step control estimated it, relative to the state.
     pub(crate) estimate: Option<S>,
     /// The power (W) of all forces without a potential, drivers included; `None` where there are

@@ -1,7 +1,8 @@
 //! What was accepted although it did not converge.
 //!
 //! It costs a comparison a step: corrections and formulations count by themselves. Only it finds
-//! that a projection was given up near a singular configuration: `tests/tests/methods/singular.rs`.
+//! that an augmented Lagrangian did not converge, whose motion looks right:
+//! `tests/tests/sound/told.rs`.
 
 use super::warning::Warning;
 use crate::math::scalar::Real;
