@@ -43,10 +43,9 @@ const ENGINE_CIRCLES: [&[&str]; 3] = [
 ];
 
 /// The circles of files in the run time.
-const RUNTIME_CIRCLES: [&[&str]; 3] = [
+const RUNTIME_CIRCLES: [&[&str]; 2] = [
     &["math/scalar", "math/versine"],
     &["mechanism/coordinates", "mechanism/kernels"],
-    &["monitor", "monitor/rest"],
 ];
 
 #[test]

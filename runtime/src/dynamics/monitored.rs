@@ -9,7 +9,7 @@ use crate::mechanism::absolute::as_read;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::monitor::{Beginning, Monitor, Seen, Step};
+use crate::monitor::{Beginning, Monitor, MonitoredStep, Seen};
 use crate::state::vector::{Array, MovingState, StateParts, Vector as _};
 
 /// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as
@@ -84,20 +84,27 @@ where
         bodies: &M::State<S>,
         estimate: Option<S>,
     ) {
-        let step = Step {
-            constants: self.constants(),
-            time,
+        let constants = self.constants();
+        let index = monitor.steps();
+        let look = monitor.look_at(constants, time, bodies);
+        let step = MonitoredStep {
+            constants,
+            start: monitor.time(),
+            end: time,
+            index,
             state: bodies,
-            power: self.power_with(monitor.stagger(time), time, state, bodies),
-            pivot: self.pivot(monitor.steps(), time, bodies),
-            drift: self.seen.drift,
+            motion: monitor.motion(time, bodies),
+            look: look.as_ref(),
             estimate,
-            is_mended: C::Orientation::NORMALISED && !C::Orientation::NORMALISED_RATES,
+            power: self.power_with(monitor.stagger(time), time, state, bodies),
+            pivot: self.pivot(index, time, bodies),
+            norm_drift: self.seen.drift,
+            is_normalised: C::Orientation::NORMALISED && !C::Orientation::NORMALISED_RATES,
         };
-        if Self::YIELDS && monitor.steps().is_multiple_of(BIAS_EVERY) {
+        if Self::YIELDS && index.is_multiple_of(BIAS_EVERY) {
             self.show_bias(monitor, time, bodies);
         }
-        monitor.step(step);
+        monitor.step(&step);
     }
 
     /// Shows the monitor what acts at the start of a run, by two evaluations: whether anything

@@ -1,208 +1,146 @@
-//! The balance of energy of a run.
+//! Whether energy came or went that no force accounts for.
 //!
 //! It costs the power of the forces a step, an evaluation a step where there are drivers, and both
 //! energies at a look. Only it finds a penalty that multiplies the energy, and a damped motion that
 //! a tolerance feeds: `tests/tests/sound/outside.rs`, `tests/tests/silent/report.rs`.
 
-use super::limits::DIGITS;
-use crate::math::scalar::Real;
+use super::balance::Balance;
+use super::limits::{self, above};
+use super::record::{Look, MonitoredStep, RunFacts};
+use super::warning::Warning;
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::kernels::Mechanism;
 
-/// Change of energy against the work that was put in.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Balance<S> {
-    /// Kinetic and potential energy at the start (J).
-    start: S,
-    /// Work of all forces without a potential, drivers included, since the start (J).
-    work: S,
-    /// The potential energy at the start, and the largest difference from it.
-    potential: (S, S),
-    /// The largest kinetic energy, the largest work so far, and the largest size of the potential
-    /// energy.
-    kinetic: S,
-    exchanged: S,
-    height: S,
-    /// What energies that cancel are made of at least (J): weights over the length of the
-    /// mechanism.
-    parts: S,
-    /// By how much the integral of the power may be off (J): what the parabola changes of the
-    /// trapezoid, step by step.
-    unsure: S,
-    /// The work whatever its sign (J).
-    turnover: S,
-    /// The last power (W) and the time of it, and the divided difference before.
-    before: Option<(S, S)>,
-    slope: Option<(S, S)>,
-    /// What no force accounts for (J), where it was largest, and when.
-    worst: (S, S),
-    last: S,
+/// A change of energy that no force accounts for, over the energy that the mechanism exchanges:
+/// motions go with the root of their energy, so one of this size is right to about a hundredth.
+const ENERGY: f64 = 1e-2;
+
+/// How much of the work of forces over a step may be unknown, where two rules for it disagree, with
+/// steps that nothing controls: at about two radians of an oscillation a step.
+const FOLLOWED: f64 = 0.3;
+
+/// The work of a first step is not known, that of the next ones depends on it.
+const BEGINNING: usize = 8;
+
+/// The energy of a run, and its balance.
+pub(super) struct Energy<S: Scalar, M: Mechanism> {
+    balance: Balance<S>,
+    /// The end of the last step, where potentials change with time by themselves.
+    before: Option<(S, M::State<S>)>,
 }
 
-impl<S: Real> Balance<S> {
-    pub(super) fn new(kinetic: S, potential: S) -> Self {
-        let zero = S::zero();
+impl<S: Scalar, M: Mechanism> Clone for Energy<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Energy<S, M> {}
+
+impl<S: Real, M: Mechanism> Energy<S, M> {
+    /// From a start with these energies (J) on.
+    pub(super) fn from(kinetic: S, potential: S) -> Self {
         Self {
-            start: kinetic + potential,
-            work: zero,
-            potential: (potential, zero),
-            kinetic,
-            exchanged: zero,
-            height: potential.abs(),
-            parts: zero,
-            unsure: zero,
-            turnover: zero,
+            balance: Balance::new(kinetic, potential),
             before: None,
-            slope: None,
-            worst: (zero, zero),
-            last: zero,
+        }
+    }
+
+    #[inline]
+    pub(super) fn step(&mut self, step: &MonitoredStep<'_, S, M>) {
+        if let Some(power) = step.power {
+            self.balance.add_work(step.end, power);
+        }
+        if M::REPORT.time.potential {
+            self.work_by_time(step);
+        }
+        if let Some(look) = step.look {
+            self.look(step.end, look);
+        }
+    }
+
+    /// Takes the energies at the end of a step that was taken.
+    pub(super) fn look(&mut self, time: S, look: &Look<S, M>) {
+        self.balance.level(time, look.kinetic, look.potential);
+    }
+
+    /// What a potential gains by the time alone, at either end of a step.
+    fn work_by_time(&mut self, step: &MonitoredStep<'_, S, M>) {
+        let (time, state) = (step.end, step.state);
+        if let Some((then, before)) = self.before.replace((time, *state)) {
+            let energy = |time, state| M::potential_energy(step.constants, time, state);
+            let at_start = energy(time, &before) - energy(then, &before);
+            let at_end = energy(time, state) - energy(then, state);
+            self.balance.add([at_start, at_end]);
         }
     }
 
     /// Takes what energies are made of at least (J), of which their round-off is.
     pub(super) fn made_of(&mut self, parts: S) {
-        self.parts = parts;
+        self.balance.made_of(parts);
     }
 
-    /// The power jumps here: what was before says nothing of what comes.
+    /// Forces may jump here.
     pub(super) fn restart(&mut self) {
-        self.before = None;
-        self.slope = None;
+        self.balance.restart();
     }
 
-    /// Takes the energies (J) at the end of a step whose work was added.
-    #[inline]
-    pub(super) fn level(&mut self, time: S, kinetic: S, potential: S) {
-        self.kinetic = self.kinetic.max(kinetic);
-        self.height = self.height.max(potential.abs());
-        self.potential.1 = self.potential.1.max((potential - self.potential.0).abs());
-        self.last = kinetic + potential - self.start - self.work;
-        if self.last.abs() > self.worst.0.abs() {
-            self.worst = (self.last, time);
-        }
+    /// Whether the work of forces is known well enough for the balance to tell anything.
+    pub(super) fn has_balance(&self) -> bool {
+        self.balance.tells(ENERGY)
     }
 
-    /// Takes the work (J) of a step that was estimated twice.
-    pub(super) fn add(&mut self, work: [S; 2]) {
-        let [a, b] = work;
-        let half = S::constant(0.5);
-        self.work = self.work + half * (a + b);
-        self.unsure = self.unsure + half * (a - b).abs();
-        self.turnover = self.turnover + half * (a.abs() + b.abs());
-        self.exchanged = self.exchanged.max(self.work.abs());
-    }
-
-    /// The integral of the power over a step, by the parabola through this step's ends and the end
-    /// before.
-    pub(super) fn add_work(&mut self, time: S, power: S) {
-        if let Some((then, last)) = self.before {
-            let step = time - then;
-            let slope = (power - last).quotient(step);
-            let mut work = S::constant(0.5) * step * (power + last);
-            let turnover = S::constant(0.5) * step * (power.abs() + last.abs());
-            self.turnover = self.turnover + turnover;
-            if let Some((former, former_step)) = self.slope {
-                let curvature = (slope - former).quotient(step + former_step);
-                let bend = curvature * step * step * step * S::constant(1.0 / 6.0);
-                work = work - bend;
-                self.unsure = self.unsure + bend.abs();
-            } else {
-                self.unsure = self.unsure + (power - last).abs() * step;
-            }
-            self.work = self.work + work;
-            self.exchanged = self.exchanged.max(self.work.abs());
-            self.slope = Some((slope, step));
-        }
-        self.before = Some((time, power));
-    }
-
-    /// The energy that the mechanism exchanges (J).
-    pub(super) fn size(&self) -> S {
-        self.kinetic.max(self.potential.1).max(self.exchanged)
+    /// Whether nothing works on the mechanism.
+    pub(super) fn is_of_a_closed_system(&self) -> bool {
+        self.balance.is_of_a_closed_system()
     }
 
     /// The energy (J) that the mechanism has more than at the start.
     pub(super) fn gained(&self) -> S {
-        self.last + self.work
+        self.balance.gained()
     }
 
-    /// What no force accounts for at the end, over what is exchanged; zero where it is below the
-    /// digits of the energies.
+    /// What no force accounts for at the end, over what is exchanged.
     pub(super) fn drift(&self) -> S {
-        self.relative(self.last)
+        self.balance.drift()
     }
 
     /// What no force accounts for (J), where it was largest.
     pub(super) fn unaccounted(&self) -> S {
-        self.worst.0
+        self.balance.unaccounted()
     }
 
-    /// The same where it is largest, and its time.
-    pub(super) fn worst(&self) -> (S, S) {
-        (self.relative(self.worst.0), self.worst.1)
-    }
-
-    /// Whether the work is known well enough for the balance to say anything.
-    pub(super) fn tells(&self, limit: f64) -> bool {
-        self.unsure <= S::constant(limit) * self.size()
-    }
-
-    /// How much of the work is not known, whatever its sign: large where forces change faster than
-    /// steps follow.
-    pub(super) fn warning_of_work(&self) -> S {
-        if self.unsure > S::zero() {
-            self.unsure.quotient(self.turnover)
-        } else {
-            S::zero()
+    pub(super) fn verdict(&self, run: &RunFacts<S>) -> Option<Warning> {
+        if run.rests {
+            return None;
         }
+        let (change, time) = self.balance.worst();
+        let change = change.quotient(run.lives);
+        above(change.abs(), ENERGY).then(|| Warning::Energy {
+            change: change.to_f64(),
+            time: time.to_f64(),
+        })
     }
 
-    /// Whether nothing works on the mechanism: no force without a potential, no driver, no
-    /// potential that changes by the time alone.
-    pub(super) fn is_of_a_closed_system(&self) -> bool {
-        self.before.is_none() && self.turnover <= S::zero()
+    /// Of a change that is small.
+    pub(super) fn phase(&self, run: &RunFacts<S>) -> Option<Warning> {
+        let change = self.balance.drift().quotient(run.lives);
+        let shift = S::constant(0.5) * change.abs() * run.travel;
+        let shift = shift.quotient(run.lives) * run.part_of_vibrations;
+        above(shift, limits::PHASE).then(|| Warning::Phase {
+            change: change.to_f64(),
+            travel: run.travel.to_f64(),
+            shift: shift.to_f64(),
+        })
     }
 
-    fn relative(&self, energy: S) -> S {
-        // Round-off of the energies themselves, as in a mechanism far from the origin, and what is
-        // not known of the work.
-        let parts = self.parts + self.height + self.kinetic;
-        let digits = S::constant(DIGITS) * S::EPSILON * parts;
-        let sure = energy.abs() - digits - self.unsure;
-        if sure > S::zero() {
-            (if energy < S::zero() { -sure } else { sure }).quotient(self.size())
-        } else if sure <= S::zero() {
-            S::zero()
-        } else {
-            sure
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Balance;
-
-    #[test]
-    fn work_that_is_put_in_balances() {
-        // A unit mass under the force cos t: v = sin t, power sin t cos t.
-        let mut balance = Balance::new(0.0, 0.0);
-        for step in 0..=60 {
-            let t = 0.1 * f64::from(step);
-            let (v, power) = (t.sin(), t.sin() * t.cos());
-            balance.add_work(t, power);
-            balance.level(t, 0.5 * v * v, 0.0);
-        }
-        assert!(balance.drift().abs() < 1e-3, "{}", balance.drift());
-        balance.add_work(6.1, 0.0);
-        balance.level(6.1, 5.0, 0.0);
-        assert!(balance.drift() > 0.5);
-        assert!(!balance.is_of_a_closed_system());
-    }
-
-    #[test]
-    fn round_off_is_no_drift() {
-        let mut balance = Balance::new(0.0, 1e9);
-        balance.level(1.0, 0.0, 1e9 + 1e-7);
-        assert_eq!(balance.drift(), 0.0);
-        assert!(balance.is_of_a_closed_system());
+    /// Only where nothing controls the steps.
+    pub(super) fn coarse_steps(&self, run: &RunFacts<S>) -> Option<Warning> {
+        let share = self.balance.unknown_share();
+        let begun = run.steps > BEGINNING && !run.rests;
+        let warned = begun && !run.is_controlled && above(share, FOLLOWED);
+        warned.then(|| Warning::CoarseSteps {
+            share: share.to_f64(),
+        })
     }
 }

@@ -1,17 +1,35 @@
 //! How long the gradients of the equations were over a run.
 //!
 //! A look costs the Jacobian, and is due where a gradient may have vanished since the last one:
-//! seldom, where gradients have not changed over some turns. Only it finds a shaft on a
-//! `ConstantVelocity` joint that comes to point against the other:
-//! `tests/tests/sweeps/gradients.rs`.
+//! seldom, where gradients have not changed over some turns. Such looks are not part of a run's
+//! count. Only it finds a shaft on a `ConstantVelocity` joint that comes to point against the
+//! other: `tests/tests/sweeps/gradients.rs`.
+//!
+//! A pivot is compared with its own row, so it does not tell where the row itself vanishes. Lengths
+//! of gradients are followed for that. Translational and rotational parts must vanish together,
+//! since arms may grow; of a vector equation, what its rows span counts.
 
+use super::record::{MonitoredStep, RunFacts};
 use super::singular::Approach;
+use super::warning::Warning;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
 use crate::math::vec3::{read, write};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::Block;
 use crate::state::vector::Array;
+
+/// The shortest gradient of an equation over a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShortestGradient<S> {
+    /// Its length over its largest, by translations or by rotations, whichever is left more of; of
+    /// a vector equation of all its rows, or what one has beside the others.
+    pub relative: S,
+    /// The joint's field.
+    pub joint: &'static str,
+    /// When (s).
+    pub time: S,
+}
 
 /// Squares of the lengths of the rows of `D`: of what acts on translations (m), and of what acts on
 /// rotations (rad).
@@ -22,10 +40,7 @@ use crate::state::vector::Array;
 type Lengths<S, M> = [<M as Mechanism>::Multipliers<S>; 2];
 
 /// Where a gradient vanishes, its equation leaves open which way a motion goes on, as where
-/// equations depend on each other. A relative pivot does not tell of that: it is compared with what
-/// the row is without the others, and that vanishes as well.
-///
-/// A gradient has vanished where both its parts have: a lever arm may become as long as it likes.
+/// equations depend on each other.
 pub(super) struct Gradients<S: Scalar, M: Mechanism> {
     first: Lengths<S, M>,
     largest: Lengths<S, M>,
@@ -94,10 +109,19 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         self
     }
 
+    #[inline]
+    pub(super) fn step(&mut self, step: &MonitoredStep<'_, S, M>) {
+        let travel = step.motion.travel;
+        if self.are_due(travel) {
+            let fall = self.measure(step.constants, (step.end, step.state));
+            self.look(step.end, fall, travel);
+        }
+    }
+
     /// Whether it is time to look, after so many radians of motion: whether one may have vanished
     /// since the last look, which costs as much as the equations themselves.
     #[inline]
-    pub(super) fn are_due(&self, travel: S) -> bool {
+    fn are_due(&self, travel: S) -> bool {
         self.are_there
             && self.looked.is_none_or(|looked| {
                 let motion = S::constant(OFTEN) * (travel - looked);
@@ -207,6 +231,29 @@ impl<S: Real, M: Mechanism> Gradients<S, M> {
         } else {
             least
         })
+    }
+
+    /// The same with the joint; `None` without equations.
+    pub(super) fn shortest_by_joint(&self, start: S) -> Option<ShortestGradient<S>> {
+        let shortest = self.shortest(start)?;
+        Some(ShortestGradient {
+            relative: shortest.fall.sqrt(),
+            joint: M::REPORT.joint_of(shortest.row)?,
+            time: shortest.time,
+        })
+    }
+
+    /// Gradients count by their squares, as pivots do.
+    pub(super) fn verdict(&self, run: &RunFacts<S>) -> Option<Warning> {
+        let shortest = self.shortest_by_joint(run.start)?;
+        let fall = shortest.relative * shortest.relative;
+        self.approach
+            .is_near(fall, run.open)
+            .then(|| Warning::Vanishing {
+                joint: shortest.joint,
+                length: shortest.relative.to_f64(),
+                time: shortest.time.to_f64(),
+            })
     }
 }
 

@@ -10,6 +10,7 @@
 //! of damped vibrations have warnings after some hundred radians: `tests/tests/alarms.rs`.
 
 use super::motion::MotionMeasure;
+use super::record::{Look, MonitoredStep};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{minus, read, square, write};
 use crate::mechanism::kernels::Mechanism;
@@ -72,13 +73,22 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
         }
     }
 
-    /// Looks at forces and velocities in a state with its kinetic energy (J).
-    pub(super) fn take(
+    #[inline]
+    pub(super) fn step(&mut self, step: &MonitoredStep<'_, S, M>) {
+        if let Some(look) = step.look {
+            self.look(step.constants, (step.end, step.state), look);
+        }
+    }
+
+    /// Looks at forces and velocities in a state with its energies.
+    #[inline(never)]
+    pub(super) fn look(
         &mut self,
         constants: &M::Constants<S>,
         (time, state): (S, &M::State<S>),
-        kinetic: S,
+        look: &Look<S, M>,
     ) {
+        let kinetic = look.kinetic;
         if M::REPORT.forces.is_empty() {
             return;
         }

@@ -1,5 +1,6 @@
 //! How fast a mechanism moves, in radians.
 
+use crate::constraints::row_units::characteristic_length;
 use crate::constraints::rows::Rows;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
@@ -17,14 +18,17 @@ pub(super) struct MotionMeasure<S: Scalar, M: Mechanism> {
     first: M::Velocities<S>,
 }
 
-/// How bodies move.
+/// How bodies move at the end of a step, and have moved until then.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion<S> {
+pub(crate) struct Motion<S> {
     /// The rate of the fastest body (rad/s).
     pub(super) rate: S,
     /// The squares of the largest speed (m^2/s^2) and angular velocity (rad^2/s^2).
     pub(super) speed: S,
     pub(super) spin: S,
+    /// Radians of motion of the step, and of the run so far.
+    pub(super) turned: S,
+    pub(super) travel: S,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for MotionMeasure<S, M> {
@@ -64,12 +68,14 @@ impl<S: Real, M: Mechanism> MotionMeasure<S, M> {
 
     /// The rate of the fastest body (rad/s).
     pub(super) fn of(&self, state: &M::State<S>) -> S {
-        self.motion(state).rate
+        let [rate, ..] = self.rates(state);
+        rate
     }
 
-    /// How bodies move. Squares are compared, so that there is one root.
+    /// The rate of the fastest body (rad/s), and the squares of the largest speed (m^2/s^2) and
+    /// angular velocity (rad^2/s^2). Squares are compared, so that there is one root.
     #[inline]
-    pub(super) fn motion(&self, state: &M::State<S>) -> Motion<S> {
+    pub(super) fn rates(&self, state: &M::State<S>) -> [S; 3] {
         let velocities = state.velocities().as_slice();
         let (mut rate, mut speed, mut spin) = (S::zero(), S::zero(), S::zero());
         for body in M::REPORT.bodies {
@@ -81,11 +87,7 @@ impl<S: Real, M: Mechanism> MotionMeasure<S, M> {
                 spin = spin.max(square(&read::<S, 3>(velocities, body.velocity + 3)));
             }
         }
-        Motion {
-            rate: rate.max(spin).sqrt(),
-            speed,
-            spin,
-        }
+        [rate.max(spin).sqrt(), speed, spin]
     }
 
     /// By how much the rate of a body is another than at the start, at the most (rad/s): of rigid
@@ -114,4 +116,23 @@ impl<S: Real, M: Mechanism> MotionMeasure<S, M> {
         }
         change
     }
+}
+
+/// How fast something turns at the most, or moves by lengths of the mechanism (rad/s).
+pub(crate) fn fastest<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    state: &M::State<S>,
+) -> S {
+    let velocities = state.velocities().as_slice();
+    let (mut speed, mut spin) = (S::zero(), S::zero());
+    for body in M::REPORT.bodies {
+        speed = speed.max(square(&read::<S, 3>(velocities, body.velocity)));
+        if body.kind == BodyKind::Rigid {
+            spin = spin.max(square(&read::<S, 3>(velocities, body.velocity + 3)));
+        }
+    }
+    let (speed, spin) = (speed.sqrt(), spin.sqrt());
+    // Lengths of the description: bodies may be anywhere by now.
+    let described = M::initial_state(constants);
+    spin.max(speed.quotient(characteristic_length::<S, M>(constants, &described)))
 }

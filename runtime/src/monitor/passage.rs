@@ -1,9 +1,9 @@
-//! Whether a way that is followed from pose to pose passed a singular configuration.
+//! Whether a way that is followed from pose to pose, as of an assembly or a kinematic analysis,
+//! passed a singular configuration.
 
 use super::gradients::Gradients;
-use super::limits;
+use super::limits::{self, above};
 use super::singular::Approach;
-use super::verdict::above;
 use super::warning::{Warning, Warnings};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::{Mechanism, Pivot};

@@ -1,9 +1,14 @@
 //! By how much coordinates lag behind, with a method of low order whose energy does not tell.
 //!
 //! It costs two evaluations in every fourth step of a method of order 2, and nothing with others.
-//! Only it finds the phase error of an oscillation: `tests/tests/sound/phase_error.rs`.
+//! Only it finds the phase error of an oscillation: `tests/tests/sound/phase_error.rs`. Estimates:
+//! `docs/decisions/012-phase-of-order-2.md`.
 
+use super::limits::{self, above};
 use super::motion::MotionMeasure;
+use super::record::{MonitoredStep, RunFacts};
+use super::warning::Warning;
+use crate::integrate::ErrorModel;
 use crate::math::quaternion::{conjugate, product};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
@@ -41,6 +46,14 @@ pub(super) struct PhaseError<S: Scalar, M: Mechanism> {
     /// The sums of what bodies missed at the most, whatever its direction: of coordinates, and of
     /// velocities (1/s).
     missed: [S; 2],
+    /// How the errors of the method grow.
+    model: ErrorModel,
+    /// The last rate of motion (rad/s), and sums over the steps of the third powers of what was
+    /// turned (rad), and of what the rate changed by.
+    rate: S,
+    cubes: [S; 2],
+    /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
+    changed: S,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for PhaseError<S, M> {
@@ -58,12 +71,41 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
             tracks: M::Velocities::<S>::zeros(),
             first: *start,
             missed: [S::zero(); 2],
+            model: ErrorModel::default(),
+            rate: S::zero(),
+            cubes: [S::zero(); 2],
+            changed: S::zero(),
         }
     }
 
-    /// The state at the start of the run.
-    pub(super) fn first(&self) -> &M::State<S> {
-        &self.first
+    /// Of a run with a method whose errors grow like that.
+    pub(super) fn over(mut self, model: ErrorModel) -> Self {
+        self.model = model;
+        self
+    }
+
+    /// By what part of a step velocities are ahead of coordinates; `None` where they are not.
+    #[inline]
+    pub(super) fn stagger(&self) -> Option<S> {
+        let lead = self.model.stagger;
+        (lead > 0.0).then(|| S::constant(lead))
+    }
+
+    #[inline]
+    pub(super) fn step(&mut self, measure: &MotionMeasure<S, M>, step: &MonitoredStep<'_, S, M>) {
+        let (rate, turned) = (step.motion.rate, step.motion.turned);
+        let change = if step.index > 0 {
+            (rate - self.rate).abs()
+        } else {
+            S::zero()
+        };
+        for (sum, x) in self.cubes.iter_mut().zip([turned, change]) {
+            *sum = (x * x).fused(x, *sum);
+        }
+        self.rate = rate;
+        if self.model.stagger > 0.0 {
+            self.changed = self.changed.max(measure.change(step.state));
+        }
     }
 
     /// Whether the step after so many is to be judged.
@@ -72,7 +114,11 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
     }
 
     /// Takes where a step has led to, and where a rule of higher order leads.
-    pub(super) fn take(&mut self, measure: &MotionMeasure<S, M>, [end, better]: [&M::State<S>; 2]) {
+    pub(super) fn judge(
+        &mut self,
+        measure: &MotionMeasure<S, M>,
+        [end, better]: [&M::State<S>; 2],
+    ) {
         let first = self.first;
         let velocities = end.velocities().as_slice();
         let mut most = [S::zero(); 2];
@@ -117,7 +163,7 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
 
     /// What all steps have missed, whatever its direction: of coordinates, and of velocities beside
     /// the fastest. Nothing of what a method does exactly.
-    pub(super) fn missed(&self, fastest: S) -> S {
+    fn missed(&self, fastest: S) -> S {
         let [coordinates, velocities] = self.missed;
         if velocities > S::zero() {
             coordinates.max(velocities.quotient(fastest))
@@ -185,6 +231,44 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
             largest = larger(largest, [way, off]);
         }
         largest
+    }
+
+    /// Of methods whose energy does not tell.
+    pub(super) fn verdict(&self, run: &RunFacts<S>) -> Option<Warning> {
+        if run.rests {
+            return None;
+        }
+        let mut shift = self.worst();
+        if !above(shift, limits::PHASE) {
+            let silent = self.silent_shift(run.fastest);
+            shift = shift.max(silent.min(self.missed(run.fastest)));
+        }
+        // What is off at the worst is known as it dies out.
+        let lives = run.lives * run.fed;
+        let shift = shift.quotient(lives.max(S::one()));
+        let shift = shift.max(self.led_shift(run.longest)) * run.part_of_vibrations;
+        above(shift, limits::PHASE).then(|| Warning::LongSteps {
+            shift: shift.to_f64(),
+        })
+    }
+
+    /// A rate that changes by a part `x` of the largest in a step is that of an oscillation of `x`
+    /// radians a step.
+    fn silent_shift(&self, fastest: S) -> S {
+        let [turned, changed] = self.cubes;
+        let fastest = fastest * fastest * fastest;
+        let phase_error = S::constant(self.model.phase_error);
+        if phase_error > S::zero() && fastest > S::zero() {
+            phase_error * turned.max(changed.quotient(fastest))
+        } else {
+            S::zero()
+        }
+    }
+
+    /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a
+    /// rate changes by over so much time.
+    fn led_shift(&self, longest: S) -> S {
+        S::constant(self.model.stagger) * longest * self.changed
     }
 }
 

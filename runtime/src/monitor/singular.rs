@@ -1,10 +1,24 @@
-//! How near a run came to a singular configuration.
+//! The history of what goes with the distance from a singular configuration: of pivots and of
+//! gradients.
 //!
-//! It costs a root a step: the pivot is that of the last evaluation. Within a step it costs an
-//! evaluation a look. Only it finds a four-bar that goes on along either branch, and steps that
-//! pass over it: `tests/tests/sweeps/singular.rs`.
+//! A step may pass over such a configuration. So three pivots around a least one are judged by
+//! their parabola and by the sign of their root. The fall of a pivot counts, because unequal masses
+//! make it small all along. Where motion and two ends do not exclude a singular configuration, the
+//! step is divided by its interpolant until no root can have changed its sign (`run/within.rs`).
+//!
+//! Branches. A mechanism that is open by `d` keeps a pivot of about `2 d` where an equation
+//! becomes a product of two distances, and goes on along either branch. So the limit grows with
+//! the largest violation.
 
+use super::limits::{self, above};
 use crate::math::scalar::Real;
+
+/// The least relative pivot, over the largest of the run and over the largest violation, in lengths
+/// of the mechanism or radians, that counts as near to a singular configuration: near to one in
+/// which an equation is a product of two distances, up to the scales of these, an equation that is
+/// off by `d` keeps a pivot of `2 d`. A rhombus that goes on along the wrong branch keeps several
+/// times the largest violation of the run.
+const PASSED_OPEN: f64 = 15.0;
 
 /// A relative pivot and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,7 +166,7 @@ impl<S: Real> Approach<S> {
     /// Whether a step was so long that it may have passed over a singular configuration unseen: the
     /// distances from one at both its ends, a root of the pivot over the largest each, are together
     /// less than its motion.
-    pub(super) fn may_have_passed(&self) -> bool {
+    fn may_have_passed(&self) -> bool {
         /// The largest pivot that was met need not be the largest there is.
         const MARGIN: f64 = 1.25;
         self.widest * self.highest * S::constant(MARGIN) > S::one()
@@ -194,6 +208,14 @@ impl<S: Real> Approach<S> {
         } else {
             S::one()
         }
+    }
+
+    /// Whether pivots, or squares of gradients, that fell so far tell of a singular configuration,
+    /// or one may have been passed. A mechanism that is open by a little passes one at a distance
+    /// whose square goes with that; of one that is open by more all is reported.
+    pub(super) fn is_near(&self, fall: S, open: S) -> bool {
+        let passed = !above(open, limits::OPEN) && fall < S::constant(PASSED_OPEN) * open;
+        !above(fall, limits::NEARLY_SINGULAR) || passed || self.may_have_passed()
     }
 }
 

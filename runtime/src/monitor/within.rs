@@ -1,8 +1,8 @@
 //! What the monitor asks for of the way between two ends of steps.
 
+use super::Monitor;
+use super::limits::{self, above};
 use super::singular::Approach;
-use super::verdict::above;
-use super::{Monitor, limits};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 
@@ -52,13 +52,13 @@ fn keeps_away<S: Real>(squares: [Option<S>; 3]) -> bool {
 impl<S: Real, M: Mechanism> Monitor<S, M> {
     /// The end of the last step.
     pub(crate) fn time(&self) -> S {
-        self.time
+        self.travel.time
     }
 
     /// How near the mechanism was at the last look, which was at the end of the last step or
     /// shortly before.
     pub(crate) fn last_nearness(&self, asked: Asked) -> Nearness<S> {
-        let last = self.approach.as_ref().and_then(|approach| approach.last());
+        let last = self.pivots.approach().and_then(Approach::last);
         Nearness {
             pivot: last.filter(|_| asked.pivot),
             gradient: self.gradients.approach().last().filter(|_| asked.gradient),
@@ -70,13 +70,13 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
     /// singular configuration is known.
     #[inline]
     pub(crate) fn asks(&self, step: S) -> Asked {
-        let motion = self.fastest * step;
+        let motion = self.travel.fastest * step;
         let may_pass = |approach: &Approach<S>| {
             approach.may_come_to_pass(motion) && above(approach.fall(), limits::NEARLY_SINGULAR)
         };
         let gradients = self.gradients.approach();
         Asked {
-            pivot: self.approach.as_ref().is_some_and(may_pass),
+            pivot: self.pivots.approach().is_some_and(may_pass),
             gradient: gradients.last().is_some() && may_pass(gradients),
         }
     }
@@ -91,7 +91,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             }
             _ => false,
         };
-        let by_pivots = self.approach.as_ref();
+        let by_pivots = self.pivots.approach();
         by_pivots.is_some_and(|approach| may_pass(approach, [from.pivot, to.pivot]))
             || may_pass(self.gradients.approach(), [from.gradient, to.gradient])
     }
@@ -99,7 +99,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
     /// How fast the mechanism moves at the most (rad/s): at the end of the last step, or in a
     /// state.
     pub(crate) fn faster(&self, state: &M::State<S>) -> S {
-        self.rate.max(self.measure.of(state))
+        self.travel.rate.max(self.measure.of(state))
     }
 
     /// How near a state is, by its pivot, if there is one.
@@ -123,23 +123,21 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         if let Some(gradient) = nearness.gradient {
             self.gradients.look_within(time, gradient);
         }
-        let Some((approach, pivot)) = self.approach.as_mut().zip(nearness.pivot) else {
-            return false;
-        };
-        approach.step(time, pivot, S::zero())
+        let pivot = nearness.pivot;
+        pivot.is_some_and(|pivot| self.pivots.look_within(time, pivot))
     }
 
     /// Keeps the state of the smallest pivot.
     pub(crate) fn keep(&mut self, time: S, state: &M::State<S>) {
-        self.nearest = (time, *state);
+        self.pivots.keep(time, state);
     }
 
     /// Takes that so much motion (rad) since the last step was looked into, and nothing that was
     /// asked was passed unseen.
     pub(crate) fn is_known_for(&mut self, motion: S, asked: Asked) {
-        let travel = self.travel + motion;
+        let travel = self.travel.radians + motion;
         if asked.pivot {
-            self.looked = travel;
+            self.pivots.are_known_until(travel);
         }
         if asked.gradient {
             self.gradients.is_known_until(travel);

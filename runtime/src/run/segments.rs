@@ -7,7 +7,7 @@ use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{
-    Advance as _, Counts, Integration as _, Integrator, Method, System as _, TimeSpan,
+    Advance, Counts, Integration as _, Integrator, Method, System as _, TimeSpan,
 };
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
@@ -36,6 +36,15 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     /// Steps so far.
     pub(crate) steps: usize,
     pub(crate) counts: Counts,
+}
+
+/// A step that was taken, and looked into for the monitor.
+struct Taken<S: Real, M: Mechanism> {
+    /// Where a rule of higher order would have led, where that is asked.
+    better: Option<M::State<S>>,
+    /// Evaluations so far, and those of them that looked into the step.
+    evaluations: usize,
+    looks: usize,
 }
 
 /// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at
@@ -121,7 +130,8 @@ where
         Ok(())
     }
 
-    /// Integrates over an interval without breaks.
+    /// Integrates over an interval without breaks: step by step, each is taken, then reports within
+    /// it are made, then its end is observed.
     fn segment<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         integrator: &I,
@@ -142,77 +152,31 @@ where
         // What interpolants evaluate for the monitor is no part of the run.
         let mut of_monitor = 0_usize;
         while integration.time() < span.end {
-            integration.advance(&mut self.dynamics)?;
-            let before = integration.counts().evaluations;
-            let mut better = None;
-            if let Some(monitor) = &mut self.monitor {
-                better = better_end(monitor, &mut self.dynamics, &integration, &last_good.1);
-                look_within(monitor, &mut self.dynamics, &mut integration, &last_good.1);
+            let taken = self.take(&mut integration, &last_good.1)?;
+            let has_reported = self.report_within(&mut integration, companion, last_good)?;
+            if self.log.flow.is_break() {
+                break;
             }
-            let after = integration.counts().evaluations;
-            let looks = after.saturating_sub(before);
-            // What output within the step evaluates is not what the monitor is shown, which is its
-            // end.
-            let mut seen = None;
-            while let Some(time) = self.schedule.within(integration.time()) {
-                seen.get_or_insert_with(|| self.dynamics.seen());
-                let state = integration.at(&mut self.dynamics, time)?;
-                let mut state = self.dynamics.bodies_near(&state, &last_good.1);
-                if let Some(stabilisation) = self.stabilisation {
-                    state = self.stabilised(stabilisation, time, state)?;
-                }
-                *last_good = (time, state);
-                self.show(time, &last_good.1, companion);
-                if self.log.flow.is_break() {
-                    self.counts = self.counts.plus(integration.counts().without(of_monitor));
-                    return Ok(());
-                }
-            }
-            let is_shared = match seen {
+            let is_shared = if has_reported {
                 // With reports, which find what interpolation needs where a look has evaluated it,
                 // or evaluate for each time anew.
-                Some(seen) => {
-                    self.dynamics.recall(seen);
-                    integration.counts().evaluations == after
-                }
+                integration.counts().evaluations == taken.evaluations
+            } else {
                 // Or as the slope at the start of the next step.
-                None => looks <= 1 && self.stabilisation.is_none(),
+                taken.looks <= 1 && self.stabilisation.is_none()
             };
             if !is_shared {
-                of_monitor = of_monitor.saturating_add(looks);
+                of_monitor = of_monitor.saturating_add(taken.looks);
             }
-            let time = integration.time();
-            let mut state = self.dynamics.bodies_near(integration.state(), &last_good.1);
-            if let Some(stabilisation) = self.stabilisation {
-                state = self.stabilised(stabilisation, time, state)?;
-                let state = self.dynamics.nearest_to(&state, integration.state());
-                integration.replace(state);
-            }
-            if let Some(monitor) = &mut self.monitor {
-                if let Some(better) = better {
-                    monitor.judge([&state, &better]);
-                }
-                let estimate = integration.estimate();
-                self.dynamics
-                    .monitor(monitor, time, integration.state(), &state, estimate);
-                let unconverged = self.dynamics.iterations().unconverged;
-                monitor.accept_unconverged_evaluations(unconverged, time);
-            }
-            self.steps = self.steps.saturating_add(1);
-            if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
-                let before = (last_good.0, &last_good.1);
-                self.dynamics.ask_twice((time, &state), before)?;
-            }
-            *last_good = (time, state);
-            self.log.unseen += 1;
-            if self.schedule.at(time, self.log.unseen) {
-                self.show(time, &state, companion);
+            self.observe(&mut integration, taken.better, last_good)?;
+            if self.schedule.at(last_good.0, self.log.unseen) {
+                self.show(last_good.0, &last_good.1, companion);
                 if self.log.flow.is_break() {
                     break;
                 }
             }
             let evaluations = integration.counts().without(of_monitor).evaluations;
-            if evaluations >= budget && time < span.end {
+            if evaluations >= budget && integration.time() < span.end {
                 let evaluations = self.counts.evaluations.saturating_add(evaluations);
                 return Err(Fault::Budget {
                     evaluations,
@@ -221,6 +185,103 @@ where
             }
         }
         self.counts = self.counts.plus(integration.counts().without(of_monitor));
+        Ok(())
+    }
+
+    /// Takes a step, and looks into it for the monitor. The bodies stood near by at its start.
+    #[inline]
+    fn take<K: Advance<S, Dynamics<S, M, F, A, C>>>(
+        &mut self,
+        integration: &mut K,
+        near: &M::State<S>,
+    ) -> Result<Taken<S, M>, Fault> {
+        integration.advance(&mut self.dynamics)?;
+        let before = integration.counts().evaluations;
+        let mut better = None;
+        if let Some(monitor) = &mut self.monitor {
+            better = better_end(monitor, &mut self.dynamics, integration, near);
+            look_within(monitor, &mut self.dynamics, integration, near);
+        }
+        let evaluations = integration.counts().evaluations;
+        Ok(Taken {
+            better,
+            evaluations,
+            looks: evaluations.saturating_sub(before),
+        })
+    }
+
+    /// Shows the states at reporting times within the last step, until the observer stops; whether
+    /// there are any.
+    #[inline]
+    fn report_within<I, K>(
+        &mut self,
+        integration: &mut K,
+        companion: &mut Option<Companion<S, M, F, A, C, I>>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<bool, Fault>
+    where
+        I: Integrator<S, Dynamics<S, M, F, A, C>>,
+        K: Advance<S, Dynamics<S, M, F, A, C>>,
+    {
+        let mut start = None;
+        while let Some(time) = self.schedule.within(integration.time()) {
+            start.get_or_insert_with(|| (self.dynamics.seen(), *last_good));
+            let state = integration.at(&mut self.dynamics, time)?;
+            let mut state = self.dynamics.bodies_near(&state, &last_good.1);
+            if let Some(stabilisation) = self.stabilisation {
+                state = self.stabilised(stabilisation, time, state)?;
+            }
+            *last_good = (time, state);
+            self.show(time, &last_good.1, companion);
+            if self.log.flow.is_break() {
+                break;
+            }
+        }
+        let Some((seen, (time, state))) = start else {
+            return Ok(false);
+        };
+        // What output within the step evaluates is not what the monitor is shown, which is its end.
+        self.dynamics.recall(seen);
+        // The monitor is not shown this step any more: the one before it was the last.
+        if let Some(monitor) = self.monitor.as_mut().filter(|_| self.log.flow.is_break()) {
+            monitor.end_of_steps(self.dynamics.constants(), time, &state);
+        }
+        Ok(true)
+    }
+
+    /// Corrects the end of the last step, and shows it to the monitor, with where a rule of higher
+    /// order would have led.
+    #[inline]
+    fn observe<K: Advance<S, Dynamics<S, M, F, A, C>>>(
+        &mut self,
+        integration: &mut K,
+        better: Option<M::State<S>>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
+        let time = integration.time();
+        let mut state = self.dynamics.bodies_near(integration.state(), &last_good.1);
+        if let Some(stabilisation) = self.stabilisation {
+            state = self.stabilised(stabilisation, time, state)?;
+            let state = self.dynamics.nearest_to(&state, integration.state());
+            integration.replace(state);
+        }
+        if let Some(monitor) = &mut self.monitor {
+            if let Some(better) = better {
+                monitor.judge([&state, &better]);
+            }
+            let estimate = integration.estimate();
+            self.dynamics
+                .monitor(monitor, time, integration.state(), &state, estimate);
+            let unconverged = self.dynamics.iterations().unconverged;
+            monitor.accept_unconverged_evaluations(unconverged, time);
+        }
+        self.steps = self.steps.saturating_add(1);
+        if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
+            let before = (last_good.0, &last_good.1);
+            self.dynamics.ask_twice((time, &state), before)?;
+        }
+        *last_good = (time, state);
+        self.log.unseen += 1;
         Ok(())
     }
 

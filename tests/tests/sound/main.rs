@@ -13,4 +13,6 @@ mod outside;
 mod phase_error;
 mod readings;
 mod start;
+mod stopped;
+mod told;
 mod turns;
