@@ -27,18 +27,27 @@ pub(super) const ROUND_OFF: f64 = 1e-12;
 /// A sweep of fewer stops tells nothing.
 const STOPS: usize = 4;
 
-/// Rows of `D` at a stop of a sweep.
+/// Rows of `D` at a stop of a sweep, each about as large on free bodies as at others.
 struct Stop {
     rows: Vec<Vec<f64>>,
+    /// What each row was multiplied by for that.
+    factors: Vec<f64>,
     /// The largest number that each row is made of. In a singular position a row without the
     /// velocities that others determine may be nothing but round-off.
     made_of: Vec<f64>,
 }
 
 impl Stop {
-    fn new(rows: Vec<Vec<f64>>) -> Self {
+    fn new(mut rows: Vec<Vec<f64>>, factors: Vec<f64>) -> Self {
+        for (row, factor) in rows.iter_mut().zip(&factors) {
+            row.iter_mut().for_each(|entry| *entry *= factor);
+        }
         let made_of = rows.iter().map(|row| largest(row).abs()).collect();
-        Self { rows, made_of }
+        Self {
+            rows,
+            factors,
+            made_of,
+        }
     }
 }
 
@@ -66,20 +75,58 @@ pub(super) fn sweep(
     stops.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-/// The values of rows at the stops of a sweep.
-fn values(arena: &Arena, rows: &[Vec<Expr>], sweep: &[(f64, Vec<f64>)]) -> Option<Vec<Stop>> {
+/// The values of rows at the stops of a sweep, each about as large as at the median one.
+fn values(
+    arena: &Arena,
+    (rows, mobilities): (&[Vec<Expr>], &[Expr]),
+    sweep: &[(f64, Vec<f64>)],
+) -> Option<Vec<Stop>> {
     let flat: Vec<Expr> = rows.iter().flatten().copied().collect();
+    let width = rows.first().map_or(1, |row| row.len().max(1));
     let stops = sweep.iter().map(|(time, coordinates)| {
-        let values = evaluate(arena, &flat, |input| match input {
+        let known = |input| match input {
             Input::Coordinate(place) => coordinates.get(place as usize).copied(),
             Input::Time => Some(*time),
             _ => None,
+        };
+        let values: Option<Vec<f64>> = evaluate(arena, &flat, known).into_iter().collect();
+        // Any masses will do.
+        let free = evaluate(arena, mobilities, |input| match input {
+            Input::Symbol(_) | Input::Varying(_) => Some(1.0),
+            input => known(input),
         });
-        let values: Option<Vec<f64>> = values.into_iter().collect();
-        let width = rows.first().map_or(1, |row| row.len().max(1));
-        values.map(|values| Stop::new(values.chunks(width).map(<[f64]>::to_vec).collect()))
+        values.map(|values| (values, free))
     });
-    stops.collect()
+    let stops: Vec<(Vec<f64>, Vec<Option<f64>>)> = stops.collect::<Option<_>>()?;
+    let free = (0..rows.len()).map(|row| stops.iter().map(|(_, free)| free[row]).collect());
+    let factors: Vec<Vec<f64>> = free.map(|free: Vec<_>| factors(&free)).collect();
+    let stops = stops.into_iter().enumerate().map(|(stop, (values, _))| {
+        let rows = values.chunks(width).map(<[f64]>::to_vec).collect();
+        Stop::new(rows, factors.iter().map(|factors| factors[stop]).collect())
+    });
+    Some(stops.collect())
+}
+
+/// Factors by which a row is about as large on free bodies at every stop as at the median one, from
+/// its mobilities. An equation means the same if it is multiplied by a number. But where an angle
+/// is hardly defined, its row grows without bound, and other stops would look singular beside that
+/// one. A row that nearly vanishes by itself is singular and keeps its size. Powers of two change
+/// no digit.
+fn factors(mobilities: &[Option<f64>]) -> Vec<f64> {
+    let known = |mobility: &Option<f64>| mobility.filter(|m| m.is_finite() && *m > 0.0);
+    let mut sizes: Vec<f64> = mobilities.iter().filter_map(known).collect();
+    sizes.sort_by(f64::total_cmp);
+    let Some(&median) = sizes.get(sizes.len() / 2) else {
+        return vec![1.0; mobilities.len()];
+    };
+    let factor = |mobility: &Option<f64>| match known(mobility) {
+        Some(mobility) if mobility > SINGULAR.powi(2) * median => {
+            let doublings = (median / mobility).sqrt().log2().round();
+            2.0_f64.powi(doublings as i32)
+        }
+        _ => 1.0,
+    };
+    mobilities.iter().map(factor).collect()
 }
 
 /// A way to take rows and velocities together.
@@ -92,6 +139,8 @@ struct Candidate {
     steady: f64,
     /// At the first stop, or if this is a singular position, the largest.
     determinant: f64,
+    /// The same of the rows as kernels have them.
+    raw: f64,
 }
 
 /// The rows that are not taken yet, at the stops of a sweep.
@@ -108,15 +157,15 @@ struct Open<'a> {
 
 /// What is eliminated before the rest: velocities with the rows that determine them, and the
 /// determinants in the reference configuration. Velocities count from 0, rows from the number of
-/// velocities. `alike` is [`Links::alike`].
+/// velocities. `mobilities` are what rows are on free bodies, `alike` is [`Links::alike`].
 pub(super) fn dependent(
     arena: &Arena,
-    (rows, joints): (&[Vec<Expr>], &[usize]),
+    (rows, mobilities, joints): (&[Vec<Expr>], &[Expr], &[usize]),
     alike: &[usize],
     sweep: &[(f64, Vec<f64>)],
 ) -> (Vec<Pivot>, Vec<f64>) {
     let (mut pivots, mut determinants) = (Vec::new(), Vec::new());
-    let told = values(arena, rows, sweep).filter(|stops| stops.len() >= STOPS);
+    let told = values(arena, (rows, mobilities), sweep).filter(|stops| stops.len() >= STOPS);
     let Some(stops) = told else {
         return certain::certain(arena, rows, alike);
     };
@@ -128,7 +177,7 @@ pub(super) fn dependent(
             (&[k, ..], &[m, ..]) => Pivot::Dependent(k, first + m),
             _ => unreachable!("a candidate has rows and velocities"),
         });
-        determinants.push(chosen.determinant);
+        determinants.push(chosen.raw);
         open.eliminate(&chosen);
     }
     (pivots, determinants)
@@ -248,11 +297,18 @@ impl<'a> Open<'a> {
             .fold(f64::INFINITY, |least, share| least.min(share.abs()));
         let most = largest(&determinants);
         let is_first = determinants[0].abs() > STEADY * most.abs();
+        let determinant = if is_first { determinants[0] } else { most };
+        let factor = || -> f64 { rows.iter().map(|&row| self.stops[0].factors[row]).product() };
         (steady > STEADY && most != 0.0).then(|| Candidate {
             rows: rows.to_vec(),
             velocities,
             steady,
-            determinant: if is_first { determinants[0] } else { most },
+            determinant,
+            raw: if is_first {
+                determinant / factor()
+            } else {
+                most
+            },
         })
     }
 
@@ -372,6 +428,7 @@ fn reduce(stop: &mut Stop, row: usize, chosen: &Candidate) {
     let Stop {
         rows: stop,
         made_of,
+        ..
     } = stop;
     let entries: Vec<f64> = chosen.velocities.iter().map(|&k| stop[row][k]).collect();
     // Shares of the chosen rows, by Cramer's rule.
@@ -394,5 +451,16 @@ fn reduce(stop: &mut Stop, row: usize, chosen: &Candidate) {
     }
     for &k in &chosen.velocities {
         stop[row][k] = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::factors;
+
+    #[test]
+    fn rows_are_about_as_large_at_all_stops() {
+        let factors = factors(&[Some(1.0), Some(4.0), Some(1e8), Some(1e-30), None]);
+        assert_eq!(factors, [2.0, 1.0, 2.0_f64.powi(-12), 1.0, 1.0]);
     }
 }

@@ -57,7 +57,7 @@ impl Reduced {
 
     /// `d M^-1 d^T` of every row `d` of the Jacobian of the bodies. An angle that the coordinates
     /// hold acts on velocities by itself, but on free bodies by moments as any other.
-    fn mobilities(&mut self) -> Vec<Expr> {
+    pub(super) fn mobilities(&mut self) -> Vec<Expr> {
         let mut mobilities = Vec::new();
         for place in 0..self.scene.constraints.len() {
             for gradient in self.scene.gradients_by_bodies(place, Frame::Global) {

@@ -114,12 +114,14 @@ impl Reduced {
     fn taken_together(mut self, beginning: &Beginning<'_>) -> (Vec<Pivot>, Vec<f64>) {
         let sweep = sweep(&self.scene.space.arena, beginning, &self.links);
         let (rows, _) = self.rows(Terms::Plain);
+        let mobilities = self.mobilities();
         let constraints = self.scene.constraints.iter();
         let joints: Vec<usize> = constraints
             .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
             .collect();
         let alike = self.links.alike();
-        dependent(&self.scene.space.arena, (&rows, &joints), &alike, &sweep)
+        let rows = (&rows[..], &mobilities[..], &joints[..]);
+        dependent(&self.scene.space.arena, rows, &alike, &sweep)
     }
 
     /// The equations, by joint and place, that no velocity changes.

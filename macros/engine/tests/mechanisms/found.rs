@@ -343,3 +343,44 @@ fn round_off_determines_no_velocity_where_it_is_all_of_a_row() {
         );
     }
 }
+
+/// A driver of the angle about axes that nothing keeps parallel. The angle is not defined where
+/// these are opposed. Near there its row is a thousand times as large as at the start, which was
+/// taken for a singular position.
+const BESIDE_OPPOSED_AXES: &str = "
+    pub struct Random {
+        #[joint(between = [b0, b1], first = [0.5, 0.7806456769667696, 0.6469445240569884], second = [0.25, 0.25, 0.0], axis = [0.0, 0.0, 1.0])]
+        j1: RevoluteRevolute,
+        #[body(mass = 1.1125489896155274, inertia = [1.205918812761236, 1.2565738180799606, 2.0158282199809654], position = [0.0, 0.25, -0.5], free)]
+        b0: Body,
+        #[body(mass = 0.751312857681943, inertia = [0.6465810955788915, 1.0669135332507795, 0.7422635701665206], orientation = rotation([0.0, 0.0, 1.0], deg(90.0)), position = [1.0, -0.5, 0.5], free)]
+        b3: Body,
+        #[body(mass = 2.144812252141867, inertia = [1.183305944732659, 1.128372634752853, 1.5527227713250207], position = [0.0, -0.5, -0.08062635263639506], free)]
+        b4: Body,
+        #[body(mass = 0.6806741064048432, inertia = [1.3277868493202134, 1.4880168294435774, 0.786145686091752], orientation = [-0.2347277328789689, 0.6640078826782877, 0.5046248343476623, -0.4993497769281481], position = [0.25, 0.25, 0.5], free)]
+        b2: Body,
+        #[joint(between = [ground, b0], point = local([0.25, 0.25, -0.5], [0.25, 0.0, 0.0]), axis = [0.0, 0.0, 1.0])]
+        j0: Revolute,
+        #[body(mass = 2.2193414909667544, inertia = [1.861966391291062, 1.1627243707233825, 1.2306787187095367], orientation = rotation([0.0, 1.0, 0.0], deg(90.0)), position = [-0.9146274777878938, 0.5, 0.5], free)]
+        b1: Body,
+        #[joint(axis = [0.0, 0.0, 1.0], second = [0.0, 0.25, 0.0], between = [b2, b1], first = [1.0, -0.5, 0.41629340980781415])]
+        j2: RevoluteRevolute,
+        #[joint(between = [b4, b0], axis = local([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]), motion = 0.39866373754563633 * smooth_step(time / 2.0))]
+        j3: AngleDriver,
+    }";
+
+#[test]
+fn a_row_that_grows_without_bound_makes_no_other_stop_singular() {
+    let text = Text {
+        item: BESIDE_OPPOSED_AXES.into(),
+        definitions: Vec::new(),
+    };
+    for seed in 50022..50026 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}

@@ -240,6 +240,9 @@ impl Comparison<'_> {
             dropped.extend((0..rows).map(|row| !is_kept(&row)));
             is_closing.extend((0..rows).filter(is_kept).map(|_| remains(joint)));
         }
+        // Where equations that are left out are violated, the others hold on a branch that the
+        // mechanism never gets to.
+        let is_on_all = equations.hold();
         let equations = equations.without(&dropped);
         let compliances = is_closing.iter().map(|&closes| match terms {
             Terms::Compliant if closes => coefficients.compliance,
@@ -274,7 +277,7 @@ impl Comparison<'_> {
         if smallest < SMALL {
             // The kernel says so. Off the constraints velocities may be undetermined that follow
             // from the others on them.
-            if equations.hold() && system.condition() < SOUND {
+            if is_on_all && system.condition() < SOUND {
                 return Err(format!(
                     "joint coordinates, {strategy:?}, {terms:?}: a pivot of {smallest:e} in a system that is not singular\nin {coordinates:?}"
                 ));
