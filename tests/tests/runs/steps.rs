@@ -6,7 +6,6 @@ use holonom::{
     dynamics::Dynamics,
     integrate::{DormandPrince5, OneStep},
 };
-use holonom_assembler::accuracy::assert_close;
 use holonom_models::{DrivenSliderCrank, RodPendulum};
 
 use crate::flat::flat;
