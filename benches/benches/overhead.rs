@@ -15,7 +15,7 @@ use holonom::{
     Formulation, Mechanism, Rk4, StandardLagrange, StateParts,
     dynamics::Dynamics,
     integrate::{OneStep, System},
-    mechanism::{Normalised, Plain},
+    mechanism::Plain,
     state::Array,
 };
 use holonom_models::{FourBar, RodPendulum};
@@ -90,7 +90,7 @@ fn overhead<M: Mechanism + Default>(criterion: &mut Criterion, name: &str) {
         bencher.iter(|| {
             for state in &states {
                 let (constants, coefficients) = (black_box(&constants), black_box(&coefficients));
-                let pivot = M::evaluate_into::<f64, Plain, Normalised>(
+                let pivot = M::evaluate_into::<f64, Plain>(
                     constants,
                     coefficients,
                     0.0,

@@ -212,7 +212,6 @@ pub mod prelude {
         Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty, Projection, Rk4,
         RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange, StateParts,
         Stepper, Tolerance, every, every_step,
-        mechanism::{Normalised, Raw},
     };
 }
 

@@ -8,7 +8,7 @@ pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
     HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointReport, Kernel, Marker,
-    MarkerKind, Operations, Orientation, Pivot, Rank, RedundantRow, Relative, Stabilisation, Terms,
+    MarkerKind, Operations, Pivot, Rank, RedundantRow, Relative, Stabilisation, Terms,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -21,7 +21,7 @@ use crate::state::vector::StateParts;
 
 /// [`Mechanism::evaluate_into`] from the other kernels, with the gains of `Phi'` and of `Phi`.
 #[inline]
-pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
+pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms>(
     constants: &M::Constants<S>,
     coefficients: &M::Coefficients<S>,
     gains: [S; 2],
@@ -30,21 +30,15 @@ pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms, P: Orientation>(
     rates: &mut M::State<S>,
     multipliers: &mut M::Multipliers<S>,
 ) -> Pivot<S> {
-    let read = if P::NORMALISED {
-        with_unit_orientations::<S, M>(state)
-    } else {
-        *state
-    };
+    let read = with_unit_orientations::<S, M>(state);
     let (factors, pivot) = M::factor::<S, T>(constants, coefficients, time, &read);
     let upper = M::forces(constants, time, &read);
     let lower = stabilised::<S, M, T>(constants, gains, time, &read);
     let (accelerations, solved) =
         M::solve::<S, T>(constants, coefficients, &factors, &upper, &lower);
     let mut coordinate_rates = M::coordinate_rates(constants, &read);
-    if P::NORMALISED {
-        // Those of Euler parameters are made of these as they are.
-        scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
-    }
+    // Those of Euler parameters are made of these as they are.
+    scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
     *rates = M::State::from_parts(coordinate_rates, accelerations);
     *multipliers = solved;
     pivot
@@ -350,7 +344,7 @@ macro_rules! __stub_mechanism {
                 fn kinetic_energy<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> __S { loop {} }
                 fn potential_energy<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> __S { loop {} }
                 fn coordinate_rates<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> [__S; 0] { [] }
-                fn evaluate_into<__S: $crate::Scalar, __T: $crate::mechanism::Terms, __P: $crate::mechanism::Orientation>(
+                fn evaluate_into<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(
                     _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::State<__S>, _: &mut Self::State<__S>, _: &mut [__S; 0],
                 ) -> $crate::mechanism::Pivot<__S> { loop {} }
                 fn factor<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(

@@ -10,7 +10,6 @@ use holonom_engine::plan::kernels::{Kernels, evaluation};
 use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::arena::Stage;
 use holonom_engine::symbolic::count::count;
-use holonom_engine::symbolic::scene::Normalisation;
 use syn::{Block, Expr, File, Item, Stmt};
 
 /// The function of a name in the block that holds everything generated for a mechanism.
@@ -91,7 +90,7 @@ fn chains_and_a_loop() {
         let plans = choose(&model);
         text += &format!("{name}\n");
         for terms in Terms::ALL {
-            let kernel = evaluation(&model, plans.of(terms), Normalisation::Raw, terms).kernel;
+            let kernel = evaluation(&model, plans.of(terms), terms).kernel;
             let count = count(&kernel.arena, &kernel.outputs, Stage::State);
             text += &format!(
                 "  {terms:?}: {} operations, {} of them reciprocals, depth {}\n",

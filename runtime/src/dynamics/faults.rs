@@ -7,10 +7,9 @@ use crate::error::{Fault, NotFinite};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
-use crate::mechanism::absolute::as_read;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
-use crate::mechanism::orientations::check_state;
+use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::state::vector::{Array, MovingState, StateParts};
 
 impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
@@ -65,9 +64,9 @@ where
         if !A::PRESENT {
             return Ok(());
         }
-        let read = as_read::<S, M, C::Orientation>(state);
+        let read = with_unit_orientations::<S, M>(state);
         let one = self.applied(time, &read);
-        let _ = self.applied(between.0, &as_read::<S, M, C::Orientation>(between.1));
+        let _ = self.applied(between.0, &with_unit_orientations::<S, M>(between.1));
         let other = self.applied(time, &read);
         match differing(&M::REPORT, [one.as_slice(), other.as_slice()]) {
             None => Ok(()),
@@ -117,7 +116,7 @@ where
         if let Err(fault) = check_state::<S, M>(bodies) {
             return fault;
         }
-        let read = &as_read::<S, M, C::Orientation>(bodies);
+        let read = &with_unit_orientations::<S, M>(bodies);
         let applied = A::PRESENT.then(|| {
             let mut forces = M::forces(self.absolute, time, read);
             self.forces

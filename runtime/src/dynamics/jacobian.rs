@@ -5,9 +5,9 @@ use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, by_forward_numbers, lifted, with_differences};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
-use crate::mechanism::absolute::as_read;
 use crate::mechanism::coordinates::{Coordinates, Prepared};
 use crate::mechanism::kernels::{Mechanism, Stabilisation};
+use crate::mechanism::orientations::with_unit_orientations;
 use crate::state::vector::{Array, MovingState, Vector};
 
 impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
@@ -48,7 +48,7 @@ where
         let gains = [rate, position].map(Forward::fixed);
         let applied = |state: &C::State<S>| {
             let bodies = self.bodies(state);
-            self.applied(time, &as_read::<S, M, C::Orientation>(&bodies))
+            self.applied(time, &with_unit_orientations::<S, M>(&bodies))
         };
         let here = applied(state);
         by_forward_numbers(state, &zeros, columns, |lifted, rates, taken| {

@@ -41,13 +41,13 @@ use crate::formulation::{Formulation, inconsistency};
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::measure::view::View;
-use crate::mechanism::absolute::{as_read, stabilised};
+use crate::mechanism::absolute::stabilised;
 use crate::mechanism::coordinates::{
     Absolute, AbsoluteEquations, Coordinates, Equations, Evaluation, Relative,
 };
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
-use crate::mechanism::orientations::check_state;
+use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::monitor::Seen;
 use crate::state::vector::{StateParts, Vector};
 
@@ -245,7 +245,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
         self.coordinates()
     }
 
-    /// The same in absolute coordinates, with Euler parameters read in another way.
+    /// The same in absolute coordinates, with other rates of Euler parameters.
+    #[doc(hidden)]
     #[must_use]
     pub fn orientation<P: Orientation>(self) -> Dynamics<S, M, F, A, Absolute<P>> {
         self.coordinates()
@@ -361,7 +362,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     /// Readable access to a state of the bodies.
     #[must_use]
     pub fn view<'a>(&'a self, time: S, bodies: &'a M::State<S>) -> View<'a, S, M> {
-        View::new(self.constants(), time, bodies).reading::<C::Orientation>()
+        View::new(self.constants(), time, bodies)
     }
 
     /// Evaluates the equations in its own coordinates.
@@ -473,14 +474,14 @@ where
     ///
     /// Round-off for rigid constraints; the bias of a [`Penalty`](crate::Penalty), which a motion
     /// gathers; for an augmented Lagrangian what its tolerance, or an acceptance, leaves. It costs
-    /// about as much as one evaluation. `p` is read as by the formulation.
+    /// about as much as one evaluation.
     pub fn inconsistency<P: Orientation>(
         &self,
         time: S,
         bodies: &M::State<S>,
         evaluation: &Evaluation<S, M, Absolute<P>>,
     ) -> (S, Option<&'static str>) {
-        let read = &as_read::<S, M, C::Orientation>(bodies);
+        let read = &with_unit_orientations::<S, M>(bodies);
         let forces = self.all_forces(time, read);
         let Stabilisation { rate, position, .. } = self.stabilisation;
         let constants = self.constants();

@@ -5,7 +5,6 @@ use super::{Dynamics, Evaluator, vanishes};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
-use crate::mechanism::absolute::as_read;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::mechanism::orientations::with_unit_orientations;
@@ -99,7 +98,7 @@ where
             power: self.power_with(monitor.stagger(time), time, state, bodies),
             pivot: self.pivot(index, time, bodies),
             norm_drift: self.seen.drift,
-            is_normalised: C::Orientation::NORMALISED && !C::Orientation::NORMALISED_RATES,
+            is_normalised: !C::Orientation::NORMALISED_RATES,
         };
         if Self::YIELDS && index.is_multiple_of(BIAS_EVERY) {
             self.show_bias(monitor, time, bodies);
@@ -125,7 +124,7 @@ where
         };
         let beginning = Beginning {
             accelerations: [here.rates.velocities(), there.rates.velocities()],
-            forces: &self.all_forces(time, &as_read::<S, M, C::Orientation>(state)),
+            forces: &self.all_forces(time, &with_unit_orientations::<S, M>(state)),
             mass: &M::mass(self.constants()),
             bias,
         };
@@ -177,7 +176,7 @@ where
         }
         let mut power = M::power(self.constants(), time, bodies);
         if A::PRESENT {
-            let applied = self.applied(time, &as_read::<S, M, C::Orientation>(bodies));
+            let applied = self.applied(time, &with_unit_orientations::<S, M>(bodies));
             power = plus_dot(power, applied.as_slice(), bodies.velocities().as_slice());
         }
         Some(power)
@@ -268,7 +267,7 @@ where
         }
         if !C::IS_RELATIVE {
             let (constants, coefficients) = (self.constants(), &self.absolute.coefficients);
-            let read = &as_read::<S, M, C::Orientation>(bodies);
+            let read = &with_unit_orientations::<S, M>(bodies);
             return M::factor::<S, F::Terms>(constants, coefficients, time, read).1;
         }
         let state = C::of_bodies(self.own_constants(), bodies);

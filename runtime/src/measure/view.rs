@@ -12,7 +12,7 @@ use crate::measure::reaction::{Wrench, wrench};
 use crate::mechanism::handle::{
     BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle,
 };
-use crate::mechanism::kernels::{Mechanism, Orientation};
+use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::mechanism::report::MarkerKind;
@@ -23,7 +23,6 @@ pub struct View<'a, S: Scalar, M: Mechanism> {
     constants: &'a M::Constants<S>,
     time: S,
     state: &'a M::State<S>,
-    normalised: bool,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for View<'_, S, M> {
@@ -56,14 +55,6 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
             constants,
             time,
             state,
-            normalised: true,
-        }
-    }
-
-    pub(crate) fn reading<P: Orientation>(self) -> Self {
-        Self {
-            normalised: P::NORMALISED,
-            ..self
         }
     }
 
@@ -76,7 +67,6 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
             constants: self.constants,
             time: self.time,
             state,
-            normalised: self.normalised,
         }
     }
 
@@ -368,11 +358,7 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
 
     /// The state as the kernels of the saddle system read it.
     fn state_of_kernels(&self) -> M::State<S> {
-        if self.normalised {
-            with_unit_orientations::<S, M>(self.state)
-        } else {
-            *self.state
-        }
+        with_unit_orientations::<S, M>(self.state)
     }
 }
 

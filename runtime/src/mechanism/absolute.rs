@@ -55,7 +55,7 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         multipliers: &mut M::Multipliers<S>,
     ) -> Pivot<S> {
         let pivot =
-            M::evaluate_into::<S, T, P>(constants, coefficients, time, state, rates, multipliers);
+            M::evaluate_into::<S, T>(constants, coefficients, time, state, rates, multipliers);
         if P::NORMALISED_RATES {
             scale_euler_rates::<S, M>(rates.coordinates_mut(), state, |length| length.reciprocal());
         }
@@ -77,7 +77,7 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
             gains,
         } = prepared;
         // In the place of the rates, which are as long: the stack of a controller is short.
-        *rates = as_read::<S, M, P>(state);
+        *rates = with_unit_orientations::<S, M>(state);
         let read = &*rates;
         let (factors, pivot) = M::factor::<S, T>(constants, coefficients, time, read);
         let mut upper = M::forces(constants, time, read);
@@ -134,7 +134,7 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         step: S,
         rates: &mut M::State<S>,
     ) {
-        let mut end = as_read::<S, M, P>(state);
+        let mut end = with_unit_orientations::<S, M>(state);
         let velocities = end.rates_slice_mut().iter_mut();
         for (velocity, &rate) in velocities.zip(rates.rates_slice()) {
             *velocity = rate.fused(step, *velocity);
@@ -149,10 +149,10 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         state: &mut M::State<S>,
         rates: Option<&mut M::State<S>>,
     ) -> Option<S> {
-        let norm_drift = if P::NORMALISED && !P::NORMALISED_RATES {
-            bring_to_unit_length::<S, M>(state, rates)
-        } else {
+        let norm_drift = if P::NORMALISED_RATES {
             norm_drift::<S, M>(state)
+        } else {
+            bring_to_unit_length::<S, M>(state, rates)
         };
         M::rewrap(&absolute.constants, state);
         Some(norm_drift)
@@ -236,16 +236,6 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     }
 }
 
-/// The state as the kernels read it.
-#[inline]
-pub(crate) fn as_read<S: Scalar, M: Mechanism, P: Orientation>(state: &M::State<S>) -> M::State<S> {
-    if P::NORMALISED {
-        with_unit_orientations::<S, M>(state)
-    } else {
-        *state
-    }
-}
-
 /// The rates of the coordinates of a state, from the state as the kernels read it.
 #[inline]
 fn coordinate_rates<S: Scalar, M: Mechanism, P: Orientation>(
@@ -254,7 +244,7 @@ fn coordinate_rates<S: Scalar, M: Mechanism, P: Orientation>(
     read: &M::State<S>,
 ) -> <M::State<S> as StateParts<S>>::Coordinates {
     let mut rates = M::coordinate_rates(constants, read);
-    if P::NORMALISED && !P::NORMALISED_RATES {
+    if !P::NORMALISED_RATES {
         scale_euler_rates::<S, M>(&mut rates, state, |length| length);
     }
     rates

@@ -14,7 +14,7 @@ use crate::mechanism::kernels::{Mechanism, Normalised, Orientation, Pivot, Stabi
 use crate::state::vector::{Array, MovingState};
 
 /// Absolute (Cartesian) coordinates: position and Euler parameters of every body, one multiplier
-/// for every equation of the joints. `P` says how Euler parameters are read.
+/// for every equation of the joints.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Absolute<P = Normalised>(PhantomData<P>);
 
@@ -73,7 +73,8 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     /// Their equations, where these are others than those in absolute coordinates.
     #[doc(hidden)]
     type Own<S: Scalar>: Copy;
-    /// How Euler parameters of bodies are read.
+    /// How the rates of Euler parameters are read.
+    #[doc(hidden)]
     type Orientation: Orientation;
 
     /// Whether joints of a tree hold by themselves, so that bodies follow from the state.

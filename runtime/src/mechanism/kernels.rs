@@ -267,10 +267,14 @@ pub trait Mechanism: Sized + 'static {
     /// saddle system with `lambda_previous = 0` and without applied forces of a user. Writes every
     /// element of both; returns the smallest relative pivot.
     ///
-    /// `T` names the terms that the formulation has, `P` how Euler parameters are read. With
-    /// `coordinates = "joints"` it is put together from [`Mechanism::factor`], [`Mechanism::solve`]
-    /// and the kernels of the right-hand side.
-    fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
+    /// `A(p)` is evaluated at `p / |p|`, a rotation to round-off for any `p` but zero. The rates of
+    /// Euler parameters are `p' = 1/2 L(p)^T w` with `p` as it is: only so does `p / |p|` turn at
+    /// `w`, whatever the length has become in the stages of a step.
+    ///
+    /// `T` names the terms that the formulation has. With `coordinates = "joints"` it is put
+    /// together from [`Mechanism::factor`], [`Mechanism::solve`] and the kernels of the right-hand
+    /// side.
+    fn evaluate_into<S: Scalar, T: Terms>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,
         time: S,
@@ -281,7 +285,7 @@ pub trait Mechanism: Sized + 'static {
 
     /// The same, with its results in one value.
     #[inline(always)]
-    fn evaluate<S: Scalar, T: Terms, P: Orientation>(
+    fn evaluate<S: Scalar, T: Terms>(
         constants: &Self::Constants<S>,
         coefficients: &Self::Coefficients<S>,
         time: S,
@@ -293,14 +297,8 @@ pub trait Mechanism: Sized + 'static {
             multipliers,
             pivot,
         } = &mut evaluation;
-        *pivot = Self::evaluate_into::<S, T, P>(
-            constants,
-            coefficients,
-            time,
-            state,
-            rates,
-            multipliers,
-        );
+        *pivot =
+            Self::evaluate_into::<S, T>(constants, coefficients, time, state, rates, multipliers);
         evaluation
     }
 
@@ -471,50 +469,30 @@ impl Terms for Compliant {
     const COMPLIANT: bool = true;
 }
 
-/// How Euler parameters are read inside an evaluation.
+/// Whether the rates of Euler parameters are those of `p` or of `p / |p|`.
+#[doc(hidden)]
 pub trait Orientation: Copy + Debug + Default + 'static {
-    /// Whether `A(p)` is evaluated at `p / |p|`.
-    const NORMALISED: bool;
-    /// Whether the rates of Euler parameters are those of `p / |p|` too.
-    #[doc(hidden)]
-    const NORMALISED_RATES: bool = false;
+    /// Whether they are those of `p / |p|`.
+    const NORMALISED_RATES: bool;
 }
 
-/// `A(p)` from `p` as it is, `A = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~`, which is `|p|^2` times a
-/// rotation: cheapest, for integrations whose drift of `|p|` is below the accuracy asked for.
-///
-/// The kernels of `Phi`, `Phi'`, `D` and `gamma` are exact for any `p`; a solution of the equations
-/// of motion uses that `A` is a rotation, and is off by the drift. At the inner stages of an
-/// explicit step `h` the length is off by the order of `(|w| h / 2)^2`, whatever the drift is.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Raw;
-
-/// `A(p / |p|)`, a rotation to round-off for any `p` but zero, at some seven operations a body
-/// more; `p` comes to length 1 after every step.
-///
-/// The rates are `p' = 1/2 L(p)^T w` with `p` as it is: only so does `p / |p|` turn at `w`,
-/// whatever the length has become in the stages of a step.
+/// `p' = 1/2 L(p)^T w` with `p` as it is; `p` comes to length 1 after every step.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Normalised;
 
-/// `p / |p|` in the place of `p`, in `A(p)` and in `p' = 1/2 L(p)^T w`, and `p` left at the length
-/// that it has: the reading behind the published counts of chapter 15 (Flores 2015), here to
-/// reproduce them.
+/// `p' = 1/2 L(p / |p|)^T w`, and `p` left at the length that it has: the reading behind the
+/// published counts of chapter 15 (Flores 2015), here to reproduce them.
 ///
 /// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the
 /// default tolerance nothing of it is right after 1000 s. [`Normalised`] is right at the same cost.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Chapter15;
 
-impl Orientation for Chapter15 {
-    const NORMALISED: bool = true;
-    const NORMALISED_RATES: bool = true;
-}
-
-impl Orientation for Raw {
-    const NORMALISED: bool = false;
-}
-
 impl Orientation for Normalised {
-    const NORMALISED: bool = true;
+    const NORMALISED_RATES: bool = false;
+}
+
+impl Orientation for Chapter15 {
+    const NORMALISED_RATES: bool = true;
 }

@@ -294,7 +294,7 @@ pub struct Block {
 /// The cost of one kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kernel {
-    /// What it computes, for instance `"evaluate standard"` or `"evaluate standard, normalised"`.
+    /// What it computes, for instance `"evaluate standard"`.
     pub name: &'static str,
     /// What one call costs.
     pub operations: Operations,

@@ -298,7 +298,7 @@ impl fmt::Display for Warning {
             Self::Orientation { drift, shift } => write!(
                 f,
                 "Euler parameters left length 1 by up to {} in a step, and angles may be off by about {} rad: steps are too long for the angular \
-                 velocities, or `Raw` reads too much drift",
+                 velocities",
                 Measured(drift),
                 Measured(shift)
             ),

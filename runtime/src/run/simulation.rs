@@ -276,7 +276,8 @@ where
         self.coordinates()
     }
 
-    /// Reads Euler parameters in another way, in absolute coordinates: `.orientation::<Raw>()`.
+    /// Absolute coordinates with other rates of Euler parameters.
+    #[doc(hidden)]
     #[must_use]
     pub fn orientation<P: Orientation>(self) -> Simulation<'a, S, M, F, I, A, Absolute<P>> {
         self.coordinates()

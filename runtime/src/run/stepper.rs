@@ -180,7 +180,8 @@ where
         self.coordinates()
     }
 
-    /// Reads Euler parameters in another way, in absolute coordinates: `.orientation::<Raw>()`.
+    /// Absolute coordinates with other rates of Euler parameters.
+    #[doc(hidden)]
     #[must_use]
     pub fn orientation<P: Orientation>(self) -> Stepper<S, M, F, K, A, Absolute<P>> {
         self.coordinates()

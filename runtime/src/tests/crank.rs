@@ -7,7 +7,7 @@ use super::dense;
 use super::rod::Rod;
 use crate::mechanism::{
     AngleParts, Block, DisplacementParts, Driven, ExplicitTime, HasAngle, HasDisplacement, Joint,
-    JointInfo, Orientation, Pivot, Stabilisation, Terms,
+    JointInfo, Pivot, Stabilisation, Terms,
 };
 use crate::state::State;
 use crate::*;
@@ -194,7 +194,7 @@ impl Mechanism for Crank {
         state.coordinates_mut()[7] = Self::joint_angle(c, state, 0).angle();
     }
 
-    fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
+    fn evaluate_into<S: Scalar, T: Terms>(
         c: &Constants<S>,
         coefficients: &Self::Coefficients<S>,
         time: S,
@@ -202,8 +202,7 @@ impl Mechanism for Crank {
         rates: &mut State<S, 8, 6>,
         multipliers: &mut [S; 6],
     ) -> Pivot<S> {
-        let unit = crate::mechanism::orientations::with_unit_orientations::<S, Self>(state);
-        let read = if P::NORMALISED { &unit } else { state };
+        let read = &crate::mechanism::orientations::with_unit_orientations::<S, Self>(state);
         let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
         let mut lower = Self::gamma(c, time, read);
         if T::STABILISED {

@@ -1,7 +1,6 @@
 //! Samples as lines of a CSV file, read back.
 
 use crate::dynamics::Dynamics;
-use crate::mechanism::Raw;
 use crate::state::State;
 use core::ops::ControlFlow;
 use std::io::{self, Write};
@@ -154,11 +153,9 @@ fn a_line_is_written_in_one_piece_and_flushed() {
 
 #[test]
 fn what_cannot_be_recorded_is_an_error_and_writes_nothing() {
-    // A configuration without a hinge: no reactions.
+    // Euler parameters of length zero: no reactions.
     let rod = rod();
-    let dynamics = Dynamics::new(&rod, StandardLagrange)
-        .unwrap()
-        .orientation::<Raw>();
+    let dynamics = Dynamics::new(&rod, StandardLagrange).unwrap();
     let flat = State::from_parts([0.0; 7], [0.0; 6]);
     let mut recorder = Recorder::new(Vec::new()).with_reactions();
     let outcome = recorder.record(&Sample::new(dynamics.view(0.0, &flat), &dynamics));

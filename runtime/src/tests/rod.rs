@@ -12,7 +12,7 @@ use crate::math::quaternion::{self, rotate, rotate_back};
 use crate::math::vec3::cross;
 use crate::mechanism::{
     AngleParts, Block, BodyInfo, BodyKind, Carrier, ExplicitTime, HasAngle, Joint, JointInfo,
-    Orientation, Pivot, Rank, Stabilisation, Terms, orientations,
+    Pivot, Rank, Stabilisation, Terms, orientations,
 };
 use crate::state::State;
 use crate::*;
@@ -238,7 +238,7 @@ impl Mechanism for Rod {
         [x, y, z, rates[0], rates[1], rates[2], rates[3]]
     }
 
-    fn evaluate_into<S: Scalar, T: Terms, P: Orientation>(
+    fn evaluate_into<S: Scalar, T: Terms>(
         c: &[S; 6],
         coefficients: &Self::Coefficients<S>,
         time: S,
@@ -246,8 +246,7 @@ impl Mechanism for Rod {
         rates: &mut State<S, 7, 6>,
         multipliers: &mut [S; 5],
     ) -> Pivot<S> {
-        let unit = orientations::with_unit_orientations::<S, Self>(state);
-        let read = if P::NORMALISED { &unit } else { state };
+        let read = &orientations::with_unit_orientations::<S, Self>(state);
         let (factors, pivot) = Self::factor::<S, T>(c, coefficients, time, read);
         let mut lower = Self::gamma(c, time, read);
         if T::STABILISED {

@@ -5,8 +5,12 @@ use holonom::forces::{Actuator, TorsionalActuator};
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    __study::Chapter15, AugmentedLagrangian, dynamics::Dynamics, integrate::System,
-    mechanism::Orientation, state::Vector,
+    __study::Chapter15,
+    AugmentedLagrangian,
+    dynamics::Dynamics,
+    integrate::System,
+    mechanism::{Normalised, Orientation},
+    state::Vector,
 };
 use nalgebra::DMatrix;
 
@@ -79,11 +83,7 @@ fn parameters_and_inputs_enter() {
         bodies.set_inputs(&inputs).expect("finite");
         joints.set_inputs(&inputs).expect("finite");
         let matrix = agrees("bodies", &mut bodies, &of_bodies, (27, EXACT));
-        let exact = by_dual_numbers::<_, _, Normalised>(
-            &Swing { gain, ..swing() },
-            &StandardLagrange,
-            &of_bodies,
-        );
+        let exact = by_dual_numbers(&Swing { gain, ..swing() }, &StandardLagrange, &of_bodies);
         assert!(apart(&matrix, &exact)[0] < 1e-11);
         let changed = before.replace(matrix.clone());
         assert!(changed.is_none_or(|before| (matrix - before).amax() > 1.0));
@@ -142,11 +142,10 @@ fn euler_parameters_are_read_as_by_the_evaluation() {
         let state = beside(&Swing::initial_state(dynamics.constants()), 0.1, 9);
         let matrix = agrees("as read", &mut dynamics, &state, (27, EXACT));
         if !P::NORMALISED_RATES {
-            let exact = by_dual_numbers::<_, _, P>(&swing, &Baumgarte::default(), &state);
+            let exact = by_dual_numbers(&swing, &Baumgarte::default(), &state);
             assert!(apart(&matrix, &exact)[0] < 1e-11);
         }
     }
-    read_as::<Raw>();
     read_as::<Normalised>();
     read_as::<Chapter15>();
 }

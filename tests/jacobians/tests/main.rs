@@ -12,7 +12,7 @@ use holonom::{
     Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, StandardLagrange, StateParts,
     dynamics::Dynamics,
     integrate::System,
-    mechanism::{JointParts, Normalised, Orientation},
+    mechanism::JointParts,
     state::{Array, MovingState, Vector},
 };
 use holonom_models as models;
@@ -140,7 +140,7 @@ fn compliances<M: Mechanism>(mechanism: &M, compliance: Dual) -> M::Multipliers<
 }
 
 /// The matrix by dual numbers, from the parameters on; coordinates of bodies are numbers.
-fn by_dual_numbers<M: Mechanism, F: Formulation<f64>, P: Orientation>(
+fn by_dual_numbers<M: Mechanism, F: Formulation<f64>>(
     mechanism: &M,
     formulation: &F,
     state: &M::State<f64>,
@@ -168,7 +168,7 @@ fn by_dual_numbers<M: Mechanism, F: Formulation<f64>, P: Orientation>(
             du.as_slice(),
             at.velocities_mut().as_mut_slice(),
         );
-        M::evaluate_into::<Dual, F::Terms, P>(
+        M::evaluate_into::<Dual, F::Terms>(
             &constants,
             &coefficients,
             Dual::new(TIME, 0.0),
@@ -260,8 +260,8 @@ fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulati
         let state = beside(&start, size, seed);
         let (matrix, count) = offered(&mut bodies, &state);
         assert_eq!(count, state.length());
-        let exact = [state, next(&state)]
-            .map(|state| by_dual_numbers::<M, F, Normalised>(mechanism, &formulation, &state));
+        let exact =
+            [state, next(&state)].map(|state| by_dual_numbers(mechanism, &formulation, &state));
         let finite = differences(&mut bodies, &state);
         judge(
             &format!("{name} by bodies"),

@@ -2,10 +2,7 @@
 
 use holonom::{
     Mechanism, Scalar,
-    mechanism::{
-        Compliant, Normalised, Operations, Orientation, Plain, Raw, Stabilisation, Stabilised,
-        Terms,
-    },
+    mechanism::{Compliant, Operations, Plain, Stabilisation, Stabilised, Terms},
 };
 use holonom_models::RodPendulum;
 
@@ -39,9 +36,9 @@ impl<M: Scene> Call<M> {
         }
     }
 
-    fn evaluation<T: Terms, P: Orientation>(&self) -> Operations {
+    fn evaluation<T: Terms>(&self) -> Operations {
         counted(|| {
-            M::evaluate::<Counted, T, P>(
+            M::evaluate::<Counted, T>(
                 &self.constants,
                 &self.coefficients,
                 Counted::zero(),
@@ -63,12 +60,9 @@ impl<M: Scene> Call<M> {
     fn operations(&self, kernel: &str) -> Operations {
         let (constants, time, state) = (&self.constants, Counted::zero(), &self.state);
         match kernel {
-            "evaluate standard" => self.evaluation::<Plain, Raw>(),
-            "evaluate baumgarte" => self.evaluation::<Stabilised, Raw>(),
-            "evaluate penalty" => self.evaluation::<Compliant, Raw>(),
-            "evaluate standard, normalised" => self.evaluation::<Plain, Normalised>(),
-            "evaluate baumgarte, normalised" => self.evaluation::<Stabilised, Normalised>(),
-            "evaluate penalty, normalised" => self.evaluation::<Compliant, Normalised>(),
+            "evaluate standard" => self.evaluation::<Plain>(),
+            "evaluate baumgarte" => self.evaluation::<Stabilised>(),
+            "evaluate penalty" => self.evaluation::<Compliant>(),
             "constraints" => counted(|| M::constraints(constants, time, state)),
             "constraint rates" => counted(|| M::constraint_rates(constants, time, state)),
             "jacobian" => counted(|| M::jacobian(constants, time, state)),
@@ -86,13 +80,10 @@ impl<M: Scene> Call<M> {
 }
 
 /// The kernels that a report has at least; where there are forces, their power besides.
-const KERNELS: [&str; 16] = [
+const KERNELS: [&str; 13] = [
     "evaluate standard",
     "evaluate baumgarte",
     "evaluate penalty",
-    "evaluate standard, normalised",
-    "evaluate baumgarte, normalised",
-    "evaluate penalty, normalised",
     "constraints",
     "constraint rates",
     "jacobian",
@@ -122,22 +113,9 @@ fn the_report_is_what_is_done<M: Scene>() {
     }
 }
 
-/// What reading `p / |p|` in the place of `p` may cost a body.
-const NORMALISATION: usize = 13;
-
-fn normalisation_is_cheap<M: Scene>() {
-    for terms in ["standard", "baumgarte", "penalty"] {
-        let raw = reported::<M>(&format!("evaluate {terms}")).total();
-        let normalised = reported::<M>(&format!("evaluate {terms}, normalised")).total();
-        let bodies = M::REPORT.bodies.len();
-        println!("{terms}: {raw} raw, {normalised} normalised, {bodies} bodies");
-        assert!(normalised <= raw + NORMALISATION * bodies);
-    }
-}
-
 #[test]
 fn the_pendulum_is_as_cheap_as_asked_for() {
-    /// With multipliers, `p` as it is.
+    /// With multipliers.
     const STANDARD: usize = 170;
     const BAUMGARTE: usize = 230;
     assert!(reported::<RodPendulum>("evaluate standard").total() <= STANDARD);
@@ -147,9 +125,4 @@ fn the_pendulum_is_as_cheap_as_asked_for() {
 mod the_report_is_what_is_done {
     every_independent_mechanism! { the_report_is_what_is_done }
     every_redundant_mechanism! { the_report_is_what_is_done }
-}
-
-mod normalisation_is_cheap {
-    every_independent_mechanism! { normalisation_is_cheap }
-    every_redundant_mechanism! { normalisation_is_cheap }
 }

@@ -1,7 +1,7 @@
-//! Euler parameters off the unit sphere, in both modes.
+//! Euler parameters off the unit sphere.
 
 use holonom::{
-    mechanism::{Compliant, Normalised, Plain, Raw, Stabilised, Terms},
+    mechanism::{Compliant, Plain, Stabilised, Terms},
     state::Array,
 };
 use holonom_assembler::bodies::Orientation;
@@ -26,7 +26,7 @@ const fn drifted(norm: f64) -> Spread {
 const STATES: usize = 300;
 
 /// The largest deviation of the kernels from the assembler's, `|p|` up to `norm` from 1.
-fn of_raw_kernels<M: Scene>(norm: f64) -> f64 {
+fn of_kernels<M: Scene>(norm: f64) -> f64 {
     let scene = M::read_as(Orientation::Raw);
     let constants = constants::<f64, M>();
     let mut worst = Worst::default();
@@ -68,27 +68,24 @@ fn of_raw_kernels<M: Scene>(norm: f64) -> f64 {
     worst.0
 }
 
-fn raw_kernels_take_p_as_it_is<M: Scene>() {
-    let [near, far] = [1e-6, 0.05].map(of_raw_kernels::<M>);
-    println!("raw kernels: {near:e} at a drift of 1e-6, {far:e} at 0.05");
+fn kernels_take_p_as_it_is<M: Scene>() {
+    let [near, far] = [1e-6, 0.05].map(of_kernels::<M>);
+    println!("kernels: {near:e} at a drift of 1e-6, {far:e} at 0.05");
     assert!(near <= DOUBLE && far <= DOUBLE);
 }
 
-fn normalised<M: Scene, T: Terms>(what: &str, coefficients: Coefficients) {
+fn evaluations<M: Scene, T: Terms>(what: &str, coefficients: Coefficients) {
     let scene = M::read_as(Orientation::Normalised);
     let mut worst = Worst::default();
     for x in off(&scene, STATES, 13, drifted(0.05)) {
         let reference = Reference::new(&scene, coefficients, x.as_slice());
-        let (solution, rates) = evaluated::<f64, M, T, Normalised>(coefficients, x.as_slice());
+        let (solution, rates) = evaluated::<f64, M, T>(coefficients, x.as_slice());
         let deviation = reference.deviation(&solution, SOLUTION);
         worst.take(what, deviation, SOLUTION);
         let reference = scene.coordinate_rates(x.as_slice());
         worst.take("q'", distance(&rates, reference.as_slice(), 0.0), DOUBLE);
     }
-    println!(
-        "normalised, {what}: largest deviation {:e} of the condition",
-        worst.0
-    );
+    println!("{what}: largest deviation {:e} of the condition", worst.0);
 }
 
 const BAUMGARTE: Coefficients = Coefficients {
@@ -103,46 +100,17 @@ const PENALTY: Coefficients = Coefficients {
 };
 
 /// In `A` alone: the rates of `p` are those of `p` as it is.
-fn a_normalised_evaluation_reads_p_over_its_length<M: Scene>() {
-    normalised::<M, Plain>("standard", Coefficients::default());
-    normalised::<M, Stabilised>("baumgarte", BAUMGARTE);
-    normalised::<M, Compliant>("penalty", PENALTY);
+fn an_evaluation_reads_p_over_its_length<M: Scene>() {
+    evaluations::<M, Plain>("standard", Coefficients::default());
+    evaluations::<M, Stabilised>("baumgarte", BAUMGARTE);
+    evaluations::<M, Compliant>("penalty", PENALTY);
 }
 
-/// The largest deviation of the raw solution from the normalised one.
-fn raw_against_normalised<M: Scene, T: Terms>(norm: f64, coefficients: Coefficients) -> f64 {
-    let scene = M::assembler();
-    let mut worst = Worst::default();
-    for x in off(&scene, STATES, 14, drifted(norm)) {
-        let (raw, _) = evaluated::<f64, M, T, Raw>(coefficients, x.as_slice());
-        let (reference, _) = evaluated::<f64, M, T, Normalised>(coefficients, x.as_slice());
-        worst.take("raw", distance(&raw, &reference, 0.0), f64::MAX);
-    }
-    worst.0
+mod kernels_take_p_as_it_is {
+    every_independent_mechanism! { kernels_take_p_as_it_is }
+    every_redundant_mechanism! { kernels_take_p_as_it_is }
 }
 
-fn a_raw_evaluation_is_off_by_the_drift<M: Scene>() {
-    let (near, far) = (
-        raw_against_normalised::<M, Plain>(1e-8, Coefficients::default()),
-        raw_against_normalised::<M, Plain>(1e-5, Coefficients::default()),
-    );
-    println!("raw against normalised: {near:e} at a drift of 1e-8, {far:e} at 1e-5");
-    assert!(
-        near <= far * 1.1e-3 + 1e-12,
-        "not of first order in the drift"
-    );
-    assert!(far <= 1e-2, "the drift is magnified");
-}
-
-mod raw_kernels_take_p_as_it_is {
-    every_independent_mechanism! { raw_kernels_take_p_as_it_is }
-    every_redundant_mechanism! { raw_kernels_take_p_as_it_is }
-}
-
-mod a_normalised_evaluation_reads_p_over_its_length {
-    every_independent_mechanism! { a_normalised_evaluation_reads_p_over_its_length }
-}
-
-mod a_raw_evaluation_is_off_by_the_drift {
-    every_independent_mechanism! { a_raw_evaluation_is_off_by_the_drift }
+mod an_evaluation_reads_p_over_its_length {
+    every_independent_mechanism! { an_evaluation_reads_p_over_its_length }
 }

@@ -67,7 +67,7 @@ fn free_bodies_obey_newton_and_euler() {
         let state = state::<f64, Thrown>(x);
         let reference = scene.forces(x).component_div(&scene.mass());
         let terms = holonom_assembler::saddle::Coefficients::default();
-        let (fused, rates) = evaluated::<f64, Thrown, holonom::mechanism::Plain, Raw>(terms, x);
+        let (fused, rates) = evaluated::<f64, Thrown, holonom::mechanism::Plain>(terms, x);
         assert!(distance(&fused, reference.as_slice(), 0.0) <= DOUBLE);
         assert!(distance(&rates, scene.coordinate_rates(x).as_slice(), 0.0) <= DOUBLE);
         let kinetic = Thrown::kinetic_energy(&constants, &state);

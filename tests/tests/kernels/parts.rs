@@ -6,9 +6,7 @@ use holonom::joints::{PointOnLine, Revolute, Screw, Spherical};
 use holonom::prelude::*;
 use holonom::{
     Mechanism, StateParts,
-    mechanism::{
-        BodyKind, Compliant, Normalised, Orientation, Plain, Raw, Stabilisation, Stabilised, Terms,
-    },
+    mechanism::{Compliant, Plain, Stabilisation, Stabilised, Terms},
     state::Array,
 };
 use holonom_assembler::accuracy::assert_close;
@@ -53,24 +51,14 @@ macro_rules! described {
 described!(Fused "both");
 described!(Together "joints");
 
-/// Coordinates and velocities off the constraints. Euler parameters have not length 1, unless they
-/// are read as they are: kernels rely on the length then.
-fn state<M: Mechanism, P: Orientation>(constants: &M::Constants<f64>, seed: f64) -> M::State<f64> {
+/// Coordinates and velocities off the constraints, Euler parameters off length 1.
+fn state<M: Mechanism>(constants: &M::Constants<f64>, seed: f64) -> M::State<f64> {
     let mut state = M::initial_state(constants);
     let noise = |place: usize| 0.2 * ((place as f64 + seed) * 12.9898).sin();
     let coordinates = state.coordinates_mut().as_mut_slice().iter_mut();
     coordinates
         .enumerate()
         .for_each(|(place, x)| *x += noise(place));
-    if !P::NORMALISED {
-        for body in M::REPORT.bodies {
-            if body.kind == BodyKind::Rigid {
-                let p = &mut state.coordinates_mut().as_mut_slice()[body.coordinate + 3..][..4];
-                let length = p.iter().map(|e| e * e).sum::<f64>().sqrt();
-                p.iter_mut().for_each(|e| *e /= length);
-            }
-        }
-    }
     let velocities = state.velocities_mut().as_mut_slice().iter_mut();
     velocities
         .enumerate()
@@ -79,7 +67,7 @@ fn state<M: Mechanism, P: Orientation>(constants: &M::Constants<f64>, seed: f64)
 }
 
 /// Rates of coordinates and velocities, multipliers, and the smallest pivot.
-fn evaluated<M: Mechanism, T: Terms, P: Orientation>(mechanism: &M, seed: f64) -> [Vec<f64>; 4] {
+fn evaluated<M: Mechanism, T: Terms>(mechanism: &M, seed: f64) -> [Vec<f64>; 4] {
     let stabilisation = Stabilisation {
         rate: 2.5,
         position: 7.0,
@@ -87,8 +75,8 @@ fn evaluated<M: Mechanism, T: Terms, P: Orientation>(mechanism: &M, seed: f64) -
     };
     let constants = mechanism.constants::<f64>().expect("acceptable");
     let coefficients = M::coefficients(&constants, &stabilisation);
-    let state = state::<M, P>(&constants, seed);
-    let found = M::evaluate::<f64, T, P>(&constants, &coefficients, 0.7, &state);
+    let state = state::<M>(&constants, seed);
+    let found = M::evaluate::<f64, T>(&constants, &coefficients, 0.7, &state);
     [
         found.rates.coordinates().as_slice().to_vec(),
         found.rates.velocities().as_slice().to_vec(),
@@ -97,13 +85,13 @@ fn evaluated<M: Mechanism, T: Terms, P: Orientation>(mechanism: &M, seed: f64) -
     ]
 }
 
-fn agree<T: Terms, P: Orientation>() {
+fn agree<T: Terms>() {
     let fused = Fused::new(1.2).expect("acceptable");
     let together = Together::new(1.2).expect("acceptable");
     for seed in [0.0, 1.0, 2.0, 3.0] {
         let [wanted, found] = [
-            evaluated::<Fused, T, P>(&fused, seed),
-            evaluated::<Together, T, P>(&together, seed),
+            evaluated::<Fused, T>(&fused, seed),
+            evaluated::<Together, T>(&together, seed),
         ];
         for (place, what) in ["coordinates", "accelerations", "multipliers"]
             .into_iter()
@@ -118,12 +106,9 @@ fn agree<T: Terms, P: Orientation>() {
 
 #[test]
 fn evaluations_from_parts_are_those_that_are_fused() {
-    agree::<Plain, Raw>();
-    agree::<Plain, Normalised>();
-    agree::<Stabilised, Raw>();
-    agree::<Stabilised, Normalised>();
-    agree::<Compliant, Raw>();
-    agree::<Compliant, Normalised>();
+    agree::<Plain>();
+    agree::<Stabilised>();
+    agree::<Compliant>();
 }
 
 #[test]

@@ -12,7 +12,7 @@
 use holonom::{
     AugmentedLagrangian, Real, StateParts,
     dynamics::Dynamics,
-    mechanism::{Compliant, Normalised, Orientation, Plain, Raw, Stabilisation, Stabilised, Terms},
+    mechanism::{Compliant, Plain, Stabilisation, Stabilised, Terms},
     state::Array,
 };
 use holonom_assembler::assembler::Assembler;
@@ -25,14 +25,14 @@ use crate::comparison::{SOLUTION, Worst, distance, tolerance};
 use crate::scene::{STATES, Scene, consistent, constants, rounded, state, values, violated};
 
 /// `(u', lambda)` of the fused evaluation, and the rates of the coordinates.
-pub(crate) fn evaluated<S: Real, M: Scene, T: Terms, P: Orientation>(
+pub(crate) fn evaluated<S: Real, M: Scene, T: Terms>(
     coefficients: Coefficients,
     x: &[f64],
 ) -> (Vec<f64>, Vec<f64>) {
     let constants = constants::<S, M>();
     let prepared = M::coefficients(&constants, &stabilisation(coefficients));
     let state = state::<S, M>(x);
-    let evaluation = M::evaluate::<S, T, P>(&constants, &prepared, S::zero(), &state);
+    let evaluation = M::evaluate::<S, T>(&constants, &prepared, S::zero(), &state);
     let mut solution = values(evaluation.rates.velocities().as_slice());
     solution.extend(values(evaluation.multipliers.as_slice()));
     (solution, values(evaluation.rates.coordinates().as_slice()))
@@ -153,7 +153,7 @@ fn states<M: Scene, S: Real>() -> Vec<Vec<f64>> {
     states.iter().map(|x| rounded::<S>(x.as_slice())).collect()
 }
 
-/// One formulation at all states: fused in both modes, and in parts.
+/// One formulation at all states: fused, and in parts, which read `p` as it is.
 fn formulation<S: Real, M: Scene, T: Terms>(
     what: &str,
     coefficients: Coefficients,
@@ -165,16 +165,13 @@ fn formulation<S: Real, M: Scene, T: Terms>(
     let mut worst = Worst::default();
     for x in states {
         let reference = Reference::new(&raw, coefficients, x);
-        let (solution, _) = evaluated::<S, M, T, Raw>(coefficients, x);
-        let deviation = reference.deviation(&solution, limit);
-        worst.take(&format!("{what}, raw"), deviation, limit);
         let solution = solved_in_parts::<S, M, T>(coefficients, x);
         let deviation = reference.deviation(&solution, limit);
         worst.take(&format!("{what}, in parts"), deviation, limit);
         let reference = Reference::new(&normalised, coefficients, x);
-        let (solution, _) = evaluated::<S, M, T, Normalised>(coefficients, x);
+        let (solution, _) = evaluated::<S, M, T>(coefficients, x);
         let deviation = reference.deviation(&solution, limit);
-        worst.take(&format!("{what}, normalised"), deviation, limit);
+        worst.take(&format!("{what}, fused"), deviation, limit);
     }
     println!("{what}: largest deviation {:e} of the condition", worst.0);
 }

@@ -3,7 +3,7 @@
 
 use holonom::{
     ForceHandle, JointHandle, Mechanism, MechanismExt, Report, StateParts, View, Wrench,
-    mechanism::{Normalised, Plain, Stabilisation},
+    mechanism::{Plain, Stabilisation},
     state::Array,
 };
 use nalgebra::DMatrix;
@@ -189,8 +189,7 @@ impl<M: Mechanism, E: Element<M>> Kernels for Prepared<M, E> {
 
     fn evaluate(&self, time: f64, x: &[f64]) -> Evaluated {
         let (constants, coefficients) = (&self.constants, &self.coefficients);
-        let found =
-            M::evaluate::<f64, Plain, Normalised>(constants, coefficients, time, &state::<M>(x));
+        let found = M::evaluate::<f64, Plain>(constants, coefficients, time, &state::<M>(x));
         Evaluated {
             rates: flat::<M>(&found.rates),
             multipliers: found.multipliers.as_slice().to_vec(),

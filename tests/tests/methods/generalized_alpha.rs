@@ -41,8 +41,7 @@ fn it_has_order_2_on_the_pendulum_with_any_damping() {
         let swing = SWINGS[1];
         is_second(orders(halved(1.0 / 512.0), |step| {
             let method = GeneralizedAlpha::every(step).spectral_radius(rho);
-            let [angle, rate] =
-                final_swing::<_, _, Normalised>(StandardLagrange, method, swing.time);
+            let [angle, rate] = final_swing(StandardLagrange, method, swing.time);
             (angle - swing.angle).hypot((rate - swing.rate) / 3.8356)
         }));
     }

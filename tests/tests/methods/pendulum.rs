@@ -3,10 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use holonom::prelude::*;
-use holonom::{
-    JointHandle, Real, Runs, View,
-    mechanism::{Absolute, HasAngle, Orientation},
-};
+use holonom::{JointHandle, Real, Runs, View, mechanism::HasAngle};
 use holonom_models::RodPendulum;
 
 /// Motion at an instant: `phi` (rad) is counted from the downward vertical.
@@ -47,18 +44,13 @@ pub(crate) fn angle<S: Real, M: Mechanism, J: HasAngle>(
 }
 
 /// `phi` and `phi'` at the end of a run from 0 to `end`.
-pub(crate) fn final_swing<
-    F: Formulation<f64>,
-    I: Runs<f64, RodPendulum, F, Absolute<P>>,
-    P: Orientation,
->(
+pub(crate) fn final_swing<F: Formulation<f64>, I: Runs<f64, RodPendulum, F>>(
     method: F,
     integrator: I,
     end: f64,
 ) -> [f64; 2] {
     let rod = RodPendulum::default();
     let report = Simulation::new(&rod, method, integrator)
-        .orientation::<P>()
         .run(0.0..=end, every(end), |_| ControlFlow::Continue(()))
         .expect("solvable");
     let constants = rod.constants().expect("acceptable");

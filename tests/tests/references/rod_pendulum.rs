@@ -76,7 +76,7 @@ fn the_penalty_has_its_own_bias() {
     const PART: f64 = 0.02;
     let swing = SWINGS[2];
     let bias_of = |method| {
-        let [reached, _] = final_swing::<_, _, Normalised>(method, tight(), swing.time);
+        let [reached, _] = final_swing(method, tight(), swing.time);
         reached - swing.angle
     };
     let bias = bias_of(Penalty::default());

@@ -100,7 +100,6 @@ fn an_orientation_without_length_names_its_body() {
         assert!(state.coordinates().iter().all(|q| q.is_finite()));
         let refused = Fault::ZeroOrientation { body: "rod" };
         let error = Simulation::new(&rod, Penalty::default(), DormandPrince::default())
-            .orientation::<Raw>()
             .initial_state(state)
             .run(2.0..=3.0, every(0.1), |_| -> () {
                 panic!("it must not begin")

@@ -279,18 +279,15 @@ impl Scene {
     }
 }
 
-/// What a report says of the evaluation with Euler parameters normalised inside, which runs use by
-/// default. Without equations all formulations are one.
+/// What a report says of the evaluation. Without equations all formulations are one.
 ///
 /// Nothing of a formulation that iterates: the report knows the pieces only.
 pub(crate) fn reported(kernels: &[Kernel], method: Method) -> Option<Operations> {
     if method == Method::AugmentedLagrangian {
         return None;
     }
-    let plain = format!("evaluate {}", method.key());
-    let normalised = format!("{plain}, normalised");
-    let named = |name: &str| kernels.iter().find(|kernel| kernel.name == name);
-    let found = named(&normalised).or_else(|| named(&plain));
+    let name = format!("evaluate {}", method.key());
+    let found = kernels.iter().find(|kernel| kernel.name == name);
     let only = match kernels {
         [only] => Some(only),
         _ => None,

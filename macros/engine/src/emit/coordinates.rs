@@ -6,7 +6,7 @@ use quote::quote;
 use super::inputs::taken;
 use super::parts::{Frame, write_in_parts};
 use super::store;
-use super::straight_line::{Given, StraightLine};
+use super::straight_line::StraightLine;
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
 use crate::model::Model;
@@ -118,7 +118,7 @@ impl Writer<'_, JointKernels> {
         let StraightLine {
             statements,
             outputs,
-        } = self.line_of(&kernels.bodies, &Given::default(), &frame);
+        } = self.line_of(&kernels.bodies, &frame);
         quote! {
             fn body_motions<__S: #facade::Scalar>(
                 #constants: &Self::JointConstants<__S>,
@@ -153,7 +153,6 @@ impl Writer<'_, JointKernels> {
         let (line, parts) = write_in_parts(
             (&kernels.joints.arena, &kernels.joints.outputs),
             Stage::State,
-            &Given::default(),
             &mut store::Kernel {
                 store: &mut self.store,
             },

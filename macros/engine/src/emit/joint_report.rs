@@ -10,7 +10,6 @@ use crate::coordinates::kernels::{JointKernels, Meaning};
 use crate::symbolic::arena::Stage;
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
-use crate::symbolic::scene::Normalisation;
 
 /// An index that may not be.
 fn option(index: Option<usize>) -> TokenStream {
@@ -65,7 +64,7 @@ impl Writer<'_, JointKernels> {
         let rows = kernels.rows.len();
         let evaluations = kernels.evaluations.iter().map(|evaluation| {
             let Kernel { arena, outputs } = &evaluation.kernel;
-            let name = evaluation_name(evaluation.terms, Normalisation::Raw);
+            let name = evaluation_name(evaluation.terms);
             (name, count(arena, outputs, Stage::State))
         });
         let with_rows = kernels.evaluations.iter().filter(|_| rows > 0);

@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::store::{Store, load_input};
-use super::straight_line::{Environment, Given, StraightLine, Value};
+use super::straight_line::{Environment, StraightLine, Value};
 use super::writer::{Described, Writer, function};
 use crate::coordinates::kernels::JointKernels;
 use crate::plan::kernels::Solver;
@@ -112,7 +112,7 @@ impl Writer<'_, JointKernels> {
         let kernels = self.kernels;
         let evaluations = kernels.evaluations.iter().map(|evaluation| {
             let function = function::<JointKernels>("evaluate", evaluation.terms);
-            self.evaluation(&function, (&evaluation.kernel, &evaluation.checks), None)
+            self.evaluation(&function, (&evaluation.kernel, &evaluation.checks))
         });
         evaluations.collect()
     }
@@ -203,7 +203,7 @@ impl Writer<'_, JointKernels> {
         let StraightLine {
             statements,
             outputs,
-        } = self.line_of(&kernel, &Given::default(), &frame);
+        } = self.line_of(&kernel, &frame);
         let (angles, others) = outputs.split_at(kernels.turns);
         let velocities = kernels.velocities;
         quote! {

@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::parts::Frame;
-use super::straight_line::{Given, StraightLine};
+use super::straight_line::StraightLine;
 use super::writer::Writer;
 use crate::model::Model;
 use crate::symbolic::left_out::left_out;
@@ -64,7 +64,7 @@ impl Writer<'_> {
         let StraightLine {
             statements,
             outputs,
-        } = self.line_of(&kernel, &Given::default(), &frame);
+        } = self.line_of(&kernel, &frame);
         let rows = outputs.chunks(1 + size).enumerate().map(|(place, row)| {
             let (value, gradient) = (&row[0], &row[1..]);
             quote!(#place => ::core::option::Option::Some((#value, [#(#gradient),*])),)

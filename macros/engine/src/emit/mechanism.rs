@@ -10,7 +10,7 @@ use super::parameters;
 use super::parts::Frame;
 use super::report::report;
 use super::solver::is_short;
-use super::straight_line::{Given, StraightLine};
+use super::straight_line::StraightLine;
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
 use crate::model::{Coordinates, Model};
@@ -283,7 +283,7 @@ impl Writer<'_> {
         let StraightLine {
             statements,
             outputs,
-        } = self.line_of(kernel, &Given::default(), &frame);
+        } = self.line_of(kernel, &frame);
         let (kind, value) = result.written(&outputs);
         let name = format_ident!("{name}");
         // A long kernel is compiled once, and not wherever something is read or goes wrong.

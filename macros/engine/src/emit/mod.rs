@@ -1,9 +1,9 @@
 //! Kernels to Rust. Nothing here can fail: what could be wrong was refused before.
 //!
 //! A kernel neither branches on data nor returns a `Result`. Sizes are associated types, plain
-//! arrays. The fused evaluation exists for three sets of terms (plain, stabilised, compliant) and
-//! two normalisations of `p`. Forces of closures, the augmented Lagrangian and projections use
-//! `factor` and `solve`, which keeps the fused kernels free of them.
+//! arrays. The fused evaluation exists for three sets of terms (plain, stabilised, compliant).
+//! Forces of closures, the augmented Lagrangian and projections use `factor` and `solve`, which
+//! keeps the fused kernels free of them.
 //!
 //! `solver.rs` writes the solver once, for either kind of coordinates. `solution.rs` and
 //! `joint_solution.rs` say in which of its words they differ, and choose among evaluations.

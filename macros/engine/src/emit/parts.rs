@@ -11,7 +11,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::rows::{ArrayElement, WIDTH, pack};
-use super::straight_line::{Environment, Given, Lines, StraightLine, Value, lines, write_all};
+use super::straight_line::{Environment, Lines, StraightLine, Value, lines, write_all};
 use crate::symbolic::arena::{Arena, Expr, Stage};
 use crate::syntax::words::local;
 
@@ -34,17 +34,16 @@ pub(super) struct Frame {
     pub(super) unpack: TokenStream,
 }
 
-/// Writes the nodes that the outputs need, that are known no earlier than `from` and are not given:
-/// like [`write`](super::straight_line::write) where they are few; else in parts, which stand
-/// beside the function.
+/// Writes the nodes that the outputs need and that are known no earlier than `from`: like
+/// [`write`](super::straight_line::write) where they are few; else in parts, which stand beside the
+/// function.
 pub(super) fn write_in_parts(
     (arena, outputs): (&Arena, &[Expr]),
     from: Stage,
-    given: &Given,
     environment: &mut impl Environment,
     frame: &Frame,
 ) -> (StraightLine, TokenStream) {
-    let lines = lines(arena, outputs, from, given, environment);
+    let lines = lines(arena, outputs, from, environment);
     if lines.statements.len() <= MANY {
         return (lines.in_one_function(outputs), TokenStream::new());
     }

@@ -15,7 +15,6 @@ use crate::plan::time::ExplicitTime;
 use crate::symbolic::arena::{Input, Node, Stage};
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
-use crate::symbolic::scene::Normalisation;
 use crate::symbolic::vector::Frame;
 
 /// Name and cost of every kernel that is called at run time, in the order of the report.
@@ -24,10 +23,7 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
     let of = |kernel: &Kernel| count(&kernel.arena, &kernel.outputs, Stage::State);
     let mut counts = vec![];
     for evaluation in &kernels.evaluations {
-        counts.push((
-            evaluation_name(evaluation.terms, evaluation.normalisation),
-            of(&evaluation.kernel),
-        ));
+        counts.push((evaluation_name(evaluation.terms), of(&evaluation.kernel)));
     }
     for (name, kernel) in [
         ("constraints", &kernels.constraints),
@@ -58,12 +54,8 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
 
 /// The name of an evaluation in the report.
 #[must_use]
-pub fn evaluation_name(terms: Terms, normalisation: Normalisation) -> String {
-    let terms = terms_name(terms);
-    match normalisation {
-        Normalisation::Raw => format!("evaluate {terms}"),
-        Normalisation::Normalised => format!("evaluate {terms}, normalised"),
-    }
+pub fn evaluation_name(terms: Terms) -> String {
+    format!("evaluate {}", terms_name(terms))
 }
 
 /// The first formulation that has these terms.

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use super::parts::{Frame, write_in_parts};
 use super::rows::{WIDTH, array, pack};
 use super::store::BackSubstitution;
-use super::straight_line::{Given, StraightLine};
+use super::straight_line::StraightLine;
 use super::writer::{Described, Writer, function};
 use crate::plan::kernels::{PivotCheck, Solver};
 use crate::plan::system::Terms;
@@ -19,34 +19,20 @@ use crate::syntax::words::local;
 /// twice.
 const INLINE: usize = 300;
 
-/// Rotation matrices that are given to an evaluation: one parameter more, declared and passed on.
-pub(super) struct OfRotations {
-    pub(super) declared: TokenStream,
-    pub(super) passed: TokenStream,
-    pub(super) given: Given,
-}
-
 impl<K: Described> Writer<'_, K> {
-    /// A fused evaluation; as a function of rotation matrices, if these are given.
+    /// A fused evaluation.
     pub(super) fn evaluation(
         &mut self,
         function: &Ident,
         (kernel, checks): (&Kernel, &[PivotCheck]),
-        rotations: Option<OfRotations>,
     ) -> TokenStream {
         let facade = self.facade;
-        let mut given = Given::default();
-        let (mut arguments, mut passed) = (self.arguments(), Self::passed());
-        if let Some(rotations) = rotations {
-            given = rotations.given;
-            arguments.extend(rotations.declared);
-            passed.extend(rotations.passed);
-        }
-        let frame = self.frame(function.to_string(), arguments.clone(), passed);
+        let arguments = self.arguments();
+        let frame = self.frame(function.to_string(), arguments.clone(), Self::passed());
         let StraightLine {
             statements,
             outputs,
-        } = self.line_of(kernel, &given, &frame);
+        } = self.line_of(kernel, &frame);
         let places = self.kernels.multipliers();
         let rates_of_state = self.kernels.rates(facade, &outputs[..places.start]);
         let (multipliers, pivots) = (&outputs[places.clone()], &outputs[places.end..]);
@@ -114,7 +100,6 @@ impl<K: Described> Writer<'_, K> {
         let (solved, parts) = write_in_parts(
             (&solver.arena, &solver.solution),
             Stage::RightHandSide,
-            &Given::default(),
             &mut back,
             &Frame {
                 name: solve_name.to_string(),
@@ -132,7 +117,7 @@ impl<K: Described> Writer<'_, K> {
         };
         let arguments = self.arguments();
         let frame = self.frame(factor_name.to_string(), arguments.clone(), Self::passed());
-        let factored = self.line_of(&kernel, &Given::default(), &frame);
+        let factored = self.line_of(&kernel, &frame);
         let (values, pivots) = factored.outputs.split_at(handed_on.len());
         let pivot = verdict(facade, &solver.checks, pivots);
         let (accelerations, multipliers) = solved.outputs.split_at(self.kernels.velocities());

@@ -128,7 +128,6 @@ impl Lines {
 struct Writer<'a, E> {
     arena: &'a Arena,
     environment: &'a mut E,
-    given: &'a Given,
     is_fused: Vec<bool>,
     /// The nodes that stand where they are used.
     is_nested: Vec<bool>,
@@ -139,36 +138,6 @@ struct Writer<'a, E> {
     operands: Vec<usize>,
     /// The operations that stand in it besides its own.
     inner: usize,
-}
-
-/// Values that are computed elsewhere and reach a kernel as an argument.
-#[derive(Debug, Default)]
-pub(super) struct Given {
-    nodes: Vec<(usize, ArrayElement)>,
-}
-
-impl Given {
-    /// The elements of an array, row by row.
-    pub(super) fn rows(values: &[Expr], width: usize, array: &'static str) -> Self {
-        let places = values.iter().enumerate();
-        let mut nodes: Vec<_> = places
-            .map(|(place, value)| {
-                let element = ArrayElement::new(array, place / width, place % width);
-                (value.node(), element)
-            })
-            .collect();
-        nodes.sort_by_key(|(node, _)| *node);
-        Self { nodes }
-    }
-
-    fn value(&self, node: usize) -> Option<ArrayElement> {
-        let place = self.nodes.binary_search_by_key(&node, |(node, _)| *node);
-        place.ok().map(|place| self.nodes[place].1)
-    }
-
-    fn nodes(&self) -> impl Iterator<Item = usize> + '_ {
-        self.nodes.iter().map(|(node, _)| *node)
-    }
 }
 
 /// The statements of one block of a long kernel.
@@ -190,25 +159,22 @@ pub fn write(
     from: Stage,
     environment: &mut impl Environment,
 ) -> StraightLine {
-    let lines = lines(arena, outputs, from, &Given::default(), environment);
+    let lines = lines(arena, outputs, from, environment);
     lines.in_one_function(outputs)
 }
 
-/// The statements of the nodes that the outputs need, that are known no earlier than `from` and are
-/// not given.
+/// The statements of the nodes that the outputs need and that are known no earlier than `from`.
 pub(super) fn lines(
     arena: &Arena,
     outputs: &[Expr],
     from: Stage,
-    given: &Given,
     environment: &mut impl Environment,
 ) -> Lines {
-    let live = arena.live_above(outputs, from, given.nodes());
+    let live = arena.live(outputs, from);
     let uses = Uses::new(arena, &live, outputs);
     let mut writer = Writer {
         arena,
         environment,
-        given,
         is_fused: uses.fused_products(),
         is_nested: uses.nested(),
         nested: BTreeMap::new(),
@@ -466,10 +432,7 @@ impl<E: Environment> Writer<'_, E> {
             };
         }
         let statement = self.lines.statement_of[place].unwrap_or_else(|| {
-            let value = match self.given.value(place) {
-                Some(element) => Value::Element(element),
-                None => self.environment.earlier(self.arena, expr.abs()),
-            };
+            let value = self.environment.earlier(self.arena, expr.abs());
             self.bind(place, value, true);
             self.lines.statements.len() - 1
         });

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 
 use super::parts::{Frame, write_in_parts};
 use super::store::Store;
-use super::straight_line::{Environment, Given, StraightLine};
+use super::straight_line::{Environment, StraightLine};
 use crate::model::Model;
 use crate::plan::kernels::{Kernels, Solver};
 use crate::plan::system::Terms;
@@ -86,16 +86,10 @@ impl<K: Described> Writer<'_, K> {
     }
 
     /// A kernel that may be long.
-    pub(super) fn line_of(
-        &mut self,
-        kernel: &Kernel,
-        given: &Given,
-        frame: &Frame,
-    ) -> StraightLine {
+    pub(super) fn line_of(&mut self, kernel: &Kernel, frame: &Frame) -> StraightLine {
         let (line, parts) = write_in_parts(
             (&kernel.arena, &kernel.outputs),
             Stage::State,
-            given,
             &mut self.kernels.environment(&mut self.store),
             frame,
         );

@@ -14,7 +14,7 @@ use super::tree::{Tree, tree};
 use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::{Expr, Stage};
 use crate::symbolic::count::count;
-use crate::symbolic::scene::{Normalisation, Scene};
+use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::Frame;
 
 /// What the candidates differ in.
@@ -118,7 +118,7 @@ struct Beginning<'a> {
 
 impl<'a> Beginning<'a> {
     fn new(model: &'a Model) -> Self {
-        let scene = Scene::for_solution(model, Normalisation::Raw);
+        let scene = Scene::for_solution(model);
         let reach = Reach::new(model, scene.clone());
         Self {
             model,
@@ -205,7 +205,7 @@ pub(super) struct Factorised {
 
 impl Factorised {
     pub(super) fn new(model: &Model, plan: &Plan, terms: Terms) -> Self {
-        let mut scene = Scene::for_solution(model, Normalisation::Raw);
+        let mut scene = Scene::for_solution(model);
         let system = System::new(&mut scene, &kinds(model), plan.clone(), terms);
         Self {
             plan: plan.clone(),

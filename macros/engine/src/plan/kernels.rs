@@ -12,7 +12,7 @@ use crate::symbolic::equations::{
     Block, Kernel, coordinate_rates, counters, initial_state, jacobian, kinds, kinetic_energy,
     mass, potential_energy, rows, vector_rows, with_scene,
 };
-use crate::symbolic::scene::{Normalisation, Scene};
+use crate::symbolic::scene::Scene;
 use crate::symbolic::table::Table;
 
 /// A kernel that solves: outputs are coordinate rates, accelerations, multipliers.
@@ -20,14 +20,10 @@ use crate::symbolic::table::Table;
 pub struct Evaluation {
     /// The terms of the formulation.
     pub terms: Terms,
-    /// How Euler parameters are read.
-    pub normalisation: Normalisation,
     /// Outputs, and behind them the relative pivots in the order of `checks`.
     pub kernel: Kernel,
     /// The pivots to check.
     pub checks: Vec<PivotCheck>,
-    /// The entries of the rotation matrices, body by body, row by row.
-    pub rotations: Vec<Expr>,
 }
 
 /// A pivot that is checked at run time.
@@ -87,8 +83,8 @@ pub struct Kernels {
     pub power: Kernel,
     /// What can be read of joints and forces.
     pub readouts: Readouts,
-    /// The fused evaluations for all terms, those that read Euler parameters as they are before
-    /// those that normalise them. None where the mechanism is described by its joints alone.
+    /// The fused evaluations for all terms. None where the mechanism is described by its joints
+    /// alone.
     pub evaluations: Vec<Evaluation>,
     /// The gains of `Phi'` and of `Phi` in `gamma*`, for evaluations that are put together from
     /// their parts.
@@ -151,15 +147,17 @@ impl Kernels {
     }
 }
 
-/// The fused evaluations for all terms and both normalisations.
+/// The fused evaluations for all terms.
 fn evaluations(model: &Model, [rigid, compliant]: &[Factorised; 2]) -> Vec<Evaluation> {
-    let raw = Terms::ALL.map(|terms| match terms {
-        Terms::Plain | Terms::Stabilised => raw(model, rigid, terms),
-        Terms::Compliant => raw(model, compliant, terms),
+    let normalised = &Scene::normalised(model);
+    let evaluations = Terms::ALL.map(|terms| {
+        let factorised = match terms {
+            Terms::Plain | Terms::Stabilised => rigid,
+            Terms::Compliant => compliant,
+        };
+        fused(model, factorised, normalised, terms)
     });
-    let normalised = Scene::for_solution(model, Normalisation::Normalised);
-    let normalised = raw.each_ref().map(|raw| raw.normalised(&normalised));
-    raw.into_iter().chain(normalised).collect()
+    evaluations.into()
 }
 
 /// The gains of stabilisation, of `Phi'` and of `Phi`.
@@ -211,21 +209,19 @@ pub(crate) fn relative(scene: &mut Scene, recorded: &[Check]) -> (Vec<Expr>, Vec
 
 /// The fused evaluation with a plan.
 #[must_use]
-pub fn evaluation(
-    model: &Model,
-    plan: &Plan,
-    normalisation: Normalisation,
-    terms: Terms,
-) -> Evaluation {
-    let raw = raw(model, &Factorised::new(model, plan, terms), terms);
-    match normalisation {
-        Normalisation::Raw => raw,
-        Normalisation::Normalised => raw.normalised(&Scene::for_solution(model, normalisation)),
-    }
+pub fn evaluation(model: &Model, plan: &Plan, terms: Terms) -> Evaluation {
+    let factorised = Factorised::new(model, plan, terms);
+    fused(model, &factorised, &Scene::normalised(model), terms)
 }
 
-/// The fused evaluation that reads Euler parameters as they are.
-fn raw(model: &Model, Factorised { scene, system, .. }: &Factorised, terms: Terms) -> Evaluation {
+/// The fused evaluation, worked out with rotation matrices of Euler parameters as they are, and
+/// then written with those of a scene that normalises them.
+fn fused(
+    model: &Model,
+    Factorised { scene, system, .. }: &Factorised,
+    normalised: &Scene,
+    terms: Terms,
+) -> Evaluation {
     let mut scene = scene.clone();
     let solution = solved(&mut scene, &kinds(model), system, terms);
     let mut outputs = coordinate_rates(&mut scene, model);
@@ -241,63 +237,48 @@ fn raw(model: &Model, Factorised { scene, system, .. }: &Factorised, terms: Term
     kernel.gather(&rotations);
     Evaluation {
         terms,
-        normalisation: Normalisation::Raw,
-        rotations,
-        kernel,
+        kernel: with_rotations(&kernel, &rotations, normalised),
         checks,
     }
 }
 
-/// The entries of the rotation matrices.
+/// The entries of the rotation matrices, body by body, row by row.
 fn rotations(scene: &Scene) -> Vec<Expr> {
     let bodies = 0..scene.mass.len();
     let matrices = bodies.filter_map(|body| scene.space.rotation(body).copied());
     matrices.flatten().flatten().collect()
 }
 
-impl Evaluation {
-    /// The same function of the rotation matrices of a scene that reads Euler parameters
-    /// normalised. What else is made of Euler parameters, their rates, is made of them as they are.
-    pub(crate) fn normalised(&self, scene: &Scene) -> Self {
-        let mut arena = scene.space.arena.clone();
-        let rotations = rotations(scene);
-        let entries = self.rotations.iter().zip(&rotations);
-        let mut known: Table<usize, Expr> = entries
-            .map(|(former, entry)| {
-                let entry = if former.is_negative() {
-                    -*entry
-                } else {
-                    *entry
-                };
-                (former.node(), entry)
-            })
-            .collect();
-        let of = |known: &Table<usize, Expr>, expr: Expr| {
-            let found = known[&expr.node()];
-            if expr.is_negative() { -found } else { found }
-        };
-        let Kernel {
-            arena: former,
-            outputs,
-        } = &self.kernel;
-        let given = self.rotations.iter().map(|entry| entry.node());
-        for place in former.live_above(outputs, Stage::Literal, given) {
-            let made = arena.again(former.node(place), |operand| of(&known, operand));
-            if let Some(label) = former.label(place) {
-                arena.name(made, || label.to_owned());
-            }
-            known.insert(place, made);
+/// The same function of the rotation matrices of another scene. What else is made of Euler
+/// parameters, their rates, is made of them as they are.
+fn with_rotations(kernel: &Kernel, former: &[Expr], scene: &Scene) -> Kernel {
+    let mut arena = scene.space.arena.clone();
+    let entries = former.iter().zip(rotations(scene));
+    let mut known: Table<usize, Expr> = entries
+        .map(|(former, entry)| {
+            let entry = if former.is_negative() { -entry } else { entry };
+            (former.node(), entry)
+        })
+        .collect();
+    let of = |known: &Table<usize, Expr>, expr: Expr| {
+        let found = known[&expr.node()];
+        if expr.is_negative() { -found } else { found }
+    };
+    let given = former.iter().map(|entry| entry.node());
+    let nodes = kernel
+        .arena
+        .live_above(&kernel.outputs, Stage::Literal, given);
+    for place in nodes {
+        let made = arena.again(kernel.arena.node(place), |operand| of(&known, operand));
+        if let Some(label) = kernel.arena.label(place) {
+            arena.name(made, || label.to_owned());
         }
-        Self {
-            terms: self.terms,
-            normalisation: Normalisation::Normalised,
-            kernel: Kernel {
-                outputs: outputs.iter().map(|&output| of(&known, output)).collect(),
-                arena,
-            },
-            rotations,
-            checks: self.checks.clone(),
-        }
+        known.insert(place, made);
+    }
+    let outputs = kernel.outputs.iter().map(|&output| of(&known, output));
+    Kernel {
+        outputs: outputs.collect(),
+        arena,
     }
 }
 

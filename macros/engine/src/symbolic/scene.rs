@@ -12,14 +12,8 @@ use super::vector::{Frame, Space, Triple, ZERO};
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, ElementKind, Model, Row, Term};
 
-/// How Euler parameters are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Normalisation {
-    /// `A(p)` is `|p|^2` times a rotation.
-    Raw,
-    /// `p / |p|` takes the place of `p` in `A`.
-    Normalised,
-}
+/// A rotation matrix from Euler parameters, row by row.
+type Rotation = fn(&mut Arena, [Expr; 4]) -> [Triple; 3];
 
 /// How a body stands and moves.
 #[derive(Clone, Copy, Debug)]
@@ -125,10 +119,10 @@ impl Scene {
     /// The scene of a model with Euler parameters as they are, exact for any length of them.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        Self::build(model, Normalisation::Raw, true)
+        Self::build(model, homogeneous_rotation, true)
     }
 
-    fn build(model: &Model, normalisation: Normalisation, exact: bool) -> Self {
+    fn build(model: &Model, rotation: Rotation, exact: bool) -> Self {
         let layout = model.layout();
         let mut arena = Arena::new();
         let mut charts = Vec::new();
@@ -146,10 +140,7 @@ impl Scene {
             };
             if body.kind == BodyKind::Rigid {
                 let p = [3, 4, 5, 6].map(|k| arena.input(at(k)));
-                let matrix = match normalisation {
-                    Normalisation::Raw => homogeneous_rotation(&mut arena, p),
-                    Normalisation::Normalised => normalised_rotation(&mut arena, p),
-                };
+                let matrix = rotation(&mut arena, p);
                 for (k, row) in matrix.iter().enumerate() {
                     for (l, entry) in row.iter().enumerate() {
                         arena.name(*entry, || {
@@ -311,11 +302,20 @@ impl Scene {
     /// The scene of a model for a solution of its equations: vectors are computed in whatever axes
     /// are cheapest, and every entry of a rotation matrix is its own cofactor.
     ///
-    /// Exact for `p` of length 1; elsewhere, where `A` is read raw, it differs by the drift of
-    /// `|p|`, as `A^T A = I` does.
+    /// Exact for `p` of length 1; elsewhere it differs by the drift of `|p|`, as `A^T A = I` does.
     #[must_use]
-    pub fn for_solution(model: &Model, normalisation: Normalisation) -> Self {
-        let mut scene = Self::build(model, normalisation, false);
+    pub fn for_solution(model: &Model) -> Self {
+        Self::solvable(model, homogeneous_rotation)
+    }
+
+    /// The same with `p / |p|` in the place of `p` in `A(p)`: exact for any `p` but zero.
+    #[must_use]
+    pub fn normalised(model: &Model) -> Self {
+        Self::solvable(model, normalised_rotation)
+    }
+
+    fn solvable(model: &Model, rotation: Rotation) -> Self {
+        let mut scene = Self::build(model, rotation, false);
         for body in 0..model.bodies.len() {
             let Some(a) = scene.space.rotation(body).copied() else {
                 continue;

@@ -7,7 +7,6 @@ use holonom_engine::plan::candidates::Plans;
 use holonom_engine::plan::candidates::all;
 use holonom_engine::plan::kernels::{Evaluation, Kernels, evaluation};
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::scene::Normalisation;
 
 use crate::dense::Factors;
 use crate::inputs::{Coefficients, Inputs, in_axes, transposed, turned, user_axes};
@@ -75,21 +74,15 @@ fn others(model: &Model, chosen: &Plans, seed: usize) -> Vec<Evaluation> {
     }
     let plans = plans.iter();
     plans
-        .map(|(terms, plan)| evaluation(model, plan, Normalisation::Raw, *terms))
+        .map(|(terms, plan)| evaluation(model, plan, *terms))
         .collect()
 }
 
 /// One of all evaluations.
 fn any(model: &Model, seed: usize) -> Evaluation {
     let terms = Terms::ALL[seed % 3];
-    let normalisation = [Normalisation::Raw, Normalisation::Normalised][(seed / 3) % 2];
     let plans = all(model, terms);
-    evaluation(
-        model,
-        &plans[(seed / 6) % plans.len()],
-        normalisation,
-        terms,
-    )
+    evaluation(model, &plans[(seed / 3) % plans.len()], terms)
 }
 
 impl<'a> Comparison<'a> {

@@ -2,7 +2,6 @@
 
 use holonom_engine::plan::kernels::PivotCheck;
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::scene::Normalisation;
 
 use crate::comparison::{Comparison, difference};
 use crate::dense::{Factors, size};
@@ -132,7 +131,7 @@ impl Comparison<'_> {
         let (model, described) = (self.model, self.described);
         let inputs =
             |state: &State| Inputs::new(model, described, state, &equations.angles, coefficients);
-        let (raw, normalised) = (inputs(state), inputs(stretched));
+        let (unit, inputs) = (inputs(state), inputs(stretched));
         let rows = equations.phi.len();
         let rigid = System::new(equations, 0.0);
         let soft = System::new(equations, coefficients.compliance);
@@ -168,22 +167,14 @@ impl Comparison<'_> {
         let coordinates = layout.coordinates + layout.auxiliaries;
         let mut found = Vec::new();
         for (plan, evaluation) in evaluations.chain(others) {
-            let (inputs, at) = match evaluation.normalisation {
-                Normalisation::Raw => (&raw, state),
-                Normalisation::Normalised => (&normalised, stretched),
-            };
             let values = inputs.of(&evaluation.kernel);
             let (rates, rest) = values.split_at(coordinates);
             let (solution, pivots) = rest.split_at(layout.velocities + rows);
-            let what = format!(
-                "{plan} plan, {:?}, {:?}, pivots {pivots:?}",
-                evaluation.terms, evaluation.normalisation
-            );
+            let what = format!("{plan} plan, {:?}, pivots {pivots:?}", evaluation.terms);
             let pivot = smallest(pivots, &evaluation.checks);
             found.push((
                 what,
                 evaluation.terms,
-                at,
                 rates.to_vec(),
                 solution.to_vec(),
                 pivot,
@@ -191,8 +182,8 @@ impl Comparison<'_> {
         }
         let mut is_told = false;
         let is_off = !equations.hold();
-        for (what, terms, at, rates, solution, pivot) in found {
-            let of_coordinates = self.coordinate_rates(at, equations);
+        for (what, terms, rates, solution, pivot) in found {
+            let of_coordinates = self.coordinate_rates(stretched, equations);
             let names = format!("q', {what}");
             self.within(&names, &rates, &of_coordinates, equations.scale)?;
             if let Some((wanted, round_off)) = wanted(terms) {
@@ -224,7 +215,7 @@ impl Comparison<'_> {
         }
         self.statistics.told += usize::from(is_told);
         self.solvers(
-            raw,
+            unit,
             equations,
             &right(coefficients.gains(Terms::Stabilised)),
             [rigid.as_ref(), soft.as_ref()],

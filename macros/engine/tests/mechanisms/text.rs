@@ -7,7 +7,6 @@ use holonom_engine::model::{ElementKind, Model, Rank};
 use holonom_engine::plan::candidates::choose;
 use holonom_engine::plan::kernels::evaluation;
 use holonom_engine::plan::system::Terms;
-use holonom_engine::symbolic::scene::Normalisation;
 
 use crate::common::{checked, tokens};
 use crate::comparison::{Comparison, Extent, difference};
@@ -211,12 +210,7 @@ fn by_name(model: &Model, described: &Described) -> Option<(BTreeMap<String, Vec
     };
     let inputs = Inputs::new(model, described, &state, &equations.angles, coefficients);
     let layout = model.layout();
-    let evaluation = evaluation(
-        model,
-        &choose(model).rigid,
-        Normalisation::Normalised,
-        Terms::Plain,
-    );
+    let evaluation = evaluation(model, &choose(model).rigid, Terms::Plain);
     let values = inputs.of(&evaluation.kernel);
     let (solution, pivots) =
         values[layout.coordinates + layout.auxiliaries..].split_at(layout.velocities + layout.rows);

@@ -10,7 +10,7 @@ use holonom_engine::plan::system::Terms;
 use holonom_engine::symbolic::arena::{Arena, Expr, Input};
 use holonom_engine::symbolic::equations::Kernel;
 use holonom_engine::symbolic::evaluate::evaluate;
-use holonom_engine::symbolic::scene::{Normalisation, Scene};
+use holonom_engine::symbolic::scene::Scene;
 
 /// The compliance of the compliant systems here.
 const COMPLIANCE: f64 = 1e-3;
@@ -104,7 +104,7 @@ impl State {
 
     /// The standard formulation by a plan.
     pub(crate) fn by_plan(&self, model: &Model, plan: &Plan) -> Evaluated {
-        let mut scene = Scene::for_solution(model, Normalisation::Raw);
+        let mut scene = Scene::for_solution(model);
         let (solution, system) = equations_of_motion(&mut scene, model, plan.clone(), Terms::Plain);
         let checks = system.checks(&scene);
         let arena = &scene.space.arena;
@@ -134,11 +134,9 @@ pub(crate) fn evaluated(
     model: &Model,
     kernels: &Kernels,
     terms: Terms,
-    normalisation: Normalisation,
     state: &State,
 ) -> Evaluated {
-    let is_wanted =
-        |known: &&Evaluation| known.terms == terms && known.normalisation == normalisation;
+    let is_wanted = |known: &&Evaluation| known.terms == terms;
     let evaluation = kernels
         .evaluations
         .iter()

@@ -2,7 +2,7 @@
 
 use holonom_engine::model::ElementKind;
 use holonom_engine::symbolic::arena::Expr;
-use holonom_engine::symbolic::scene::{Normalisation, Scene};
+use holonom_engine::symbolic::scene::Scene;
 use holonom_engine::symbolic::vector::Frame;
 use num_dual::Dual2_64;
 
@@ -98,11 +98,8 @@ fn random_forces_against_dual_numbers() {
         let bodies = model.bodies.len();
         let scenes = [
             ("exact", Scene::new(&model)),
-            ("raw", Scene::for_solution(&model, Normalisation::Raw)),
-            (
-                "normalised",
-                Scene::for_solution(&model, Normalisation::Normalised),
-            ),
+            ("homogeneous", Scene::for_solution(&model)),
+            ("normalised", Scene::normalised(&model)),
         ];
         let scenes = scenes.map(|(name, mut scene)| {
             let outputs = derived(&mut scene, bodies);

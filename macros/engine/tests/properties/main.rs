@@ -25,7 +25,7 @@ use common::{checked, tokens};
 use holonom_engine::model::{ElementKind, Model};
 use holonom_engine::symbolic::arena::{Arena, Expr, Input};
 use holonom_engine::symbolic::evaluate::evaluate;
-use holonom_engine::symbolic::scene::{Normalisation, Scene};
+use holonom_engine::symbolic::scene::Scene;
 use holonom_engine::symbolic::vector::Frame;
 use language::{Interpreter, Pose};
 use num_dual::Dual2_64;
@@ -253,11 +253,8 @@ fn random_joints_against_dual_numbers() {
         let bodies = model.bodies.len();
         let scenes = [
             ("exact", Scene::new(&model)),
-            ("raw", Scene::for_solution(&model, Normalisation::Raw)),
-            (
-                "normalised",
-                Scene::for_solution(&model, Normalisation::Normalised),
-            ),
+            ("homogeneous", Scene::for_solution(&model)),
+            ("normalised", Scene::normalised(&model)),
         ];
         let scenes = scenes.map(|(name, scene)| (name, Derived::new(scene, bodies)));
         for _ in 0..STATES {

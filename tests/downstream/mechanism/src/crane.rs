@@ -50,12 +50,8 @@ pub fn sway() -> Result<f64, ParameterError> {
         compliance: 0.0,
     };
     let coefficients = Trolley::coefficients(&constants, &rigid);
-    let evaluation = Trolley::evaluate::<f64, mech::mechanism::Plain, Raw>(
-        &constants,
-        &coefficients,
-        0.0,
-        &state,
-    );
+    let evaluation =
+        Trolley::evaluate::<f64, mech::mechanism::Plain>(&constants, &coefficients, 0.0, &state);
     let [x, _, _] = *evaluation.rates.velocities();
     Ok(x)
 }
