@@ -1,6 +1,6 @@
 //! The monitor of a run: what tells whether its result can be trusted.
 //!
-//! The run shows it a record of every step ([`MonitoredStep`]), which it hands to every indicator.
+//! The run shows it a record of every step (`MonitoredStep`), which it hands to every indicator.
 //! An indicator is a value in a file of its own, with its state, its limit and its verdict. The
 //! head of the file says what it costs and what nothing else finds. `verdict.rs` lists the
 //! verdicts, the gravest first; limits that several share are in `limits.rs`.
@@ -26,7 +26,7 @@
 //! pivots that the steps leave. `passage.rs` follows pivots and gradients along assemblies and
 //! kinematic analyses.
 //!
-//! A further indicator is a field of [`Monitor`] that [`Monitor::step`] hands the record to, a line
+//! A further indicator is a field of [`Monitor`] that `Monitor::step` hands the record to, a line
 //! of `verdict.rs`, and a warning of `warning.rs`. What every step has to be asked for is a field
 //! of the record, which `dynamics/monitored.rs` fills. Tests: what it finds, in `tests/tests/sound`
 //! or `sweeps`; right runs it is silent of, in `alarms.rs`. Costs:
