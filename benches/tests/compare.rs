@@ -69,7 +69,7 @@ fn every_right_hand_side_has_its_numbers() {
             "nanoseconds_throughput",
             "nanoseconds_dependent",
             "rk4_step_nanoseconds",
-            "reference kernels",
+            "reference_kernels",
         ] {
             assert!(object[time].as_f64().unwrap() > 0.0, "{time}");
         }

@@ -87,7 +87,7 @@ pub fn document(rows: &[Row], refused: &[Refused], beside: &Beside, target: &Tar
              right-hand side has a turn, and a time is the median of its turns. Evaluations go over up to 64 states of a motion, and do not depend on each other; those that wait \
              have the rates of the last evaluation in their state. Steps of Runge-Kutta start from states that do not depend on each other."
                 .into(),
-            "The reference_kernel is the pendulum of chapter 15 of Flores (2015) by its bodies, written by hand: masses eliminated first, five equations solved by L D Lᵀ, \
+            "The reference kernel is the pendulum of chapter 15 of Flores (2015) by its bodies, written by hand: masses eliminated first, five equations solved by L D Lᵀ, \
              nothing known of the mechanism beyond zeros and constants. Its time, T, is a unit that depends little on the processor."
                 .into(),
         ],

@@ -177,7 +177,7 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, StudyError> {
             "step_or_tolerance",
             "error",
             "seconds",
-            "reference kernels",
+            "reference_kernels",
             "evaluations",
             "steps_accepted",
             "steps_tried",
