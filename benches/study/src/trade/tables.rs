@@ -67,7 +67,7 @@ pub fn best(trade: &Trade) -> Table {
         caption: "Nothing is both faster and more exact".into(),
         columns: heads(trade),
         rows: rows.iter().map(|row| line(name(&row.setting), row)).collect(),
-        note: "Time: of the whole run, without monitor and readings, the median of several; T is an evaluation of the reference_kernel, timed in turn with the run. Violation: the largest |Φ| at the reporting times. Energy: the \
+        note: "Time: of the whole run, without monitor and readings, the median of several; T is an evaluation of the reference kernel, timed in turn with the run. Violation: the largest |Φ| at the reporting times. Energy: the \
                largest change that no force accounts for."
             .into(),
     }
