@@ -234,7 +234,8 @@ pub struct ForceInfo {
 }
 
 /// A point or direction that a joint or force names, on one of its bodies; Adams has the word. Two
-/// bodies on a hinge have a marker each for its point and for its axis.
+/// bodies on a hinge have a marker each for its point and for its axis. Of a spring each body has
+/// one end: a point is a marker of those bodies on which the definition uses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Marker {
     /// The joint or force.

@@ -1,5 +1,7 @@
 //! A joint or a force as it is defined: formal bodies, parameters, rows, actions.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, Span};
 
 use super::motion::Motion;
@@ -527,8 +529,16 @@ impl ElementDef {
     /// The first body on which a vector parameter is used; the first of all if it is used nowhere.
     #[must_use]
     pub fn first_body_of(&self, parameter: usize) -> usize {
-        let mut first: Option<usize> = None;
-        let mut meet = |body: usize| first = Some(first.map_or(body, |known| known.min(body)));
+        self.bodies_of(parameter).first().copied().unwrap_or(0)
+    }
+
+    /// The bodies on which a vector parameter is used.
+    #[must_use]
+    pub fn bodies_of(&self, parameter: usize) -> BTreeSet<usize> {
+        let mut bodies = BTreeSet::new();
+        let mut meet = |body: usize| {
+            bodies.insert(body);
+        };
         let turns = self.turns.iter().chain(&self.angle);
         for turn in turns.filter(|turn| turn.axis == parameter) {
             meet(turn.from);
@@ -551,7 +561,7 @@ impl ElementDef {
                 _ => (),
             });
         }
-        first.unwrap_or(0)
+        bodies
     }
 
     /// The place of the parameter at whose point reactions are given.

@@ -1,7 +1,7 @@
 //! What can be read of joints and forces at a state.
 
 use crate::model::mechanism::Counter;
-use crate::model::{BodyKind, Model};
+use crate::model::{BodyKind, Model, ParameterKind};
 use crate::symbolic::arena::{Arena, Input};
 use crate::symbolic::equations::{Kernel, with_scene};
 use crate::symbolic::motion::Gradient;
@@ -125,10 +125,18 @@ fn points(scene: &Scene, model: &Model) -> Vec<(usize, usize, Kernel)> {
 
 fn markers(scene: &Scene, model: &Model) -> Vec<Marker> {
     let mut markers = Vec::new();
-    for (element, parameters) in scene.copies.iter().enumerate() {
+    let elements = model.joints.iter().chain(&model.forces);
+    for ((element, of), parameters) in elements.enumerate().zip(&scene.copies) {
+        let definition = model.definition(of);
         for (parameter, copies) in parameters.iter().enumerate() {
-            let vectors = copies.iter().flat_map(|copies| &copies.vector);
-            markers.extend(vectors.enumerate().map(|(place, &vector)| Marker {
+            // A spring has one end on each body: its other end is no point of that body.
+            let is_point = definition.parameters[parameter].kind == ParameterKind::Point;
+            let bodies = definition.bodies_of(parameter);
+            let vectors = copies
+                .iter()
+                .flat_map(|copies| copies.vector.iter().enumerate());
+            let used = vectors.filter(|(place, _)| !is_point || bodies.contains(place));
+            markers.extend(used.map(|(place, &vector)| Marker {
                 element,
                 place,
                 parameter,
@@ -136,7 +144,6 @@ fn markers(scene: &Scene, model: &Model) -> Vec<Marker> {
             }));
         }
     }
-    debug_assert!(scene.copies.len() == model.joints.len() + model.forces.len());
     markers
 }
 
