@@ -94,7 +94,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     )
 }
 
-/// A run of a model, with the angles of its joints and its energies.
+/// A run of a model, with its energies.
 fn film<M: Mechanism>(
     folder: &Path,
     file: &str,

@@ -36,15 +36,18 @@
 //! ```
 //!
 //! A picture needs no geometry: the generator knows the points and axes of every joint
-//! ([`Report::markers`](holonom::Report::markers)). A body is the hull of the points that joints
-//! and forces name on it. A joint looks like its kind, a spring is a coil. So a wrong point is
-//! seen.
+//! ([`Report::markers`](holonom::Report::markers)). A body is made of bars between these points and
+//! its centre of mass, and of a plate where three or more span one. A joint looks like its kind, a
+//! spring is a coil. So a wrong point is seen.
 //!
-//! The page plays, loops and seeks, and is turned by mouse or touch. It draws reactions as arrows,
-//! traces, the readings over time and the warnings of the run. Keys: space, arrows, `F` fit, `I`
+//! The page plays, loops and seeks, and is turned by mouse or touch. It shows traces, the readings
+//! over time, the warnings of the run, and reactions as arrows where they were recorded
+//! ([`Film::with_reactions`]). Keys: space, arrows, `F` fit, `I`
 //! `X` `Y` `Z` views, `O` orthographic, `R` reactions, `T` traces, `H` parts, `D` dark.
 //!
 //! The drawing is done by three.js, of which the page holds what it needs: below 700 kB.
+
+#![forbid(unsafe_code)]
 
 mod data;
 mod picture;

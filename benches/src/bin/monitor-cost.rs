@@ -1,5 +1,5 @@
-//! What the monitor of a run costs: the time of a monitored run over that of an unmonitored one,
-//! both in one process in turn, medians of the ratios.
+//! What the monitor of a run costs: the time of a monitored run over that of an unmonitored one.
+//! Both run in turn in one process; the medians of the ratios are shown.
 //!
 //! ```text
 //! cargo run --release -p holonom-benches --features monitor-cost --bin monitor-cost

@@ -139,8 +139,9 @@ struct Candidate {
     steady: f64,
     /// At the first stop, or if this is a singular position, the largest.
     determinant: f64,
-    /// The same of the rows as kernels have them.
-    raw: f64,
+    /// What kernels compare theirs with: at the first stop that of the rows as kernels have them;
+    /// at another stop of rows as large as at the median one.
+    recorded: f64,
 }
 
 /// The rows that are not taken yet, at the stops of a sweep.
@@ -177,7 +178,7 @@ pub(super) fn dependent(
             (&[k, ..], &[m, ..]) => Pivot::Dependent(k, first + m),
             _ => unreachable!("a candidate has rows and velocities"),
         });
-        determinants.push(chosen.raw);
+        determinants.push(chosen.recorded);
         open.eliminate(&chosen);
     }
     (pivots, determinants)
@@ -304,7 +305,7 @@ impl<'a> Open<'a> {
             velocities,
             steady,
             determinant,
-            raw: if is_first {
+            recorded: if is_first {
                 determinant / factor()
             } else {
                 most
