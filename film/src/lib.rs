@@ -49,7 +49,7 @@
 
 #![forbid(unsafe_code)]
 
-mod data;
+mod page;
 mod picture;
 mod record;
 

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use holonom::nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use crate::data::{Element, Marker, Trace};
+use crate::page::{Element, Marker, Trace};
 
 /// Colours of bodies, those of the viewer.
 const COLOURS: [&str; 8] = [

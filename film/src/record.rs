@@ -8,7 +8,7 @@ use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind};
 use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, Warnings};
 
-use crate::data::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Trace};
+use crate::page::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Trace};
 use crate::picture::Subject;
 
 /// The page with empty places for the title's data.
