@@ -4,7 +4,7 @@
 //! coordinates that vanishes as well where links are in line: the tree has taken what the row could
 //! act on, and the pivot of the only row of a loop would never be small beside itself. So pivots
 //! are compared with what their rows would be on free bodies, as those of the bodies are: with its
-//! greatest value along a sweep where numbers tell, outliers apart, which costs nothing.
+//! greatest value along a sweep where that varies little, which costs nothing.
 
 use super::beginning::Beginning;
 use super::dependent::sweep;
@@ -15,8 +15,8 @@ use crate::symbolic::evaluate::evaluate;
 use crate::symbolic::vector::{Frame, Triple};
 
 impl Reduced {
-    /// Finds out what the rows are on free bodies, along a sweep; `None` of those that no number is
-    /// known of.
+    /// Finds out what the rows are on free bodies, along a sweep; `None` of those that no number
+    /// stands for.
     pub fn find_references(&mut self, beginning: &Beginning<'_>) {
         let mut trial = self.clone();
         let mobilities = trial.mobilities();
@@ -33,7 +33,7 @@ impl Reduced {
                 known.extend(value.filter(|value| value.is_finite() && *value > 0.0));
             }
         }
-        self.references = known.into_iter().map(size).collect();
+        self.references = known.iter().map(|known| size(known)).collect();
     }
 
     /// The same pivots, compared with what their rows are on free bodies; those that do not change
@@ -84,17 +84,15 @@ impl Reduced {
     }
 }
 
-/// The greatest of some values, outliers apart. A stop near a singular point of the row itself, as
-/// where an angle is hardly defined, gives one far beyond the median.
-fn size(mut values: Vec<f64>) -> Option<f64> {
-    /// Times the median; rows that vanish at some stops are within it.
-    const FAR_BEYOND: f64 = 1e4;
-    values.sort_by(f64::total_cmp);
-    let median = *values.get(values.len() / 2)?;
-    let near = values
-        .into_iter()
-        .rfind(|value| *value <= FAR_BEYOND * median);
-    near.or(Some(median))
+/// The greatest of some values, which stands for all of them; `None` where they are too far from
+/// each other for that, as those of a row that is cubic in a distance, or of an angle near the
+/// point where it is undefined.
+fn size(values: &[f64]) -> Option<f64> {
+    /// The least value over the greatest one.
+    const LEAST: f64 = 1e-3;
+    let least = values.iter().copied().reduce(f64::min)?;
+    let greatest = values.iter().copied().reduce(f64::max)?;
+    (least > LEAST * greatest).then_some(greatest)
 }
 
 /// `sum + v.v` with the squares over masses.
@@ -113,9 +111,10 @@ mod tests {
     use super::size;
 
     #[test]
-    fn an_outlier_is_no_size() {
-        assert_eq!(size(vec![2.0, 1.7e8, 0.5, 1.0]), Some(2.0));
-        assert_eq!(size(vec![3.0, 1e-3, 2.0]), Some(3.0));
-        assert_eq!(size(Vec::new()), None);
+    fn only_values_near_to_each_other_have_a_size() {
+        assert_eq!(size(&[2.0, 0.5, 1.0]), Some(2.0));
+        assert_eq!(size(&[2.0, 1.7e8, 0.5, 1.0]), None);
+        assert_eq!(size(&[3.0, 1e-4, 2.0]), None);
+        assert_eq!(size(&[]), None);
     }
 }

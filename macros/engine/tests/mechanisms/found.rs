@@ -384,3 +384,42 @@ fn a_row_that_grows_without_bound_makes_no_other_stop_singular() {
         );
     }
 }
+
+/// An equation that is a product of a squared distance and a sine: along a sweep its gradient
+/// varies by many decades, and the greatest of them is no measure of the others.
+const PRODUCT: &str = "
+    #[mechanism(redundant = \"drop\")]
+    pub struct Random {
+        #[joint(p = local([-0.2681126091442869, -0.5, 0.9948610274696705], [-0.38548409796678473, 0.7308542007065477, 0.22301615366028676]), q = [0.8310122553815966, 0.28006818341488326, -0.4271350643139935], a = [0.0, 1.0, 0.0], b = [-0.5756884835383183, 0.5733474336301442, -0.5829712602445156], v = [0.5945458188657597, 0.4628756278932607, 0.6574659096650283], between = [ground, b2])]
+        j1: Product,
+        #[body(mass = 1.497509619492636, position = [0.9735572067270459, 0.1438288174202813, -0.5932124819733458], free)]
+        b0: Particle,
+        #[joint(between = [ground, b0], point = [0.9735572067270459, 0.1438288174202813, -0.5932124819733458], axis = local([-0.5076085711542299, 0.1361137183269146, 0.8507682376381847], [-0.7989783540051042, 0.5918637341205972, 0.10644674755067678]), motion = 0.02720577634248933 + -0.42009493852632884 * time * time)]
+        j2: DisplacementDriver,
+        #[body(mass = 0.8004102634740009, inertia = [[0.9830448742674485, -0.005009725040959298, -0.00331117724260266], [-0.005009725040959298, 0.6457497914393464, -0.07342242516908226], [-0.00331117724260266, -0.07342242516908226, 0.8690074362286867]], orientation = [-0.6765098340307094, 0.00025789842089644536, -0.43814335495520096, -0.5919161920886667], position = [0.1525968253960599, -0.5258394797677737, 0.25], free)]
+        b2: Body,
+        #[body(mass = 1.2023751993902938, inertia = [[1.1325949890278002, -0.0025234772893462758, -0.0006538746243062651], [-0.0025234772893462758, 0.9733554549893707, 0.12084995187624382], [-0.0006538746243062651, 0.12084995187624382, 1.0404163464049343]], position = [0.04867994759547534, -0.6433872619768322, 0.0], free)]
+        b1: Body,
+        #[joint(between = [ground, b0], point = [0.9735572067270459, 0.1438288174202813, -0.5932124819733458], axis = local([-0.5076085711542299, 0.1361137183269146, 0.8507682376381847], [-0.7989783540051042, 0.5918637341205972, 0.10644674755067678]), motion = 0.02720577634248933 + -0.42009493852632884 * time * time)]
+        j0: DisplacementDriver,
+    }";
+
+#[test]
+fn a_row_whose_size_varies_is_compared_with_itself() {
+    let own = "Product(i, j; p: Point, q: Point, a: Axis, b: Axis, v: Vector) {
+        squared(j.b + j.p) * sin(sin(dot(j.p + j.b.binormal(), cross(j.v, j.b.normal()))));
+        dot(i.a, j.p - i.q) + sin(initial(dot(i.a.normal(), i.b.normal())));
+    }";
+    let text = Text {
+        item: PRODUCT.into(),
+        definitions: vec![("Product".into(), ElementKind::Joint, own.into())],
+    };
+    for seed in 95212..95216 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}
