@@ -37,7 +37,7 @@ pub struct Measures {
 pub const COMPARE: Measures = Measures {
     name: "compare",
     feature: "compare",
-    seconds: [Some(81), None],
+    seconds: [Some(81), Some(1240)],
 };
 /// `study trade`.
 pub const TRADE: Measures = Measures {

@@ -8,6 +8,7 @@
 //! | [`recipes`] | short programs by task: read a reaction, drive a hinge, start elsewhere, write CSV |
 //! | [`coming_from`] | names for users of Pinocchio, MuJoCo, Drake, Modelica and Adams; what is missing |
 //! | [`mechanism`] | bodies, joints and the start; how to choose joints so that the degrees of freedom are right |
+//! | [`shapes`] | bodies by shapes and densities, rotations by words: no centre or inertia by hand |
 //! | [`mod@reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
 //! | [`joint`] | how to define your own joint |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
@@ -89,6 +90,13 @@ pub mod coming_from {}
 
 #[doc = include_str!("mechanism.md")]
 pub mod mechanism {}
+
+#[doc = "Describe bodies by shapes and rotations by words: mass, centre, inertia and axes follow."]
+#[doc = ""]
+#[doc = include_str!("shapes.svg")]
+#[doc = ""]
+#[doc = include_str!("shapes.md")]
+pub mod shapes {}
 
 #[doc = include_str!("reference.md")]
 pub mod reference {}

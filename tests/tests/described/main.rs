@@ -9,3 +9,4 @@ mod placing;
 mod redundant;
 mod scales;
 mod screws;
+mod shapes;

@@ -53,6 +53,15 @@ pub struct Numbers<'a> {
     pub attribute: String,
 }
 
+/// A number that others are made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// What it is, at the typical values of parameters.
+    pub seen: Option<f64>,
+    /// Whether it is that everywhere.
+    pub is_written: bool,
+}
+
 impl<'a> Numbers<'a> {
     /// No symbols so far; what is read first describes the owner.
     #[must_use]
@@ -120,6 +129,20 @@ impl<'a> Numbers<'a> {
                 Some(number(place))
             }
         }
+    }
+
+    /// What the macro sees of a number that others are made of. It becomes no symbol.
+    pub fn part(&mut self, expr: &Expr, faults: &mut Faults) -> Option<Part> {
+        Some(match self.value(expr, faults)? {
+            Value::Literal(value) => Part {
+                seen: in_range(value, expr, faults),
+                is_written: true,
+            },
+            Value::Later(later) => Part {
+                seen: later.like,
+                is_written: false,
+            },
+        })
     }
 
     /// A number that must be written: literals and their arithmetic.

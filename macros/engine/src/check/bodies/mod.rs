@@ -1,0 +1,191 @@
+//! Bodies: mass, inertia, where they stand and how they move at the start.
+//!
+//! - `inertia.rs`: moments and tensors; `rotation.rs`: orientations, as they are written.
+//! - `shape.rs`: shapes by formulas, which `formula.rs` puts together as expressions; `solid.rs`:
+//!   what follows from them for a body.
+
+mod formula;
+mod inertia;
+mod rotation;
+mod shape;
+mod solid;
+
+use proc_macro2::Span;
+use syn::Expr;
+
+use self::solid::Solid;
+use super::number::{AT_LIKES, Numbers};
+use super::pairs::Pairs;
+use crate::diag::Faults;
+use crate::model::inertia::{IDENTITY, compose};
+use crate::model::{Body, BodyKind, Name, Number};
+use crate::syntax::List;
+
+/// What a link without a mass may have: base parameters tell no more of it.
+const MASS_MOVES: &str = "; a mass at a point on the axis of a hinge may be counted to either of its bodies: take \
+     some from the other one, and no motion changes";
+
+/// The same of moments, which measurements, taken link by link, get wrong by what motions do not
+/// tell.
+const MOMENTS_MOVE: &str = "; if they were measured, raise both moments across the axis of a hinge by one amount and \
+     take it from the other body of the hinge, unless that is the ground: no motion changes";
+
+/// Checks the attribute of a body.
+pub fn check(
+    name: &Name,
+    kind: BodyKind,
+    owner: Span,
+    written: &List,
+    numbers: &mut Numbers<'_>,
+    faults: &mut Faults,
+) -> Option<Body> {
+    let mut pairs = Pairs::new(format!("body `{name}`"), owner, written);
+    let mut reader = Reader {
+        name,
+        numbers,
+        faults,
+    };
+    let solid = match kind {
+        BodyKind::Rigid if pairs.has("shape") || pairs.has("shapes") => {
+            reader.solid(&mut pairs, owner)
+        }
+        BodyKind::Rigid => reader.measured(&mut pairs),
+        BodyKind::Particle => reader.particle(&mut pairs),
+    };
+    let mut vector = |key: &str| reader.optional_vector(&mut pairs, key);
+    let velocity = vector("velocity");
+    let angular_velocity = match kind {
+        BodyKind::Rigid => vector("angular_velocity"),
+        BodyKind::Particle => Some([Number::ZERO; 3]),
+    };
+    let free = pairs.flag("free", reader.faults);
+    pairs.finish(reader.faults);
+    let solid = solid?;
+    Some(Body {
+        name: name.clone(),
+        kind,
+        mass: solid.mass,
+        inertia: solid.inertia,
+        user_axes: solid.user_axes,
+        position: solid.position,
+        orientation: solid.orientation,
+        velocity: velocity?,
+        angular_velocity: angular_velocity?,
+        free,
+    })
+}
+
+struct Reader<'a, 'b> {
+    name: &'a Name,
+    numbers: &'a mut Numbers<'b>,
+    faults: &'a mut Faults,
+}
+
+impl Reader<'_, '_> {
+    /// A body whose mass and inertia are given.
+    fn measured(&mut self, pairs: &mut Pairs<'_>) -> Option<Solid> {
+        let mass = self.required_mass(pairs);
+        let example = "principal moments as in `inertia = [0.1, 0.1, 0.01]` (kg m^2), or a `shape`, or make it a `Particle`";
+        let inertia = pairs.required("inertia", example, self.faults);
+        let inertia = inertia.and_then(|expr| self.inertia(expr));
+        let axes = match pairs.optional("inertia_axes", self.faults) {
+            Some(axes) => {
+                self.at("inertia_axes");
+                self.turn(axes)
+            }
+            None => Some(IDENTITY),
+        };
+        for key in ["shape", "shapes"] {
+            // Known, and not given.
+            pairs.optional(key, self.faults);
+        }
+        pairs.refuse("density", "it belongs to a `shape`", self.faults);
+        let position = self.optional_vector(pairs, "position");
+        let orientation = match pairs.optional("orientation", self.faults) {
+            Some(orientation) => self.orientation("orientation", orientation),
+            None => Some(IDENTITY.map(Number::Literal)),
+        };
+        let ((inertia, principal_axes), [e0, e1, e2, e3]) = (inertia?, axes?);
+        Some(Solid {
+            mass: mass?,
+            inertia,
+            user_axes: compose(principal_axes, [e0, -e1, -e2, -e3]),
+            position: position?,
+            orientation: orientation?,
+        })
+    }
+
+    fn particle(&mut self, pairs: &mut Pairs<'_>) -> Option<Solid> {
+        let mass = self.required_mass(pairs);
+        let position = self.optional_vector(pairs, "position");
+        for key in [
+            "inertia",
+            "inertia_axes",
+            "orientation",
+            "angular_velocity",
+            "shape",
+            "shapes",
+            "density",
+        ] {
+            pairs.refuse(
+                key,
+                "a `Particle` is a point mass without orientation; make it a `Body`",
+                self.faults,
+            );
+        }
+        Some(Solid {
+            mass: mass?,
+            inertia: [Number::ZERO; 3],
+            user_axes: IDENTITY,
+            position: position?,
+            orientation: IDENTITY.map(Number::Literal),
+        })
+    }
+
+    fn required_mass(&mut self, pairs: &mut Pairs<'_>) -> Option<Number> {
+        let mass = pairs.required("mass", "a mass in kg, as in `mass = 7.02`", self.faults);
+        mass.and_then(|expr| self.mass(expr))
+    }
+
+    fn optional_vector(&mut self, pairs: &mut Pairs<'_>, key: &str) -> Option<[Number; 3]> {
+        match pairs.optional(key, self.faults) {
+            Some(expr) => self.vector(key, expr),
+            None => Some([Number::ZERO; 3]),
+        }
+    }
+
+    fn at(&mut self, attribute: &str) {
+        self.numbers.field = self.name.clone();
+        self.numbers.attribute = attribute.into();
+    }
+
+    fn mass(&mut self, expr: &Expr) -> Option<Number> {
+        self.at("mass");
+        let mass = self.numbers.scalar(expr, self.faults)?;
+        if let Some(value) = self.numbers.seen(mass).filter(|&value| value <= 0.0) {
+            let place = place_of(&[mass]);
+            let instead = if value == 0.0 { MASS_MOVES } else { "" };
+            self.faults.advised(
+                expr,
+                format!(
+                    "the mass of `{}` must be positive, in kg; this is {value}{place}",
+                    self.name
+                ),
+                instead,
+            );
+            return None;
+        }
+        Some(mass)
+    }
+
+    fn vector(&mut self, key: &str, expr: &Expr) -> Option<[Number; 3]> {
+        self.at(key);
+        self.numbers.vector(expr, self.faults)
+    }
+}
+
+/// Where numbers are what the macro sees, if that is not everywhere.
+fn place_of(numbers: &[Number]) -> &'static str {
+    let is_seen_everywhere = numbers.iter().all(|number| number.literal().is_some());
+    if is_seen_everywhere { "" } else { AT_LIKES }
+}

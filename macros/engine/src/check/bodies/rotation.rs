@@ -1,0 +1,389 @@
+//! Rotations as they are written, from body axes to global axes.
+
+use syn::{Expr, ExprCall, parse_quote};
+
+use super::formula::{difference, is_zero, length, negative, number, sum};
+use super::{Reader, place_of};
+use crate::check::number::elements;
+use crate::diag::{code, did_you_mean, list};
+use crate::model::Number;
+use crate::model::inertia::{IDENTITY, compose, euler_parameters};
+use crate::model::number::literals;
+use crate::syntax::ungroup;
+
+/// What makes a rotation, and how it is written.
+const FORMS: [(&str, &str); 6] = [
+    ("rotation", "rotation([1.0, 0.0, 0.0], deg(30.0))"),
+    ("rpy", "rpy(roll, pitch, yaw)"),
+    ("euler_zxz", "euler_zxz(precession, nutation, spin)"),
+    ("bryant_xyz", "bryant_xyz(first, second, third)"),
+    ("axes", "axes(x = [0.0, 1.0, 0.0], y = [0.0, 0.0, 1.0])"),
+    ("along", "along(x, [0.0, 0.0, 0.0], [0.0, 0.5, 0.0])"),
+];
+
+/// Axes that are given together are perpendicular up to this cosine.
+const PERPENDICULAR: f64 = 1e-6;
+
+/// A word for an axis.
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl Reader<'_, '_> {
+    /// Four Euler parameters, or a rotation by words.
+    pub(super) fn orientation(&mut self, attribute: &str, expr: &Expr) -> Option<[Number; 4]> {
+        self.at(attribute);
+        match ungroup(expr) {
+            Expr::Call(call) if is_call(call, "along") => {
+                let parameters = self.along(call)?;
+                self.euler_parameters(&parse_quote!([#(#parameters),*]))
+            }
+            Expr::Call(_) | Expr::Binary(_) => self.turn(expr).map(|p| p.map(Number::Literal)),
+            _ if elements(expr).is_some() => self.euler_parameters(expr),
+            _ => {
+                self.faults.at(
+                    expr,
+                    "expected four Euler parameters, scalar first, as in `[1.0, 0.0, 0.0, 0.0]`, \
+                     or `rotation([1.0, 0.0, 0.0], deg(30.0))`",
+                );
+                None
+            }
+        }
+    }
+
+    /// Four Euler parameters of any length but zero.
+    fn euler_parameters(&mut self, expr: &Expr) -> Option<[Number; 4]> {
+        let p: [Number; 4] = self.numbers.array(expr, self.faults)?;
+        let Some(values) = self.numbers.all_seen(&p) else {
+            return Some(p);
+        };
+        let norm = values.iter().map(|e| e * e).sum::<f64>().sqrt();
+        if norm == 0.0 {
+            let place = place_of(&p);
+            self.faults.at(
+                expr,
+                format!("Euler parameters may be of any length but zero; these are zero{place}"),
+            );
+            return None;
+        }
+        Some(match literals(&p) {
+            Some(values) => values.map(|e| Number::Literal(e / norm)),
+            None => p,
+        })
+    }
+
+    /// Unit Euler parameters of a rotation that the macro can see.
+    pub(super) fn turn(&mut self, expr: &Expr) -> Option<[f64; 4]> {
+        match ungroup(expr) {
+            Expr::Binary(binary) if matches!(binary.op, syn::BinOp::Mul(_)) => {
+                let (left, right) = (self.turn(&binary.left), self.turn(&binary.right));
+                Some(compose(left?, right?))
+            }
+            Expr::Call(call) => self.called(call),
+            _ if elements(expr).is_some() => {
+                let p = self.euler_parameters(expr)?;
+                let seen = literals(&p);
+                if seen.is_none() {
+                    self.unseen(expr);
+                }
+                seen
+            }
+            _ => {
+                let forms = FORMS.map(|(name, _)| name);
+                self.faults.at(
+                    expr,
+                    format!(
+                        "expected a rotation: {}, four Euler parameters, or a product of these, of which the last turns first",
+                        list(forms)
+                    ),
+                );
+                None
+            }
+        }
+    }
+
+    fn called(&mut self, call: &ExprCall) -> Option<[f64; 4]> {
+        let found = code(&call.func);
+        let Some((name, example)) = FORMS.iter().find(|(name, _)| is_call(call, name)) else {
+            let known = FORMS.map(|(name, _)| name);
+            let near = did_you_mean(&found, known);
+            self.faults.at(
+                call,
+                format!("no rotation `{found}`; there are {}{near}", list(known)),
+            );
+            return None;
+        };
+        let arguments: Vec<&Expr> = call.args.iter().collect();
+        match (*name, &arguments[..]) {
+            ("rotation", [axis, angle]) => self.about(call, axis, angle),
+            ("rpy", [roll, pitch, yaw]) => self.angles(call, [(2, yaw), (1, pitch), (0, roll)]),
+            ("euler_zxz", [a, b, c]) => self.angles(call, [(2, a), (0, b), (2, c)]),
+            ("bryant_xyz", [a, b, c]) => self.angles(call, [(0, a), (1, b), (2, c)]),
+            ("axes", [_, _]) => self.axes(call),
+            ("along", [_, _, _]) => {
+                let parameters = self.along(call)?;
+                let p = self.euler_parameters(&parse_quote!([#(#parameters),*]))?;
+                let seen = literals(&p);
+                if seen.is_none() {
+                    self.unseen(call);
+                }
+                seen
+            }
+            _ => {
+                self.faults
+                    .at(call, format!("expected `{name}(..)`, as in `{example}`"));
+                None
+            }
+        }
+    }
+
+    fn unseen(&mut self, at: impl quote::ToTokens) {
+        self.faults.at(
+            at,
+            "a rotation needs numbers that the macro can see; give four Euler parameters instead",
+        );
+    }
+
+    fn about(&mut self, call: &ExprCall, axis: &Expr, angle: &Expr) -> Option<[f64; 4]> {
+        let vector = self.numbers.vector(axis, self.faults);
+        let size = self.numbers.scalar(angle, self.faults);
+        let (vector, size) = (vector?, size?);
+        let (Some(vector), Some(size)) = (literals(&vector), size.literal()) else {
+            self.unseen(call);
+            return None;
+        };
+        let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length == 0.0 {
+            self.faults
+                .at(axis, "the axis of a rotation must not be the zero vector");
+            return None;
+        }
+        let (sine, cosine) = (0.5 * size).sin_cos();
+        let [x, y, z] = vector.map(|component| sine * component / length);
+        Some([cosine, x, y, z])
+    }
+
+    /// Turns about axes, of which the first written turns last.
+    fn angles(&mut self, call: &ExprCall, turns: [(usize, &Expr); 3]) -> Option<[f64; 4]> {
+        let sizes = turns.map(|(_, angle)| self.numbers.scalar(angle, self.faults));
+        let mut whole = IDENTITY;
+        for ((axis, _), size) in turns.into_iter().zip(sizes) {
+            let Some(size) = size?.literal() else {
+                self.unseen(call);
+                return None;
+            };
+            let (sine, cosine) = (0.5 * size).sin_cos();
+            let mut turn = [cosine, 0.0, 0.0, 0.0];
+            turn[axis + 1] = sine;
+            whole = compose(whole, turn);
+        }
+        Some(whole)
+    }
+
+    /// `axes(x = .., y = ..)`: two body axes in global axes.
+    fn axes(&mut self, call: &ExprCall) -> Option<[f64; 4]> {
+        let mut columns: [Option<[f64; 3]>; 3] = [None; 3];
+        for argument in &call.args {
+            let (axis, given) = self.assigned(argument)?;
+            let vector = self.numbers.vector(given, self.faults)?;
+            let Some(vector) = literals(&vector) else {
+                self.unseen(call);
+                return None;
+            };
+            let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length == 0.0 || columns[axis].is_some() {
+                let message = "`axes` takes two different axes, neither of which is zero";
+                self.faults.at(argument, message);
+                return None;
+            }
+            columns[axis] = Some(vector.map(|x| x / length));
+        }
+        let third = (0..3).find(|&k| columns[k].is_none())?;
+        let (k, l) = ((third + 1) % 3, (third + 2) % 3);
+        let (a, b) = (columns[k]?, columns[l]?);
+        let cosine: f64 = (0..3).map(|m| a[m] * b[m]).sum();
+        if cosine.abs() > PERPENDICULAR {
+            let angle = cosine.acos().to_degrees();
+            self.faults.at(
+                call,
+                format!("axes of a body are perpendicular; between these are {angle:.4} degrees"),
+            );
+            return None;
+        }
+        columns[third] = Some(cross(a, b));
+        let columns = [columns[0]?, columns[1]?, columns[2]?];
+        Some(euler_parameters(
+            [0, 1, 2].map(|row| columns.map(|column| column[row])),
+        ))
+    }
+
+    /// `x = [..]`.
+    fn assigned<'e>(&mut self, argument: &'e Expr) -> Option<(usize, &'e Expr)> {
+        if let Expr::Assign(assign) = argument
+            && let Some(axis) = axis_of(&assign.left)
+        {
+            return Some((axis, &assign.right));
+        }
+        let message = "expected an axis and its direction, as in `x = [0.0, 1.0, 0.0]`";
+        self.faults.at(argument, message);
+        None
+    }
+
+    /// `along(x, from, to)`: Euler parameters of any length.
+    fn along(&mut self, call: &ExprCall) -> Option<[Expr; 4]> {
+        let arguments: Vec<&Expr> = call.args.iter().collect();
+        let [axis, from, to] = arguments[..] else {
+            let [.., (_, example)] = FORMS;
+            self.faults
+                .at(call, format!("expected `along(..)`, as in `{example}`"));
+            return None;
+        };
+        let Some(axis) = axis_of(axis) else {
+            self.faults
+                .at(axis, "expected an axis of the body: `x`, `y` or `z`");
+            return None;
+        };
+        let (from, to) = (self.components(from), self.components(to));
+        let (from, to) = (from?, to?);
+        let d = [0, 1, 2].map(|k| difference(&to[k], &from[k]));
+        self.leading(call, axis, &d)
+    }
+
+    /// Three expressions in brackets, each of which is a number.
+    pub(super) fn components(&mut self, expr: &Expr) -> Option<[Expr; 3]> {
+        let found = elements(expr).unwrap_or_default();
+        if found.len() != 3 {
+            // The sentence about it.
+            self.numbers.vector(expr, self.faults)?;
+        }
+        let parts: Vec<_> = found
+            .iter()
+            .map(|part| self.numbers.part(part, self.faults))
+            .collect();
+        parts.into_iter().collect::<Option<Vec<_>>>()?;
+        let components: Vec<Expr> = found.into_iter().cloned().collect();
+        components.try_into().ok()
+    }
+
+    /// Euler parameters, of any length, of a rotation that leads an axis of the body to a
+    /// direction.
+    ///
+    /// Which of the many: in the plane of the axis `a` and the next one `b` the third stays where
+    /// it is, in that of `a` and `c` the second; in that of `b` and `c` the axes are renamed
+    /// first, so that `c` becomes `a`. So a mechanism in a coordinate plane has its normal as an
+    /// axis of all bodies, whatever lengths are parameters. Elsewhere it is the least rotation.
+    /// What leads backwards begins with half a turn.
+    pub(super) fn leading(
+        &mut self,
+        at: impl quote::ToTokens,
+        axis: usize,
+        d: &[Expr; 3],
+    ) -> Option<[Expr; 4]> {
+        let nonzero: Vec<usize> = (0..3).filter(|&k| !self.is_no_part(&d[k])).collect();
+        let seen = d.each_ref().map(|part| self.glance(part));
+        if nonzero.is_empty() || seen.iter().all(|part| *part == Some(0.0)) {
+            self.faults
+                .at(at, "there is no direction between points that are one");
+            return None;
+        }
+        // Of one component the sign matters, and its size may be a parameter.
+        let d: [Expr; 3] = match nonzero[..] {
+            [only] => [0, 1, 2].map(|k| match seen[only] {
+                _ if k != only => number(0.0),
+                Some(value) if value < 0.0 => number(-1.0),
+                _ => number(1.0),
+            }),
+            _ => [0, 1, 2].map(|k| {
+                if nonzero.contains(&k) {
+                    d[k].clone()
+                } else {
+                    number(0.0)
+                }
+            }),
+        };
+        let (a, b, c) = (axis, (axis + 1) % 3, (axis + 2) % 3);
+        let is_zero = |k: usize| !nonzero.contains(&k);
+        let (start, half, is_renamed) = if is_zero(c) {
+            (a, c, false)
+        } else if is_zero(b) {
+            (a, b, false)
+        } else if is_zero(a) {
+            (b, a, true)
+        } else {
+            (a, c, false)
+        };
+        let backwards = seen[start].is_some_and(|part| part < 0.0);
+        let size = length(&d);
+        let (next, last) = ((start + 1) % 3, (start + 2) % 3);
+        let mut p = [number(0.0), number(0.0), number(0.0), number(0.0)];
+        // The axis at the start times the direction.
+        if backwards {
+            p[0] = difference(&size, &d[start]);
+            p[next + 1] = d[last].clone();
+            p[last + 1] = negative(&d[next]);
+            let mut turn = [0.0; 4];
+            turn[half + 1] = 1.0;
+            p = composed(&p, turn);
+        } else {
+            p[0] = sum(&size, &d[start]);
+            p[next + 1] = negative(&d[last]);
+            p[last + 1] = d[next].clone();
+        }
+        if is_renamed {
+            p = composed(&p, [1.0; 4]);
+        }
+        Some(p)
+    }
+
+    /// Whether a component is zero, and the macro can see it everywhere.
+    fn is_no_part(&mut self, part: &Expr) -> bool {
+        let seen = self.numbers.part(part, self.faults);
+        is_zero(part) || seen.is_some_and(|part| part.is_written && part.seen == Some(0.0))
+    }
+
+    /// A number as the macro sees it.
+    pub(super) fn glance(&mut self, expr: &Expr) -> Option<f64> {
+        self.numbers.part(expr, self.faults)?.seen
+    }
+}
+
+/// The product with a rotation before it, whose Euler parameters are 0, 1 or -1.
+fn composed(p: &[Expr; 4], first: [f64; 4]) -> [Expr; 4] {
+    // Rows of the product: `first` with the signs of quaternions.
+    let [b0, b1, b2, b3] = first;
+    let rows = [
+        [b0, -b1, -b2, -b3],
+        [b1, b0, b3, -b2],
+        [b2, -b3, b0, b1],
+        [b3, b2, -b1, b0],
+    ];
+    rows.map(|row| {
+        let mut total = number(0.0);
+        for (factor, e) in row.into_iter().zip(p) {
+            if factor == 1.0 {
+                total = sum(&total, e);
+            } else if factor == -1.0 {
+                total = sum(&total, &negative(e));
+            }
+        }
+        total
+    })
+}
+
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn axis_of(expr: &Expr) -> Option<usize> {
+    let Expr::Path(path) = ungroup(expr) else {
+        return None;
+    };
+    AXES.iter().position(|axis| path.path.is_ident(axis))
+}
+
+/// Whether a call is one of a word.
+pub(super) fn is_call(call: &ExprCall, word: &str) -> bool {
+    matches!(ungroup(&call.func), Expr::Path(path) if path.path.is_ident(word))
+}

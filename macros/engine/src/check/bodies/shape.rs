@@ -1,0 +1,306 @@
+//! Shapes as they are written: what they enclose, and how it is spread.
+//!
+//! Volumes, centres and moments: Meriam, Kraige, Bolton, *Engineering Mechanics: Dynamics*, table
+//! D/4. `tests/shapes.rs` compares them with integrals.
+
+use std::f64::consts::PI;
+
+use quote::ToTokens;
+use syn::{Expr, ExprCall};
+
+use super::Reader;
+use super::formula::{difference, length, number, product, square, sum, times};
+use crate::diag::{code, did_you_mean, list};
+use crate::syntax::ungroup;
+
+/// What shapes there are, and what they take.
+const SHAPES: [(&str, &[&str]); 8] = [
+    ("cylinder", &["radius", "from", "to"]),
+    ("rod", &["radius", "from", "to"]),
+    ("tube", &["outer", "inner", "from", "to"]),
+    ("cone", &["radius", "from", "to"]),
+    ("bar", &["width", "height", "from", "to", "up"]),
+    ("disc", &["radius", "thickness", "at", "axis"]),
+    ("block", &["size", "at"]),
+    ("ball", &["radius", "at"]),
+];
+
+/// May be left out.
+const OPTIONAL: [&str; 2] = ["up", "density"];
+
+/// Which axes a shape has.
+#[derive(Clone, Debug)]
+pub(super) enum Axes {
+    /// Those of its body.
+    Body,
+    /// x along a direction, z as near as possible to another one, if that is given.
+    Along(Box<[Expr; 3]>, Option<Box<Expr>>),
+}
+
+/// A shape, by formulas of what is written.
+#[derive(Clone, Debug)]
+pub(super) struct Shape<'a> {
+    /// What was written.
+    pub(super) call: &'a ExprCall,
+    /// m^3.
+    pub(super) volume: Expr,
+    /// The centre of mass (m, global).
+    pub(super) centre: [Expr; 3],
+    /// Moments about it, over the mass (m^2), in the shape's own axes.
+    pub(super) moments: [Expr; 3],
+    pub(super) axes: Axes,
+    /// Its own density (kg/m^3), where that is given.
+    pub(super) density: Option<&'a Expr>,
+}
+
+impl Reader<'_, '_> {
+    /// A shape, of which `own_density` may tell its density itself.
+    pub(super) fn shape<'e>(&mut self, expr: &'e Expr, own_density: bool) -> Option<Shape<'e>> {
+        let names = SHAPES.map(|(name, _)| name);
+        let Expr::Call(call) = ungroup(expr) else {
+            self.faults.at(
+                expr,
+                format!(
+                    "expected a shape, as in `cylinder(radius = 0.01, from = [0.0, 0.0, 0.0], to = [0.5, 0.0, 0.0])`; there are {}",
+                    list(names)
+                ),
+            );
+            return None;
+        };
+        let found = code(&call.func);
+        let Some((name, keys)) = SHAPES.into_iter().find(|(name, _)| *name == found) else {
+            let near = did_you_mean(&found, names);
+            self.faults.at(
+                &call.func,
+                format!("no shape `{found}`; there are {}{near}", list(names)),
+            );
+            return None;
+        };
+        let given = self.given(call, name, keys, own_density)?;
+        let density = given.last().copied().flatten();
+        let needed: Option<Vec<&Expr>> = given[..keys.len()]
+            .iter()
+            .zip(keys)
+            .filter(|(_, key)| !OPTIONAL.contains(key))
+            .map(|(given, _)| *given)
+            .collect();
+        let needed = needed?;
+        let shape = |volume, centre, moments, axes| Shape {
+            call,
+            volume,
+            centre,
+            moments,
+            axes,
+            density,
+        };
+        Some(match (name, &needed[..]) {
+            ("ball", &[radius, at]) => {
+                self.positive(name, [("radius", radius)])?;
+                let squared = square(radius);
+                let volume = times(4.0 / 3.0 * PI, &product(&squared, radius));
+                let moment = times(0.4, &squared);
+                let moments = [moment.clone(), moment.clone(), moment];
+                shape(volume, self.components_of("at", at)?, moments, Axes::Body)
+            }
+            ("block", &[size, at]) => {
+                let size = self.components_of("size", size)?;
+                let [a, b, c] = &size;
+                self.positive(name, [("size", a), ("size", b), ("size", c)])?;
+                let volume = product(&product(a, b), c);
+                let moments = [(b, c), (c, a), (a, b)];
+                let moments = moments.map(|(a, b)| times(1.0 / 12.0, &sum(&square(a), &square(b))));
+                shape(volume, self.components_of("at", at)?, moments, Axes::Body)
+            }
+            ("disc", &[radius, thickness, at, axis]) => {
+                self.positive(name, [("radius", radius), ("thickness", thickness)])?;
+                let along = self.components_of("axis", axis)?;
+                self.directed(
+                    axis,
+                    &along,
+                    "the `axis` of a `disc` must not be the zero vector",
+                )?;
+                let (volume, moments) = cylinder(radius, None, thickness);
+                let centre = self.components_of("at", at)?;
+                shape(volume, centre, moments, Axes::Along(Box::new(along), None))
+            }
+            (_, &[.., from, to]) => {
+                let from = self.components_of("from", from);
+                let to = self.components_of("to", to);
+                let (from, to) = (from?, to?);
+                let d = [0, 1, 2].map(|k| difference(&to[k], &from[k]));
+                self.directed(call, &d, "`from` and `to` must not be one point")?;
+                let long = length(&d);
+                let middle = |share: f64| {
+                    [0, 1, 2].map(|k| sum(&times(1.0 - share, &from[k]), &times(share, &to[k])))
+                };
+                let (volume, moments, centre, up) = match (name, &needed[..]) {
+                    ("tube", &[outer, inner, ..]) => {
+                        self.positive(name, [("outer", outer), ("inner", inner)])?;
+                        self.wall(call, outer, inner)?;
+                        let (volume, moments) = cylinder(outer, Some(inner), &long);
+                        (volume, moments, middle(0.5), None)
+                    }
+                    ("bar", &[width, height, ..]) => {
+                        self.positive(name, [("width", width), ("height", height)])?;
+                        let volume = product(&product(width, height), &long);
+                        let moments = [(width, height), (height, &long), (width, &long)];
+                        let moments =
+                            moments.map(|(a, b)| times(1.0 / 12.0, &sum(&square(a), &square(b))));
+                        let up = keys.iter().position(|key| *key == "up");
+                        (volume, moments, middle(0.5), up.and_then(|up| given[up]))
+                    }
+                    ("cone", &[radius, ..]) => {
+                        self.positive(name, [("radius", radius)])?;
+                        let volume = times(PI / 3.0, &product(&square(radius), &long));
+                        let across = sum(
+                            &times(0.15, &square(radius)),
+                            &times(0.0375, &square(&long)),
+                        );
+                        let moments = [times(0.3, &square(radius)), across.clone(), across];
+                        (volume, moments, middle(0.25), None)
+                    }
+                    ("rod", &[radius, ..]) => {
+                        self.positive(name, [("radius", radius)])?;
+                        let (volume, [along, ..]) = cylinder(radius, None, &long);
+                        let across = times(1.0 / 12.0, &square(&long));
+                        (volume, [along, across.clone(), across], middle(0.5), None)
+                    }
+                    (_, &[radius, ..]) => {
+                        self.positive(name, [("radius", radius)])?;
+                        let (volume, moments) = cylinder(radius, None, &long);
+                        (volume, moments, middle(0.5), None)
+                    }
+                    _ => return None,
+                };
+                shape(
+                    volume,
+                    centre,
+                    moments,
+                    Axes::Along(Box::new(d), up.cloned().map(Box::new)),
+                )
+            }
+            _ => return None,
+        })
+    }
+
+    /// What is given for each key; behind them, for `density`.
+    fn given<'e>(
+        &mut self,
+        call: &'e ExprCall,
+        name: &str,
+        keys: &[&str],
+        own_density: bool,
+    ) -> Option<Vec<Option<&'e Expr>>> {
+        let density: &[&str] = if own_density { &["density"] } else { &[] };
+        let keys: Vec<&str> = keys.iter().chain(density).copied().collect();
+        let mut given = vec![None; keys.len().max(1)];
+        let mut is_sound = true;
+        for argument in &call.args {
+            let pair = match argument {
+                Expr::Assign(assign) => Some((code(&assign.left), &*assign.right)),
+                _ => None,
+            };
+            let Some((key, value)) = pair else {
+                self.faults.at(
+                    argument,
+                    format!(
+                        "`{name}` takes {}, each as in `{} = ..`",
+                        list(&keys),
+                        keys[0]
+                    ),
+                );
+                is_sound = false;
+                continue;
+            };
+            match keys.iter().position(|known| *known == key) {
+                Some(place) if given[place].is_none() => given[place] = Some(value),
+                Some(_) => {
+                    self.faults
+                        .at(argument, format!("`{key}` stands here twice; give it once"));
+                    is_sound = false;
+                }
+                None => {
+                    let near = did_you_mean(&key, keys.iter().copied());
+                    self.faults.at(
+                        argument,
+                        format!("`{name}` has no `{key}`; it takes {}{near}", list(&keys)),
+                    );
+                    is_sound = false;
+                }
+            }
+        }
+        let missing: Vec<&str> = keys
+            .iter()
+            .zip(&given)
+            .filter(|(key, given)| given.is_none() && !OPTIONAL.contains(key))
+            .map(|(key, _)| *key)
+            .collect();
+        if is_sound && !missing.is_empty() {
+            self.faults
+                .at(call, format!("`{name}` lacks {}", list(&missing)));
+            is_sound = false;
+        }
+        if !own_density {
+            given.push(None);
+        }
+        is_sound.then_some(given)
+    }
+
+    fn components_of(&mut self, key: &str, expr: &Expr) -> Option<[Expr; 3]> {
+        self.at(key);
+        self.components(expr)
+    }
+
+    /// A direction is not zero, as far as the macro sees it.
+    fn directed(&mut self, at: impl ToTokens, d: &[Expr; 3], message: &str) -> Option<()> {
+        let seen = d.each_ref().map(|part| self.glance(part));
+        let is_nothing = seen.iter().all(|part| *part == Some(0.0));
+        if is_nothing {
+            self.faults.at(at, message);
+        }
+        (!is_nothing).then_some(())
+    }
+
+    /// Dimensions are positive, as far as the macro sees them.
+    fn positive<const N: usize>(&mut self, name: &str, sizes: [(&str, &Expr); N]) -> Option<()> {
+        let mut is_sound = true;
+        for (key, size) in sizes {
+            self.at(key);
+            let part = self.numbers.part(size, self.faults);
+            if let Some(value) = part.and_then(|part| part.seen)
+                && value <= 0.0
+            {
+                self.faults.at(
+                    size,
+                    format!("the {key} of a `{name}` must be positive, in m; this is {value}"),
+                );
+                is_sound = false;
+            }
+            is_sound &= part.is_some();
+        }
+        is_sound.then_some(())
+    }
+
+    fn wall(&mut self, call: &ExprCall, outer: &Expr, inner: &Expr) -> Option<()> {
+        let wall = difference(outer, inner);
+        let part = self.numbers.part(&wall, self.faults)?;
+        if part.seen.is_some_and(|wall| wall <= 0.0) {
+            self.faults.at(
+                call,
+                "the `outer` radius of a `tube` must be larger than its `inner` one",
+            );
+            return None;
+        }
+        Some(())
+    }
+}
+
+/// Volume and moments over the mass of a cylinder, or of a tube.
+fn cylinder(outer: &Expr, inner: Option<&Expr>, long: &Expr) -> (Expr, [Expr; 3]) {
+    let outer = square(outer);
+    let inner = inner.map_or_else(|| number(0.0), square);
+    let volume = times(PI, &product(&difference(&outer, &inner), long));
+    let both = sum(&outer, &inner);
+    let across = sum(&times(0.25, &both), &times(1.0 / 12.0, &square(long)));
+    (volume, [times(0.5, &both), across.clone(), across])
+}

@@ -1,0 +1,377 @@
+//! What follows for a body from its shapes: mass, centre of mass, axes and moments.
+//!
+//! One shape may have parameters: everything is a formula then, and the axes of the body are those
+//! of the shape. Of several shapes, and in other axes, principal axes are to be found, which takes
+//! numbers.
+
+use proc_macro2::Span;
+use syn::spanned::Spanned;
+use syn::{Expr, ExprParen, parse_quote, token};
+
+use super::Reader;
+use super::formula::product;
+use super::rotation::cross;
+use super::shape::{Axes, Shape};
+use crate::check::number::elements;
+use crate::check::pairs::Pairs;
+use crate::model::Number;
+use crate::model::inertia::{IDENTITY, euler_parameters, principal, rotation};
+use crate::model::number::literals;
+
+/// A body, as far as it follows from shapes.
+pub(super) struct Solid {
+    pub(super) mass: Number,
+    pub(super) inertia: [Number; 3],
+    pub(super) user_axes: [f64; 4],
+    pub(super) position: [Number; 3],
+    pub(super) orientation: [Number; 4],
+}
+
+/// Why a key is refused beside a shape.
+const FOLLOWS: &str = "it follows from the shape";
+
+/// What the mass is made of.
+#[derive(Clone, Copy)]
+enum Weight<'a> {
+    Mass(&'a Expr),
+    Density(&'a Expr),
+    /// Every shape has its own.
+    Densities,
+}
+
+/// A part of a body, in numbers.
+struct Lump {
+    mass: f64,
+    centre: [f64; 3],
+    /// About its centre, in global axes.
+    tensor: [[f64; 3]; 3],
+}
+
+impl Reader<'_, '_> {
+    /// The body that `shape` or `shapes` describe.
+    pub(super) fn solid(&mut self, pairs: &mut Pairs<'_>, owner: Span) -> Option<Solid> {
+        let single = pairs.optional("shape", self.faults);
+        let several = pairs.optional("shapes", self.faults);
+        let mass = pairs.optional("mass", self.faults);
+        let density = pairs.optional("density", self.faults);
+        let orientation = pairs.optional("orientation", self.faults);
+        for key in ["inertia", "inertia_axes", "position"] {
+            pairs.refuse(key, FOLLOWS, self.faults);
+        }
+        let shapes = match (single, several) {
+            (Some(single), None) => vec![self.shape(single, false)?],
+            (None, Some(several)) => self.shapes(several)?,
+            (Some(_), Some(several)) => {
+                let message = "a body has one `shape`, or several `shapes`; give either";
+                self.faults.at(several, message);
+                return None;
+            }
+            // Something that was reported.
+            (None, None) => return None,
+        };
+        let weight = self.weight(&shapes, mass, density, owner)?;
+        match &shapes[..] {
+            [shape] if orientation.is_none() || matches!(shape.axes, Axes::Body) => {
+                self.one(shape, weight, orientation)
+            }
+            _ => self.in_numbers(&shapes, weight, orientation),
+        }
+    }
+
+    fn shapes<'e>(&mut self, expr: &'e Expr) -> Option<Vec<Shape<'e>>> {
+        let several = elements(expr).unwrap_or_default();
+        if several.is_empty() {
+            let message = "expected shapes in brackets, as in `[ball(..), cylinder(..)]`";
+            self.faults.at(expr, message);
+            return None;
+        }
+        let shapes: Vec<_> = several
+            .into_iter()
+            .map(|shape| self.shape(shape, true))
+            .collect();
+        shapes.into_iter().collect()
+    }
+
+    fn weight<'e>(
+        &mut self,
+        shapes: &[Shape<'_>],
+        mass: Option<&'e Expr>,
+        density: Option<&'e Expr>,
+        owner: Span,
+    ) -> Option<Weight<'e>> {
+        let name = self.name;
+        let own: Vec<&Expr> = shapes.iter().filter_map(|shape| shape.density).collect();
+        match (mass, density) {
+            (Some(mass), Some(_)) => {
+                let message = format!("`{name}` has a `mass` and a `density`; give either");
+                self.faults.at(mass, message);
+                None
+            }
+            (Some(_), None) if !own.is_empty() => {
+                let message = "the mass of all shapes is given; leave out their densities";
+                own.iter().for_each(|own| self.faults.at(own, message));
+                None
+            }
+            (Some(mass), None) => Some(Weight::Mass(mass)),
+            (None, Some(density)) => {
+                self.at("density");
+                let part = self.numbers.part(density, self.faults)?;
+                if let Some(value) = part.seen.filter(|value| *value <= 0.0) {
+                    self.faults.at(
+                        density,
+                        format!(
+                            "the density of `{name}` must be positive, in kg/m^3; this is {value}; a hole is one of several `shapes` with a negative density of its own"
+                        ),
+                    );
+                    return None;
+                }
+                Some(Weight::Density(density))
+            }
+            (None, None) if own.len() == shapes.len() => Some(Weight::Densities),
+            (None, None) => {
+                self.faults.at_span(
+                    owner,
+                    format!(
+                        "body `{name}` lacks `density`; give one in kg/m^3, as in `density = 7850.0`, or a `mass` in kg"
+                    ),
+                );
+                None
+            }
+        }
+    }
+
+    /// By formulas, in the axes of the shape.
+    fn one(
+        &mut self,
+        shape: &Shape<'_>,
+        weight: Weight<'_>,
+        orientation: Option<&Expr>,
+    ) -> Option<Solid> {
+        let at = shape.call.span();
+        let mass = match weight {
+            Weight::Mass(mass) => mass.clone(),
+            Weight::Density(density) => product(density, &shape.volume),
+            Weight::Densities => product(shape.density?, &shape.volume),
+        };
+        let number = self.mass(&at_span(&mass, at));
+        self.at("inertia");
+        let inertia = shape
+            .moments
+            .each_ref()
+            .map(|moment| product(&mass, moment));
+        let inertia = at_span(&parse_quote!([#(#inertia),*]), at);
+        let moments: Option<[Number; 3]> = self.numbers.array(&inertia, self.faults);
+        let moments = moments.filter(|moments| self.moments(&inertia, *moments).is_some());
+        self.at("position");
+        let centre = &shape.centre;
+        let position = self
+            .numbers
+            .array(&at_span(&parse_quote!([#(#centre),*]), at), self.faults);
+        let orientation = match orientation {
+            Some(orientation) => self.orientation("orientation", orientation),
+            None => self.own_axes(shape),
+        };
+        Some(Solid {
+            mass: number?,
+            inertia: moments?,
+            user_axes: IDENTITY,
+            position: position?,
+            orientation: orientation?,
+        })
+    }
+
+    /// Euler parameters of a shape's axes.
+    fn own_axes(&mut self, shape: &Shape<'_>) -> Option<[Number; 4]> {
+        self.at("orientation");
+        match &shape.axes {
+            Axes::Body => Some(IDENTITY.map(Number::Literal)),
+            Axes::Along(d, None) => {
+                let p = self.leading(shape.call, 0, d)?;
+                self.orientation(
+                    "orientation",
+                    &at_span(&parse_quote!([#(#p),*]), shape.call.span()),
+                )
+            }
+            Axes::Along(d, Some(up)) => {
+                let (d, up) = (self.seen(shape, d), self.components(up));
+                let (d, up) = (d?, up?);
+                let up = self.seen(shape, &up)?;
+                let x = unit(d);
+                let along: f64 = (0..3).map(|k| up[k] * x[k]).sum();
+                let z = [0, 1, 2].map(|k| up[k] - along * x[k]);
+                let least = 1e-6 * norm(up);
+                if norm(z) <= least {
+                    let message = "`up` is not along the bar, and not zero";
+                    self.faults.at(shape.call, message);
+                    return None;
+                }
+                let z = unit(z);
+                let columns = [x, cross(z, x), z];
+                let rows = [0, 1, 2].map(|row| columns.map(|column| column[row]));
+                Some(euler_parameters(rows).map(Number::Literal))
+            }
+        }
+    }
+
+    /// Numbers that the macro can see.
+    fn seen(&mut self, shape: &Shape<'_>, parts: &[Expr; 3]) -> Option<[f64; 3]> {
+        let mut seen = [0.0; 3];
+        for (seen, part) in seen.iter_mut().zip(parts) {
+            let part = self.numbers.part(part, self.faults)?;
+            if !part.is_written {
+                self.faults.at(
+                    shape.call,
+                    "several shapes, a given orientation and `up` need numbers that the macro can see, to find principal axes",
+                );
+                return None;
+            }
+            *seen = part.seen?;
+        }
+        Some(seen)
+    }
+
+    fn in_numbers(
+        &mut self,
+        shapes: &[Shape<'_>],
+        weight: Weight<'_>,
+        orientation: Option<&Expr>,
+    ) -> Option<Solid> {
+        let axes = match orientation {
+            Some(orientation) => {
+                self.at("orientation");
+                self.turn(orientation)?
+            }
+            None => IDENTITY,
+        };
+        let lumps: Vec<_> = shapes
+            .iter()
+            .map(|shape| self.lump(shape, weight))
+            .collect();
+        let mut lumps: Vec<Lump> = lumps.into_iter().collect::<Option<_>>()?;
+        let volume: f64 = lumps.iter().map(|lump| lump.mass).sum();
+        if let Weight::Mass(mass) = weight {
+            // So far of density 1.
+            self.at("mass");
+            let part = self.numbers.part(mass, self.faults)?;
+            let whole = self.seen(&shapes[0], &[mass.clone(), mass.clone(), mass.clone()])?[0];
+            if part.seen.is_some_and(|mass| mass <= 0.0) {
+                // The sentence about it.
+                self.mass(mass)?;
+            }
+            lumps.iter_mut().for_each(|lump| lump.scale(whole / volume));
+        }
+        let mass: f64 = lumps.iter().map(|lump| lump.mass).sum();
+        let call = shapes[0].call;
+        if mass <= 0.0 {
+            let name = self.name;
+            self.faults.at(
+                call,
+                format!("the shapes of `{name}` leave no body: their masses add up to {mass} kg"),
+            );
+            return None;
+        }
+        let moment = |k: usize| {
+            lumps
+                .iter()
+                .map(|lump| lump.mass * lump.centre[k])
+                .sum::<f64>()
+        };
+        let centre = [0, 1, 2].map(|k| moment(k) / mass);
+        let tensor = turned(about(&lumps, centre), rotation(axes));
+        let (moments, user_axes) = principal(tensor);
+        let moments = moments.map(Number::Literal);
+        self.moments(&Expr::Call(call.clone()), moments)?;
+        Some(Solid {
+            mass: Number::Literal(mass),
+            inertia: moments,
+            user_axes,
+            position: centre.map(Number::Literal),
+            orientation: axes.map(Number::Literal),
+        })
+    }
+
+    fn lump(&mut self, shape: &Shape<'_>, weight: Weight<'_>) -> Option<Lump> {
+        let density = match (shape.density, weight) {
+            (Some(own), _) => own.clone(),
+            (None, Weight::Density(density)) => density.clone(),
+            _ => parse_quote!(1.0),
+        };
+        let mass = product(&density, &shape.volume);
+        let [mass, ..] = self.seen(shape, &[mass.clone(), mass.clone(), mass])?;
+        let centre = self.seen(shape, &shape.centre)?;
+        let moments = self.seen(shape, &shape.moments)?;
+        let p = literals(&self.own_axes(shape)?)?;
+        let a = rotation(p);
+        let entry = |k: usize, l: usize| -> f64 {
+            (0..3).map(|m| mass * a[k][m] * moments[m] * a[l][m]).sum()
+        };
+        let tensor = [0, 1, 2].map(|k| [0, 1, 2].map(|l| entry(k, l)));
+        Some(Lump {
+            mass,
+            centre,
+            tensor,
+        })
+    }
+}
+
+impl Lump {
+    fn scale(&mut self, factor: f64) {
+        self.mass *= factor;
+        self.tensor = self.tensor.map(|row| row.map(|entry| factor * entry));
+    }
+}
+
+/// The tensor of all about a point, by Steiner's theorem, in global axes.
+fn about(lumps: &[Lump], centre: [f64; 3]) -> [[f64; 3]; 3] {
+    let mut tensor = [[0.0; 3]; 3];
+    for lump in lumps {
+        let s = [0, 1, 2].map(|k| lump.centre[k] - centre[k]);
+        let square: f64 = s.iter().map(|s| s * s).sum();
+        for (k, row) in tensor.iter_mut().enumerate() {
+            for (l, entry) in row.iter_mut().enumerate() {
+                let diagonal = if k == l { square } else { 0.0 };
+                *entry += lump.tensor[k][l] + lump.mass * (diagonal - s[k] * s[l]);
+            }
+        }
+    }
+    tensor
+}
+
+/// A tensor in the axes of the columns of `a`; products of inertia that are round-off are zero.
+fn turned(tensor: [[f64; 3]; 3], a: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+    let entry = |k: usize, l: usize| -> f64 {
+        let pairs = (0..3).flat_map(|m| (0..3).map(move |n| (m, n)));
+        pairs.map(|(m, n)| a[m][k] * tensor[m][n] * a[n][l]).sum()
+    };
+    let mut turned = [0, 1, 2].map(|k| [0, 1, 2].map(|l| entry(k, l)));
+    let largest = (0..3).fold(0.0_f64, |largest, k| largest.max(turned[k][k].abs()));
+    for (k, l) in [(0, 1), (0, 2), (1, 2)] {
+        let both = 0.5 * (turned[k][l] + turned[l][k]);
+        let kept = if both.abs() > ROUND_OFF * largest {
+            both
+        } else {
+            0.0
+        };
+        (turned[k][l], turned[l][k]) = (kept, kept);
+    }
+    turned
+}
+
+fn norm(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let norm = norm(v);
+    v.map(|x| x / norm)
+}
+
+/// An expression that stands at a place of what was written.
+fn at_span(expr: &Expr, span: Span) -> Expr {
+    Expr::Paren(ExprParen {
+        attrs: Vec::new(),
+        paren_token: token::Paren(span),
+        expr: Box::new(expr.clone()),
+    })
+}
