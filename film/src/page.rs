@@ -12,6 +12,7 @@ pub(crate) struct Page<'a> {
     pub(crate) bodies: &'a [Body],
     pub(crate) elements: &'a [Element],
     pub(crate) markers: &'a [Marker],
+    pub(crate) shapes: &'a [Shape],
     /// Gravity (m/s^2), which points down.
     pub(crate) gravity: [f64; 3],
     pub(crate) times: &'a [f64],
@@ -24,6 +25,19 @@ pub(crate) struct Page<'a> {
     pub(crate) traces: &'a [Trace],
     pub(crate) readings: Vec<Reading<'a>>,
     pub(crate) warnings: &'a [Remark],
+}
+
+/// A solid on a body, its length along its x axis.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Shape {
+    pub(crate) body: usize,
+    pub(crate) kind: &'static str,
+    /// As the mechanism lists them (m).
+    pub(crate) sizes: [f64; 3],
+    /// From the centre of mass (m, body axes).
+    pub(crate) centre: [f64; 3],
+    /// Euler parameters, the scalar first.
+    pub(crate) axes: [f64; 4],
 }
 
 #[derive(Clone, Debug, Serialize)]

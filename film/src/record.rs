@@ -4,11 +4,11 @@ use std::marker::PhantomData;
 use std::path::Path;
 use std::{error, fmt, fs, io};
 
-use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind};
+use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind, ShapeKind};
 use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, Warnings};
 
-use crate::page::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Trace};
+use crate::page::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Shape, Trace};
 use crate::picture::Subject;
 
 /// The page with empty places for the title's data.
@@ -21,6 +21,7 @@ const PLACE: &str = "/*FILM*/";
 pub struct Film<M> {
     title: String,
     markers: Vec<Marker>,
+    shapes: Vec<Shape>,
     gravity: [f64; 3],
     arrows: Vec<Arrow>,
     shows_arrows: bool,
@@ -53,6 +54,7 @@ impl<M: Mechanism> Film<M> {
         Self {
             title: M::REPORT.name.into(),
             markers: Vec::new(),
+            shapes: Vec::new(),
             gravity: [0.0; 3],
             arrows: Vec::new(),
             shows_arrows: false,
@@ -177,6 +179,7 @@ impl<M: Mechanism> Film<M> {
             bodies: &bodies,
             elements: &elements,
             markers: &self.markers,
+            shapes: &self.shapes,
             gravity: self.gravity,
             times: &self.times,
             poses: Floats(&self.poses),
@@ -280,6 +283,23 @@ impl<M: Mechanism> Film<M> {
                     },
                     at: at.into(),
                 }
+            })
+            .collect();
+        let shapes = M::REPORT.shapes.iter().enumerate();
+        self.shapes = shapes
+            .filter(|(_, shape)| !shape.is_hole)
+            .map(|(index, shape)| Shape {
+                body: shape.body,
+                kind: match shape.kind {
+                    ShapeKind::Cylinder => "cylinder",
+                    ShapeKind::Tube => "tube",
+                    ShapeKind::Cone => "cone",
+                    ShapeKind::Block => "block",
+                    _ => "ball",
+                },
+                sizes: sample.shape(index).map(Real::to_f64),
+                centre: shape.centre,
+                axes: shape.axes,
             })
             .collect();
         if self.shows_arrows {

@@ -87,6 +87,47 @@ fn both_markers_of_a_hinge_meet_in_every_frame() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// A mast with a lamp on it; what is bored out of it is not drawn.
+#[derive(Mechanism)]
+struct Mast {
+    #[param(like = 2.0)]
+    height: f64,
+    #[body(shape = cone(radius = 0.1, from = [0.0, 0.0, 0.0], to = [0.0, 0.0, height]), mass = 3.0, free)]
+    mast: Body,
+    #[body(shapes = [
+        ball(radius = 0.2, at = [0.5, 0.0, 0.0]),
+        ball(radius = 0.1, at = [0.5, 0.0, 0.0], density = -100.0),
+    ], density = 100.0, free)]
+    lamp: Body,
+}
+
+#[test]
+fn shapes_are_drawn_with_the_sizes_of_the_run() -> Result<(), Box<dyn Error>> {
+    let mast = Mast::new(1.5)?;
+    let mut film = Film::new();
+    Simulation::new(&mast, StandardLagrange, Rk4::every(0.1)).run(
+        0.0..=0.1,
+        every(0.1),
+        |sample| film.record(sample),
+    )?;
+    let data = data(&film.html()?);
+    let shapes = data["shapes"].as_array().expect("shapes");
+    let [cone, ball] = &shapes[..] else {
+        panic!("two shapes: {shapes:?}");
+    };
+    assert_eq!(
+        (&cone["kind"], &ball["kind"]),
+        (&"cone".into(), &"ball".into())
+    );
+    assert_eq!((&cone["body"], &ball["body"]), (&0.into(), &1.into()));
+    let sizes = vector(&cone["sizes"]);
+    assert!(
+        (sizes - Vector3::new(1.5, 0.1, 0.0)).norm() < 1e-15,
+        "{sizes}"
+    );
+    Ok(())
+}
+
 #[test]
 fn arrows_are_the_reactions() -> Result<(), Box<dyn Error>> {
     let mut film = Film::new().with_reactions();

@@ -8,7 +8,8 @@ pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
     HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointReport, Kernel, Marker,
-    MarkerKind, Operations, Pivot, Rank, RedundantRow, Relative, Stabilisation, Terms,
+    MarkerKind, Operations, Pivot, Rank, RedundantRow, Relative, Shape, ShapeKind, Stabilisation,
+    Terms,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -316,6 +317,7 @@ macro_rules! __stub_mechanism {
                     joints: &[],
                     forces: &[],
                     markers: &[],
+                    shapes: &[],
                     carriers: &[],
                     blocks: &[],
                     coordinates: 0,

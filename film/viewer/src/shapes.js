@@ -56,6 +56,11 @@ export function body(index, size) {
   const group = new THREE.Group();
   const material = new THREE.MeshStandardMaterial({ color: colourOf(index), ...METAL });
   const radius = 0.018 * size;
+  const solids = film.shapes.filter((solid) => solid.body === index);
+  if (solids.length) {
+    for (const solid of solids) group.add(drawn(solid, material, name));
+    return group;
+  }
   const named = distinct(points(index).map((m) => vector(m.at)), size);
   if (particle || named.length === 0) {
     const shape = particle
@@ -74,6 +79,34 @@ export function body(index, size) {
     group.add(mesh(hull, plate, name));
   }
   return group;
+}
+
+/** A shape that the description names. What is made along y is laid along its x axis. */
+function drawn({ kind, sizes, centre, axes }, material, name) {
+  const [long, wide, narrow] = sizes;
+  const ROUND = 48;
+  const geometry = {
+    cylinder: () => new THREE.CylinderGeometry(wide, wide, long, ROUND),
+    tube: () => tube(long, wide, narrow, ROUND),
+    // Its centre of mass is a quarter of the way from the base.
+    cone: () => new THREE.ConeGeometry(wide, long, ROUND).translate(0, 0.25 * long, 0),
+    block: () => new THREE.BoxGeometry(long, wide, narrow),
+    ball: () => new THREE.SphereGeometry(long, ROUND, 32),
+  }[kind]();
+  if (["cylinder", "tube", "cone"].includes(kind)) geometry.rotateZ(-Math.PI / 2);
+  const made = mesh(geometry, material, name);
+  made.position.set(...centre);
+  const [w, x, y, z] = axes;
+  made.quaternion.set(x, y, z, w);
+  return made;
+}
+
+function tube(long, outer, inner, round) {
+  const [a, b] = [0.5 * long, -0.5 * long];
+  const corners = [[inner, b], [outer, b], [outer, a], [inner, a], [inner, b]];
+  // Every corner twice, so that edges are sharp.
+  const wall = corners.flatMap((corner) => [corner, corner]).slice(1, -1);
+  return new THREE.LatheGeometry(wall.map(([x, y]) => new THREE.Vector2(x, y)), round);
 }
 
 /** The shortest lines that join all places (Prim). */

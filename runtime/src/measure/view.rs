@@ -140,6 +140,13 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         }
     }
 
+    /// The sizes (m) of a shape by its place in [`Report::shapes`](crate::Report::shapes). Zeros for
+    /// a shape that is not there.
+    #[must_use]
+    pub fn shape(&self, place: usize) -> [S; 3] {
+        M::shape(self.constants, place)
+    }
+
     /// Gravity (m/s^2, global): the force on the first body less that of every force field on it,
     /// over its mass. Zero without a body.
     #[must_use]

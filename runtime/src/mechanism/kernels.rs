@@ -255,6 +255,13 @@ pub trait Mechanism: Sized + 'static {
         [S::zero(); 3]
     }
 
+    /// The sizes (m) of a shape by its place in [`Report::shapes`], as
+    /// [`ShapeKind`](crate::mechanism::ShapeKind) lists them; zeros behind them, and for a shape
+    /// that is not there.
+    fn shape<S: Scalar>(_constants: &Self::Constants<S>, _shape: usize) -> [S; 3] {
+        [S::zero(); 3]
+    }
+
     /// Sets every auxiliary variable to its exact value for the orientations in the state: an angle
     /// that counts turns becomes the one that is nearest to the value it has. Without effect where
     /// there are none.

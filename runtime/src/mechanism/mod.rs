@@ -29,5 +29,5 @@ pub use kernels::{Normalised, Orientation};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{
     Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
-    Marker, MarkerKind, Operations, Rank, RedundantRow,
+    Marker, MarkerKind, Operations, Rank, RedundantRow, Shape, ShapeKind,
 };

@@ -14,6 +14,9 @@ pub struct Report {
     /// The points and directions that joints and forces name, fixed on their bodies: see
     /// [`crate::Mechanism::marker`].
     pub markers: &'static [Marker],
+    /// What bodies look like that are described by shapes, body by body: see
+    /// [`crate::Mechanism::shape`].
+    pub shapes: &'static [Shape],
     /// What carries each body in the spanning tree.
     pub carriers: &'static [Carrier],
     /// The blocks of the Jacobian, in the order of [`crate::Mechanism::jacobian`].
@@ -268,6 +271,38 @@ pub enum MarkerKind {
     Axis,
     /// A vector of any length.
     Vector,
+}
+
+/// A shape of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// The body.
+    pub body: usize,
+    /// What it is.
+    pub kind: ShapeKind,
+    /// Its centre of mass from that of the body (m), in the user's body axes.
+    pub centre: [f64; 3],
+    /// Euler parameters of the rotation from its axes to the user's body axes. Its length is along
+    /// its x axis.
+    pub axes: [f64; 4],
+    /// Whether it is taken away: its density is negative.
+    pub is_hole: bool,
+}
+
+/// What a [`Shape`] is. Its sizes (m) are those of [`crate::Mechanism::shape`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ShapeKind {
+    /// Length, radius.
+    Cylinder,
+    /// Length, outer radius, inner radius.
+    Tube,
+    /// Length, radius of the base. The base is at the negative end of x.
+    Cone,
+    /// Lengths along x, y and z.
+    Block,
+    /// Radius.
+    Ball,
 }
 
 /// A block of the Jacobian `D`: the rows of one joint against the velocities of one body.

@@ -99,6 +99,7 @@ impl Mechanism for Rod {
         }],
         forces: &[],
         markers: &[],
+        shapes: &[],
         carriers: &[Carrier {
             body: None,
             joint: Some(0),

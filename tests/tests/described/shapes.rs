@@ -3,7 +3,10 @@
 
 use core::f64::consts::PI;
 
+use holonom::View;
 use holonom::joints::{Revolute, Spherical};
+use holonom::mechanism::ShapeKind;
+use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::prelude::*;
 
 use crate::descriptions::both;
@@ -60,6 +63,17 @@ struct Computed {
     hook: Spherical,
 }
 
+/// A hammer with a hole in its head.
+#[derive(Mechanism)]
+struct Several {
+    #[body(shapes = [
+        rod(radius = 0.01, from = [0.0, 0.0, 0.0], to = [0.0, 0.3, 0.0]),
+        ball(radius = 0.04, at = [0.0, 0.3, 0.0]),
+        ball(radius = 0.02, at = [0.0, 0.3, 0.0], density = -700.0),
+    ], density = 700.0, orientation = rpy(0.3, -0.8, 1.9), free)]
+    hammer: Body,
+}
+
 const LONG: f64 = 0.65;
 const THIN: f64 = 0.025;
 const FALL: f64 = 0.3;
@@ -112,6 +126,51 @@ fn shapes_by_joints() {
         values.push(sample.kinetic_energy());
         values
     });
+}
+
+/// What is drawn of bodies: sizes as they are given, places from their centres of mass.
+#[test]
+fn shapes_of_the_report() {
+    let [boom, bar] = Drawn::REPORT.shapes else {
+        panic!("two shapes: {:?}", Drawn::REPORT.shapes);
+    };
+    assert_eq!((boom.body, bar.body), (0, 1));
+    assert_eq!(
+        [boom.kind, bar.kind],
+        [ShapeKind::Cylinder, ShapeKind::Block]
+    );
+    assert_eq!((boom.centre, boom.axes), ([0.0; 3], [1.0, 0.0, 0.0, 0.0]));
+    let drawn = drawn();
+    let constants = drawn.constants::<f64>().expect("acceptable");
+    let state = drawn.described_state::<f64>().expect("described");
+    let view = View::<f64, Drawn>::new(&constants, 0.0, &state);
+    assert_eq!(view.shape(0), [LONG, THIN, 0.0]);
+    let [long, width, height] = view.shape(1);
+    assert_eq!([width, height], [THIN, 2.0 * THIN]);
+    assert!((long * long - REACH).abs() < 1e-15);
+    assert_eq!(view.shape(2), [0.0; 3]);
+
+    // Of one body of several: a ball on a rod of a third of its mass, in turned axes.
+    let [rod, ball, hole] = Several::REPORT.shapes else {
+        panic!("three shapes: {:?}", Several::REPORT.shapes);
+    };
+    let several = Several::default();
+    let state = several.described_state::<f64>().expect("described");
+    let pose = Several::pose(&state, Several::HANDLES.hammer);
+    let turn = UnitQuaternion::new_normalize(pose.orientation);
+    for (shape, wanted) in [
+        (rod, [0.0, 0.15, 0.0]),
+        (ball, [0.0, 0.3, 0.0]),
+        (hole, [0.0, 0.3, 0.0]),
+    ] {
+        let centre = pose.position + turn * Vector3::from(shape.centre);
+        assert!((centre - Vector3::from(wanted)).norm() < 1e-15, "{centre}");
+    }
+    let [w, i, j, k] = rod.axes;
+    let axes = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));
+    let along = turn * (axes * Vector3::x());
+    assert!((along - Vector3::y()).norm() < 1e-15, "{along}");
+    assert!(hole.is_hole && !ball.is_hole);
 }
 
 /// What a parameter makes impossible is refused by the name of what follows from it.

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::report::counts;
-use crate::model::{BodyKind, Element, Model, Rank};
+use crate::model::{BodyKind, Element, Model, Number, Rank};
 use crate::plan::kernels::Kernels;
 
 /// Documentation as attributes.
@@ -31,6 +31,7 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
         let (q, u) = (layout.coordinate[place], layout.velocity[place]);
         lines.push(format!("| `{}` | {kind} | {q} | {u} |", body.name));
     }
+    lines.extend(shaped(model));
     if !model.joints.is_empty() {
         lines.push(String::new());
         lines.push("| joint | type | between | rows |".into());
@@ -73,6 +74,34 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
     }
     let lines = lines.iter().map(|line| format!(" {line}"));
     quote!(#( #[doc = #lines] )*)
+}
+
+/// What follows for bodies from their shapes; at the typical values of parameters.
+fn shaped(model: &Model) -> Vec<String> {
+    let mut lines = Vec::new();
+    for body in model.bodies.iter().filter(|body| !body.shapes.is_empty()) {
+        let one = |number: Number| match model.seen(number) {
+            Some(value) => format!("{}", format!("{value:.6e}").parse().unwrap_or(value)),
+            None => "..".into(),
+        };
+        let three = |numbers: [Number; 3]| numbers.map(one).join(", ");
+        if lines.is_empty() {
+            lines = vec![
+                String::new(),
+                "| body by shapes | mass (kg) | centre of mass (m) | principal moments (kg m²) |"
+                    .into(),
+                "|---|---|---|---|".into(),
+            ];
+        }
+        lines.push(format!(
+            "| `{}` | {} | {} | {} |",
+            body.name,
+            one(body.mass),
+            three(body.position),
+            three(body.inertia)
+        ));
+    }
+    lines
 }
 
 /// The bodies of a joint or a force, by their names.

@@ -197,6 +197,7 @@ impl Writer<'_> {
         let mut tokens = self.angles();
         tokens.extend(self.points());
         tokens.extend(self.markers());
+        tokens.extend(self.shapes());
         tokens.extend(self.displacements());
         tokens.extend(self.sides());
         tokens.extend(self.rewrap());

@@ -180,6 +180,34 @@ impl Writer<'_> {
         }
     }
 
+    /// Only where bodies are described by shapes.
+    pub(super) fn shapes(&mut self) -> TokenStream {
+        if self.kernels.readouts.shapes.is_empty() {
+            return TokenStream::new();
+        }
+        let facade = self.facade;
+        let (constants, shape) = (local("constants"), local("shape"));
+        let mut arms = TokenStream::new();
+        for (at, sizes) in self.kernels.readouts.shapes.iter().enumerate() {
+            let StraightLine {
+                statements,
+                outputs,
+            } = self.line(sizes);
+            arms.extend(quote!(#at => { #statements [#(#outputs),*] }));
+        }
+        quote! {
+            fn shape<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #shape: usize,
+            ) -> [__S; 3] {
+                match #shape {
+                    #arms
+                    _ => [__S::zero(); 3],
+                }
+            }
+        }
+    }
+
     /// Only where there are auxiliary variables; the trait does nothing by default.
     pub(super) fn rewrap(&mut self) -> TokenStream {
         if self.kernels.counters.outputs.is_empty() {

@@ -6,7 +6,7 @@ use quote::quote;
 use super::joint::kind;
 use crate::coordinates::spanning::Spanning;
 use crate::model::mechanism::Layout;
-use crate::model::{Element, Model, ParameterKind, Rank};
+use crate::model::{Element, Model, ParameterKind, Rank, Shape, ShapeKind};
 use crate::plan::Plan;
 use crate::plan::kernels::Kernels;
 use crate::plan::readouts::Marker;
@@ -213,6 +213,11 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     });
     let markers = kernels.readouts.markers.iter();
     let markers = markers.map(|found| marker(model, found, facade));
+    let bodies_and_shapes = model.bodies.iter().enumerate();
+    let shapes = bodies_and_shapes.flat_map(|(place, body)| {
+        let shapes = body.shapes.iter();
+        shapes.map(move |found| shape(place, found, facade))
+    });
     let mut carriers = vec![TokenStream::new(); model.bodies.len()];
     for carried in Spanning::new(model).carried {
         let [body, joint] = [carried.by, carried.joint].map(option);
@@ -261,6 +266,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             joints: &[#(#joints),*],
             forces: &[#(#forces),*],
             markers: &[#(#markers),*],
+            shapes: &[#(#shapes),*],
             carriers: &[#(#carriers),*],
             blocks: &[#(#blocks),*],
             coordinates: #coordinates,
@@ -274,6 +280,29 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             curved: #curved,
             kernels: &[#(#counts),*],
             plan: #plan,
+        }
+    }
+}
+
+fn shape(body: usize, shape: &Shape, facade: &TokenStream) -> TokenStream {
+    let Shape {
+        kind,
+        centre: [x, y, z],
+        axes: [e0, e1, e2, e3],
+        is_hole,
+        ..
+    } = *shape;
+    let kind = match kind {
+        ShapeKind::Cylinder => quote!(Cylinder),
+        ShapeKind::Tube => quote!(Tube),
+        ShapeKind::Cone => quote!(Cone),
+        ShapeKind::Block => quote!(Block),
+        ShapeKind::Ball => quote!(Ball),
+    };
+    quote! {
+        #facade::__private::Shape {
+            body: #body, kind: #facade::__private::ShapeKind::#kind, centre: [#x, #y, #z],
+            axes: [#e0, #e1, #e2, #e3], is_hole: #is_hole,
         }
     }
 }

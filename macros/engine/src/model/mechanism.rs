@@ -8,6 +8,7 @@ use super::joint::{ElementDef, Extent, Function, Turn};
 use super::name::Name;
 use super::number::{Number, Symbol, literals};
 use super::rank::Independence;
+use super::shape::Shape;
 
 /// Whether a body has an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +62,8 @@ pub struct Body {
     pub angular_velocity: [Number; 3],
     /// Whether it may go without a joint.
     pub free: bool,
+    /// What it looks like, where it is described by shapes.
+    pub shapes: Vec<Shape>,
 }
 
 /// What a mechanism gives for a parameter of a joint.

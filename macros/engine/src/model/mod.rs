@@ -10,6 +10,7 @@ pub mod motion;
 pub mod name;
 pub mod number;
 pub mod rank;
+pub mod shape;
 
 pub use comparison::Comparison;
 pub use joint::{
@@ -20,3 +21,4 @@ pub use motion::{Direction, Motion};
 pub use name::Name;
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};
+pub use shape::{Shape, ShapeKind};

@@ -4,6 +4,7 @@ use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model, ParameterKind};
 use crate::symbolic::arena::{Arena, Input};
 use crate::symbolic::equations::{Kernel, with_scene};
+use crate::symbolic::fixed::triple;
 use crate::symbolic::motion::Gradient;
 use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::{Frame, VectorId};
@@ -22,6 +23,8 @@ pub struct Readouts {
     pub points: Vec<(usize, usize, Kernel)>,
     /// The points and directions that joints and forces name, on each of their bodies.
     pub markers: Vec<Marker>,
+    /// The sizes of each shape, body by body.
+    pub shapes: Vec<Kernel>,
     /// The potential energy of each force, and the power of what it does besides.
     pub energies: Vec<Kernel>,
     /// The force (global axes) and the moment about the centre of mass (principal axes) of each
@@ -52,6 +55,7 @@ impl Readouts {
             sides: sides(scene, model),
             points: points(scene, model),
             markers: markers(scene, model),
+            shapes: shapes(scene, model),
             energies: (0..model.forces.len())
                 .map(|force| with_scene(scene, |scene| scene.energy_and_power(force).into()))
                 .collect(),
@@ -145,6 +149,17 @@ fn markers(scene: &Scene, model: &Model) -> Vec<Marker> {
         }
     }
     markers
+}
+
+fn shapes(scene: &Scene, model: &Model) -> Vec<Kernel> {
+    let shapes = model.bodies.iter().flat_map(|body| &body.shapes);
+    shapes
+        .map(|shape| {
+            with_scene(scene, |scene| {
+                triple(&mut scene.space.arena, shape.sizes).into()
+            })
+        })
+        .collect()
 }
 
 fn displacements(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {

@@ -196,6 +196,7 @@ fn body(name: &Ident, position: [f64; 3], orientation: [f64; 4]) -> Body {
         velocity: [Number::ZERO; 3],
         angular_velocity: [Number::ZERO; 3],
         free: true,
+        shapes: Vec::new(),
     }
 }
 

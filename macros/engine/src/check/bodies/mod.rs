@@ -1,14 +1,18 @@
 //! Bodies: mass, inertia, where they stand and how they move at the start.
 //!
-//! - `inertia.rs`: moments and tensors; `rotation.rs`: orientations, as they are written.
-//! - `shape.rs`: shapes by formulas, which `formula.rs` puts together as expressions; `solid.rs`:
-//!   what follows from them for a body.
+//! - `inertia.rs`: moments and tensors; `rotation.rs`: orientations, as they are written;
+//!   `leading.rs`: those that lead an axis to a direction.
+//! - `shape.rs`: shapes as they are written; `volume.rs`: their formulas, which `formula.rs` puts
+//!   together as expressions; `solid.rs`: what follows for a body, of several by `lumps.rs`.
 
 mod formula;
 mod inertia;
+mod leading;
+mod lumps;
 mod rotation;
 mod shape;
 mod solid;
+mod volume;
 
 use proc_macro2::Span;
 use syn::Expr;
@@ -72,6 +76,7 @@ pub fn check(
         velocity: velocity?,
         angular_velocity: angular_velocity?,
         free,
+        shapes: solid.shapes,
     })
 }
 
@@ -112,6 +117,7 @@ impl Reader<'_, '_> {
             user_axes: compose(principal_axes, [e0, -e1, -e2, -e3]),
             position: position?,
             orientation: orientation?,
+            shapes: Vec::new(),
         })
     }
 
@@ -139,6 +145,7 @@ impl Reader<'_, '_> {
             user_axes: IDENTITY,
             position: position?,
             orientation: IDENTITY.map(Number::Literal),
+            shapes: Vec::new(),
         })
     }
 

@@ -1,15 +1,11 @@
-//! Shapes as they are written: what they enclose, and how it is spread.
-//!
-//! Volumes, centres and moments: Meriam, Kraige, Bolton, *Engineering Mechanics: Dynamics*, table
-//! D/4. `tests/shapes.rs` compares them with integrals.
-
-use std::f64::consts::PI;
+//! Shapes as they are written.
 
 use quote::ToTokens;
 use syn::{Expr, ExprCall};
 
 use super::Reader;
-use super::formula::{difference, length, number, product, square, sum, times};
+use super::formula::{difference, length, sum, times};
+use super::volume::{self, Volume};
 use crate::diag::{code, did_you_mean, list};
 use crate::syntax::ungroup;
 
@@ -38,16 +34,13 @@ pub(super) enum Axes {
 }
 
 /// A shape, by formulas of what is written.
-#[derive(Clone, Debug)]
-pub(super) struct Shape<'a> {
+#[derive(Debug)]
+pub(super) struct Formulas<'a> {
     /// What was written.
     pub(super) call: &'a ExprCall,
-    /// m^3.
-    pub(super) volume: Expr,
+    pub(super) volume: Volume,
     /// The centre of mass (m, global).
     pub(super) centre: [Expr; 3],
-    /// Moments about it, over the mass (m^2), in the shape's own axes.
-    pub(super) moments: [Expr; 3],
     pub(super) axes: Axes,
     /// Its own density (kg/m^3), where that is given.
     pub(super) density: Option<&'a Expr>,
@@ -55,7 +48,7 @@ pub(super) struct Shape<'a> {
 
 impl Reader<'_, '_> {
     /// A shape, of which `own_density` may tell its density itself.
-    pub(super) fn shape<'e>(&mut self, expr: &'e Expr, own_density: bool) -> Option<Shape<'e>> {
+    pub(super) fn shape<'e>(&mut self, expr: &'e Expr, own_density: bool) -> Option<Formulas<'e>> {
         let names = SHAPES.map(|(name, _)| name);
         let Expr::Call(call) = ungroup(expr) else {
             self.faults.at(
@@ -85,31 +78,23 @@ impl Reader<'_, '_> {
             .map(|(given, _)| *given)
             .collect();
         let needed = needed?;
-        let shape = |volume, centre, moments, axes| Shape {
-            call,
-            volume,
-            centre,
-            moments,
-            axes,
-            density,
-        };
-        Some(match (name, &needed[..]) {
+        let (volume, centre, axes) = match (name, &needed[..]) {
             ("ball", &[radius, at]) => {
                 self.positive(name, [("radius", radius)])?;
-                let squared = square(radius);
-                let volume = times(4.0 / 3.0 * PI, &product(&squared, radius));
-                let moment = times(0.4, &squared);
-                let moments = [moment.clone(), moment.clone(), moment];
-                shape(volume, self.components_of("at", at)?, moments, Axes::Body)
+                (
+                    volume::ball(radius),
+                    self.components_of("at", at)?,
+                    Axes::Body,
+                )
             }
             ("block", &[size, at]) => {
                 let size = self.components_of("size", size)?;
-                let [a, b, c] = &size;
-                self.positive(name, [("size", a), ("size", b), ("size", c)])?;
-                let volume = product(&product(a, b), c);
-                let moments = [(b, c), (c, a), (a, b)];
-                let moments = moments.map(|(a, b)| times(1.0 / 12.0, &sum(&square(a), &square(b))));
-                shape(volume, self.components_of("at", at)?, moments, Axes::Body)
+                self.positive(name, size.each_ref().map(|size| ("size", size)))?;
+                (
+                    volume::block(size),
+                    self.components_of("at", at)?,
+                    Axes::Body,
+                )
             }
             ("disc", &[radius, thickness, at, axis]) => {
                 self.positive(name, [("radius", radius), ("thickness", thickness)])?;
@@ -119,68 +104,65 @@ impl Reader<'_, '_> {
                     &along,
                     "the `axis` of a `disc` must not be the zero vector",
                 )?;
-                let (volume, moments) = cylinder(radius, None, thickness);
-                let centre = self.components_of("at", at)?;
-                shape(volume, centre, moments, Axes::Along(Box::new(along), None))
+                let axes = Axes::Along(Box::new(along), None);
+                let volume = volume::cylinder(radius, thickness);
+                (volume, self.components_of("at", at)?, axes)
             }
-            (_, &[.., from, to]) => {
-                let from = self.components_of("from", from);
-                let to = self.components_of("to", to);
+            (_, &[ref sizes @ .., from, to]) => {
+                let (from, to) = (
+                    self.components_of("from", from),
+                    self.components_of("to", to),
+                );
                 let (from, to) = (from?, to?);
                 let d = [0, 1, 2].map(|k| difference(&to[k], &from[k]));
                 self.directed(call, &d, "`from` and `to` must not be one point")?;
-                let long = length(&d);
-                let middle = |share: f64| {
-                    [0, 1, 2].map(|k| sum(&times(1.0 - share, &from[k]), &times(share, &to[k])))
-                };
-                let (volume, moments, centre, up) = match (name, &needed[..]) {
-                    ("tube", &[outer, inner, ..]) => {
-                        self.positive(name, [("outer", outer), ("inner", inner)])?;
-                        self.wall(call, outer, inner)?;
-                        let (volume, moments) = cylinder(outer, Some(inner), &long);
-                        (volume, moments, middle(0.5), None)
-                    }
-                    ("bar", &[width, height, ..]) => {
-                        self.positive(name, [("width", width), ("height", height)])?;
-                        let volume = product(&product(width, height), &long);
-                        let moments = [(width, height), (height, &long), (width, &long)];
-                        let moments =
-                            moments.map(|(a, b)| times(1.0 / 12.0, &sum(&square(a), &square(b))));
-                        let up = keys.iter().position(|key| *key == "up");
-                        (volume, moments, middle(0.5), up.and_then(|up| given[up]))
-                    }
-                    ("cone", &[radius, ..]) => {
-                        self.positive(name, [("radius", radius)])?;
-                        let volume = times(PI / 3.0, &product(&square(radius), &long));
-                        let across = sum(
-                            &times(0.15, &square(radius)),
-                            &times(0.0375, &square(&long)),
-                        );
-                        let moments = [times(0.3, &square(radius)), across.clone(), across];
-                        (volume, moments, middle(0.25), None)
-                    }
-                    ("rod", &[radius, ..]) => {
-                        self.positive(name, [("radius", radius)])?;
-                        let (volume, [along, ..]) = cylinder(radius, None, &long);
-                        let across = times(1.0 / 12.0, &square(&long));
-                        (volume, [along, across.clone(), across], middle(0.5), None)
-                    }
-                    (_, &[radius, ..]) => {
-                        self.positive(name, [("radius", radius)])?;
-                        let (volume, moments) = cylinder(radius, None, &long);
-                        (volume, moments, middle(0.5), None)
-                    }
-                    _ => return None,
-                };
-                shape(
-                    volume,
-                    centre,
-                    moments,
-                    Axes::Along(Box::new(d), up.cloned().map(Box::new)),
-                )
+                let volume = self.long(call, name, sizes, &length(&d))?;
+                let share = volume.share;
+                let centre =
+                    [0, 1, 2].map(|k| sum(&times(1.0 - share, &from[k]), &times(share, &to[k])));
+                let up = keys.iter().position(|key| *key == "up");
+                let up = up.and_then(|up| given[up]).cloned().map(Box::new);
+                (volume, centre, Axes::Along(Box::new(d), up))
             }
             _ => return None,
+        };
+        Some(Formulas {
+            call,
+            volume,
+            centre,
+            axes,
+            density,
         })
+    }
+
+    /// A shape between two points, by its other sizes.
+    fn long(
+        &mut self,
+        call: &ExprCall,
+        name: &str,
+        sizes: &[&Expr],
+        long: &Expr,
+    ) -> Option<Volume> {
+        match (name, sizes) {
+            ("tube", &[outer, inner]) => {
+                self.positive(name, [("outer", outer), ("inner", inner)])?;
+                self.wall(call, outer, inner)?;
+                Some(volume::tube(outer, inner, long))
+            }
+            ("bar", &[width, height]) => {
+                self.positive(name, [("width", width), ("height", height)])?;
+                Some(volume::block([long.clone(), width.clone(), height.clone()]))
+            }
+            (_, &[radius]) => {
+                self.positive(name, [("radius", radius)])?;
+                Some(match name {
+                    "cone" => volume::cone(radius, long),
+                    "rod" => volume::rod(radius, long),
+                    _ => volume::cylinder(radius, long),
+                })
+            }
+            _ => None,
+        }
     }
 
     /// What is given for each key; behind them, for `density`.
@@ -293,14 +275,4 @@ impl Reader<'_, '_> {
         }
         Some(())
     }
-}
-
-/// Volume and moments over the mass of a cylinder, or of a tube.
-fn cylinder(outer: &Expr, inner: Option<&Expr>, long: &Expr) -> (Expr, [Expr; 3]) {
-    let outer = square(outer);
-    let inner = inner.map_or_else(|| number(0.0), square);
-    let volume = times(PI, &product(&difference(&outer, &inner), long));
-    let both = sum(&outer, &inner);
-    let across = sum(&times(0.25, &both), &times(1.0 / 12.0, &square(long)));
-    (volume, [times(0.5, &both), across.clone(), across])
 }

@@ -10,13 +10,14 @@ use syn::{Expr, ExprParen, parse_quote, token};
 
 use super::Reader;
 use super::formula::product;
+use super::lumps::{Lump, about, norm, turned, unit};
 use super::rotation::cross;
-use super::shape::{Axes, Shape};
+use super::shape::{Axes, Formulas};
 use crate::check::number::elements;
 use crate::check::pairs::Pairs;
-use crate::model::Number;
-use crate::model::inertia::{IDENTITY, euler_parameters, principal, rotation};
+use crate::model::inertia::{IDENTITY, compose, euler_parameters, principal, rotation};
 use crate::model::number::literals;
+use crate::model::{Number, Shape};
 
 /// A body, as far as it follows from shapes.
 pub(super) struct Solid {
@@ -25,6 +26,7 @@ pub(super) struct Solid {
     pub(super) user_axes: [f64; 4],
     pub(super) position: [Number; 3],
     pub(super) orientation: [Number; 4],
+    pub(super) shapes: Vec<Shape>,
 }
 
 /// Why a key is refused beside a shape.
@@ -37,14 +39,6 @@ enum Weight<'a> {
     Density(&'a Expr),
     /// Every shape has its own.
     Densities,
-}
-
-/// A part of a body, in numbers.
-struct Lump {
-    mass: f64,
-    centre: [f64; 3],
-    /// About its centre, in global axes.
-    tensor: [[f64; 3]; 3],
 }
 
 impl Reader<'_, '_> {
@@ -78,7 +72,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn shapes<'e>(&mut self, expr: &'e Expr) -> Option<Vec<Shape<'e>>> {
+    fn shapes<'e>(&mut self, expr: &'e Expr) -> Option<Vec<Formulas<'e>>> {
         let several = elements(expr).unwrap_or_default();
         if several.is_empty() {
             let message = "expected shapes in brackets, as in `[ball(..), cylinder(..)]`";
@@ -94,7 +88,7 @@ impl Reader<'_, '_> {
 
     fn weight<'e>(
         &mut self,
-        shapes: &[Shape<'_>],
+        shapes: &[Formulas<'_>],
         mass: Option<&'e Expr>,
         density: Option<&'e Expr>,
         owner: Span,
@@ -143,19 +137,20 @@ impl Reader<'_, '_> {
     /// By formulas, in the axes of the shape.
     fn one(
         &mut self,
-        shape: &Shape<'_>,
+        shape: &Formulas<'_>,
         weight: Weight<'_>,
         orientation: Option<&Expr>,
     ) -> Option<Solid> {
         let at = shape.call.span();
         let mass = match weight {
             Weight::Mass(mass) => mass.clone(),
-            Weight::Density(density) => product(density, &shape.volume),
-            Weight::Densities => product(shape.density?, &shape.volume),
+            Weight::Density(density) => product(density, &shape.volume.volume),
+            Weight::Densities => product(shape.density?, &shape.volume.volume),
         };
         let number = self.mass(&at_span(&mass, at));
         self.at("inertia");
         let inertia = shape
+            .volume
             .moments
             .each_ref()
             .map(|moment| product(&mass, moment));
@@ -171,17 +166,39 @@ impl Reader<'_, '_> {
             Some(orientation) => self.orientation("orientation", orientation),
             None => self.own_axes(shape),
         };
+        let drawn = self.drawn(shape, [0.0; 3], IDENTITY, false);
         Some(Solid {
             mass: number?,
             inertia: moments?,
             user_axes: IDENTITY,
             position: position?,
             orientation: orientation?,
+            shapes: vec![drawn?],
+        })
+    }
+
+    /// What a shape looks like, at a place on its body.
+    fn drawn(
+        &mut self,
+        shape: &Formulas<'_>,
+        centre: [f64; 3],
+        axes: [f64; 4],
+        is_hole: bool,
+    ) -> Option<Shape> {
+        self.at("shape");
+        let sizes = &shape.volume.sizes;
+        let sizes = at_span(&parse_quote!([#(#sizes),*]), shape.call.span());
+        Some(Shape {
+            kind: shape.volume.kind,
+            sizes: self.numbers.array(&sizes, self.faults)?,
+            centre,
+            axes,
+            is_hole,
         })
     }
 
     /// Euler parameters of a shape's axes.
-    fn own_axes(&mut self, shape: &Shape<'_>) -> Option<[Number; 4]> {
+    fn own_axes(&mut self, shape: &Formulas<'_>) -> Option<[Number; 4]> {
         self.at("orientation");
         match &shape.axes {
             Axes::Body => Some(IDENTITY.map(Number::Literal)),
@@ -214,7 +231,7 @@ impl Reader<'_, '_> {
     }
 
     /// Numbers that the macro can see.
-    fn seen(&mut self, shape: &Shape<'_>, parts: &[Expr; 3]) -> Option<[f64; 3]> {
+    fn seen(&mut self, shape: &Formulas<'_>, parts: &[Expr; 3]) -> Option<[f64; 3]> {
         let mut seen = [0.0; 3];
         for (seen, part) in seen.iter_mut().zip(parts) {
             let part = self.numbers.part(part, self.faults)?;
@@ -232,7 +249,7 @@ impl Reader<'_, '_> {
 
     fn in_numbers(
         &mut self,
-        shapes: &[Shape<'_>],
+        shapes: &[Formulas<'_>],
         weight: Weight<'_>,
         orientation: Option<&Expr>,
     ) -> Option<Solid> {
@@ -281,25 +298,34 @@ impl Reader<'_, '_> {
         let (moments, user_axes) = principal(tensor);
         let moments = moments.map(Number::Literal);
         self.moments(&Expr::Call(call.clone()), moments)?;
+        let (a, [e0, e1, e2, e3]) = (rotation(axes), axes);
+        let drawn = shapes.iter().zip(&lumps).map(|(shape, lump)| {
+            let s = [0, 1, 2].map(|k| lump.centre[k] - centre[k]);
+            let s = [0, 1, 2].map(|l| (0..3).map(|k| a[k][l] * s[k]).sum());
+            let turned = compose([e0, -e1, -e2, -e3], lump.axes);
+            self.drawn(shape, s, turned, lump.mass < 0.0)
+        });
+        let drawn: Vec<_> = drawn.collect();
         Some(Solid {
             mass: Number::Literal(mass),
             inertia: moments,
             user_axes,
             position: centre.map(Number::Literal),
             orientation: axes.map(Number::Literal),
+            shapes: drawn.into_iter().collect::<Option<_>>()?,
         })
     }
 
-    fn lump(&mut self, shape: &Shape<'_>, weight: Weight<'_>) -> Option<Lump> {
+    fn lump(&mut self, shape: &Formulas<'_>, weight: Weight<'_>) -> Option<Lump> {
         let density = match (shape.density, weight) {
             (Some(own), _) => own.clone(),
             (None, Weight::Density(density)) => density.clone(),
             _ => parse_quote!(1.0),
         };
-        let mass = product(&density, &shape.volume);
+        let mass = product(&density, &shape.volume.volume);
         let [mass, ..] = self.seen(shape, &[mass.clone(), mass.clone(), mass])?;
         let centre = self.seen(shape, &shape.centre)?;
-        let moments = self.seen(shape, &shape.moments)?;
+        let moments = self.seen(shape, &shape.volume.moments)?;
         let p = literals(&self.own_axes(shape)?)?;
         let a = rotation(p);
         let entry = |k: usize, l: usize| -> f64 {
@@ -310,61 +336,9 @@ impl Reader<'_, '_> {
             mass,
             centre,
             tensor,
+            axes: p,
         })
     }
-}
-
-impl Lump {
-    fn scale(&mut self, factor: f64) {
-        self.mass *= factor;
-        self.tensor = self.tensor.map(|row| row.map(|entry| factor * entry));
-    }
-}
-
-/// The tensor of all about a point, by Steiner's theorem, in global axes.
-fn about(lumps: &[Lump], centre: [f64; 3]) -> [[f64; 3]; 3] {
-    let mut tensor = [[0.0; 3]; 3];
-    for lump in lumps {
-        let s = [0, 1, 2].map(|k| lump.centre[k] - centre[k]);
-        let square: f64 = s.iter().map(|s| s * s).sum();
-        for (k, row) in tensor.iter_mut().enumerate() {
-            for (l, entry) in row.iter_mut().enumerate() {
-                let diagonal = if k == l { square } else { 0.0 };
-                *entry += lump.tensor[k][l] + lump.mass * (diagonal - s[k] * s[l]);
-            }
-        }
-    }
-    tensor
-}
-
-/// A tensor in the axes of the columns of `a`; products of inertia that are round-off are zero.
-fn turned(tensor: [[f64; 3]; 3], a: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-    let entry = |k: usize, l: usize| -> f64 {
-        let pairs = (0..3).flat_map(|m| (0..3).map(move |n| (m, n)));
-        pairs.map(|(m, n)| a[m][k] * tensor[m][n] * a[n][l]).sum()
-    };
-    let mut turned = [0, 1, 2].map(|k| [0, 1, 2].map(|l| entry(k, l)));
-    let largest = (0..3).fold(0.0_f64, |largest, k| largest.max(turned[k][k].abs()));
-    for (k, l) in [(0, 1), (0, 2), (1, 2)] {
-        let both = 0.5 * (turned[k][l] + turned[l][k]);
-        let kept = if both.abs() > ROUND_OFF * largest {
-            both
-        } else {
-            0.0
-        };
-        (turned[k][l], turned[l][k]) = (kept, kept);
-    }
-    turned
-}
-
-fn norm(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn unit(v: [f64; 3]) -> [f64; 3] {
-    let norm = norm(v);
-    v.map(|x| x / norm)
 }
 
 /// An expression that stands at a place of what was written.
