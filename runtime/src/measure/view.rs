@@ -140,8 +140,8 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         }
     }
 
-    /// The sizes (m) of a shape by its place in [`Report::shapes`](crate::Report::shapes). Zeros for
-    /// a shape that is not there.
+    /// The sizes (m) of a shape by its place in
+    /// [`Report::shapes`](crate::Report::shapes). Zeros for a shape that is not there.
     #[must_use]
     pub fn shape(&self, place: usize) -> [S; 3] {
         M::shape(self.constants, place)

@@ -2,7 +2,7 @@
 
 use syn::Expr;
 
-use super::{MOMENTS_MOVE, Reader, place_of};
+use super::reader::{MOMENTS_MOVE, Reader, place_of};
 use crate::check::number::elements;
 use crate::model::Number;
 use crate::model::inertia::{IDENTITY, principal};

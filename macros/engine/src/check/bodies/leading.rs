@@ -3,8 +3,8 @@
 use quote::ToTokens;
 use syn::Expr;
 
-use super::Reader;
 use super::formula::{difference, is_zero, length, negative, number, sum};
+use super::reader::Reader;
 
 impl Reader<'_, '_> {
     /// Euler parameters, of any length, of a rotation that leads an axis of the body to a

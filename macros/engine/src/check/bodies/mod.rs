@@ -9,6 +9,7 @@ mod formula;
 mod inertia;
 mod leading;
 mod lumps;
+mod reader;
 mod rotation;
 mod shape;
 mod solid;
@@ -17,22 +18,14 @@ mod volume;
 use proc_macro2::Span;
 use syn::Expr;
 
+use self::reader::Reader;
 use self::solid::Solid;
-use super::number::{AT_LIKES, Numbers};
+use super::number::Numbers;
 use super::pairs::Pairs;
 use crate::diag::Faults;
 use crate::model::inertia::{IDENTITY, compose};
 use crate::model::{Body, BodyKind, Name, Number};
 use crate::syntax::List;
-
-/// What a link without a mass may have: base parameters tell no more of it.
-const MASS_MOVES: &str = "; a mass at a point on the axis of a hinge may be counted to either of its bodies: take \
-     some from the other one, and no motion changes";
-
-/// The same of moments, which measurements, taken link by link, get wrong by what motions do not
-/// tell.
-const MOMENTS_MOVE: &str = "; if they were measured, raise both moments across the axis of a hinge by one amount and \
-     take it from the other body of the hinge, unless that is the ground: no motion changes";
 
 /// Checks the attribute of a body.
 pub fn check(
@@ -78,12 +71,6 @@ pub fn check(
         free,
         shapes: solid.shapes,
     })
-}
-
-struct Reader<'a, 'b> {
-    name: &'a Name,
-    numbers: &'a mut Numbers<'b>,
-    faults: &'a mut Faults,
 }
 
 impl Reader<'_, '_> {
@@ -161,38 +148,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn at(&mut self, attribute: &str) {
-        self.numbers.field = self.name.clone();
-        self.numbers.attribute = attribute.into();
-    }
-
-    fn mass(&mut self, expr: &Expr) -> Option<Number> {
-        self.at("mass");
-        let mass = self.numbers.scalar(expr, self.faults)?;
-        if let Some(value) = self.numbers.seen(mass).filter(|&value| value <= 0.0) {
-            let place = place_of(&[mass]);
-            let instead = if value == 0.0 { MASS_MOVES } else { "" };
-            self.faults.advised(
-                expr,
-                format!(
-                    "the mass of `{}` must be positive, in kg; this is {value}{place}",
-                    self.name
-                ),
-                instead,
-            );
-            return None;
-        }
-        Some(mass)
-    }
-
     fn vector(&mut self, key: &str, expr: &Expr) -> Option<[Number; 3]> {
         self.at(key);
         self.numbers.vector(expr, self.faults)
     }
-}
-
-/// Where numbers are what the macro sees, if that is not everywhere.
-fn place_of(numbers: &[Number]) -> &'static str {
-    let is_seen_everywhere = numbers.iter().all(|number| number.literal().is_some());
-    if is_seen_everywhere { "" } else { AT_LIKES }
 }

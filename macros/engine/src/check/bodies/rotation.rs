@@ -3,7 +3,7 @@
 use syn::{Expr, ExprCall, parse_quote};
 
 use super::formula::difference;
-use super::{Reader, place_of};
+use super::reader::{Reader, place_of};
 use crate::check::number::elements;
 use crate::diag::{code, did_you_mean, list};
 use crate::model::Number;

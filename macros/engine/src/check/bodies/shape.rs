@@ -3,8 +3,8 @@
 use quote::ToTokens;
 use syn::{Expr, ExprCall};
 
-use super::Reader;
 use super::formula::{difference, length, sum, times};
+use super::reader::Reader;
 use super::volume::{self, Volume};
 use crate::diag::{code, did_you_mean, list};
 use crate::syntax::ungroup;
