@@ -4,6 +4,7 @@
 
 mod merged;
 mod numbers;
+mod printed;
 mod refusals;
 
 use std::fs;
