@@ -28,10 +28,7 @@ pub(crate) fn mechanism(robot: &Robot, options: &Options) -> Mechanism {
         .collect();
     let joints = joints(robot, first, options, &mut names);
     let mut mechanism = Mechanism {
-        name: options
-            .name
-            .clone()
-            .unwrap_or_else(|| type_name(&document.name)),
+        name: type_name(options.name.as_ref().unwrap_or(&document.name)),
         robot: document.name.clone(),
         source: options.source.clone(),
         ground: ground.first().map(link_names).unwrap_or_default(),

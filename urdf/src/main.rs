@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -56,8 +57,11 @@ fn main() -> ExitCode {
     };
     match robot.and_then(|robot| robot.mechanism(&options)) {
         Ok(mechanism) => {
-            print!("{mechanism}");
-            ExitCode::SUCCESS
+            // A reader may close its end before all is there.
+            match write!(io::stdout(), "{mechanism}") {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(_) => ExitCode::FAILURE,
+            }
         }
         Err(faults) => {
             eprintln!("{}", faults.in_file(&file));

@@ -10,7 +10,7 @@ pub struct Options {
     pub floating: bool,
     /// Joints have no motors: no inputs and no efforts but damping.
     pub passive: bool,
-    /// The name of the struct, in place of the robot's.
+    /// The name of the struct, in place of the robot's. What is no name of a type is made one.
     pub name: Option<String>,
     /// The file, to be named in a comment.
     pub source: Option<String>,

@@ -67,14 +67,20 @@ pub(crate) fn snake_case(name: &str) -> String {
     snake
 }
 
-/// The name of a type: `my-arm 2` is `MyArm2`.
+/// The name of a type: `my-arm 2` is `MyArm2`. What may be one stays: `UR5e`.
 pub(crate) fn type_name(name: &str) -> String {
+    let may_be_one = name.starts_with(|c: char| c.is_ascii_uppercase())
+        && name.chars().all(|c| c.is_ascii_alphanumeric())
+        && name.contains(|c: char| c.is_ascii_lowercase());
     let snake = snake_case(name);
     let mut camel = String::new();
-    for word in snake.split('_') {
+    for word in snake.split('_').filter(|_| !may_be_one) {
         let mut letters = word.chars();
         camel.extend(letters.next().map(|first| first.to_ascii_uppercase()));
         camel.push_str(letters.as_str());
+    }
+    if may_be_one {
+        name.clone_into(&mut camel);
     }
     let is_taken = [
         "Body",

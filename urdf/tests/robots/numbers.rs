@@ -82,7 +82,6 @@ fn error(found: &Mechanism, wanted: &Reference) -> f64 {
             joint.axis,
         ));
     }
-    // Pinocchio has the root under the name of the universe in addition.
     assert_eq!(found.frames.len(), wanted.frames.len(), "frames");
     for frame in &wanted.frames {
         let own = found.frames.iter().find(|other| other.link == frame.link);

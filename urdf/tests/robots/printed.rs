@@ -98,4 +98,15 @@ fn odd_names_become_fields() {
         ["type_joint", "rate_joint", "joint_0", "lf_hip_1_joint"]
     );
     syn::parse_file(&mechanism.to_string()).expect("Rust");
+    for (given, wanted) in [
+        ("UR5e", "UR5e"),
+        ("UR5", "Ur5"),
+        ("my arm", "MyArm"),
+        ("body", "RobotBody"),
+    ] {
+        let mut options = Options::default();
+        options.name = Some(given.into());
+        let robot = Robot::parse(ODD).expect("sound");
+        assert_eq!(robot.mechanism(&options).expect("it moves").name, wanted);
+    }
 }
