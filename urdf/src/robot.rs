@@ -163,7 +163,7 @@ fn could_move(document: &Document, group: &Group, faults: &mut Collector) {
     };
     let moments = inertia.moments();
     let [least, middle, largest] = moments;
-    let found = moments.map(|moment| format!("{moment:.3e}")).join(", ");
+    let found = moments.map(brief).join(", ");
     let message = if inertia.mass <= 0.0 {
         format!(
             "{by}{with}, and there is no mass; a positive mass and inertia are accepted, or a \
@@ -183,4 +183,14 @@ fn could_move(document: &Document, group: &Group, faults: &mut Collector) {
         return;
     };
     faults.at(link.line, format!("link \"{}\": {message}", link.name));
+}
+
+/// Four digits of a number.
+fn brief(x: f64) -> String {
+    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }

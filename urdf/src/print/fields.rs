@@ -131,24 +131,11 @@ fn joint(page: &mut Page, mechanism: &Mechanism, joint: &Joint) {
     let title = format!("Joint {}, {}", name(&joint.name), word(joint.kind));
     let Some(kind) = kind(joint.kind) else {
         let text = format!("{title}: no joint is needed, the body is free.");
-        return page.comment(1, "//", &text);
+        page.comment(1, "//", &text);
+        return left_out(page, joint);
     };
     page.comment(1, "///", &format!("{title}{}.", ranges(joint)));
-    if joint.friction > 0.0 {
-        let unit = if joint.kind.is_turn() { "N m" } else { "N" };
-        let text = format!(
-            "Dry friction of {} {unit} is left out: add it in a closure of forces, smoothed near rest.",
-            number(joint.friction)
-        );
-        page.comment(1, "//", &text);
-    }
-    if joint.damping > 0.0 && !joint.kind.is_single() {
-        let text = format!(
-            "Damping of {} is left out: it has no single axis.",
-            number(joint.damping)
-        );
-        page.comment(1, "//", &text);
-    }
+    left_out(page, joint);
     let axis = if joint.kind == JointKind::Planar {
         "normal"
     } else {
@@ -161,6 +148,25 @@ fn joint(page: &mut Page, mechanism: &Mechanism, joint: &Joint) {
     ];
     page.attribute("joint", &pairs);
     page.line(1, &format!("{}: {kind},", joint.field));
+}
+
+/// What acts in the joint by the file, and not here.
+fn left_out(page: &mut Page, joint: &Joint) {
+    let mut say = |what: &str, amount: f64, unit: &str, reason: &str| {
+        if amount > 0.0 {
+            let text = format!("{what} of {}{unit} is left out: {reason}.", number(amount));
+            page.comment(1, "//", &text);
+        }
+    };
+    if joint.kind.is_single() {
+        let unit = if joint.kind.is_turn() { " N m" } else { " N" };
+        let reason = "add it in a closure of forces, smoothed near rest";
+        say("Dry friction", joint.friction, unit, reason);
+    } else {
+        let reason = "the joint has more than one motion";
+        say("Damping", joint.damping, "", reason);
+        say("Dry friction", joint.friction, "", reason);
+    }
 }
 
 /// What the file says of the range, for a comment.

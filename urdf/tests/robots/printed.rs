@@ -110,3 +110,25 @@ fn odd_names_become_fields() {
         assert_eq!(robot.mechanism(&options).expect("it moves").name, wanted);
     }
 }
+
+#[test]
+fn what_is_left_out_is_said() {
+    let text = r#"<robot name="r"><link name="base"/>
+        <link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+        <link name="b"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+        <joint name="one" type="floating"><parent link="base"/><child link="a"/>
+        <dynamics damping="0.5"/></joint>
+        <joint name="two" type="prismatic"><parent link="base"/><child link="b"/>
+        <dynamics friction="0.25"/></joint></robot>"#;
+    let mechanism = Robot::parse(text)
+        .expect("sound")
+        .mechanism(&Options::default());
+    let source = mechanism.expect("it moves").to_string();
+    for said in [
+        "// Damping of 0.5 is left out",
+        "// Dry friction of 0.25 N is left out",
+        "free",
+    ] {
+        assert!(source.contains(said), "{source}");
+    }
+}
