@@ -57,7 +57,7 @@
 //! Every fault is reported at once, with its line and what would be accepted:
 //!
 //! ```text
-//! arm.urdf:12: joint "elbow": type "screw" is no joint of URDF; revolute, continuous, prismatic, fixed, floating, planar are
+//! arm.urdf:12: joint "elbow": child "fore_arm" is no link; did you mean "forearm"?
 //! ```
 //!
 //! - Elements that are not read and not known to change no motion, xacro sources among them.
@@ -69,7 +69,8 @@
 //! # Limits
 //!
 //! Files often give 1.5708 for a right angle. The numbers then have parts of some 1e-6 that should
-//! be zero, and generated code grows with them. [`Robot::parse_rounded`] takes such angles as exact.
+//! be zero, and generated code grows with them. [`Robot::parse_rounded`] takes such angles as
+//! exact.
 //!
 //! A `mimic` with an offset is violated with all joints at zero. Start with `assembled`.
 

@@ -124,7 +124,8 @@ pub struct LinkFrame {
     pub link: String,
     /// The beginning of the names of constants.
     pub constant: String,
-    /// The place in [`Mechanism::bodies`] of the body that the frame moves with; the ground has none.
+    /// The place in [`Mechanism::bodies`] of the body that the frame moves
+    /// with. The ground has none.
     pub body: Option<usize>,
     /// From the centre of mass of the body, body axes (m); on the ground global.
     pub origin: [f64; 3],
