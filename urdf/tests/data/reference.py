@@ -121,23 +121,40 @@ def states(model, damping, mimics, random):
 
 
 def crane(random):
-    """At rest with all joints at zero: bodies that no single joint carries are at their start."""
+    """In motion, but for the cart, the load and its flag: these are at rest.
+
+    Which of load and flag carries the other is not told, so that neither may move.
+    """
     model, damping, mimics = load(HERE / "crane.urdf")
     names, chain = leaders(model, mimics)
+    data = model.createData()
+    pin.forwardKinematics(model, data, pin.neutral(model))
+    free = model.getJointId("hook")
+    target = data.oMi[free].copy()
+    places = list(singles(model).values())
     found = []
-    for _ in range(3):
-        efforts = random.uniform(-5.0, 5.0, len(names))
-        rates = np.zeros(model.nv)
-        rest = pin.neutral(model)
-        all_efforts = np.concatenate([efforts, np.zeros(chain.shape[1] - len(names))])
-        a = chain @ accelerations(model, damping, chain, rest, rates, all_efforts)
-        zeros = [0.0] * len(singles(model))
+    for _ in range(5):
+        rest = np.zeros(chain.shape[1] - len(names))
+        positions = chain @ np.concatenate([random.uniform(-0.8, 0.8, len(names)), rest])
+        rates = chain @ np.concatenate([random.uniform(-1.5, 1.5, len(names)), rest])
+        rates[singles(model)["flag"]] = 0.0
+        efforts = np.concatenate([random.uniform(-5.0, 5.0, len(names)), rest])
+        q = pin.integrate(model, pin.neutral(model), positions)
+        # The joint of the load is between it and the tip, which moves.
+        pin.forwardKinematics(model, data, q)
+        before = data.oMi[model.parents[free]] * model.jointPlacements[free]
+        start = model.joints[free].idx_q
+        q[start : start + 7] = pin.SE3ToXYZQUAT(before.actInv(target))
+        pin.forwardKinematics(model, data, q, rates)
+        start = model.joints[free].idx_v
+        rates[start : start + 6] -= data.v[free].vector
+        a = chain @ accelerations(model, damping, chain, q, rates, efforts)
         found.append(
             {
-                "positions": zeros,
-                "rates": zeros,
-                "efforts": efforts.tolist(),
-                "accelerations": a[list(singles(model).values())].tolist(),
+                "positions": positions[places].tolist(),
+                "rates": rates[places].tolist(),
+                "efforts": efforts[: len(names)].tolist(),
+                "accelerations": a[places].tolist(),
             }
         )
     return {"joints": list(singles(model)), "leaders": names, "states": found}

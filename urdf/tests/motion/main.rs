@@ -196,8 +196,8 @@ fn double_pendulum() {
     );
 }
 
-/// A cart on a plane, hinges and slides that mimic others, and a load that floats: at rest, with
-/// efforts on what mimics none.
+/// A cart on a plane, hinges and slides that mimic others, and a load that floats with a flag. All
+/// but cart, load and flag move, with efforts on what mimics none.
 #[test]
 fn crane() {
     moves_as_given!(
