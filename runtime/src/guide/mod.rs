@@ -5,7 +5,7 @@
 //!
 //! | page | what it has |
 //! |---|---|
-//! | [`recipes`] | short programs by task: read a reaction, drive a hinge, start elsewhere, write CSV |
+//! | [`recipes`] | short programs by task: bring a robot from URDF, read a reaction, drive a hinge, start elsewhere, write CSV |
 //! | [`coming_from`] | names for users of Pinocchio, MuJoCo, Drake, Modelica and Adams; what is missing |
 //! | [`mechanism`] | bodies, joints and the start; how to choose joints so that the degrees of freedom are right |
 //! | [`shapes`] | bodies by shapes and densities, rotations by words: no centre or inertia by hand |

@@ -1,0 +1,93 @@
+//! Robots from URDF files: prints the annotated struct that [holonom](https://docs.rs/holonom)
+//! takes, as source to read and to change.
+//!
+//! ```
+//! use holonom_urdf::{Options, Robot};
+//!
+//! let text = r#"
+//!     <robot name="pendulum">
+//!       <link name="base"/>
+//!       <link name="rod">
+//!         <inertial>
+//!           <origin xyz="0 0.5 0"/> <mass value="2"/>
+//!           <inertia ixx="0.17" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.17"/>
+//!         </inertial>
+//!       </link>
+//!       <joint name="hinge" type="continuous">
+//!         <parent link="base"/> <child link="rod"/> <axis xyz="1 0 0"/>
+//!       </joint>
+//!     </robot>"#;
+//! let mechanism = Robot::parse(text)?.mechanism(&Options::default())?;
+//! assert_eq!(mechanism.bodies[0].position, [0.0, 0.5, 0.0]);
+//!
+//! let source = mechanism.to_string();
+//! assert!(source.contains("pub struct Pendulum {"));
+//! assert!(source.contains("hinge: Revolute,"));
+//! assert!(source.contains("pub hinge_torque: f64,"));
+//! # Ok::<(), holonom_urdf::Faults>(())
+//! ```
+//!
+//! The command does the same with files: `holonom-urdf arm.urdf > arm.rs`. It has the options
+//! `--floating`, `--passive`, `--round-angles` and `--name`.
+//!
+//! # What becomes of the elements
+//!
+//! | in the file | in the struct |
+//! |---|---|
+//! | link that a joint moves | `Body` with the axes of the link's frame; inertia turned by the `rpy` of its inertial frame |
+//! | root link | the ground; with [`Options::floating`] a free body |
+//! | `fixed` joint | its links are one body, by the parallel axis theorem; a comment names them |
+//! | `revolute`, `continuous` | `Revolute` |
+//! | `prismatic`, `planar` | `Prismatic`, `Planar` |
+//! | `floating` | no joint: the body is free |
+//! | `mimic` | a `Gear`, or a joint that is defined beside the struct |
+//! | every joint of one coordinate | an `#[input]`: a torque (N m) or force (N) on the child; none where it mimics, or with [`Options::passive`] |
+//! | `damping` | a term of the motor's law |
+//! | `limit` | constants `POSITION_LIMITS`, `RATE_LIMITS`, `EFFORT_LIMITS`; nothing enforces them |
+//! | `friction` | a comment and the constant `FRICTION`; the equations do not have it |
+//! | frames of links | constants `.._ORIGIN` and `.._AXES`, for `View::point` |
+//! | `visual` | a comment |
+//! | `collision`, `transmission`, `gazebo`, `safety_controller` and the like | nothing |
+//!
+//! All joints are at zero in the reference configuration. The frame of the root link gives the
+//! global axes. The order of bodies is that of a walk from the root, depth first.
+//!
+//! # What is refused
+//!
+//! Every fault is reported at once, with its line and what would be accepted:
+//!
+//! ```text
+//! arm.urdf:12: joint "elbow": child "fore_arm" is no link; did you mean "forearm"?
+//! ```
+//!
+//! - Elements that are not read and not known to change no motion, xacro sources among them.
+//! - Links that form no tree: two roots, circles, a link with two parents.
+//! - A link that moves without mass, or with an inertia that no body has. Links that are fixed to
+//!   it count with it.
+//! - A `mimic` that leads nowhere.
+//!
+//! # Limits
+//!
+//! Files often give 1.5708 for a right angle. The numbers then have parts of some 1e-6 that should
+//! be zero, and generated code grows with them. [`Robot::parse_rounded`] takes such angles as
+//! exact.
+//!
+//! A `mimic` with an offset is violated with all joints at zero. Start with `assembled`.
+
+#![forbid(unsafe_code)]
+
+mod describe;
+mod document;
+mod elements;
+mod faults;
+mod mechanism;
+mod names;
+mod print;
+mod robot;
+mod spatial;
+mod tree;
+
+pub use document::{JointKind, Limits};
+pub use faults::{Fault, Faults};
+pub use mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options};
+pub use robot::Robot;

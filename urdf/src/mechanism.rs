@@ -1,0 +1,138 @@
+//! The mechanism that a robot is: bodies and joints in global axes, with names for Rust.
+
+use crate::document::{JointKind, Limits};
+
+/// How a robot becomes a mechanism.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Options {
+    /// The root link is a free body. Otherwise it is the ground.
+    pub floating: bool,
+    /// Joints have no motors: no inputs and no efforts but damping.
+    pub passive: bool,
+    /// The name of the struct, in place of the robot's. What is no name of a type is made one.
+    pub name: Option<String>,
+    /// The file, to be named in a comment.
+    pub source: Option<String>,
+}
+
+/// A robot as bodies and joints. It prints itself as an annotated struct.
+///
+/// The reference configuration has all joints at zero and the frame of the root link as global
+/// axes. Units are SI, angles are in radians.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Mechanism {
+    /// The name of the struct.
+    pub name: String,
+    /// The robot's name in the file.
+    pub robot: String,
+    /// The file, where [`Options::source`] named it.
+    pub source: Option<String>,
+    /// The links that are the ground: the root and what is fixed to it. None if the root floats.
+    pub ground: Vec<String>,
+    /// The mass of the ground (kg), which has no effect.
+    pub ground_mass: f64,
+    /// The bodies from the root outwards.
+    pub bodies: Vec<Body>,
+    /// The joints that move, from the root outwards.
+    pub joints: Vec<Joint>,
+    /// The frames of all links, in the order of the file.
+    pub frames: Vec<LinkFrame>,
+}
+
+/// A body: links that joints of the type `fixed` hold together.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Body {
+    /// The name of the field.
+    pub field: String,
+    /// Names in the file: the link that the body's joint carries, then those that are fixed to it.
+    pub links: Vec<String>,
+    /// In kg.
+    pub mass: f64,
+    /// The centre of mass (m), global axes.
+    pub position: [f64; 3],
+    /// From body axes, which are those of the first link, to global axes: Euler parameters, scalar
+    /// first.
+    pub orientation: [f64; 4],
+    /// About the centre of mass, body axes (kg m^2).
+    pub inertia: [[f64; 3]; 3],
+    /// Shapes and files of meshes that the file gives for its links.
+    pub visuals: Vec<String>,
+    /// No joint of the mechanism names the body.
+    pub is_free: bool,
+}
+
+/// A joint that moves.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Joint {
+    /// The name of the field.
+    pub field: String,
+    /// The name in the file.
+    pub name: String,
+    /// Its type in the file; never [`JointKind::Fixed`].
+    pub kind: JointKind,
+    /// Places in [`Mechanism::bodies`] of parent and child; the ground has none.
+    pub between: [Option<usize>; 2],
+    /// The origin of the joint's frame (m), global axes.
+    pub point: [f64; 3],
+    /// The axis, of a plane its normal: global axes, of the length that the file gives.
+    pub axis: [f64; 3],
+    /// What nothing in the mechanism enforces.
+    pub limits: Limits,
+    /// In N m s/rad, of a slide N s/m.
+    pub damping: f64,
+    /// Dry friction (N m, of a slide N), which the mechanism does not have.
+    pub friction: f64,
+    /// The joint whose position this one follows.
+    pub mimic: Option<Mimic>,
+    /// The motor; a joint that mimics has none.
+    pub motor: Option<Motor>,
+}
+
+/// The position of a joint is `multiplier` times that of another one, plus `offset`.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Mimic {
+    /// The name of the field.
+    pub field: String,
+    /// The place in [`Mechanism::joints`] of the other joint.
+    pub leader: usize,
+    /// In units of this joint's position by that of the other one.
+    pub multiplier: f64,
+    /// In rad, of a slide m.
+    pub offset: f64,
+}
+
+/// What acts along the coordinate of a joint: an input, and damping.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Motor {
+    /// The name of the field.
+    pub field: String,
+    /// The name of the input: an effort (N m, of a slide N) on the child. None without one.
+    pub input: Option<String>,
+}
+
+/// The frame of a link at the zero configuration.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct LinkFrame {
+    /// The name in the file.
+    pub link: String,
+    /// The beginning of the names of constants.
+    pub constant: String,
+    /// The place in [`Mechanism::bodies`] of the body that the frame moves
+    /// with. The ground has none.
+    pub body: Option<usize>,
+    /// From the centre of mass of the body, body axes (m); on the ground global.
+    pub origin: [f64; 3],
+    /// From axes of the frame to body axes: Euler parameters, scalar first.
+    pub orientation: [f64; 4],
+    /// The origin in global axes (m).
+    pub global_origin: [f64; 3],
+    /// From axes of the frame to global axes: Euler parameters, scalar first.
+    pub global_orientation: [f64; 4],
+}
