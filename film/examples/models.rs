@@ -12,7 +12,7 @@ use holonom::Runs;
 use holonom::joints::{AngleDriver, Revolute, Spherical};
 use holonom::mechanism::Absolute;
 use holonom::prelude::*;
-use holonom_film::Film;
+use holonom_film::{Film, Sketch};
 use holonom_models::{
     CartPole, Door, FlyballGovernor, FourBar, HeavyTop, RodPendulum, SliderCrank,
     SqueezingMechanism, Ur5,
@@ -168,6 +168,7 @@ where
     let path = folder.join(file).with_extension("html");
     film.save(&path)?;
     film.save_svg(path.with_extension("svg"))?;
+    fs::write(path.with_extension("sketch.svg"), model.sketch()?)?;
     println!("{}: {} frames", path.display(), film.frames());
     Ok(())
 }

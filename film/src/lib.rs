@@ -53,5 +53,8 @@
 mod page;
 mod picture;
 mod record;
+mod reference;
+mod sketch;
 
 pub use record::{Film, FilmError};
+pub use reference::Sketch;

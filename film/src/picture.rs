@@ -109,8 +109,29 @@ impl Subject<'_> {
         named.filter(|(_, element)| element.of == "joint")
     }
 
+    /// All points that are drawn, in a frame: those of joints and forces, traces, centres of mass.
+    pub(crate) fn all_places(&self, frame: usize) -> Vec<Vector3<f64>> {
+        let points = self.markers.iter().filter(|marker| marker.kind == "point");
+        let points = points.map(|marker| (marker.body, marker.at));
+        let traced = self.traces.iter();
+        let traced = traced.map(|trace| (Some(trace.body), trace.at));
+        let centres = (0..self.bodies).map(|body| (Some(body), [0.0; 3]));
+        let all = points.chain(traced).chain(centres);
+        all.map(|(body, at)| self.place(frame, body, at)).collect()
+    }
+
+    /// Whether all axes of joints are along an axis.
+    pub(crate) fn is_plane(&self, axis: usize) -> bool {
+        let axes = self.markers.iter().filter(|marker| marker.kind == "axis");
+        let mut axes = axes.map(|marker| {
+            let from = self.place(0, marker.body, [0.0; 3]);
+            self.place(0, marker.body, marker.at) - from
+        });
+        axes.all(|direction| direction[axis].abs() > 1.0 - SAME)
+    }
+
     /// A point of a body (global) in a frame.
-    fn place(&self, frame: usize, body: Option<usize>, at: [f64; 3]) -> Vector3<f64> {
+    pub(crate) fn place(&self, frame: usize, body: Option<usize>, at: [f64; 3]) -> Vector3<f64> {
         let at = Vector3::from(at);
         let Some(body) = body else { return at };
         let first = (frame * self.bodies + body) * 7;
@@ -120,7 +141,7 @@ impl Subject<'_> {
     }
 
     /// The shortest lines that join the points of a body and its centre of mass (Prim).
-    fn bars(&self, body: usize) -> Vec<[Vector3<f64>; 2]> {
+    pub(crate) fn bars(&self, body: usize) -> Vec<[Vector3<f64>; 2]> {
         let mut places: Vec<Vector3<f64>> = Vec::new();
         let named = self.markers.iter();
         let named = named.filter(|marker| marker.body == Some(body) && marker.kind == "point");
@@ -149,7 +170,7 @@ impl Subject<'_> {
     }
 }
 
-fn colour(body: usize) -> &'static str {
+pub(crate) fn colour(body: usize) -> &'static str {
     COLOURS[body % COLOURS.len()]
 }
 
@@ -164,21 +185,7 @@ struct Sheet {
 
 impl Sheet {
     fn new(subject: &Subject<'_>, frames: &[usize]) -> Self {
-        let points = subject
-            .markers
-            .iter()
-            .filter(|marker| marker.kind == "point");
-        let points = points.map(|marker| (marker.body, marker.at));
-        let traced = subject
-            .traces
-            .iter()
-            .map(|trace| (Some(trace.body), trace.at));
-        let centres = (0..subject.bodies).map(|body| (Some(body), [0.0; 3]));
-        let all: Vec<_> = points.chain(traced).chain(centres).collect();
-        let places = frames.iter().flat_map(|&frame| {
-            let all = all.iter();
-            all.map(move |&(body, at)| subject.place(frame, body, at))
-        });
+        let places = frames.iter().flat_map(|&frame| subject.all_places(frame));
         let places: Vec<_> = places.collect();
         let turn = direction(&places, subject.gravity.into());
         let turned: Vec<_> = places.iter().map(|place| turn * place).collect();

@@ -6,10 +6,11 @@ use std::{error, fmt, fs, io};
 
 use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind, ShapeKind};
 use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, Warnings};
+use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, View, Warnings};
 
 use crate::page::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Shape, Trace};
 use crate::picture::Subject;
+use crate::sketch::sketch;
 
 /// The page with empty places for the title's data.
 const PAGE: &str = include_str!("page.html");
@@ -99,14 +100,7 @@ impl<M: Mechanism> Film<M> {
         if self.times.is_empty() {
             self.begin(sample);
         }
-        self.times.push(sample.time().to_f64());
-        for body in 0..M::REPORT.bodies.len() {
-            let (position, orientation) = placement(sample, body);
-            let [x, y, z] = position.into();
-            let [i, j, k, w] = orientation.coords.into();
-            let pose = [x, y, z, w, i, j, k].map(|number| number as f32);
-            self.poses.extend(pose);
-        }
+        self.frame(sample);
         for arrow in &self.arrows {
             let joint = JointHandle::<M, ()>::new(arrow.joint);
             let wrench = sample.reaction_on_place(joint, arrow.place);
@@ -116,6 +110,41 @@ impl<M: Mechanism> Film<M> {
                 [x, y, z, fx, fy, fz].map(|number: f64| number as f32)
             });
             self.loads.extend(load);
+        }
+    }
+
+    /// Time and poses.
+    fn frame<S: Real>(&mut self, view: &View<'_, S, M>) {
+        self.times.push(view.time().to_f64());
+        for body in 0..M::REPORT.bodies.len() {
+            let (position, orientation) = placement(view, body);
+            let [x, y, z] = position.into();
+            let [i, j, k, w] = orientation.coords.into();
+            let pose = [x, y, z, w, i, j, k].map(|number| number as f32);
+            self.poses.extend(pose);
+        }
+    }
+
+    /// A drawing of one configuration.
+    pub(crate) fn sketch_of(view: &View<'_, f64, M>) -> String {
+        let mut film = Self::new();
+        film.begin(view);
+        film.frame(view);
+        let names: Vec<&str> = M::REPORT.bodies.iter().map(|body| body.name).collect();
+        sketch(&film.subject(&elements::<M>()), &names)
+    }
+
+    /// What pictures are drawn of.
+    fn subject<'a>(&'a self, elements: &'a [Element]) -> Subject<'a> {
+        Subject {
+            title: &self.title,
+            elements,
+            markers: &self.markers,
+            traces: &self.traces,
+            gravity: self.gravity,
+            bodies: M::REPORT.bodies.len(),
+            times: &self.times,
+            poses: &self.poses,
         }
     }
 
@@ -209,17 +238,7 @@ impl<M: Mechanism> Film<M> {
     /// As [`Film::html`].
     pub fn svg(&self) -> Result<String, FilmError> {
         self.check()?;
-        let subject = Subject {
-            title: &self.title,
-            elements: &elements::<M>(),
-            markers: &self.markers,
-            traces: &self.traces,
-            gravity: self.gravity,
-            bodies: M::REPORT.bodies.len(),
-            times: &self.times,
-            poses: &self.poses,
-        };
-        Ok(subject.svg())
+        Ok(self.subject(&elements::<M>()).svg())
     }
 
     /// Writes the moving picture to a file.
@@ -253,7 +272,7 @@ impl<M: Mechanism> Film<M> {
     }
 
     /// What does not change: markers on their bodies, gravity, the places of arrows.
-    fn begin<S: Real>(&mut self, sample: &Sample<'_, S, M>) {
+    fn begin<S: Real>(&mut self, sample: &View<'_, S, M>) {
         self.gravity = sample.gravity().map(Real::to_f64).into();
         self.markers = M::REPORT
             .markers
@@ -320,7 +339,7 @@ impl<M: Mechanism> Film<M> {
 
 /// Position and orientation of a body in double precision.
 fn placement<S: Real, M: Mechanism>(
-    sample: &Sample<'_, S, M>,
+    sample: &View<'_, S, M>,
     body: usize,
 ) -> (Vector3<f64>, Quaternion<f64>) {
     let pose = sample.pose(BodyHandle::<M>::new(body));

@@ -6,7 +6,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::prelude::*;
-use holonom_film::{Film, FilmError};
+use holonom_film::{Film, FilmError, Sketch};
 use holonom_models::{FourBar, RodPendulum, SqueezingMechanism};
 use serde_json::Value;
 
@@ -261,6 +261,56 @@ fn a_picture_is_an_animated_drawing() -> Result<(), Box<dyn Error>> {
 }
 
 /// What a page weighs beside its data.
+/// Distances on the paper are those of the mechanism, on one scale, and joints have their numbers.
+#[test]
+fn a_sketch_is_to_scale() -> Result<(), Box<dyn Error>> {
+    let sketch = Slanted::default().sketch()?;
+    let document = roxmltree::Document::parse(&sketch)?;
+    let number = |wanted: &str| {
+        let mut texts = document.descendants();
+        let text = texts
+            .find(|node| node.attribute("class") == Some("number") && node.text() == Some(wanted));
+        let text = text.expect(wanted);
+        let [x, y] = ["x", "y"].map(|key| text.attribute(key).expect(key).parse::<f64>());
+        Ok::<_, std::num::ParseFloatError>([x?, y?])
+    };
+    let [[x1, y1], [x2, y2], [x3, y3]] = [number("1")?, number("2")?, number("3")?];
+    let scale = (x2 - x1) / 0.3;
+    assert!((y1 - y2 - 0.4 * scale).abs() < 0.2, "{y1} {y2} {scale}");
+    assert!((x3 - x2 - 0.8 * scale).abs() < 0.2, "{x3} {x2} {scale}");
+    assert!((y3 - y2).abs() < 0.2);
+    // One view of what is plane, and a row of the table for each joint.
+    let texts: Vec<&str> = document
+        .descendants()
+        .filter_map(|node| node.text())
+        .collect();
+    assert!(texts.contains(&"x right, z up"), "{texts:?}");
+    assert!(
+        ["foot", "knee", "wheel"]
+            .iter()
+            .all(|name| texts.contains(name))
+    );
+    Ok(())
+}
+
+/// Two bars in the plane of x and z, and a ball that ends them.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81])]
+struct Slanted {
+    #[body(shape = rod(radius = 0.01, from = [0.1, 0.2, 0.0], to = [0.4, 0.2, 0.4]), mass = 1.0)]
+    first: Body,
+    #[body(shape = rod(radius = 0.01, from = [0.4, 0.2, 0.4], to = [1.2, 0.2, 0.4]), mass = 1.0)]
+    second: Body,
+    #[body(shape = ball(radius = 0.01, at = [1.2, 0.2, 0.4]), mass = 1.0)]
+    third: Body,
+    #[joint(between = [ground, first], point = [0.1, 0.2, 0.0], axis = [0.0, 1.0, 0.0])]
+    foot: Revolute,
+    #[joint(between = [first, second], point = [0.4, 0.2, 0.4], axis = [0.0, 1.0, 0.0])]
+    knee: Revolute,
+    #[joint(between = [second, third], point = [1.2, 0.2, 0.4], axis = [0.0, 1.0, 0.0])]
+    wheel: Revolute,
+}
+
 #[test]
 fn the_page_is_below_700_kilobytes_and_asks_no_network() {
     let page = include_str!("../src/page.html");

@@ -1,0 +1,308 @@
+//! A drawing of the reference configuration: views along the axes and from a corner, joints by
+//! number, and a table of them.
+
+use std::fmt::Write as _;
+
+use holonom::nalgebra::{Rotation3, Vector3};
+
+use crate::page::{Element, Marker};
+use crate::picture::{Subject, colour};
+
+/// Width of the drawing, of which a view takes a half, or all.
+const WIDTH: f64 = 720.0;
+/// Width of a view that stands alone.
+const ALONE: f64 = 480.0;
+/// What stays free around a view.
+const MARGIN: f64 = 34.0;
+/// A line of the table.
+const LINE: f64 = 19.0;
+/// The largest height of a view over its width.
+const TALLEST: f64 = 0.75;
+
+/// A view: its title, and a rotation that turns what looks at it to z and what is up to y.
+struct View {
+    title: String,
+    turn: Rotation3<f64>,
+}
+
+/// The drawing.
+pub(crate) fn sketch(subject: &Subject<'_>, names: &[&str]) -> String {
+    let places = subject.all_places(0);
+    let (low, high) = places.iter().fold(
+        (
+            Vector3::repeat(f64::INFINITY),
+            Vector3::repeat(f64::NEG_INFINITY),
+        ),
+        |(low, high), place| (low.inf(place), high.sup(place)),
+    );
+    let extent = high - low;
+    let size = extent.max().max(f64::MIN_POSITIVE);
+    let flat = (0..3)
+        .rev()
+        .find(|&k| extent[k] <= 1e-3 * size && subject.is_plane(k));
+    let views = views(flat, subject.gravity.into());
+    let wide = if views.len() == 1 { ALONE } else { WIDTH / 2.0 };
+    let mut text = String::new();
+    let mut top = 0.0;
+    for row in views.chunks(2) {
+        let scale = row
+            .iter()
+            .map(|view| scale(view, &places, wide))
+            .fold(f64::INFINITY, f64::min);
+        let mut height: f64 = 0.0;
+        for (place, view) in row.iter().enumerate() {
+            let left = wide * place as f64;
+            height = height.max(panel(
+                &mut text,
+                subject,
+                view,
+                &places,
+                [left, top, wide, scale],
+            ));
+        }
+        top += height;
+    }
+    top = table(&mut text, subject, names, top + 8.0);
+    let title = escaped(subject.title);
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {top:.0}\" width=\"100%\" \
+         style=\"max-width:{WIDTH}px\" role=\"img\"><title>{title} in its reference configuration</title><style>\
+         .holonom-sketch text{{font:12px sans-serif;fill:currentColor}}.holonom-sketch .view{{font-size:11px;opacity:.7}}\
+         .holonom-sketch .head{{font-weight:600}}.holonom-sketch .axis{{stroke:currentColor;stroke-width:1.2;stroke-dasharray:5 3}}\
+         .holonom-sketch .pin{{fill:#fff;stroke:#39414f;stroke-width:1.6}}.holonom-sketch .number{{font-size:10px;fill:#222;text-anchor:middle}}\
+         .holonom-sketch .foot{{fill:#8a93a3}}.holonom-sketch .force{{stroke:#8a93a3;stroke-width:2.5;stroke-dasharray:2 3}}\
+         .holonom-sketch .centre{{fill:none;stroke:currentColor;stroke-width:1.2}}</style>\
+         <g class=\"holonom-sketch\">{text}</g></svg>\n"
+    )
+}
+
+/// Along the normal of a plane mechanism; of others along all axes and from a corner.
+fn views(flat: Option<usize>, gravity: Vector3<f64>) -> Vec<View> {
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let up = gravity.try_normalize(0.0).map(|down| -down);
+    let up = up.unwrap_or(if flat == Some(2) { axes[1] } else { axes[2] });
+    let vertical = (0..3).max_by(|&k, &l| up[k].abs().total_cmp(&up[l].abs()));
+    let vertical = vertical.unwrap_or(2);
+    let up = axes[vertical] * up[vertical].signum();
+    let name = |direction: &Vector3<f64>| {
+        let k = (0..3).max_by(|&k, &l| direction[k].abs().total_cmp(&direction[l].abs()));
+        let k = k.unwrap_or(0);
+        let sign = if direction[k] < 0.0 { "−" } else { "" };
+        format!("{sign}{}", ["x", "y", "z"][k])
+    };
+    let view = |towards: Vector3<f64>, up: Vector3<f64>| View {
+        title: format!("{} right, {} up", name(&up.cross(&towards)), name(&up)),
+        turn: Rotation3::face_towards(&towards, &up).inverse(),
+    };
+    if let Some(normal) = flat.filter(|&k| k != vertical) {
+        // Right-handed, with what is horizontal to the right.
+        let along = axes[3 - normal - vertical];
+        return vec![view(along.cross(&up), up)];
+    }
+    let [a, b] = [axes[(vertical + 1) % 3], axes[(vertical + 2) % 3]];
+    if flat == Some(vertical) {
+        return vec![view(up, b)];
+    }
+    let corner = 0.5 * up + 0.6 * a - b;
+    vec![
+        view(-b, up),
+        view(a, up),
+        view(up, b),
+        View {
+            title: "from a corner".into(),
+            turn: Rotation3::face_towards(&corner, &up).inverse(),
+        },
+    ]
+}
+
+fn bounds(view: &View, places: &[Vector3<f64>]) -> [f64; 4] {
+    let turned = places.iter().map(|place| view.turn * place);
+    turned.fold(
+        [
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+        ],
+        |[left, right, low, high], at| {
+            [
+                left.min(at.x),
+                right.max(at.x),
+                low.min(at.y),
+                high.max(at.y),
+            ]
+        },
+    )
+}
+
+fn scale(view: &View, places: &[Vector3<f64>], wide: f64) -> f64 {
+    let [left, right, low, high] = bounds(view, places);
+    let room = wide - 2.0 * MARGIN;
+    let across = room / (right - left).max(f64::MIN_POSITIVE);
+    let upright = room * TALLEST / (high - low).max(f64::MIN_POSITIVE);
+    across.min(upright).min(1e12)
+}
+
+/// Draws a view; returns its height.
+fn panel(
+    text: &mut String,
+    subject: &Subject<'_>,
+    view: &View,
+    places: &[Vector3<f64>],
+    [left, top, wide, scale]: [f64; 4],
+) -> f64 {
+    let [least, most, low, high] = bounds(view, places);
+    let height = scale * (high - low) + 2.0 * MARGIN;
+    let start = left + (wide - scale * (most - least)) / 2.0;
+    let at = |place: Vector3<f64>| {
+        let turned = view.turn * place;
+        [
+            start + scale * (turned.x - least),
+            top + MARGIN + scale * (high - turned.y),
+        ]
+    };
+    let (x, y) = (left + 8.0, top + 14.0);
+    let _ = write!(
+        text,
+        "<text class=\"view\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>",
+        view.title
+    );
+    for marker in points(subject).filter(|marker| marker.body.is_none()) {
+        let [x, y] = at(subject.place(0, None, marker.at));
+        let (a, b, c) = (x - 10.0, x + 10.0, y + 15.0);
+        let _ = write!(
+            text,
+            "<path class=\"foot\" d=\"M{x:.1},{y:.1}L{a:.1},{c:.1}H{b:.1}Z\"/>"
+        );
+    }
+    for body in 0..subject.bodies {
+        for [from, to] in subject.bars(body) {
+            let [x1, y1] = at(subject.place(0, Some(body), from.into()));
+            let [x2, y2] = at(subject.place(0, Some(body), to.into()));
+            let colour = colour(body);
+            let _ = write!(
+                text,
+                "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{colour}\" stroke-width=\"7\" stroke-linecap=\"round\"/>"
+            );
+        }
+        let [x, y] = at(subject.place(0, Some(body), [0.0; 3]));
+        let (a, b, c, d) = (x - 4.0, x + 4.0, y - 4.0, y + 4.0);
+        let _ = write!(
+            text,
+            "<path class=\"centre\" d=\"M{a:.1},{y:.1}H{b:.1}M{x:.1},{c:.1}V{d:.1}\"/>"
+        );
+    }
+    for force in (0..subject.elements.len()).filter(|&k| subject.elements[k].of == "force") {
+        let mut ends = subject.markers.iter();
+        let mut ends = ends
+            .by_ref()
+            .filter(|marker| marker.element == force && marker.kind == "point");
+        if let (Some(from), Some(to)) = (ends.next(), ends.next_back()) {
+            let [x1, y1] = at(subject.place(0, from.body, from.at));
+            let [x2, y2] = at(subject.place(0, to.body, to.at));
+            let _ = write!(
+                text,
+                "<line class=\"force\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
+            );
+        }
+    }
+    let joints: Vec<&Element> = subject
+        .elements
+        .iter()
+        .filter(|e| e.of == "joint")
+        .collect();
+    let mut labels: Vec<([f64; 2], Vec<usize>)> = Vec::new();
+    for joint in 0..joints.len() {
+        let own = |kind: &str| {
+            let mut markers = subject.markers.iter();
+            let found = markers.find(|marker| marker.element == joint && marker.kind == kind);
+            found.map(|marker| (marker.body, marker.at))
+        };
+        let Some((body, point)) = own("point") else {
+            continue;
+        };
+        let point = subject.place(0, body, point);
+        if let Some((body, axis)) = own("axis") {
+            let axis = subject.place(0, body, axis) - subject.place(0, body, [0.0; 3]);
+            let along = axis * (22.0 / scale);
+            let ([x1, y1], [x2, y2]) = (at(point - along), at(point + along));
+            let _ = write!(
+                text,
+                "<line class=\"axis\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
+            );
+        }
+        let place = at(point);
+        let near = |known: &[f64; 2]| (known[0] - place[0]).hypot(known[1] - place[1]) < 9.0;
+        match labels.iter_mut().find(|(known, _)| near(known)) {
+            Some((_, several)) => several.push(joint + 1),
+            None => labels.push((place, vec![joint + 1])),
+        }
+    }
+    for ([x, y], several) in labels {
+        let number: Vec<String> = several.iter().map(ToString::to_string).collect();
+        let number = number.join(", ");
+        let half = 4.0 + 2.9 * number.chars().count() as f64;
+        let (left, over, wide, base) = (x - half, y - 7.5, 2.0 * half, y + 3.5);
+        let _ = write!(
+            text,
+            "<rect class=\"pin\" x=\"{left:.1}\" y=\"{over:.1}\" width=\"{wide:.1}\" height=\"15\" rx=\"7.5\"/>\
+             <text class=\"number\" x=\"{x:.1}\" y=\"{base:.1}\">{number}</text>"
+        );
+    }
+    height
+}
+
+fn points<'a>(subject: &'a Subject<'_>) -> impl Iterator<Item = &'a Marker> {
+    let of_joints = |marker: &&Marker| subject.elements[marker.element].of == "joint";
+    let markers = subject.markers.iter().filter(of_joints);
+    markers.filter(|marker| marker.kind == "point")
+}
+
+/// Bodies by colour, joints and forces by number; returns where it ends.
+fn table(text: &mut String, subject: &Subject<'_>, names: &[&str], top: f64) -> f64 {
+    let mut y = top;
+    let mut x = 12.0;
+    for (body, name) in names.iter().enumerate() {
+        let wide = 34.0 + 7.2 * name.chars().count() as f64;
+        if x + wide > WIDTH {
+            (x, y) = (12.0, y + LINE);
+        }
+        let (over, after, base, colour) = (y + 2.0, x + 18.0, y + 12.0, colour(body));
+        let _ = write!(
+            text,
+            "<rect x=\"{x:.1}\" y=\"{over:.1}\" width=\"12\" height=\"12\" rx=\"3\" fill=\"{colour}\"/>\
+             <text x=\"{after:.1}\" y=\"{base:.1}\">{}</text>",
+            escaped(name)
+        );
+        x += wide;
+    }
+    y += 1.6 * LINE;
+    let name = |body: &Option<usize>| body.map_or("ground", |body| names[body]);
+    for (number, element) in subject.elements.iter().enumerate() {
+        let number = match element.of {
+            "joint" => (number + 1).to_string(),
+            _ => "force".into(),
+        };
+        let bodies: Vec<&str> = element.bodies.iter().map(name).collect();
+        let base = y + 12.0;
+        let cells = [
+            (12.0, number),
+            (64.0, element.name.into()),
+            (250.0, element.kind.into()),
+            (430.0, bodies.join(", ")),
+        ];
+        for (x, cell) in cells {
+            let _ = write!(
+                text,
+                "<text x=\"{x}\" y=\"{base:.1}\">{}</text>",
+                escaped(&cell)
+            );
+        }
+        y += LINE;
+    }
+    y + 8.0
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}
