@@ -73,7 +73,6 @@ pub mod joints;
 /// Describes a mechanism: every field is a body, a joint, a force, a parameter or an input.
 ///
 /// ```
-/// use holonom::joints::{Revolute, Spherical};
 /// use holonom::prelude::*;
 ///
 /// const LENGTH: f64 = 0.8;
@@ -202,16 +201,19 @@ pub use run::simulation::{Runs, Simulation};
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 
-/// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in
-/// `holonom::joints`, by name.
+/// What a program with a mechanism needs: `use holonom::prelude::*;`. All joints and forces of the
+/// library are among it. One of your own with the name of one of them is imported by name from the
+/// module that defines it.
 pub mod prelude {
     pub use core::ops::ControlFlow;
 
+    pub use crate::forces::*;
+    pub use crate::joints::*;
     pub use crate::{
-        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, KinematicAnalysis,
-        Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty, Projection, Rk4,
-        RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange, StateParts,
-        Stepper, Tolerance, every, every_step,
+        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
+        KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
+        Projection, Rk4, RunReport, RunResult, Sample, Simulation, SimulationError,
+        StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }
 

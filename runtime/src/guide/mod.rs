@@ -39,7 +39,6 @@
 //! and into `pendulum/src/main.rs`
 //!
 //! ```
-//! use holonom::joints::Revolute;
 //! use holonom::prelude::*;
 //!
 //! /// A rod of 1 m on a hinge about x, released from the horizontal.

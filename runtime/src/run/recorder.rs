@@ -36,7 +36,6 @@ use crate::run::sample::Sample;
 /// meets and no other. Numbers are written with the fewest digits that read back to the same `f64`.
 ///
 /// ```
-/// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
 /// use holonom::{Recorder, run::RecordError};
 ///

@@ -183,7 +183,6 @@ where
     /// tolerance. With half the step of a method of order 1 the estimate is half of the error.
     ///
     /// ```
-    /// # use holonom::joints::Revolute;
     /// # use holonom::prelude::*;
     /// # #[derive(Mechanism)]
     /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
