@@ -183,7 +183,7 @@ pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
 pub use measure::load::Loads;
 pub use measure::reaction::Wrench;
-pub use measure::view::View;
+pub use measure::view::{OwnedView, View};
 pub use mechanism::body::{Body, Particle};
 pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};
 pub use mechanism::joint_kernels::JointCoordinates;
