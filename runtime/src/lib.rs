@@ -102,14 +102,15 @@ pub mod joints;
 /// let formulation = StandardLagrange;
 /// let report = Simulation::new(&swing, formulation, DormandPrince::new(Tolerance::default()))
 ///     .projection(Projection::default())
-///     .run(0.0..=1.0, every(0.1), |sample| {
-///         let on_bob = sample.reaction(handles.ball, handles.bob).expect("no singular position");
+///     .run(0.0..=1.0, every(0.1), |sample| -> Result<(), Fault> {
+///         let on_bob = sample.reaction(handles.ball, handles.bob)?;
 ///         let (time, angle) = (sample.time(), sample.angle(handles.hinge));
 ///         println!("{time:.3} s: hinge {angle:.3} rad, ball {:.3} N", on_bob.force.norm());
+///         Ok(())
 ///     })?;
 /// assert!(report.worst_violation < 1e-24);
 /// assert_eq!(Swing::REPORT.degrees_of_freedom, 4);
-/// # Ok::<(), SimulationError<<Swing as Mechanism>::State<f64>>>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Attributes
@@ -171,7 +172,7 @@ pub mod joints;
 pub use holonom_macros::Mechanism;
 
 pub use constraints::projection::Projection;
-pub use error::{Fault, ParameterError, SimulationError};
+pub use error::{Fault, ParameterError, RunError, SimulationError};
 pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, StandardLagrange};
 pub use forward::Forward;
 pub use integrate::{

@@ -37,7 +37,7 @@ use crate::run::sample::Sample;
 ///
 /// ```
 /// use holonom::prelude::*;
-/// use holonom::{Recorder, run::RecordError};
+/// use holonom::Recorder;
 ///
 /// #[derive(Mechanism)]
 /// #[mechanism(gravity = [0.0, 0.0, -9.81])]
@@ -49,18 +49,12 @@ use crate::run::sample::Sample;
 /// }
 ///
 /// let mut recorder = Recorder::new(Vec::new()).with_reactions();
-/// let mut outcome = Ok(());
 /// Simulation::new(&Pendulum::default(), StandardLagrange, Rk4::every(0.01))
-///     .run(0.0..=1.0, every(0.1), |sample| {
-///         outcome = recorder.record(sample);
-///         if outcome.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-///     })
-///     .expect("a pendulum can be solved");
-/// outcome?;
+///     .run(0.0..=1.0, every(0.1), |sample| recorder.record(sample))?;
 /// let text = String::from_utf8(recorder.into_inner()).expect("text");
 /// assert!(text.starts_with("time [s],rod.position.x [m],"));
 /// assert_eq!(text.lines().count(), 1 + 11);
-/// # Ok::<(), RecordError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct Recorder<W> {

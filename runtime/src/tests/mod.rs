@@ -8,6 +8,7 @@ mod crank;
 mod dense;
 mod driven;
 mod messages;
+mod observer;
 #[cfg(feature = "recorder")]
 mod recorder;
 mod rod;
