@@ -3,6 +3,7 @@
 //! Readings take the state of the bodies, in either coordinates. A state stores orientations and
 //! rates in principal axes; access by handle converts to the axes of the user.
 
+mod acceleration;
 pub(crate) mod access;
 pub(crate) mod load;
 pub(crate) mod reaction;

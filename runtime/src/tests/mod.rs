@@ -1,6 +1,7 @@
 //! Tests of what runs a mechanism, on one that is written by hand and knows nothing of the
 //! generator.
 
+mod accelerations;
 mod access;
 mod correction;
 mod counters;
