@@ -8,6 +8,7 @@ mod counters;
 mod crank;
 mod dense;
 mod driven;
+mod loads;
 mod messages;
 mod observer;
 #[cfg(feature = "recorder")]
