@@ -28,6 +28,7 @@ pub(crate) mod recorder;
 pub(crate) mod report;
 pub(crate) mod sample;
 pub(crate) mod segments;
+pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
 pub(crate) mod within;

@@ -31,7 +31,7 @@ struct Balancer {
 }
 
 /// The inputs in the number type of the run.
-type Inputs = <Balancer as Mechanism>::Inputs<f32>;
+type Inputs = InputsOf<Balancer, f32>;
 
 /// A second of control, one step a period; says the angle ten times.
 fn run(timer: &mut SYST) -> Result<(), Fault> {
