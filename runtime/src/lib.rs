@@ -184,6 +184,7 @@ pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
 pub use measure::load::Loads;
 pub use measure::reaction::Wrench;
+pub use measure::unwrapped::UnwrappedAngle;
 pub use measure::view::{OwnedView, View};
 pub use mechanism::body::{Body, Particle};
 pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};

@@ -71,8 +71,8 @@ pub trait MechanismExt: Mechanism {
     /// #     shoulder: Revolute,
     /// # }
     /// let (arm, handles) = (Arm::default(), Arm::HANDLES);
-    /// let mut state = arm.described_state()?;
-    /// Arm::set_angle(&mut state, handles.shoulder, 0.5)?;
+    /// let mut state = arm.described_state::<f64>()?;
+    /// arm.set_angle(&mut state, handles.shoulder, 0.5)?;
     /// let view = arm.view(0.0, &state)?;
     /// assert!((view.angle(handles.shoulder) - 0.5).abs() < 1e-14);
     /// assert!((view.potential_energy() - 0.5 * 9.81 * 0.5_f64.sin()).abs() < 1e-14);

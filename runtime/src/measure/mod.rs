@@ -7,6 +7,7 @@ mod acceleration;
 pub(crate) mod access;
 pub(crate) mod load;
 pub(crate) mod reaction;
+pub(crate) mod unwrapped;
 pub(crate) mod view;
 
 pub use load::{AppliedForces, ForceLaw, NoForces};
