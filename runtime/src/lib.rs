@@ -186,6 +186,7 @@ pub use measure::load::Loads;
 pub use measure::reaction::Wrench;
 pub use measure::unwrapped::UnwrappedAngle;
 pub use measure::view::{OwnedView, View};
+pub use measure::viewed::Viewed;
 pub use mechanism::body::{Body, Particle};
 pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};
 pub use mechanism::joint_kernels::JointCoordinates;
@@ -216,8 +217,8 @@ pub mod prelude {
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, InputsOf,
         JointCoordinates, KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError,
         Particle, Penalty, Projection, Rk4, RunReport, RunResult, Sample, Simulate, Simulation,
-        SimulationError, StandardLagrange, StateOf, StateParts, Stepper, Tolerance, View, every,
-        every_step,
+        SimulationError, StandardLagrange, StateOf, StateParts, Stepper, Tolerance, View, Viewed,
+        every, every_step,
     };
 }
 

@@ -11,7 +11,6 @@ use crate::math::quaternion::{
 };
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read, write};
-use crate::measure::view::{OwnedView, View};
 use crate::mechanism::handle::{
     BodyHandle, CountsTurns, HasAngle, HasDisplacement, Joint, JointHandle,
 };
@@ -53,40 +52,6 @@ pub trait MechanismExt: Mechanism {
     /// A parameter that is not acceptable.
     fn described_state<S: Scalar>(&self) -> Result<Self::State<S>, ParameterError> {
         Ok(Self::initial_state(&self.constants()?))
-    }
-
-    /// A state of the bodies at a time (s), to be read by handle: poses, angles, energies.
-    ///
-    /// Where many states are read, `let constants = mechanism.constants()?` and [`View::new`]
-    /// prepare the constants once.
-    ///
-    /// ```
-    /// # use holonom::prelude::*;
-    /// # #[derive(Mechanism)]
-    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
-    /// # struct Arm {
-    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
-    /// #     rod: Body,
-    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    /// #     shoulder: Revolute,
-    /// # }
-    /// let (arm, handles) = (Arm::default(), Arm::HANDLES);
-    /// let mut state = arm.described_state::<f64>()?;
-    /// arm.set_angle(&mut state, handles.shoulder, 0.5)?;
-    /// let view = arm.view(0.0, &state)?;
-    /// assert!((view.angle(handles.shoulder) - 0.5).abs() < 1e-14);
-    /// assert!((view.potential_energy() - 0.5 * 9.81 * 0.5_f64.sin()).abs() < 1e-14);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A parameter that is not acceptable.
-    fn view<'a, S: Scalar>(
-        &self,
-        time: S,
-        state: &'a Self::State<S>,
-    ) -> Result<OwnedView<'a, S, Self>, ParameterError> {
-        Ok(View::of(self.constants()?, time, state))
     }
 
     /// Corrects positions and velocities so that they satisfy the constraints at a time, on the

@@ -9,5 +9,6 @@ pub(crate) mod load;
 pub(crate) mod reaction;
 pub(crate) mod unwrapped;
 pub(crate) mod view;
+pub(crate) mod viewed;
 
 pub use load::{AppliedForces, ForceLaw, NoForces};
