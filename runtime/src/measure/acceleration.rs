@@ -18,7 +18,7 @@ use crate::state::vector::{Array, StateParts};
 type Moving<S> = Forward<S, 1>;
 
 /// Accelerations take the rates of the state, `(q', u')`, which an evaluation gives
-/// ([`Evaluation::rates`](crate::dynamics::Evaluation::rates)). A [`Sample`](crate::Sample) has
+/// ([`Evaluation::rates`](crate::mechanism::Evaluation::rates)). A [`Sample`](crate::Sample) has
 /// them by itself.
 impl<S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'_, S, M, K> {
     /// The acceleration of the centre of mass (m/s^2, global).

@@ -107,11 +107,10 @@ impl<S, X> KinematicReport<S, X> {
     }
 }
 
-/// The report of a kinematic analysis, or why it could not go on.
-pub type KinematicResult<S, M> = Result<
-    KinematicReport<S, <M as Mechanism>::State<S>>,
-    SimulationError<<M as Mechanism>::State<S>>,
->;
+/// The report of a kinematic analysis, or why it could not go on; `E` is another error where the
+/// observer may fail, see [`RunError`](crate::RunError).
+pub type KinematicResult<S, M, E = SimulationError<<M as Mechanism>::State<S>>> =
+    Result<KinematicReport<S, <M as Mechanism>::State<S>>, E>;
 
 impl<'a, S: Real, M: Mechanism, F: Formulation<S>> KinematicAnalysis<'a, S, M, F> {
     /// An analysis from the pose that the attributes describe, without further forces.
@@ -184,7 +183,7 @@ where
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
         mut observe: O,
-    ) -> Result<KinematicReport<S, M::State<S>>, R::Error<M::State<S>>>
+    ) -> KinematicResult<S, M, R::Error<M::State<S>>>
     where
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,

@@ -7,7 +7,7 @@ use crate::run::kinematics::KinematicAnalysis;
 use crate::run::simulation::Simulation;
 
 /// A simulation or an analysis as a method of the mechanism, with numbers of type `f64`, so that
-/// literals need no suffix: `arm.simulation(StandardLagrange, Rk4::every(1e-3)).run(0.0..=1.0, ..)`.
+/// literals need no suffix: `arm.simulation(StandardLagrange, Rk4::every(1e-3))`.
 ///
 /// For `f32` or numbers of your own call [`Simulation::new`] and [`KinematicAnalysis::new`].
 pub trait Simulate: Mechanism {

@@ -21,7 +21,7 @@ use crate::monitor::Monitor;
 use crate::run::companion::Companion;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::post_step::PostStabilisation;
-use crate::run::report::RunReport;
+use crate::run::report::{RunReport, RunResult};
 use crate::run::sample::Sample;
 use crate::run::segments::{Log, Observer, Run};
 use crate::state::vector::{Array, StateParts};
@@ -297,7 +297,8 @@ where
     /// run; one that returns nothing never does.
     ///
     /// An observer may return a `Result` of either, such as that of [`Sample::reaction`] or of
-    /// `Recorder::record`. Its error stops the run, which returns it as [`RunError::Observer`].
+    /// `Recorder::record`. Its error stops the run, which returns it as
+    /// [`RunError::Observer`](crate::RunError::Observer).
     ///
     /// ```
     /// # use holonom::prelude::*;
@@ -324,8 +325,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// That of the observer. Else a [`SimulationError`] with time, cause and last good state, where
-    /// the run cannot go on: a parameter, a coefficient or a setting that is not acceptable, a
+    /// That of the observer. Else a [`SimulationError`](crate::SimulationError) with time, cause and
+    /// last good state, where the run cannot go on: a parameter, a coefficient or a setting that is not acceptable, a
     /// singular configuration, no convergence, a step too small, numbers out of range. The state is
     /// of zeros where a parameter was refused and no initial state had been given.
     pub fn run<O, R>(
@@ -333,7 +334,7 @@ where
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
         mut observe: O,
-    ) -> Result<RunReport<S, M>, R::Error<M::State<S>>>
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
         I: Runs<S, M, F, C, A>,
         O: FnMut(&Sample<'_, S, M>) -> R,

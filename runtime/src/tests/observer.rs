@@ -56,7 +56,7 @@ fn an_observer_that_may_fail_and_does_not_changes_nothing() {
 fn an_observer_may_stop_or_fail() {
     let rod = rod();
     let until = |last: f64| {
-        simulation!(&rod).run(0.0..=1.0, every(0.1), move |sample| {
+        let outcome = simulation!(&rod).run(0.0..=1.0, every(0.1), |sample| {
             if sample.time() > 0.55 {
                 return Err(Full(0));
             }
@@ -66,18 +66,23 @@ fn an_observer_may_stop_or_fail() {
             } else {
                 ControlFlow::Continue(())
             })
-        })
+        });
+        match outcome {
+            Ok(report) => Ok((report.stopped, report.time)),
+            Err(RunError::Observer(full)) => Err(full),
+            Err(RunError::Simulation(error)) => panic!("{error}"),
+        }
     };
-    let report = until(0.35).unwrap();
-    assert!(report.stopped && (report.time - 0.4).abs() < 1e-12);
-    assert_eq!(until(2.0).unwrap_err(), RunError::Observer(Full(0)));
+    let (stopped, time) = until(0.35).unwrap();
+    assert!(stopped && (time - 0.4).abs() < 1e-12);
+    assert_eq!(until(2.0), Err(Full(0)));
 }
 
 #[test]
 fn a_fault_of_the_run_is_told_from_one_of_the_observer() {
     let rod = rod();
-    let run = |start: f64| simulation!(&rod).run(start..=1.0, every(0.1), |_| Ok::<(), Full>(()));
-    let Err(RunError::Simulation(error)) = run(f64::NAN) else {
+    let refused = simulation!(&rod).run(f64::NAN..=1.0, every(0.1), |_| Ok::<(), Full>(()));
+    let Err(RunError::Simulation(error)) = refused else {
         panic!("an interval from NaN was run");
     };
     assert!(matches!(error.fault, Fault::Interval { .. }));
