@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert!((view.angle(handles.foot) - 1.0).abs() < 1e-9);
     let energy = view.energy();
 
-    let mut crank = holonom::UnwrappedAngle::default();
+    let mut crank = holonom::measure::UnwrappedAngle::default();
     let report = four_bar
         .simulation(StandardLagrange, DormandPrince::default())
         .projection(Projection::default())

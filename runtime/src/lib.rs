@@ -184,13 +184,11 @@ pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
 pub use measure::load::Loads;
 pub use measure::reaction::Wrench;
-pub use measure::unwrapped::UnwrappedAngle;
-pub use measure::view::{OwnedView, View};
-pub use measure::viewed::Viewed;
+pub use measure::view::View;
 pub use mechanism::body::{Body, Particle};
 pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};
 pub use mechanism::joint_kernels::JointCoordinates;
-pub use mechanism::kernels::{InputsOf, Mechanism, StateOf};
+pub use mechanism::kernels::Mechanism;
 pub use mechanism::report::Report;
 pub use monitor::{Monitor, Warning, Warnings};
 pub use nalgebra;
@@ -200,7 +198,6 @@ pub use run::output::{every, every_step};
 pub use run::recorder::Recorder;
 pub use run::report::{RunReport, RunResult};
 pub use run::sample::Sample;
-pub use run::simulate::Simulate;
 pub use run::simulation::{Runs, Simulation};
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
@@ -213,12 +210,14 @@ pub mod prelude {
 
     pub use crate::forces::*;
     pub use crate::joints::*;
+    pub use crate::measure::Viewed;
+    pub use crate::mechanism::{InputsOf, StateOf};
+    pub use crate::run::Simulate;
     pub use crate::{
-        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, InputsOf,
-        JointCoordinates, KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError,
-        Particle, Penalty, Projection, Rk4, RunReport, RunResult, Sample, Simulate, Simulation,
-        SimulationError, StandardLagrange, StateOf, StateParts, Stepper, Tolerance, View, Viewed,
-        every, every_step,
+        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
+        KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
+        Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation, SimulationError,
+        StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }
 

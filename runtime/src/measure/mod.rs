@@ -12,3 +12,6 @@ pub(crate) mod view;
 pub(crate) mod viewed;
 
 pub use load::{AppliedForces, ForceLaw, NoForces};
+pub use unwrapped::UnwrappedAngle;
+pub use view::OwnedView;
+pub use viewed::Viewed;

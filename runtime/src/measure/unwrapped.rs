@@ -18,7 +18,7 @@ use crate::mechanism::readout::AngleParts;
 ///
 /// ```
 /// # use holonom::prelude::*;
-/// use holonom::UnwrappedAngle;
+/// use holonom::measure::UnwrappedAngle;
 ///
 /// /// A wheel at 10 rad/s.
 /// #[derive(Mechanism)]

@@ -41,3 +41,4 @@ pub use output::{IntoFlow, Reporting};
 pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use record_error::RecordError;
+pub use simulate::Simulate;

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::rod::{GRAVITY, PIVOT, ROD, Rod, rod};
+use crate::measure::{OwnedView, Viewed as _};
 use crate::state::State;
 use crate::*;
 

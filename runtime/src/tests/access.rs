@@ -3,6 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::rod::{PIVOT, ROD, Rod, rod};
+use crate::measure::Viewed as _;
 use crate::state::State;
 use crate::*;
 

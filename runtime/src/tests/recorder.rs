@@ -9,7 +9,8 @@ use std::vec::Vec;
 
 use super::crank::{CRANK, Crank, MOTOR, crank};
 use super::rod::{ROD, rod};
-use crate::run::RecordError;
+use crate::measure::UnwrappedAngle;
+use crate::run::{RecordError, Simulate as _};
 use crate::*;
 
 fn follow(speed: f64, mut observe: impl FnMut(&Sample<'_, f64, Crank>)) {
