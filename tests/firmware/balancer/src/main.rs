@@ -7,8 +7,6 @@
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_semihosting::{debug, hprintln};
-use holonom::forces::TorsionalActuator;
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 use panic_halt as _;
 
