@@ -22,9 +22,9 @@ use crate::state::vector::Array;
 
 /// A state at a time, with everything that can be read from it by handle.
 ///
-/// [`Viewed::view`](crate::measure::Viewed::view) makes one of a state at hand; observers and steppers have
-/// one. `K` says whether the constants of the mechanism are borrowed, as in a run, or held
-/// ([`OwnedView`]); all that is read is the same.
+/// [`Viewed::view`](crate::measure::Viewed::view) makes one of a state at hand; observers and
+/// steppers have one. `K` says whether the constants of the mechanism are borrowed, as in a run, or
+/// held ([`OwnedView`]); all that is read is the same.
 pub struct View<'a, S: Scalar, M: Mechanism, K = &'a <M as Mechanism>::Constants<S>> {
     constants: K,
     time: S,
@@ -32,8 +32,9 @@ pub struct View<'a, S: Scalar, M: Mechanism, K = &'a <M as Mechanism>::Constants
     mechanism: PhantomData<fn() -> M>,
 }
 
-/// A [`View`] that holds the constants of its mechanism, see [`Viewed::view`](crate::measure::Viewed::view).
-/// [`View::borrowed`] of it is what a function takes that asks for a `View<'_, S, M>`.
+/// A [`View`] that holds the constants of its mechanism, see
+/// [`Viewed::view`](crate::measure::Viewed::view). [`View::borrowed`] of it is what a function
+/// takes that asks for a `View<'_, S, M>`.
 pub type OwnedView<'a, S, M> = View<'a, S, M, <M as Mechanism>::Constants<S>>;
 
 impl<S: Scalar, M: Mechanism, K: Copy> Clone for View<'_, S, M, K> {
