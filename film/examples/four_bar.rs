@@ -10,7 +10,6 @@ use std::env;
 use std::error::Error;
 use std::path::PathBuf;
 
-use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
 use holonom_film::Film;
 

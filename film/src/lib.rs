@@ -2,7 +2,6 @@
 //! or a server.
 //!
 //! ```
-//! use holonom::joints::Revolute;
 //! use holonom::prelude::*;
 //! use holonom_film::Film;
 //!

@@ -1,6 +1,5 @@
 //! Bricard's mechanism.
 
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 
 /// Five rods and the ground in a ring of six hinges: it moves, although the count of its equations

@@ -1,7 +1,5 @@
 //! A pole on a cart.
 
-use holonom::forces::PointForce;
-use holonom::joints::{Prismatic, Revolute};
 use holonom::prelude::*;
 
 /// A pole that stands on a cart, which a force pushes; at rest, 0.1 rad from upright at the start,

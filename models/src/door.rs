@@ -1,6 +1,5 @@
 //! The door on two hinges.
 
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 
 /// A door on two hinges whose common axis leans 10 degrees from the vertical, released 90 degrees

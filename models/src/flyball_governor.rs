@@ -1,7 +1,5 @@
 //! The flyball governor.
 
-use holonom::forces::SpringDamper;
-use holonom::joints::{Prismatic, Revolute};
 use holonom::prelude::*;
 
 /// Two balls on rods turn about a vertical shaft at one turn a second and lift a slider through

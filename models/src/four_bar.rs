@@ -1,6 +1,5 @@
 //! The N-four-bar mechanism, for N = 1, 2 and 5.
 
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 
 /// A parallelogram of three uniform links of 1 m and 1 kg, upright at the start, moving at 1 m/s,

@@ -1,6 +1,5 @@
 //! Rows of four-bars.
 
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 
 use crate::FourBar;

@@ -1,6 +1,5 @@
 //! The heavy bob on a light chain.
 
-use holonom::joints::{Distance, PointOnPlane};
 use holonom::prelude::*;
 
 /// Three point masses of 1 g and a bob of 1000 kg on four massless links of 0.25 m, straight, at

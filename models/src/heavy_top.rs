@@ -1,6 +1,5 @@
 //! The heavy top.
 
-use holonom::joints::Spherical;
 use holonom::prelude::*;
 
 /// A fast top on a ball joint at the origin, its axis in the horizontal at the start, gravity along

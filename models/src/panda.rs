@@ -1,7 +1,5 @@
 //! A seven-axis arm.
 
-use holonom::forces::TorsionalActuator;
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 
 /// Franka Emika's Panda with motors on its axes, fingers locked, upright at the start, at rest,

@@ -1,6 +1,5 @@
 //! The pendulum of chapter 15.
 
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 
 /// A steel rod of 1 m x 30 mm x 30 mm on a hinge at one end, at rest in the horizontal, gravity

@@ -1,6 +1,5 @@
 //! The planar simple pendulum.
 
-use holonom::joints::{Distance, PointOnPlane};
 use holonom::prelude::*;
 
 /// A point mass of 1 kg on a massless link of 1 m, released from the horizontal at -x, gravity

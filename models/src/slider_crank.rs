@@ -1,6 +1,5 @@
 //! The planar slider-crank, free and driven.
 
-use holonom::joints::{AngleDriver, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 
 /// A slider-crank at 150 rad/s, stretched along x at the start, gravity along -y.

@@ -1,8 +1,6 @@
 //! Andrews' squeezing mechanism.
 
 use holonom::View;
-use holonom::forces::{ConstantMoment, SpringDamper};
-use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
 
 /// Seven bodies in a plane, three loops: a motor of 0.033 N m turns a crank of 7 mm against a stiff

@@ -1,7 +1,5 @@
 //! A six-axis arm.
 
-use holonom::forces::TorsionalActuator;
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 
 /// Universal Robots' UR5 with motors on its axes, stretched out along x at the start, at rest,

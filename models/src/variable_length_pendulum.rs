@@ -1,7 +1,5 @@
 //! The variable-length pendulum.
 
-use holonom::forces::{SpringDamper, TorsionalSpringDamper};
-use holonom::joints::{Prismatic, Revolute};
 use holonom::prelude::*;
 
 /// An arm on a hinge with a torsional spring, and a slider along it on a spring and a damper,

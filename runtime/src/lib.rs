@@ -73,7 +73,6 @@ pub mod joints;
 /// Describes a mechanism: every field is a body, a joint, a force, a parameter or an input.
 ///
 /// ```
-/// use holonom::joints::{Revolute, Spherical};
 /// use holonom::prelude::*;
 ///
 /// const LENGTH: f64 = 0.8;
@@ -103,14 +102,15 @@ pub mod joints;
 /// let formulation = StandardLagrange;
 /// let report = Simulation::new(&swing, formulation, DormandPrince::new(Tolerance::default()))
 ///     .projection(Projection::default())
-///     .run(0.0..=1.0, every(0.1), |sample| {
-///         let on_bob = sample.reaction(handles.ball, handles.bob).expect("no singular position");
+///     .run(0.0..=1.0, every(0.1), |sample| -> Result<(), Fault> {
+///         let on_bob = sample.reaction(handles.ball, handles.bob)?;
 ///         let (time, angle) = (sample.time(), sample.angle(handles.hinge));
 ///         println!("{time:.3} s: hinge {angle:.3} rad, ball {:.3} N", on_bob.force.norm());
+///         Ok(())
 ///     })?;
 /// assert!(report.worst_violation < 1e-24);
 /// assert_eq!(Swing::REPORT.degrees_of_freedom, 4);
-/// # Ok::<(), SimulationError<<Swing as Mechanism>::State<f64>>>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Attributes
@@ -172,7 +172,7 @@ pub mod joints;
 pub use holonom_macros::Mechanism;
 
 pub use constraints::projection::Projection;
-pub use error::{Fault, ParameterError, SimulationError};
+pub use error::{Fault, ParameterError, RunError, SimulationError};
 pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, StandardLagrange};
 pub use forward::Forward;
 pub use integrate::{
@@ -202,16 +202,22 @@ pub use run::simulation::{Runs, Simulation};
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 
-/// What a program with a mechanism needs: `use holonom::prelude::*;`. Joints are in
-/// `holonom::joints`, by name.
+/// What a program with a mechanism needs: `use holonom::prelude::*;`. All joints and forces of the
+/// library are among it. One of your own with the name of one of them is imported by name from the
+/// module that defines it.
 pub mod prelude {
     pub use core::ops::ControlFlow;
 
+    pub use crate::forces::*;
+    pub use crate::joints::*;
+    pub use crate::measure::Viewed;
+    pub use crate::mechanism::{InputsOf, StateOf};
+    pub use crate::run::Simulate;
     pub use crate::{
-        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, KinematicAnalysis,
-        Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty, Projection, Rk4,
-        RunReport, RunResult, Sample, Simulation, SimulationError, StandardLagrange, StateParts,
-        Stepper, Tolerance, every, every_step,
+        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
+        KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
+        Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation, SimulationError,
+        StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }
 

@@ -9,9 +9,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use holonom::joints::Revolute;
 use holonom::prelude::*;
-use holonom::{Real, View, integrate::TimeSpan};
+use holonom::{Real, integrate::TimeSpan};
 use holonom_study::trade::{
     Grid, Posed, Problem, Processor, Quantity, Timing, Wish, measure, recommend, report,
 };

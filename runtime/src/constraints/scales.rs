@@ -25,7 +25,6 @@ use crate::state::vector::{Array, StateParts};
 /// four.
 ///
 /// ```
-/// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
 /// use holonom::constraints::Scales;
 ///

@@ -7,6 +7,7 @@ use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle, Solution};
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
+use crate::measure::view::View;
 use crate::mechanism::coordinates::{
     Absolute, Coordinates, EquationsIn, Evaluation, First, Prepared,
 };
@@ -133,8 +134,9 @@ where
         let law = |read: &C::State<S>, forces: &mut M::Velocities<S>| {
             C::with_bodies(constants, read, |bodies| {
                 let described = *forces;
+                let view = View::new(self.absolute, time, bodies);
                 self.forces
-                    .apply(time, bodies, &mut Loads::new(bodies, forces));
+                    .apply(time, bodies, &mut Loads::new(view, forces));
                 let velocities = bodies.velocities().as_slice();
                 let loads = forces.as_slice().iter().zip(described.as_slice());
                 for ((&whole, &own), &u) in loads.zip(velocities) {
@@ -217,8 +219,9 @@ where
     /// Forces and moments of the closure alone on bodies whose Euler parameters have length 1.
     pub(super) fn applied(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
         let mut forces = M::Velocities::<S>::zeros();
+        let view = View::new(self.absolute, time, bodies);
         self.forces
-            .apply(time, bodies, &mut Loads::new(bodies, &mut forces));
+            .apply(time, bodies, &mut Loads::new(view, &mut forces));
         forces
     }
 }
@@ -235,8 +238,9 @@ where
     pub(super) fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
         let mut forces = M::forces(&self.equations.constants, time, bodies);
         if A::PRESENT {
+            let view = View::new(self.absolute, time, bodies);
             self.forces
-                .apply(time, bodies, &mut Loads::new(bodies, &mut forces));
+                .apply(time, bodies, &mut Loads::new(view, &mut forces));
         }
         forces
     }

@@ -7,6 +7,7 @@ use crate::error::{Fault, NotFinite};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
+use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
@@ -119,8 +120,9 @@ where
         let read = &with_unit_orientations::<S, M>(bodies);
         let applied = A::PRESENT.then(|| {
             let mut forces = M::forces(self.absolute, time, read);
+            let view = View::new(self.absolute, time, read);
             self.forces
-                .apply(time, read, &mut Loads::new(read, &mut forces));
+                .apply(time, read, &mut Loads::new(view, &mut forces));
             forces
         });
         let applied = applied.as_ref();

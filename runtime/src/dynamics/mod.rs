@@ -59,7 +59,6 @@ use crate::state::vector::{StateParts, Vector};
 /// bodies stand and move in a state, and everything that can be read of a mechanism is read there.
 ///
 /// ```
-/// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
 /// use holonom::{dynamics::Dynamics, integrate::OneStep};
 ///

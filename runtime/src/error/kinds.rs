@@ -1,6 +1,8 @@
 //! What can go wrong at run time. Small enums, no strings; the last good state travels with them.
 //! What they say is in [`crate::message`].
 
+use core::fmt::Display;
+
 /// A number of the description that the macro could not see is not acceptable.
 ///
 /// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
@@ -358,5 +360,33 @@ pub struct SimulationError<X> {
 impl<X> core::error::Error for SimulationError<X> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         Some(&self.fault)
+    }
+}
+
+/// Why a run ended whose observer may fail, see [`Simulation::run`](crate::Simulation::run).
+///
+/// `Debug` prints the sentence of `Display`, for a `main` that returns the error. Any `E` that can
+/// be displayed will do, `Box<dyn Error>` among them.
+#[derive(Clone, Copy, PartialEq)]
+pub enum RunError<X, E> {
+    /// The run could not go on.
+    Simulation(SimulationError<X>),
+    /// What the observer could not do. The run was stopped at that sample.
+    Observer(E),
+}
+
+impl<X, E> From<SimulationError<X>> for RunError<X, E> {
+    fn from(error: SimulationError<X>) -> Self {
+        Self::Simulation(error)
+    }
+}
+
+/// The source is the fault of the run. An observer's error is shown itself.
+impl<X, E: Display> core::error::Error for RunError<X, E> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Simulation(error) => Some(&error.fault),
+            Self::Observer(_) => None,
+        }
     }
 }

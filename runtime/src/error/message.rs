@@ -4,7 +4,9 @@
 use core::fmt;
 
 use crate::error::readable::{Given, Measured};
-use crate::error::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
+use crate::error::{
+    Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
+};
 
 impl fmt::Display for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -386,6 +388,21 @@ impl<X> fmt::Display for SimulationError<X> {
 }
 
 impl<X> fmt::Debug for SimulationError<X> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl<X, E: fmt::Display> fmt::Display for RunError<X, E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Simulation(error) => fmt::Display::fmt(error, f),
+            Self::Observer(error) => fmt::Display::fmt(error, f),
+        }
+    }
+}
+
+impl<X, E: fmt::Display> fmt::Debug for RunError<X, E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }

@@ -8,4 +8,6 @@ pub(crate) mod message;
 pub(crate) mod readable;
 pub(crate) mod setting;
 
-pub use kinds::{Fault, NotFinite, ParameterError, ParameterFault, Quantity, SimulationError};
+pub use kinds::{
+    Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
+};

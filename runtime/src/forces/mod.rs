@@ -20,7 +20,7 @@
 //! [`guide::reference`](mod@crate::guide::reference), examples in
 //! [`guide::forces`](crate::guide::forces).
 //!
-//! They are not in the prelude: `use holonom::forces::SpringDamper;`.
+//! All of them are in the prelude.
 
 mod actuators;
 mod given;

@@ -12,7 +12,12 @@ const LANES: usize = 4;
 pub(crate) type Lifted<S> = Forward<S, LANES>;
 
 /// The same numbers, which depend on nothing.
-pub(crate) fn lifted<S: Scalar, A: Array<S>, B: Array<Lifted<S>>>(numbers: &A) -> B {
+pub(crate) fn lifted<S, const N: usize, A, B>(numbers: &A) -> B
+where
+    S: Scalar,
+    A: Array<S>,
+    B: Array<Forward<S, N>>,
+{
     let mut lifted = B::zeros();
     let pairs = lifted.as_mut_slice().iter_mut().zip(numbers.as_slice());
     pairs.for_each(|(place, &number)| *place = Forward::fixed(number));

@@ -40,7 +40,6 @@
 //! and into `pendulum/src/main.rs`
 //!
 //! ```
-//! use holonom::joints::Revolute;
 //! use holonom::prelude::*;
 //!
 //! /// A rod of 1 m on a hinge about x, released from the horizontal.
@@ -60,17 +59,15 @@
 //!     let pendulum = Pendulum::default();
 //!     let handles = Pendulum::HANDLES;
 //!     let ode45 = DormandPrince::new(Tolerance { relative: 1e-9, absolute: 1e-9 });
-//!     let report = Simulation::new(&pendulum, StandardLagrange, ode45)
+//!     let report = pendulum
+//!         .simulation(StandardLagrange, ode45)
 //!         .assembled()                        // puts the start on the constraints
 //!         .projection(Projection::default())  // and every state that follows
-//!         .run(0.0_f64..=2.0, every(0.1), |sample| {
-//!             let reaction = match sample.reaction(handles.hinge, handles.rod) {
-//!                 Ok(reaction) => reaction,
-//!                 Err(_) => return ControlFlow::Break(()),
-//!             };
+//!         .run(0.0..=2.0, every(0.1), |sample| -> Result<(), Fault> {
+//!             let reaction = sample.reaction(handles.hinge, handles.rod)?;
 //!             let (time, angle) = (sample.time(), sample.angle(handles.hinge));
 //!             println!("{time:.1} s: {angle:8.4} rad, {:8.3} N", reaction.force.norm());
-//!             ControlFlow::Continue(())
+//!             Ok(())
 //!         })?;
 //!     assert!(report.worst_violation < 1e-24);
 //!     Ok(())

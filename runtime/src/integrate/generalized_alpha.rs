@@ -68,7 +68,6 @@ use crate::state::vector::Vector;
 /// to its order.
 ///
 /// ```
-/// use holonom::joints::Spherical;
 /// use holonom::prelude::*;
 /// use holonom::GeneralizedAlpha;
 ///

@@ -29,7 +29,7 @@
 //! [`guide::redundant`](crate::guide::redundant). Reactions are reduced to the first point of the
 //! joint, on either body.
 //!
-//! They are not in the prelude: `use holonom::joints::Revolute;`.
+//! All of them are in the prelude.
 
 mod constant_velocity;
 mod cylindrical;

@@ -1,13 +1,13 @@
 //! Forces that a user applies at run time.
 
-use core::marker::PhantomData;
-
 use crate::math::quaternion::{normalised, rotate, rotate_back};
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{cross, read};
 use crate::measure::access::MechanismExt;
-use crate::mechanism::handle::BodyHandle;
+use crate::measure::view::View;
+use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
 
 /// Forces and moments beyond those of the description, as a function of time and state.
@@ -57,19 +57,21 @@ where
 
 /// Where a user adds forces (N) and moments (N m) on bodies. Contributions add up.
 pub struct Loads<'a, S: Scalar, M: Mechanism> {
-    state: &'a M::State<S>,
+    view: View<'a, S, M>,
     forces: &'a mut M::Velocities<S>,
-    mechanism: PhantomData<fn() -> M>,
 }
 
 impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
     /// Loads to be added to `g`, in a state whose Euler parameters are as the kernels read them.
-    pub(crate) fn new(state: &'a M::State<S>, forces: &'a mut M::Velocities<S>) -> Self {
-        Self {
-            state,
-            forces,
-            mechanism: PhantomData,
-        }
+    pub(crate) fn new(view: View<'a, S, M>, forces: &'a mut M::Velocities<S>) -> Self {
+        Self { view, forces }
+    }
+
+    /// The state at hand, to be read by handle: `loads.view().angle_rate(hinge)`. It costs what is
+    /// read.
+    #[must_use]
+    pub fn view(&self) -> View<'a, S, M> {
+        self.view
     }
 
     /// A force (N, global) at the centre of mass.
@@ -83,14 +85,14 @@ impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
     /// axes (m).
     pub fn force_at(&mut self, body: BodyHandle<M>, point: [S; 3], force: [S; 3]) {
         self.force(body, force);
-        let arm = rotate(&M::orientation(self.state, body), &point);
+        let arm = rotate(&M::orientation(self.view.state(), body), &point);
         self.moment(body, cross(&arm, &force));
     }
 
     /// A moment (N m, global). Without effect on a particle.
     pub fn moment(&mut self, body: BodyHandle<M>, moment: [S; 3]) {
         if let Some((info, place)) = body.orientation() {
-            let p = normalised(&read(self.state.coordinates().as_slice(), place));
+            let p = normalised(&read(self.view.state().coordinates().as_slice(), place));
             self.add(info.velocity + 3, rotate_back(&p, &moment));
         }
     }
@@ -103,7 +105,88 @@ impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
         }
     }
 
-    fn add(&mut self, place: usize, value: [S; 3]) {
+    /// A moment (N m) about the axis of a joint, on its second body, and its opposite on the first.
+    /// A positive moment drives the angle upwards: its power is the moment times
+    /// [`View::angle_rate`].
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(coordinates = "joints")]
+    /// # struct Arm {
+    /// #     #[body(mass = 2.0, inertia = [0.1, 0.02, 0.1], position = [0.0, 0.5, 0.0])]
+    /// #     upper: Body,
+    /// #     #[body(mass = 1.0, inertia = [0.1, 0.02, 0.1], position = [0.0, 1.5, 0.0])]
+    /// #     lower: Body,
+    /// #     #[joint(between = [ground, upper], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     shoulder: Revolute,
+    /// #     #[joint(between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     elbow: Revolute,
+    /// # }
+    /// let (arm, handles) = (Arm::default(), Arm::HANDLES);
+    /// Simulation::new(&arm, StandardLagrange, Rk4::every(0.001))
+    ///     .forces(|_, _, loads| {
+    ///         // A motor in the elbow: a spring to 1 rad, with damping.
+    ///         let view = loads.view();
+    ///         let (angle, rate) = (view.angle(handles.elbow), view.angle_rate(handles.elbow));
+    ///         loads.moment_between(handles.elbow, 8.0 * (1.0 - angle) - 2.0 * rate);
+    ///     })
+    ///     .run(0.0_f64..=1.0, every(0.1), |sample| {
+    ///         // It acts within the arm, whose spin about the shoulder stays what it was: none.
+    ///         let [upper, lower] = [handles.upper, handles.lower].map(|body| {
+    ///             let (arm, v) = (sample.pose(body).position, sample.velocity(body));
+    ///             let mass = if body == handles.upper { 2.0 } else { 1.0 };
+    ///             mass * arm.cross(&v).x + 0.1 * sample.angular_velocity(body).x
+    ///         });
+    ///         assert!((upper + lower).abs() < 1e-9);
+    ///     })?;
+    /// # Ok::<(), SimulationError<_>>(())
+    /// ```
+    pub fn moment_between<J: HasAngle>(&mut self, joint: JointHandle<M, J>, moment: S) {
+        let view = self.view;
+        self.drive(joint, moment, |still| {
+            view.of_state(still).angle_parts(joint.index()).rate
+        });
+    }
+
+    /// A force (N) along the displacement of a joint, on its second body, and its opposite on the
+    /// first. A positive force drives the displacement upwards: its power is the force times
+    /// [`View::displacement_rate`], as far as the displacement is not a function of time.
+    pub fn force_between<J: HasDisplacement>(&mut self, joint: JointHandle<M, J>, force: S) {
+        let view = self.view;
+        self.drive(joint, force, |still| {
+            view.of_state(still).displacement_parts(joint.index()).rate
+        });
+    }
+
+    /// An effort on a quantity of a joint, by its power: each velocity of the joint's bodies gets
+    /// the effort times the part that it has in the quantity's rate, which is linear in them.
+    #[inline(never)]
+    fn drive<J>(&mut self, joint: JointHandle<M, J>, effort: S, rate: impl Fn(&M::State<S>) -> S) {
+        let mut still = *self.view.state();
+        *still.velocities_mut() = Array::zeros();
+        let offset = rate(&still);
+        let bodies = joint.info().map_or(&[][..], |info| info.bodies);
+        for body in bodies.iter().flatten() {
+            let Some(info) = M::REPORT.bodies.get(*body) else {
+                continue;
+            };
+            let velocities = if info.kind == BodyKind::Rigid { 6 } else { 3 };
+            for place in info.velocity..info.velocity + velocities {
+                let set = |still: &mut M::State<S>, value| {
+                    if let Some(velocity) = still.velocities_mut().as_mut_slice().get_mut(place) {
+                        *velocity = value;
+                    }
+                };
+                set(&mut still, S::one());
+                let part = rate(&still) - offset;
+                set(&mut still, S::zero());
+                self.add(place, [effort * part]);
+            }
+        }
+    }
+
+    fn add<const N: usize>(&mut self, place: usize, value: [S; N]) {
         for (element, value) in self.forces.as_mut_slice().iter_mut().skip(place).zip(value) {
             *element = *element + value;
         }

@@ -1,6 +1,8 @@
 //! A state at a time, to be read.
 
+use core::borrow::Borrow;
 use core::fmt::{self, Debug};
+use core::marker::PhantomData;
 
 use nalgebra::Vector3;
 
@@ -19,22 +21,32 @@ use crate::mechanism::report::MarkerKind;
 use crate::state::vector::Array;
 
 /// A state at a time, with everything that can be read from it by handle.
-pub struct View<'a, S: Scalar, M: Mechanism> {
-    constants: &'a M::Constants<S>,
+///
+/// [`Viewed::view`](crate::measure::Viewed::view) makes one of a state at hand; observers and
+/// steppers have one. `K` says whether the constants of the mechanism are borrowed, as in a run, or
+/// held ([`OwnedView`]); all that is read is the same.
+pub struct View<'a, S: Scalar, M: Mechanism, K = &'a <M as Mechanism>::Constants<S>> {
+    constants: K,
     time: S,
     state: &'a M::State<S>,
+    mechanism: PhantomData<fn() -> M>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for View<'_, S, M> {
+/// A [`View`] that holds the constants of its mechanism, see
+/// [`Viewed::view`](crate::measure::Viewed::view). [`View::borrowed`] of it is what a function
+/// takes that asks for a `View<'_, S, M>`.
+pub type OwnedView<'a, S, M> = View<'a, S, M, <M as Mechanism>::Constants<S>>;
+
+impl<S: Scalar, M: Mechanism, K: Copy> Clone for View<'_, S, M, K> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Scalar, M: Mechanism> Copy for View<'_, S, M> {}
+impl<S: Scalar, M: Mechanism, K: Copy> Copy for View<'_, S, M, K> {}
 
 /// The name of the mechanism, the time and the state.
-impl<S: Scalar, M: Mechanism> Debug for View<'_, S, M> {
+impl<S: Scalar, M: Mechanism, K> Debug for View<'_, S, M, K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("View")
             .field("mechanism", &M::REPORT.name)
@@ -51,11 +63,7 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// where none is used, write `View::<_, Swing>::new(..)`.
     #[must_use]
     pub fn new(constants: &'a M::Constants<S>, time: S, state: &'a M::State<S>) -> Self {
-        Self {
-            constants,
-            time,
-            state,
-        }
+        Self::of(constants, time, state)
     }
 
     /// The same of another state at that time.
@@ -63,11 +71,28 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     where
         'a: 'b,
     {
-        View {
-            constants: self.constants,
-            time: self.time,
+        View::new(self.constants, self.time, state)
+    }
+}
+
+impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> {
+    pub(crate) fn of(constants: K, time: S, state: &'a M::State<S>) -> Self {
+        Self {
+            constants,
+            time,
             state,
+            mechanism: PhantomData,
         }
+    }
+
+    /// The same view, whose constants are borrowed from this one.
+    #[must_use]
+    pub fn borrowed(&self) -> View<'_, S, M> {
+        View::new(self.constants(), self.time, self.state)
+    }
+
+    pub(crate) fn constants(&self) -> &M::Constants<S> {
+        self.constants.borrow()
     }
 
     /// The time (s).
@@ -123,7 +148,7 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// [`Report::markers`](crate::Report::markers). Zeros for a marker that is not there.
     #[must_use]
     pub fn marker(&self, place: usize) -> Vector3<S> {
-        let components = M::marker(self.constants, place);
+        let components = M::marker(self.constants(), place);
         let marker = M::REPORT.markers.get(place);
         let Some((marker, body)) = marker.and_then(|marker| Some((marker, marker.body?))) else {
             return Vector3::from(components);
@@ -144,7 +169,7 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// [`Report::shapes`](crate::Report::shapes). Zeros for a shape that is not there.
     #[must_use]
     pub fn shape(&self, place: usize) -> [S; 3] {
-        M::shape(self.constants, place)
+        M::shape(self.constants(), place)
     }
 
     /// Gravity (m/s^2, global): the force on the first body less that of every force field on it,
@@ -153,18 +178,18 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     pub fn gravity(&self) -> Vector3<S> {
         let state = self.state_of_kernels();
         let [mut x, mut y, mut z] = [S::zero(); 3];
-        if let [fx, fy, fz, ..] = *M::forces(self.constants, self.time, &state).as_slice() {
+        if let [fx, fy, fz, ..] = *M::forces(self.constants(), self.time, &state).as_slice() {
             [x, y, z] = [fx, fy, fz];
         }
         for (index, force) in M::REPORT.forces.iter().enumerate() {
             let places = force.bodies.iter().enumerate();
             for (place, _) in places.filter(|(_, body)| **body == Some(0)) {
-                let load = M::force_load(self.constants, self.time, &state, index, place);
+                let load = M::force_load(self.constants(), self.time, &state, index, place);
                 let [fx, fy, fz, ..] = load;
                 [x, y, z] = [x - fx, y - fy, z - fz];
             }
         }
-        match M::mass::<S>(self.constants).as_slice() {
+        match M::mass::<S>(self.constants()).as_slice() {
             [mass, ..] => {
                 let part = mass.reciprocal();
                 Vector3::new(part * x, part * y, part * z)
@@ -248,7 +273,7 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
         place: usize,
     ) -> Result<Wrench<S>, Fault> {
         let state = self.state_of_kernels();
-        let (constants, time, index) = (self.constants, self.time, joint.index());
+        let (constants, time, index) = (self.constants(), self.time, joint.index());
         wrench::<S, M>(constants, time, &state, multipliers, index, place).ok_or_else(|| {
             Fault::NoSuchPlace {
                 joint: joint.name(),
@@ -261,13 +286,13 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// Kinetic energy (J).
     #[must_use]
     pub fn kinetic_energy(&self) -> S {
-        M::kinetic_energy(self.constants, self.state)
+        M::kinetic_energy(self.constants(), self.state)
     }
 
     /// Potential energy (J), see [`Mechanism::potential_energy`].
     #[must_use]
     pub fn potential_energy(&self) -> S {
-        M::potential_energy(self.constants, self.time, self.state)
+        M::potential_energy(self.constants(), self.time, self.state)
     }
 
     /// The power (W) of the forces of the language that have no potential, see
@@ -275,13 +300,13 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// force closure.
     #[must_use]
     pub fn power(&self) -> S {
-        M::power(self.constants, self.time, self.state)
+        M::power(self.constants(), self.time, self.state)
     }
 
     /// Potential energy (J) and power (W) of one force.
     #[must_use]
     pub fn force_parts<F>(&self, force: ForceHandle<M, F>) -> ForceParts<S> {
-        M::force_parts(self.constants, self.time, self.state, force.index())
+        M::force_parts(self.constants(), self.time, self.state, force.index())
     }
 
     /// What a force exerts on one of its bodies: force and moment (N, N m, global) about the body's
@@ -296,8 +321,13 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     ) -> Result<Wrench<S>, Fault> {
         let bodies = force.info().map_or(&[][..], |info| info.bodies);
         let place = place_of(bodies, force.name(), body)?;
-        let [fx, fy, fz, mx, my, mz] =
-            M::force_load(self.constants, self.time, self.state, force.index(), place);
+        let [fx, fy, fz, mx, my, mz] = M::force_load(
+            self.constants(),
+            self.time,
+            self.state,
+            force.index(),
+            place,
+        );
         let state = self.state_of_kernels();
         let moment = crate::measure::reaction::in_global_axes::<S, M>(&state, body, [mx, my, mz]);
         Ok(Wrench {
@@ -317,7 +347,7 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// `Phi`, one element per equation, with the Euler parameters as they are stored.
     #[must_use]
     pub fn constraints(&self) -> M::Multipliers<S> {
-        M::constraints(self.constants, self.time, self.state)
+        M::constraints(self.constants(), self.time, self.state)
     }
 
     /// The violation of the constraints: `Phi^T Phi`.
@@ -329,15 +359,15 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     /// The violation of the constraints by the velocities: `Phi'^T Phi'`.
     #[must_use]
     pub fn velocity_violation(&self) -> S {
-        square(M::constraint_rates(self.constants, self.time, self.state).as_slice())
+        square(M::constraint_rates(self.constants(), self.time, self.state).as_slice())
     }
 
     /// The violation of the constraints by accelerations: the square of `D u' - gamma`.
     #[must_use]
     pub fn acceleration_violation(&self, accelerations: &M::Velocities<S>) -> S {
         let state = self.state_of_kernels();
-        let jacobian = M::jacobian(self.constants, self.time, &state);
-        let mut rest = M::gamma(self.constants, self.time, &state);
+        let jacobian = M::jacobian(self.constants(), self.time, &state);
+        let mut rest = M::gamma(self.constants(), self.time, &state);
         for block in M::REPORT.blocks {
             let values = jacobian.as_slice().get(block.offset..).unwrap_or(&[]);
             let rows = rest
@@ -356,11 +386,11 @@ impl<'a, S: Scalar, M: Mechanism> View<'a, S, M> {
     }
 
     pub(crate) fn angle_parts(&self, joint: usize) -> AngleParts<S> {
-        M::joint_angle(self.constants, self.state, joint)
+        M::joint_angle(self.constants(), self.state, joint)
     }
 
     pub(crate) fn displacement_parts(&self, joint: usize) -> DisplacementParts<S> {
-        M::joint_displacement(self.constants, self.time, self.state, joint)
+        M::joint_displacement(self.constants(), self.time, self.state, joint)
     }
 
     /// The state as the kernels of the saddle system read it.

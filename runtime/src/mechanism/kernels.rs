@@ -9,6 +9,13 @@ use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::mechanism::report::Report;
 use crate::state::vector::{Array, StateParts};
 
+/// The state of a mechanism, with numbers of type `f64` unless another one is named:
+/// `StateOf<Arm>`, `StateOf<Arm, f32>`.
+pub type StateOf<M, S = f64> = <M as Mechanism>::State<S>;
+
+/// The inputs of a mechanism, likewise: `InputsOf<Arm>`, `InputsOf<Arm, f32>`.
+pub type InputsOf<M, S = f64> = <M as Mechanism>::Inputs<S>;
+
 /// A mechanism whose kernels were generated at compile time.
 ///
 /// Notation: `r` position of a centre of mass (m, global), `p` Euler parameters (scalar first, from

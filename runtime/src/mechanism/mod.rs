@@ -23,7 +23,9 @@ pub use coordinates::{
 };
 pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint};
 pub use joint_kernels::{Freedom, JointCounter, JointMotion, JointParts, JointReport};
-pub use kernels::{Compliant, Pivot, Plain, Rigid, Stabilisation, Stabilised, Terms};
+pub use kernels::{
+    Compliant, InputsOf, Pivot, Plain, Rigid, Stabilisation, Stabilised, StateOf, Terms,
+};
 #[doc(hidden)]
 pub use kernels::{Normalised, Orientation};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};

@@ -16,7 +16,7 @@ use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Warnings;
-use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval};
+use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts};
 
@@ -107,11 +107,10 @@ impl<S, X> KinematicReport<S, X> {
     }
 }
 
-/// The report of a kinematic analysis, or why it could not go on.
-pub type KinematicResult<S, M> = Result<
-    KinematicReport<S, <M as Mechanism>::State<S>>,
-    SimulationError<<M as Mechanism>::State<S>>,
->;
+/// The report of a kinematic analysis, or why it could not go on; `E` is another error where the
+/// observer may fail, see [`RunError`](crate::RunError).
+pub type KinematicResult<S, M, E = SimulationError<<M as Mechanism>::State<S>>> =
+    Result<KinematicReport<S, <M as Mechanism>::State<S>>, E>;
 
 impl<'a, S: Real, M: Mechanism, F: Formulation<S>> KinematicAnalysis<'a, S, M, F> {
     /// An analysis from the pose that the attributes describe, without further forces.
@@ -169,8 +168,9 @@ where
 {
     /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at
     /// the reporting times and at the end. An observer that returns `ControlFlow::Break(())` stops
-    /// it; one that returns nothing never does. [`every_step`](crate::every_step) reports at start
-    /// and end.
+    /// it; one that returns nothing never does. An error of the observer stops it and is handed on,
+    /// see [`Simulation::run`](crate::Simulation::run). [`every_step`](crate::every_step) reports
+    /// at start and end.
     ///
     /// # Errors
     /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a
@@ -183,24 +183,23 @@ where
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
         mut observe: O,
-    ) -> KinematicResult<S, M>
+    ) -> KinematicResult<S, M, R::Error<M::State<S>>>
     where
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
-        let mut observe = |sample: &Sample<'_, S, M>| observe(sample).into_flow();
+        let mut failure = None;
+        let mut observe = |sample: &Sample<'_, S, M>| {
+            observe(sample).into_flow().unwrap_or_else(|error| {
+                failure = Some(error);
+                ControlFlow::Break(())
+            })
+        };
         let (start, end) = interval.into_inner();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
         let mut last_good = (start, self.initial.unwrap_or_else(zeros));
-        self.attempt(start, end, reporting, &mut observe, &mut last_good)
-            .map_err(|fault| {
-                let (time, state) = last_good;
-                SimulationError {
-                    time: time.to_f64(),
-                    fault,
-                    state,
-                }
-            })
+        let report = self.attempt(start, end, reporting, &mut observe, &mut last_good);
+        outcome::<R, _, _, _>(report, failure, last_good)
     }
 
     fn attempt(

@@ -24,10 +24,13 @@ pub(crate) mod kinematics;
 pub(crate) mod output;
 pub(crate) mod post_step;
 #[cfg(feature = "recorder")]
+pub(crate) mod record_error;
+#[cfg(feature = "recorder")]
 pub(crate) mod recorder;
 pub(crate) mod report;
 pub(crate) mod sample;
 pub(crate) mod segments;
+pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
 pub(crate) mod within;
@@ -37,4 +40,5 @@ pub use kinematics::KinematicResult;
 pub use output::{IntoFlow, Reporting};
 pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
-pub use recorder::RecordError;
+pub use record_error::RecordError;
+pub use simulate::Simulate;

@@ -1,10 +1,11 @@
 //! When a run reports, and what its observer may return.
 
+use core::convert::Infallible;
 use core::ops::ControlFlow;
 
-use crate::error::Fault;
 use crate::error::setting::interval;
 use crate::error::setting::positive;
+use crate::error::{Fault, RunError, SimulationError};
 use crate::math::scalar::Real;
 
 /// When a run shows its state to the observer; the start and the end are always among the times.
@@ -24,28 +25,99 @@ pub enum Reporting<S> {
     },
 }
 
-/// What an observer of a run returns: nothing, or `ControlFlow<()>`, whose `Break(())` stops the
-/// run.
+/// What an observer of a run returns: nothing, `ControlFlow<()>`, whose `Break(())` stops the run,
+/// or a `Result` of either, whose error stops the run and is handed on as
+/// [`RunError::Observer`].
+///
+/// The error of a run follows from it: an observer that cannot fail leaves [`SimulationError`].
 #[diagnostic::on_unimplemented(
     message = "an observer does not return `{Self}`",
-    label = "nothing, or `ControlFlow<()>`",
-    note = "end the closure with `;`, or with `ControlFlow::Continue(())` and `ControlFlow::Break(())`"
+    label = "nothing, `ControlFlow<()>`, or a `Result` of either",
+    note = "end the closure with `;`, with `ControlFlow::Continue(())` and `ControlFlow::Break(())`, or with `Ok::<(), Error>(())`"
 )]
 pub trait IntoFlow {
+    /// The error of the observer; [`Infallible`] where it has none.
+    type Failure;
+
+    /// The error of a run with states `X`.
+    type Error<X>: From<SimulationError<X>>;
+
     /// Whether the run goes on.
-    fn into_flow(self) -> ControlFlow<()>;
+    ///
+    /// # Errors
+    /// What the observer could not do.
+    fn into_flow(self) -> Result<ControlFlow<()>, Self::Failure>;
+
+    /// The error of a run that the observer ended by its own.
+    fn failed<X>(failure: Self::Failure) -> Self::Error<X>;
 }
 
 impl IntoFlow for () {
-    fn into_flow(self) -> ControlFlow<()> {
-        ControlFlow::Continue(())
+    type Failure = Infallible;
+    type Error<X> = SimulationError<X>;
+
+    fn into_flow(self) -> Result<ControlFlow<()>, Infallible> {
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn failed<X>(failure: Infallible) -> SimulationError<X> {
+        match failure {}
     }
 }
 
 impl IntoFlow for ControlFlow<()> {
+    type Failure = Infallible;
+    type Error<X> = SimulationError<X>;
+
+    fn into_flow(self) -> Result<Self, Infallible> {
+        Ok(self)
+    }
+
+    fn failed<X>(failure: Infallible) -> SimulationError<X> {
+        match failure {}
+    }
+}
+
+impl<E> IntoFlow for Result<(), E> {
+    type Failure = E;
+    type Error<X> = RunError<X, E>;
+
+    fn into_flow(self) -> Result<ControlFlow<()>, E> {
+        self.map(ControlFlow::Continue)
+    }
+
+    fn failed<X>(failure: E) -> RunError<X, E> {
+        RunError::Observer(failure)
+    }
+}
+
+impl<E> IntoFlow for Result<ControlFlow<()>, E> {
+    type Failure = E;
+    type Error<X> = RunError<X, E>;
+
     fn into_flow(self) -> Self {
         self
     }
+
+    fn failed<X>(failure: E) -> RunError<X, E> {
+        RunError::Observer(failure)
+    }
+}
+
+/// What a run gives: its report, what its observer could not do, or why it could not go on from
+/// its last good time (s) and state. An observer's error stopped the run before anything else.
+pub(crate) fn outcome<R: IntoFlow, T, S: Real, X>(
+    report: Result<T, Fault>,
+    failure: Option<R::Failure>,
+    (time, state): (S, X),
+) -> Result<T, R::Error<X>> {
+    if let Some(failure) = failure {
+        return Err(R::failed(failure));
+    }
+    report.map_err(|fault| {
+        let time = time.to_f64();
+        R::Error::from(SimulationError { time, fault, state })
+    })
 }
 
 impl<S> Reporting<S> {

@@ -1,7 +1,6 @@
 //! Samples of a run as lines of a CSV file.
 
 use core::any::TypeId;
-use core::fmt;
 use std::format;
 use std::fs::File;
 use std::io::{self, Write};
@@ -9,11 +8,13 @@ use std::path::Path;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::measure::unwrapped::UnwrappedAngle;
 use crate::mechanism::handle::{BodyHandle, JointHandle};
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::readout::AngleParts;
 use crate::mechanism::report::{BodyKind, JointInfo};
+use crate::run::record_error::RecordError;
 use crate::run::sample::Sample;
 
 /// Writes samples as comma-separated values, for any mechanism: one line a sample, under one line
@@ -26,7 +27,7 @@ use crate::run::sample::Sample;
 /// | `rod.orientation.e0`, e1, e2, e3 | Euler parameters, scalar first, of the rotation from the user's body axes to the global axes; not for a particle |
 /// | `rod.velocity.x [m/s]`, y, z | velocity of the centre of mass, global |
 /// | `rod.angular_velocity.x [rad/s]`, y, z | along the user's body axes; not for a particle |
-/// | `pivot.angle [rad]`, `pivot.angle_rate [rad/s]` | of a joint with an angle, see [`View::angle`](crate::View::angle) |
+/// | `pivot.angle [rad]`, `pivot.angle_rate [rad/s]` | of a joint with an angle, which goes on over turns from line to line, see [`UnwrappedAngle`] |
 /// | `slide.displacement [m]`, `slide.displacement_rate [m/s]` | of a joint with a displacement |
 /// | `kinetic_energy [J]`, `potential_energy [J]` | of the mechanism |
 /// | `violation` | `Phi^T Phi`, in the mixed units of the equations |
@@ -36,9 +37,8 @@ use crate::run::sample::Sample;
 /// meets and no other. Numbers are written with the fewest digits that read back to the same `f64`.
 ///
 /// ```
-/// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
-/// use holonom::{Recorder, run::RecordError};
+/// use holonom::Recorder;
 ///
 /// #[derive(Mechanism)]
 /// #[mechanism(gravity = [0.0, 0.0, -9.81])]
@@ -50,18 +50,12 @@ use crate::run::sample::Sample;
 /// }
 ///
 /// let mut recorder = Recorder::new(Vec::new()).with_reactions();
-/// let mut outcome = Ok(());
 /// Simulation::new(&Pendulum::default(), StandardLagrange, Rk4::every(0.01))
-///     .run(0.0..=1.0, every(0.1), |sample| {
-///         outcome = recorder.record(sample);
-///         if outcome.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-///     })
-///     .expect("a pendulum can be solved");
-/// outcome?;
+///     .run(0.0..=1.0, every(0.1), |sample| recorder.record(sample))?;
 /// let text = String::from_utf8(recorder.into_inner()).expect("text");
 /// assert!(text.starts_with("time [s],rod.position.x [m],"));
 /// assert_eq!(text.lines().count(), 1 + 11);
-/// # Ok::<(), RecordError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct Recorder<W> {
@@ -69,74 +63,10 @@ pub struct Recorder<W> {
     reactions: bool,
     /// The mechanism of the first sample.
     mechanism: Option<TypeId>,
+    /// The angles of its joints, in their order, after the last line.
+    angles: Vec<UnwrappedAngle<f64>>,
     /// Whether a line was not written to its end.
     torn: bool,
-}
-
-/// Why a sample was not recorded.
-///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
-#[non_exhaustive]
-pub enum RecordError {
-    /// The file could not be created or written. Nothing can be recorded after it, so that the last
-    /// line may be torn and no other.
-    Io(io::Error),
-    /// An earlier line was not written to its end.
-    Torn,
-    /// The evaluation for the reactions failed; nothing was written.
-    Evaluation(Fault),
-    /// A value is NaN or infinite; nothing was written.
-    NotFinite {
-        /// The name of its column.
-        column: String,
-    },
-    /// The sample is of another mechanism than the samples before; nothing was written.
-    OtherMechanism,
-}
-
-impl fmt::Display for RecordError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Io(error) => write!(f, "the record could not be written: {error}"),
-            Self::Torn => write!(
-                f,
-                "an earlier line of the record was not written to its end"
-            ),
-            Self::Evaluation(fault) => write!(f, "no reactions to record: {fault}"),
-            Self::NotFinite { column } => write!(f, "`{column}` is not finite"),
-            Self::OtherMechanism => {
-                write!(f, "the samples of one record must be of one mechanism")
-            }
-        }
-    }
-}
-
-impl fmt::Debug for RecordError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-impl core::error::Error for RecordError {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Io(error) => Some(error),
-            Self::Evaluation(fault) => Some(fault),
-            Self::Torn | Self::NotFinite { .. } | Self::OtherMechanism => None,
-        }
-    }
-}
-
-impl From<io::Error> for RecordError {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-impl From<Fault> for RecordError {
-    fn from(fault: Fault) -> Self {
-        Self::Evaluation(fault)
-    }
 }
 
 impl Recorder<File> {
@@ -158,6 +88,7 @@ impl<W: Write> Recorder<W> {
             writer,
             reactions: false,
             mechanism: None,
+            angles: Vec::new(),
             torn: false,
         }
     }
@@ -185,7 +116,9 @@ impl<W: Write> Recorder<W> {
         if self.mechanism.is_some_and(|known| known != mechanism) {
             return Err(RecordError::OtherMechanism);
         }
-        let row = Row::of(sample, self.reactions)?;
+        let mut angles = self.angles.clone();
+        angles.resize_with(M::REPORT.joints.len(), UnwrappedAngle::default);
+        let row = Row::of(sample, &mut angles, self.reactions)?;
         if let Some(place) = row.values.iter().position(|value| !value.is_finite()) {
             let column = columns::<M>(self.reactions).swap_remove(place);
             return Err(RecordError::NotFinite { column });
@@ -194,6 +127,7 @@ impl<W: Write> Recorder<W> {
             self.line(&columns::<M>(self.reactions))?;
             self.mechanism = Some(mechanism);
         }
+        self.angles = angles;
         let digits: Vec<String> = row.values.iter().map(|x| format!("{x:?}")).collect();
         self.line(&digits)
     }
@@ -234,6 +168,7 @@ struct Row {
 impl Row {
     fn of<S: Real, M: Mechanism>(
         sample: &Sample<'_, S, M>,
+        angles: &mut [UnwrappedAngle<f64>],
         reactions: bool,
     ) -> Result<Self, RecordError> {
         let mut row = Self { values: Vec::new() };
@@ -251,10 +186,10 @@ impl Row {
                 row.push(sample.angular_velocity(handle).as_slice());
             }
         }
-        for (place, joint) in M::REPORT.joints.iter().enumerate() {
+        for ((place, joint), angle) in M::REPORT.joints.iter().enumerate().zip(angles) {
             if joint.has_angle {
-                let parts = sample.angle_parts(place);
-                row.push(&[parts.angle(), parts.rate]);
+                let parts = in_double(&sample.angle_parts(place));
+                row.push(&[angle.follow(sample.time().to_f64(), &parts), parts.rate]);
             }
             if joint.has_displacement {
                 let parts = sample.displacement_parts(place);
@@ -282,6 +217,16 @@ impl Row {
     fn push<S: Real>(&mut self, values: &[S]) {
         self.values
             .extend(values.iter().map(|value| value.to_f64()));
+    }
+}
+
+/// The parts of an angle as numbers of a record.
+fn in_double<S: Real>(parts: &AngleParts<S>) -> AngleParts<f64> {
+    AngleParts {
+        cosine: parts.cosine.to_f64(),
+        sine: parts.sine.to_f64(),
+        rate: parts.rate.to_f64(),
+        turns: parts.turns.map(S::to_f64),
     }
 }
 

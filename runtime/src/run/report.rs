@@ -38,8 +38,10 @@ pub struct RunReport<S: Real, M: Mechanism> {
     pub monitor: Option<Monitor<S, M>>,
 }
 
-/// The report of a run, or why it could not go on.
-pub type RunResult<S, M> = Result<RunReport<S, M>, SimulationError<<M as Mechanism>::State<S>>>;
+/// The report of a run, or why it could not go on; `E` is another error where the observer may
+/// fail, see [`RunError`](crate::RunError).
+pub type RunResult<S, M, E = SimulationError<<M as Mechanism>::State<S>>> =
+    Result<RunReport<S, M>, E>;
 
 impl<S: Real, M: Mechanism> RunReport<S, M> {
     /// Warnings; empty for a run that can be trusted, as far as its indicators tell.

@@ -4,13 +4,15 @@ use core::cell::OnceCell;
 use core::fmt::{self, Debug};
 use core::ops::Deref;
 
+use nalgebra::Vector3;
+
 use crate::dynamics::evaluate::Evaluate;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::measure::reaction::Wrench;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Evaluation;
-use crate::mechanism::handle::{BodyHandle, Driven, JointHandle};
+use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::StateParts;
 
@@ -128,12 +130,75 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
         self.view.driving_effort(multipliers, joint)
     }
 
-    /// Accelerations `u'` (m/s^2 global; rad/s^2 principal body axes), one per velocity.
+    /// Accelerations `u'` (m/s^2 global; rad/s^2 principal body axes), one per velocity. By handle
+    /// and in the user's axes: [`Sample::acceleration`], [`Sample::angular_acceleration`].
     ///
     /// # Errors
     /// The fault of the evaluation.
     pub fn accelerations(&self) -> Result<M::Velocities<S>, Fault> {
         Ok(*self.evaluation()?.rates.velocities())
+    }
+
+    /// The acceleration of the centre of mass of a body (m/s^2, global).
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn acceleration(&self, body: BodyHandle<M>) -> Result<Vector3<S>, Fault> {
+        Ok(self.view.acceleration(&self.evaluation()?.rates, body))
+    }
+
+    /// The angular acceleration of a body (rad/s^2) along its own axes, as the user gave them.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn angular_acceleration(&self, body: BodyHandle<M>) -> Result<Vector3<S>, Fault> {
+        let rates = &self.evaluation()?.rates;
+        Ok(self.view.angular_acceleration(rates, body))
+    }
+
+    /// The angular acceleration of a body (rad/s^2) along the global axes.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn angular_acceleration_global(&self, body: BodyHandle<M>) -> Result<Vector3<S>, Fault> {
+        let rates = &self.evaluation()?.rates;
+        Ok(self.view.angular_acceleration_global(rates, body))
+    }
+
+    /// The acceleration of a point of a body (m/s^2, global), given from the centre of mass along
+    /// the user's body axes (m). It has the centripetal part.
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn point_acceleration(
+        &self,
+        body: BodyHandle<M>,
+        point: Vector3<S>,
+    ) -> Result<Vector3<S>, Fault> {
+        let rates = &self.evaluation()?.rates;
+        Ok(self.view.point_acceleration(rates, body, point))
+    }
+
+    /// The acceleration of the angle of a joint (rad/s^2), with the sign of [`View::angle`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn angle_acceleration<J: HasAngle>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
+        let rates = &self.evaluation()?.rates;
+        Ok(self.view.angle_acceleration(rates, joint))
+    }
+
+    /// The acceleration of the displacement of a joint (m/s^2), with the sign of
+    /// [`View::displacement`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn displacement_acceleration<J: HasDisplacement>(
+        &self,
+        joint: JointHandle<M, J>,
+    ) -> Result<S, Fault> {
+        let rates = &self.evaluation()?.rates;
+        Ok(self.view.displacement_acceleration(rates, joint))
     }
 
     /// The violation of the constraints by the accelerations: the square of `D u' - gamma`.

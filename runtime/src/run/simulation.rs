@@ -2,13 +2,13 @@
 
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
-use core::ops::RangeInclusive;
+use core::ops::{ControlFlow, RangeInclusive};
 
 use crate::assembly::assembled;
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::projection::Projection;
 use crate::dynamics::Dynamics;
-use crate::error::{Fault, SimulationError};
+use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{Counts, Integrator, Method};
 use crate::math::scalar::Real;
@@ -19,7 +19,7 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
 use crate::run::companion::Companion;
-use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval};
+use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
 use crate::run::sample::Sample;
@@ -183,7 +183,6 @@ where
     /// tolerance. With half the step of a method of order 1 the estimate is half of the error.
     ///
     /// ```
-    /// # use holonom::joints::Revolute;
     /// # use holonom::prelude::*;
     /// # #[derive(Mechanism)]
     /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
@@ -297,37 +296,63 @@ where
     /// reporting times and at the end. An observer that returns `ControlFlow::Break(())` stops the
     /// run; one that returns nothing never does.
     ///
-    /// An interval of length zero reports once and evaluates nothing.
+    /// An observer may return a `Result` of either, such as that of [`Sample::reaction`] or of
+    /// `Recorder::record`. Its error stops the run, which returns it as
+    /// [`RunError::Observer`](crate::RunError::Observer).
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// # struct Rod {
+    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    /// #     rod: Body,
+    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     hinge: Revolute,
+    /// # }
+    /// let (rod, handles) = (Rod::default(), Rod::HANDLES);
+    /// let mut largest = 0.0_f64;
+    /// Simulation::new(&rod, StandardLagrange, Rk4::every(0.01)).run(
+    ///     0.0..=1.0,
+    ///     every(0.1),
+    ///     |sample| {
+    ///         let reaction = sample.reaction(handles.hinge, handles.rod)?;
+    ///         largest = largest.max(reaction.force.norm());
+    ///         Ok::<(), Fault>(())
+    ///     },
+    /// )?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// Time, cause and last good state where the run cannot go on: a parameter, a coefficient or a
-    /// setting that is not acceptable, a singular configuration, no convergence, a step too small,
-    /// numbers out of range. The state is of zeros where a parameter was refused and no initial
-    /// state had been given.
+    /// That of the observer. Else a [`SimulationError`](crate::SimulationError) with time, cause
+    /// and last good state, where the run cannot go on: a parameter, a coefficient or a setting
+    /// that is not acceptable, a singular configuration, no convergence, a step too small, numbers
+    /// out of range. The state is of zeros where a parameter was refused and no initial state had
+    /// been given.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
         mut observe: O,
-    ) -> RunResult<S, M>
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
         I: Runs<S, M, F, C, A>,
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
-        let mut observe = |sample: &Sample<'_, S, M>| observe(sample).into_flow();
+        let mut failure = None;
+        let mut observe = |sample: &Sample<'_, S, M>| {
+            observe(sample).into_flow().unwrap_or_else(|error| {
+                failure = Some(error);
+                ControlFlow::Break(())
+            })
+        };
         let (start, end) = interval.into_inner();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
         let mut last_good = (start, self.initial.unwrap_or_else(zeros));
-        self.attempt((start, end), reporting, &mut observe, &mut last_good)
-            .map_err(|fault| {
-                let (time, state) = last_good;
-                SimulationError {
-                    time: time.to_f64(),
-                    fault,
-                    state,
-                }
-            })
+        let report = self.attempt((start, end), reporting, &mut observe, &mut last_good);
+        outcome::<R, _, _, _>(report, failure, last_good)
     }
 
     fn attempt(

@@ -29,7 +29,6 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 /// equations that close loops drift or are stabilised, as the formulation has it.
 ///
 /// ```
-/// use holonom::joints::Revolute;
 /// use holonom::prelude::*;
 ///
 /// #[derive(Mechanism)]

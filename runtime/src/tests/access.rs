@@ -3,6 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::rod::{PIVOT, ROD, Rod, rod};
+use crate::measure::Viewed as _;
 use crate::state::State;
 use crate::*;
 
@@ -68,4 +69,23 @@ fn the_velocity_of_a_point_is_the_rate_of_the_point() {
     }
     let difference = (Rod::point(&after, ROD, place) - Rod::point(&before, ROD, place)) / step;
     assert!((Rod::point_velocity(&state(), ROD, place) - difference).norm() < 1e-8);
+}
+
+#[test]
+fn a_view_of_a_mechanism_reads_what_one_of_its_constants_reads() {
+    let mut rod = rod();
+    rod.mass = 3.0;
+    let (state, time) = (state(), 0.5);
+    let owned = rod.view(time, &state).unwrap();
+    let constants = rod.constants().unwrap();
+    let borrowed = View::<_, Rod>::new(&constants, time, &state);
+    assert_eq!(owned.time(), time);
+    assert_eq!(owned.kinetic_energy(), borrowed.kinetic_energy());
+    assert_eq!(owned.potential_energy(), borrowed.potential_energy());
+    assert_eq!(owned.pose(ROD), borrowed.pose(ROD));
+    assert_eq!(owned.angle(PIVOT), borrowed.angle(PIVOT));
+    assert_eq!(owned.violation(), borrowed.violation());
+    assert_eq!(owned.borrowed().energy(), borrowed.energy());
+    rod.mass = -1.0;
+    assert!(rod.view(time, &state).is_err());
 }

@@ -1,13 +1,16 @@
 //! Tests of what runs a mechanism, on one that is written by hand and knows nothing of the
 //! generator.
 
+mod accelerations;
 mod access;
 mod correction;
 mod counters;
 mod crank;
 mod dense;
 mod driven;
+mod loads;
 mod messages;
+mod observer;
 #[cfg(feature = "recorder")]
 mod recorder;
 mod rod;

@@ -9,7 +9,8 @@ use std::vec::Vec;
 
 use super::crank::{CRANK, Crank, MOTOR, crank};
 use super::rod::{ROD, rod};
-use crate::run::RecordError;
+use crate::measure::UnwrappedAngle;
+use crate::run::{RecordError, Simulate as _};
 use crate::*;
 
 fn follow(speed: f64, mut observe: impl FnMut(&Sample<'_, f64, Crank>)) {
@@ -215,4 +216,36 @@ fn single_precision_is_recorded_as_it_is() {
             .zip(&times)
             .all(|(row, time)| row[0] == f64::from(*time))
     );
+}
+
+/// The rod turns over at 11 rad/s or more: ten times in six seconds.
+#[test]
+fn angles_of_a_record_go_on_over_turns() {
+    let rod = rod();
+    let mut state = rod.described_state().unwrap();
+    crate::tests::rod::Rod::set_angular_velocity(&mut state, ROD, [12.0, 0.0, 0.0].into());
+    crate::tests::rod::Rod::set_velocity(&mut state, ROD, [0.0, 0.0, 6.0].into());
+    let mut recorder = Recorder::new(Vec::new());
+    let mut followed = UnwrappedAngle::default();
+    let mut angles = Vec::new();
+    rod.simulation(StandardLagrange, Rk4::every(0.002))
+        .initial_state(state)
+        .run(0.0..=6.0, every(0.2), |sample| {
+            angles.push(followed.read(sample, super::rod::PIVOT));
+            recorder.record(sample)
+        })
+        .unwrap();
+    let (names, rows) = parse(recorder.writer());
+    let place = |wanted: &str| names.iter().position(|name| name == wanted).unwrap();
+    let (angle, rate) = (
+        place("pivot.angle [rad]"),
+        place("pivot.angle_rate [rad/s]"),
+    );
+    for (pair, known) in rows.windows(2).zip(angles.windows(2)) {
+        assert_eq!([pair[0][angle], pair[1][angle]], known);
+        // As the rates have it, by the trapezium.
+        let turned = 0.1 * (pair[0][rate] + pair[1][rate]);
+        assert!((pair[1][angle] - pair[0][angle] - turned).abs() < 0.5);
+    }
+    assert!(rows.last().unwrap()[angle] > 60.0);
 }

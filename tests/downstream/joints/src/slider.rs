@@ -1,6 +1,6 @@
 //! A mechanism beside the joint that it uses.
 
-use kinematics::prelude::*;
+use kinematics::{Body, Mechanism};
 
 kinematics::joint! {
     /// A body that slides along an axis and does not turn.

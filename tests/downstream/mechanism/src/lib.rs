@@ -36,6 +36,7 @@ extern crate std;
 
 mod crane;
 mod linkage;
+pub mod own_names;
 pub mod ropes;
 mod telescope;
 

@@ -6,6 +6,7 @@ use downstream_joints::differences::{assert_derivatives, assert_near, constraint
 use mech::nalgebra::Vector3;
 use mech::prelude::*;
 
+use super::own_names::Swing;
 use super::{Crane, Crossed, HALF, Linkage, Probe, sway};
 
 #[test]
@@ -159,4 +160,15 @@ fn errors_at_run_time_name_a_joint_of_another_crate() {
         panic!("{}", error.fault);
     };
     assert!(["arm", "spare"].contains(&name), "{name}");
+}
+
+#[test]
+fn a_joint_imported_by_name_comes_before_that_of_the_prelude() {
+    let kinds: Vec<_> = Swing::REPORT
+        .joints
+        .iter()
+        .map(|joint| (joint.kind, joint.rows))
+        .collect();
+    assert_eq!(kinds, [("Gear", 3), ("PointOnPlane", 1)]);
+    assert_eq!(Swing::REPORT.forces.len(), 1);
 }

@@ -7,8 +7,6 @@
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_semihosting::{debug, hprintln};
-use holonom::forces::TorsionalActuator;
-use holonom::joints::Revolute;
 use holonom::prelude::*;
 use panic_halt as _;
 
@@ -31,7 +29,7 @@ struct Balancer {
 }
 
 /// The inputs in the number type of the run.
-type Inputs = <Balancer as Mechanism>::Inputs<f32>;
+type Inputs = InputsOf<Balancer, f32>;
 
 /// A second of control, one step a period; says the angle ten times.
 fn run(timer: &mut SYST) -> Result<(), Fault> {

@@ -1,9 +1,5 @@
 //! The table of all forces.
 
-use holonom::forces::{
-    Actuator, ConstantMoment, FollowerForce, FollowerMoment, PointForce, SpringDamper,
-    TorsionalActuator, TorsionalSpringDamper,
-};
 use holonom_assembler::assembler::Assembler;
 use holonom_assembler::bodies::BodyId;
 use holonom_assembler::forces::Force;

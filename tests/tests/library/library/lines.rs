@@ -1,6 +1,5 @@
 //! Joints along lines and planes.
 
-use holonom::joints::{Planar, PointOnLine, PointOnPlane, Prismatic};
 use holonom_assembler::joints::Joint;
 
 use super::Entry;

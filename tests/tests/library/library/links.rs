@@ -1,6 +1,5 @@
 //! Massless links.
 
-use holonom::joints::{Distance, RevoluteRevolute, RevoluteSpherical};
 use holonom_assembler::joints::Joint;
 
 use super::Entry;

@@ -1,6 +1,5 @@
 //! Drivers.
 
-use holonom::joints::{AngleDriver, DisplacementDriver, DistanceDriver, OrientationDriver};
 use holonom_assembler::joints::Joint;
 use holonom_assembler::laws::Motion;
 

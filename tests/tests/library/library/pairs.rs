@@ -1,6 +1,5 @@
 //! Joints about a point.
 
-use holonom::joints::{Fixed, Revolute, Spherical};
 use holonom_assembler::joints::Joint;
 
 use super::Entry;

@@ -1,6 +1,5 @@
 //! Point masses in joints.
 
-use holonom::joints::{Distance, PointOnLine, PointOnPlane, Spherical};
 use holonom_assembler::joints::Joint;
 
 use super::Entry;

@@ -1,6 +1,5 @@
 //! Joints between shafts.
 
-use holonom::joints::{ConstantVelocity, Cylindrical, Screw, Universal};
 use holonom_assembler::joints::Joint;
 
 use super::Entry;

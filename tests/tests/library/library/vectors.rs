@@ -1,6 +1,5 @@
 //! Constraints between two vectors.
 
-use holonom::joints::{Parallel1, Parallel2, Perpendicular1, Perpendicular2};
 use holonom_assembler::joints::Joint;
 
 use super::Entry;

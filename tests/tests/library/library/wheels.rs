@@ -1,6 +1,5 @@
 //! Gears and racks, on a carrier.
 
-use holonom::joints::{Gear, RackAndPinion};
 use holonom_assembler::joints::Joint;
 
 use super::Entry;

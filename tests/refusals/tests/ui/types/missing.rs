@@ -1,7 +1,9 @@
 //! Joints that are not there: forgotten, renamed by an alias, misspelt.
 
+use core::ops::ControlFlow;
+
 use holonom::joints::Revolute;
-use holonom::prelude::*;
+use holonom::{Body, Mechanism, Rk4, Simulation, StandardLagrange, every};
 
 /// No `use`.
 #[derive(Mechanism)]
