@@ -37,7 +37,7 @@
 //! A picture needs no geometry: the generator knows the points and axes of every joint
 //! ([`Report::markers`](holonom::Report::markers)). A body is made of bars between these points and
 //! its centre of mass, and of a plate where three or more span one. One that is described by
-//! [shapes](holonom::guide::shapes) looks like these. A joint looks like its kind, a spring is a
+//! [shapes](holonom::Report::shapes) looks like these. A joint looks like its kind, a spring is a
 //! coil. So a wrong point is seen.
 //!
 //! The page plays, loops and seeks, and is turned by mouse or touch. It shows traces, the readings
