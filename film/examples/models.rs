@@ -168,6 +168,7 @@ where
     let path = folder.join(file).with_extension("html");
     film.save(&path)?;
     film.save_svg(path.with_extension("svg"))?;
+    film.save_gltf(path.with_extension("gltf"))?;
     fs::write(path.with_extension("sketch.svg"), model.sketch()?)?;
     println!("{}: {} frames", path.display(), film.frames());
     Ok(())

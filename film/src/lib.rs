@@ -45,15 +45,20 @@
 //! ([`Film::with_reactions`]). Keys: space, arrows, `F` fit, `I`
 //! `X` `Y` `Z` views, `O` orthographic, `R` reactions, `T` traces, `H` parts, `D` dark.
 //!
+//! [`Film::save_gltf`] writes the same motion for Blender, game engines and slides. [`Sketch`] draws
+//! the reference configuration, before anything runs.
+//!
 //! The drawing is done by three.js, of which the page holds what it needs: below 700 kB.
 
 #![forbid(unsafe_code)]
 
+mod gltf;
 mod page;
 mod picture;
 mod record;
 mod reference;
 mod sketch;
+mod solid;
 
 pub use record::{Film, FilmError};
 pub use reference::Sketch;

@@ -120,6 +120,18 @@ impl Subject<'_> {
         all.map(|(body, at)| self.place(frame, body, at)).collect()
     }
 
+    /// The largest extent of the mechanism in the first frame (m); 1 where it is a point.
+    pub(crate) fn size(&self) -> f64 {
+        let places = self.all_places(0);
+        let span = |k: usize| {
+            let along = places.iter().map(|place| place[k]);
+            let low = along.clone().fold(f64::INFINITY, f64::min);
+            along.fold(f64::NEG_INFINITY, f64::max) - low
+        };
+        let size = span(0).max(span(1)).max(span(2));
+        if size > 0.0 { size } else { 1.0 }
+    }
+
     /// Whether all axes of joints are along an axis.
     pub(crate) fn is_plane(&self, axis: usize) -> bool {
         let axes = self.markers.iter().filter(|marker| marker.kind == "axis");

@@ -8,6 +8,7 @@ use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind, ShapeKind};
 use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, View, Warnings};
 
+use crate::gltf::gltf;
 use crate::page::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Shape, Trace};
 use crate::picture::Subject;
 use crate::sketch::sketch;
@@ -239,6 +240,26 @@ impl<M: Mechanism> Film<M> {
     pub fn svg(&self) -> Result<String, FilmError> {
         self.check()?;
         Ok(self.subject(&elements::<M>()).svg())
+    }
+
+    /// The film as a glTF file of one piece, for Blender, three.js, game engines and slides: a node a
+    /// body, and an animation. Angles between frames turn the short way: record them closely.
+    ///
+    /// # Errors
+    /// As [`Film::html`].
+    pub fn gltf(&self) -> Result<String, FilmError> {
+        self.check()?;
+        let names: Vec<&str> = M::REPORT.bodies.iter().map(|body| body.name).collect();
+        let text = gltf(&self.subject(&elements::<M>()), &self.shapes, &names);
+        text.map_err(|error| FilmError::Write(error.into()))
+    }
+
+    /// Writes the glTF file, whose name ends in `.gltf`.
+    ///
+    /// # Errors
+    /// As [`Film::save`].
+    pub fn save_gltf(&self, path: impl AsRef<Path>) -> Result<(), FilmError> {
+        fs::write(path, self.gltf()?).map_err(FilmError::Write)
     }
 
     /// Writes the moving picture to a file.

@@ -261,6 +261,73 @@ fn a_picture_is_an_animated_drawing() -> Result<(), Box<dyn Error>> {
 }
 
 /// What a page weighs beside its data.
+/// Read by a parser that nobody here wrote.
+#[test]
+fn a_gltf_file_moves_as_the_run_does() -> Result<(), Box<dyn Error>> {
+    let pendulum = RodPendulum::default();
+    let (mut film, mut poses) = (Film::new(), Vec::new());
+    pendulum
+        .simulation(StandardLagrange, DormandPrince::default())
+        .run(0.0..=1.0, every(0.05), |sample| {
+            film.record(sample);
+            poses.push((sample.time(), sample.pose(RodPendulum::HANDLES.rod)));
+        })?;
+    let gltf::Gltf { document, .. } = gltf::Gltf::from_slice(film.gltf()?.as_bytes())?;
+    let buffer = document.buffers().next().expect("a buffer");
+    let gltf::buffer::Source::Uri(uri) = buffer.source() else {
+        panic!("in the file");
+    };
+    let (_, text) = uri.split_once(',').expect("a data URI");
+    let numbers = STANDARD.decode(text)?;
+    assert_eq!(numbers.len(), buffer.length());
+
+    let animation = document.animations().next().expect("an animation");
+    assert_eq!(animation.channels().count(), 2);
+    for channel in animation.channels() {
+        assert_eq!(channel.target().node().name(), Some("rod"));
+        let reader = channel.reader(|_| Some(&numbers));
+        let times: Vec<f32> = reader.read_inputs().expect("times").collect();
+        assert_eq!(times.len(), poses.len());
+        for (found, (time, _)) in times.iter().zip(&poses) {
+            assert!((f64::from(*found) - time).abs() < 1e-6);
+        }
+        match reader.read_outputs().expect("values") {
+            gltf::animation::util::ReadOutputs::Translations(places) => {
+                for (place, (_, pose)) in places.zip(&poses) {
+                    let off = Vector3::from(place.map(f64::from)) - pose.position;
+                    assert!(off.norm() < 1e-6, "{off}");
+                }
+            }
+            gltf::animation::util::ReadOutputs::Rotations(turns) => {
+                for ([i, j, k, w], (_, pose)) in turns.into_f32().zip(&poses) {
+                    let found = Quaternion::new(w, i, j, k).cast::<f64>();
+                    let same = found.dot(&pose.orientation).abs();
+                    assert!((same - 1.0).abs() < 1e-6, "{same}");
+                }
+            }
+            _ => panic!("a body is moved and turned"),
+        }
+    }
+    // What is up here is up there.
+    let scene = document.default_scene().expect("a scene");
+    let whole = scene.nodes().next().expect("all");
+    let (_, [i, j, k, w], _) = whole.transform().decomposed();
+    let turn = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k)).cast::<f64>();
+    let up = turn * Vector3::from([0.0, 0.0, 1.0]);
+    assert!((up - Vector3::y()).norm() < 1e-6, "{up}");
+    let rod = whole.children().next().expect("the rod");
+    let mesh = rod
+        .mesh()
+        .expect("a surface")
+        .primitives()
+        .next()
+        .expect("one");
+    let reader = mesh.reader(|_| Some(&numbers));
+    let points: Vec<[f32; 3]> = reader.read_positions().expect("points").collect();
+    assert!(points.len().is_multiple_of(3) && !points.is_empty());
+    Ok(())
+}
+
 /// Distances on the paper are those of the mechanism, on one scale, and joints have their numbers.
 #[test]
 fn a_sketch_is_to_scale() -> Result<(), Box<dyn Error>> {
