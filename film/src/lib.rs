@@ -45,8 +45,8 @@
 //! ([`Film::with_reactions`]). Keys: space, arrows, `F` fit, `I`
 //! `X` `Y` `Z` views, `O` orthographic, `R` reactions, `T` traces, `H` parts, `D` dark.
 //!
-//! [`Film::save_gltf`] writes the same motion for Blender, game engines and slides. [`Sketch`] draws
-//! the reference configuration, before anything runs.
+//! [`Film::save_gltf`] writes the same motion for Blender, game engines and slides.
+//! [`Sketch`] draws the reference configuration, before anything runs.
 //!
 //! The drawing is done by three.js, of which the page holds what it needs: below 700 kB.
 
