@@ -242,8 +242,8 @@ impl<M: Mechanism> Film<M> {
         Ok(self.subject(&elements::<M>()).svg())
     }
 
-    /// The film as a glTF file of one piece, for Blender, three.js, game engines and slides: a node a
-    /// body, and an animation. Angles between frames turn the short way: record them closely.
+    /// The film as a glTF file of one piece, for Blender, three.js, game engines and slides: a node
+    /// a body, and an animation. Angles between frames turn the short way: record them closely.
     ///
     /// # Errors
     /// As [`Film::html`].

@@ -10,11 +10,11 @@ impl Reader<'_, '_> {
     /// Euler parameters, of any length, of a rotation that leads an axis of the body to a
     /// direction.
     ///
-    /// Which of the many? In the plane of the axis `a` and the next one `b`, the third axis `c` stays
-    /// where it is. In that of `a` and `c`, the second does. In that of `b` and `c` the axes are
-    /// renamed first, so that `c` becomes `a`. So a mechanism in a coordinate plane has its normal as
-    /// an axis of all bodies, whatever lengths are parameters. Elsewhere it is the least rotation.
-    /// What leads backwards begins with half a turn.
+    /// Which of the many? In the plane of the axis `a` and the next one `b`, the third axis `c`
+    /// stays where it is. In that of `a` and `c`, the second does. In that of `b` and `c` the axes
+    /// are renamed first, so that `c` becomes `a`. So a mechanism in a coordinate plane has its
+    /// normal as an axis of all bodies, whatever lengths are parameters. Elsewhere it is the least
+    /// rotation. What leads backwards begins with half a turn.
     pub(super) fn leading(
         &mut self,
         at: impl ToTokens,
