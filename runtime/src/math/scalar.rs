@@ -87,12 +87,10 @@ pub trait Scalar:
 
     /// Whether numbers have no more than the seven digits of `f32`: a series may end where these
     /// are right.
-    #[doc(hidden)]
     const SEVEN_DIGITS: bool = false;
 
     /// Whether the absolute values of these numbers are known to be at most `bound`; NaN, which
     /// shows in whatever is computed of it, does not count. A type that cannot tell says no.
-    #[doc(hidden)]
     #[must_use]
     fn are_within<const N: usize>(numbers: &[Self; N], bound: f64) -> bool {
         let _ = (numbers, bound);

@@ -4,8 +4,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::versine;
 use crate::state::each::EachOfJoints;
 use crate::state::vector::{
-    Vector, classical_step, greater, greatest, plus, weighted_norm, zero_if_finite,
-    zero_if_finite_after,
+    Vector, greater, greatest, plus, weighted_norm, zero_if_finite, zero_if_finite_after,
 };
 
 /// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every
@@ -26,11 +25,12 @@ use crate::state::vector::{
 ///   takes back what round-off did to the length before: it does not drift. A pair that was given
 ///   with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is
 ///   no angle.
-/// - [`Rk4`](crate::Rk4) turns a few pairs on from ones that are known, where that is by 0.0125 rad
-///   at most: by a short series, so that the next evaluation waits less. So the later stages of a
-///   step and its end are made, by what the slopes differ by, and the first stage of a pair that
-///   stands alone. The sums are those of [`Vector::plus`], up to round-off; of an error of the
-///   length the first stage leaves half a square of the angle times as much beside the above.
+/// - [`Vector::plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its
+///   end, turns a few pairs on from ones that are known by what the slopes differ by, where that is
+///   0.0125 rad at most: a short series, so that the next evaluation waits less.
+///   [`Vector::plus_once_and_twice`], which leads to the first stage, does so with a pair that
+///   stands alone. The sums are the same, up to round-off; of an error of the length the latter
+///   leaves half a square of the angle times as much beside the above.
 /// - [`Vector::weighted_norm`] measures the increment of an angle in radians, against
 ///   `max(1, floor)`. Angles on a circle have no size, so a relative tolerance is one in radians,
 ///   and an absolute one counts if it is greater.
@@ -155,6 +155,49 @@ fn turned<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], angles: &[S; T]) -> [[
     turned_by(pairs, &S::sines_and_versines(angles))
 }
 
+/// A pair that is near, turned on by its angle if that is little, or else the one where all began
+/// by the whole angle: the same for a pair, whatever stands beside it.
+#[cold]
+#[inline(never)]
+fn turned_beside<S: Scalar>((near, angle): ([S; 2], S), (from, whole): ([S; 2], S)) -> [S; 2] {
+    if S::are_within(&[angle], LITTLE) {
+        return turned_a_little(near, angle);
+    }
+    let [pair] = turned(&[from], &[whole]);
+    pair
+}
+
+/// Angles (rad) for which six powers leave 9.5e-18 of a turn, and three leave 1.0e-9.
+const LITTLE: f64 = 0.0125;
+
+/// A pair of length 1, turned by an angle of at most [`LITTLE`].
+#[inline(always)]
+fn turned_a_little<S: Scalar>(pair: [S; 2], angle: S) -> [S; 2] {
+    let [[c, s], [way_c, way_s]] = [pair, way(pair, angle)];
+    [angle.fused(way_c, c), angle.fused(way_s, s)]
+}
+
+/// Where a pair goes in a turn by an angle of at most [`LITTLE`], over that angle.
+///
+/// `n - a p / 2 - a^2 n / 6 + a^3 p / 24 + a^4 n / 120 - a^5 p / 720` of a pair `p` and its normal
+/// `n`: the factors are known before the angle is, and powers do not wait for each other.
+#[inline(always)]
+fn way<S: Scalar>([c, s]: [S; 2], angle: S) -> [S; 2] {
+    let square = angle * angle;
+    let element = |p: S, n: S| {
+        let term = |even: f64, odd: f64| angle.fused(p * S::constant(even), n * S::constant(odd));
+        let one = angle.fused(p * S::constant(-0.5), n);
+        let three = if S::SEVEN_DIGITS {
+            n * S::constant(-1.0 / 6.0)
+        } else {
+            let five = term(-1.0 / 720.0, 1.0 / 120.0);
+            square.fused(five, term(1.0 / 24.0, -1.0 / 6.0))
+        };
+        square.fused(three, one)
+    };
+    [element(c, -s), element(s, c)]
+}
+
 /// What takes the length of a pair to 1.
 #[inline(always)]
 fn stretch<S: Scalar>([c, s]: [S; 2]) -> [S; 2] {
@@ -185,6 +228,38 @@ fn turn<S: Scalar>(pairs: &mut [[S; 2]], turns: &[[S; 2]]) {
     }
 }
 
+/// Pairs, turned by angles and by twice these angles.
+#[inline(always)]
+fn turned_once_and_twice<S: Scalar, const T: usize>(
+    pairs: &[[S; 2]; T],
+    angles: &[S; T],
+) -> [[[S; 2]; T]; 2] {
+    let (mut once, mut twice) = (*pairs, *pairs);
+    // Of a pair that stands alone the next evaluation does nothing but wait. What is missing of its
+    // length is not turned with it: that would be known later.
+    if T == 1 && S::are_within(angles, LITTLE) {
+        for ((once, twice), &angle) in once.iter_mut().zip(&mut twice).zip(angles) {
+            let pair = *once;
+            let [[way_c, way_s], [more_c, more_s]] = [way(pair, angle), stretch(pair)];
+            let [c, s] = pair;
+            *once = [
+                c + angle.fused(way_c, more_c),
+                s + angle.fused(way_s, more_s),
+            ];
+            [*twice] = turned_by(&[pair], &[versine::doubled(versine::of_little(angle))]);
+        }
+        return [once, twice];
+    }
+    let mut turns = S::sines_and_versines(angles);
+    once = turned_by(pairs, &turns);
+    // A loop, because `map` is called where much is compiled together.
+    for turn in &mut turns {
+        *turn = versine::doubled(*turn);
+    }
+    twice = turned_by(pairs, &turns);
+    [once, twice]
+}
+
 impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize>
     JointState<S, TURNS, REST, RATES>
 {
@@ -202,6 +277,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize>
 impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vector<S>
     for JointState<S, TURNS, REST, RATES>
 {
+    const PLUS_IS_COSTLY: bool = TURNS > 0;
+
     type Each<T: Clone> = EachOfJoints<T, TURNS, REST, RATES>;
 
     fn each<T: Clone>(&self, value: T) -> EachOfJoints<T, TURNS, REST, RATES> {
@@ -271,6 +348,48 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     }
 
     #[inline(always)]
+    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
+        let angles = increments(&[(factor, direction)]);
+        let [once, twice] = turned_once_and_twice(&self.pairs, &angles);
+        [
+            self.plus_with(once, [(factor, direction)]),
+            self.plus_with(twice, [(factor + factor, direction)]),
+        ]
+    }
+
+    /// Pairs go on from those that are known by little angles: that is less to compute, and what
+    /// waits for the last slope is short.
+    #[inline(always)]
+    fn plus_beside<const K: usize>(
+        &self,
+        near: &Self,
+        along: (S, &Self),
+        terms: [(S, &Self); K],
+    ) -> Self {
+        // Of many the operations count: the turns of a stage do not wait for each other. Measured,
+        // see docs/decisions/006-turns-in-a-step.md.
+        let few = if S::SEVEN_DIGITS { 12 } else { 5 };
+        if TURNS > few {
+            return self.plus(terms);
+        }
+        let (factor, slope) = along;
+        let angles = more_increments(increments(&[(-factor, slope)]), &terms);
+        let mut pairs = near.pairs;
+        if S::are_within(&angles, LITTLE) {
+            for (pair, &angle) in pairs.iter_mut().zip(&angles) {
+                *pair = turned_a_little(*pair, angle);
+            }
+        } else {
+            let whole = increments(&terms);
+            let (from, angles) = (self.pairs.iter().zip(&whole), &angles);
+            for ((pair, (&from, &whole)), &angle) in pairs.iter_mut().zip(from).zip(angles) {
+                *pair = turned_beside((*pair, angle), (from, whole));
+            }
+        }
+        self.plus_with(pairs, terms)
+    }
+
+    #[inline(always)]
     fn towards<const W: usize, const K: usize>(
         &self,
         to: &Self,
@@ -315,20 +434,6 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     }
 
     #[inline(always)]
-    fn classical_step<E>(
-        &self,
-        first: &Self,
-        step: S,
-        slope: impl FnMut(S, &Self, &mut Self) -> Result<(), E>,
-    ) -> Result<Self, E> {
-        if TURNS > 0 {
-            self.step_by_turns(first, step, slope)
-        } else {
-            classical_step(self, first, step, slope)
-        }
-    }
-
-    #[inline(always)]
     fn is_finite(&self) -> bool
     where
         S: Real,
@@ -347,6 +452,5 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
     }
 }
 
-mod step;
 #[cfg(test)]
 mod tests;

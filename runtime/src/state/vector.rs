@@ -44,6 +44,10 @@ pub trait Vector<S: Scalar>: Clone {
     /// One thing for every element: an implicit method keeps the columns of a matrix in it.
     type Each<T: Clone>: Clone + IndexMut<usize, Output = T>;
 
+    /// Whether [`Vector::plus`] costs more than to keep a slope: a method then adds its slopes at
+    /// once.
+    const PLUS_IS_COSTLY: bool = false;
+
     /// `f(self[k], other[k])` for every element.
     #[must_use]
     fn zip(&self, other: &Self, f: impl FnMut(S, S) -> S) -> Self;
@@ -111,6 +115,27 @@ pub trait Vector<S: Scalar>: Clone {
         result
     }
 
+    /// [`Vector::plus`] of one direction, by a factor and by twice that factor: what these have in
+    /// common is computed once.
+    #[must_use]
+    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
+        [factor, factor + factor].map(|factor| self.plus([(factor, direction)]))
+    }
+
+    /// [`Vector::plus`] of directions that hardly differ from one for which the sum is known:
+    /// `near` is `self.plus([along])`. Where that helps, the result is `near` and what the
+    /// increments differ by.
+    #[must_use]
+    fn plus_beside<const N: usize>(
+        &self,
+        near: &Self,
+        along: (S, &Self),
+        terms: [(S, &Self); N],
+    ) -> Self {
+        let _ = (near, along);
+        self.plus(terms)
+    }
+
     /// `self + weight * (to - self) + sum of factor * direction`: on the way to another state, and
     /// beside it.
     ///
@@ -153,47 +178,6 @@ pub trait Vector<S: Scalar>: Clone {
         self.for_each(|element| finite &= element.is_finite());
         finite
     }
-
-    /// A step of the classical Runge-Kutta method, with the slope at its start and a function that
-    /// writes the slope after a part of the step. A state whose sums are costly shares what those
-    /// of a step have in common.
-    ///
-    /// # Errors
-    /// Those of the slopes.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn classical_step<E>(
-        &self,
-        first: &Self,
-        step: S,
-        slope: impl FnMut(S, &Self, &mut Self) -> Result<(), E>,
-    ) -> Result<Self, E> {
-        classical_step(self, first, step, slope)
-    }
-}
-
-/// The same by [`Vector::plus`] alone.
-#[inline(always)]
-pub(crate) fn classical_step<S: Scalar, X: Vector<S>, E>(
-    state: &X,
-    first: &X,
-    step: S,
-    mut slope_after: impl FnMut(S, &X, &mut X) -> Result<(), E>,
-) -> Result<X, E> {
-    let half = S::constant(0.5) * step;
-    let sixth = S::constant(1.0 / 6.0) * step;
-    let third = sixth + sixth;
-    let mut slope = state.clone();
-    let mut next = state.plus([(sixth, first)]);
-    let mut at = state.plus([(half, first)]);
-    slope_after(half, &at, &mut slope)?;
-    next = next.plus([(third, &slope)]);
-    at = state.plus([(half, &slope)]);
-    slope_after(half, &at, &mut slope)?;
-    next = next.plus([(third, &slope)]);
-    at = state.plus([(step, &slope)]);
-    slope_after(step, &at, &mut slope)?;
-    Ok(next.plus([(sixth, &slope)]))
 }
 
 impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
