@@ -439,6 +439,20 @@ fn dimensions_may_be_parameters() {
     assert_eq!([e1, e2].map(|e| e.literal()), [Some(0.0); 2]);
 }
 
+/// In an array the number of the element stands in the shape.
+#[test]
+fn elements_of_an_array_have_shapes_of_their_own() {
+    let row = described(
+        "#[body(shape = rod(radius = 0.01, from = [0.5 * k, 0.0, 0.0], to = [0.5 * k + 0.5, 0.0, 0.0]), mass = 1.0 + k, free)] \
+         links: [Body; 3],",
+    );
+    for (k, body) in row.bodies.iter().enumerate() {
+        let k = k as f64;
+        assert_eq!(seen(&row, body.position[0]), 0.5 * k + 0.25);
+        assert_eq!(seen(&row, body.mass), 1.0 + k);
+    }
+}
+
 /// The matrix of a turn about one axis.
 fn about(axis: usize, angle: f64) -> [Vector; 3] {
     let (s, c) = angle.sin_cos();

@@ -138,6 +138,8 @@ fn placed(expr: &Expr, index: usize, faults: &mut Faults) -> Option<Expr> {
         }
         Expr::Array(array) => every(array.elems.iter_mut().map(inner))?,
         Expr::Call(call) => every(call.args.iter_mut().map(inner))?,
+        // An argument by its name, such as the radius of a shape.
+        Expr::Assign(argument) => inner(&mut argument.right)?,
         Expr::Index(found) => {
             // A table of tables.
             if let Expr::Index(_) = ungroup(&found.expr) {
