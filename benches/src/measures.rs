@@ -37,7 +37,7 @@ pub struct Measures {
 pub const COMPARE: Measures = Measures {
     name: "compare",
     feature: "compare",
-    seconds: [Some(81), Some(1240)],
+    seconds: [Some(81), None],
 };
 /// `study trade`.
 pub const TRADE: Measures = Measures {

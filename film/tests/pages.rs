@@ -293,13 +293,16 @@ fn a_gltf_file_moves_as_the_run_does() -> Result<(), Box<dyn Error>> {
         }
         match reader.read_outputs().expect("values") {
             gltf::animation::util::ReadOutputs::Translations(places) => {
+                assert_eq!(places.len(), poses.len());
                 for (place, (_, pose)) in places.zip(&poses) {
                     let off = Vector3::from(place.map(f64::from)) - pose.position;
                     assert!(off.norm() < 1e-6, "{off}");
                 }
             }
             gltf::animation::util::ReadOutputs::Rotations(turns) => {
-                for ([i, j, k, w], (_, pose)) in turns.into_f32().zip(&poses) {
+                let turns: Vec<[f32; 4]> = turns.into_f32().collect();
+                assert_eq!(turns.len(), poses.len());
+                for ([i, j, k, w], (_, pose)) in turns.into_iter().zip(&poses) {
                     let found = Quaternion::new(w, i, j, k).cast::<f64>();
                     let same = found.dot(&pose.orientation).abs();
                     assert!((same - 1.0).abs() < 1e-6, "{same}");

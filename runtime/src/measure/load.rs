@@ -152,6 +152,35 @@ impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
     /// A force (N) along the displacement of a joint, on its second body, and its opposite on the
     /// first. A positive force drives the displacement upwards: its power is the force times
     /// [`View::displacement_rate`], as far as the displacement is not a function of time.
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// /// A slide of 1 kg on a cart of 2 kg.
+    /// #[derive(Mechanism)]
+    /// struct Train {
+    ///     #[body(mass = 2.0, inertia = [0.1, 0.1, 0.1])]
+    ///     cart: Body,
+    ///     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.3, 0.0, 0.2])]
+    ///     slide: Body,
+    ///     #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    ///     rail: Prismatic,
+    ///     #[joint(between = [cart, slide], point = [0.0, 0.0, 0.2], axis = [1.0, 0.0, 0.0])]
+    ///     guide: Prismatic,
+    /// }
+    ///
+    /// let (train, handles) = (Train::default(), Train::HANDLES);
+    /// Simulation::new(&train, StandardLagrange, Rk4::every(0.01))
+    ///     .forces(|_, _, loads| loads.force_between(handles.guide, 6.0))
+    ///     .run(0.0_f64..=0.1, every(0.1), |sample| -> Result<(), Fault> {
+    ///         // 6 N on 1 kg, and as much backwards on 2 kg.
+    ///         let acceleration = sample.displacement_acceleration(handles.guide)?;
+    ///         assert!((acceleration - 9.0).abs() < 1e-12);
+    ///         let backwards = sample.displacement_acceleration(handles.rail)?;
+    ///         assert!((backwards + 3.0).abs() < 1e-12);
+    ///         Ok(())
+    ///     })?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn force_between<J: HasDisplacement>(&mut self, joint: JointHandle<M, J>, force: S) {
         let view = self.view;
         self.drive(joint, force, |still| {
@@ -159,8 +188,8 @@ impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
         });
     }
 
-    /// An effort on a quantity of a joint, by its power: each velocity of the joint's bodies gets
-    /// the effort times the part that it has in the quantity's rate, which is linear in them.
+    /// An effort on a quantity of a joint, by its power. The quantity's rate is linear in the
+    /// velocities of the joint's bodies: each gets the effort times its part in that rate.
     #[inline(never)]
     fn drive<J>(&mut self, joint: JointHandle<M, J>, effort: S, rate: impl Fn(&M::State<S>) -> S) {
         let mut still = *self.view.state();

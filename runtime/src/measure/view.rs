@@ -22,9 +22,9 @@ use crate::state::vector::Array;
 
 /// A state at a time, with everything that can be read from it by handle.
 ///
-/// [`Viewed::view`](crate::measure::Viewed::view) makes one of a state at hand; observers and
+/// [`Viewed::view`](crate::measure::Viewed::view) makes one of a state at hand. Observers and
 /// steppers have one. `K` says whether the constants of the mechanism are borrowed, as in a run, or
-/// held ([`OwnedView`]); all that is read is the same.
+/// held ([`OwnedView`]). All that is read is the same.
 pub struct View<'a, S: Scalar, M: Mechanism, K = &'a <M as Mechanism>::Constants<S>> {
     constants: K,
     time: S,

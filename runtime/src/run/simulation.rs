@@ -325,11 +325,11 @@ where
     /// ```
     ///
     /// # Errors
-    /// That of the observer. Else a [`SimulationError`](crate::SimulationError) with time, cause
-    /// and last good state, where the run cannot go on: a parameter, a coefficient or a setting
-    /// that is not acceptable, a singular configuration, no convergence, a step too small, numbers
-    /// out of range. The state is of zeros where a parameter was refused and no initial state had
-    /// been given.
+    /// That of the observer. Else, where the run cannot go on, a
+    /// [`SimulationError`](crate::SimulationError) with time, cause and last good state. Causes are
+    /// a parameter, a coefficient or a setting that is not acceptable, a singular configuration,
+    /// no convergence, a step too small, numbers out of range. The state is of zeros where a
+    /// parameter was refused and no initial state had been given.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,

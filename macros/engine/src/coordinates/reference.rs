@@ -84,9 +84,9 @@ impl Reduced {
     }
 }
 
-/// The greatest of some values, which stands for all of them; `None` where they are too far from
-/// each other for that, as those of a row that is cubic in a distance, or of an angle near the
-/// point where it is undefined.
+/// The greatest of some values, which stands for all of them. `None` where they are too far from
+/// each other for that: of a row that is cubic in a distance, or of an angle near the point where
+/// it is undefined.
 fn size(values: &[f64]) -> Option<f64> {
     /// The least value over the greatest one.
     const LEAST: f64 = 1e-3;

@@ -1,10 +1,11 @@
 //! Functions that read joints and forces.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::straight_line::StraightLine;
 use super::writer::Writer;
+use crate::symbolic::equations::Kernel;
 use crate::syntax::words::local;
 
 impl Writer<'_> {
@@ -154,53 +155,42 @@ impl Writer<'_> {
 
     /// Only where joints or forces name points or directions.
     pub(super) fn markers(&mut self) -> TokenStream {
-        if self.kernels.readouts.markers.is_empty() {
-            return TokenStream::new();
-        }
-        let facade = self.facade;
-        let (constants, marker) = (local("constants"), local("marker"));
-        let mut arms = TokenStream::new();
-        for (at, marker) in self.kernels.readouts.markers.iter().enumerate() {
-            let StraightLine {
-                statements,
-                outputs,
-            } = self.line(&marker.components);
-            arms.extend(quote!(#at => { #statements [#(#outputs),*] }));
-        }
-        quote! {
-            fn marker<__S: #facade::Scalar>(
-                #constants: &Self::Constants<__S>,
-                #marker: usize,
-            ) -> [__S; 3] {
-                match #marker {
-                    #arms
-                    _ => [__S::zero(); 3],
-                }
-            }
-        }
+        let kernels = self.kernels;
+        let markers = kernels.readouts.markers.iter();
+        self.three_by_place("marker", markers.map(|marker| &marker.components))
     }
 
     /// Only where bodies are described by shapes.
     pub(super) fn shapes(&mut self) -> TokenStream {
-        if self.kernels.readouts.shapes.is_empty() {
-            return TokenStream::new();
-        }
-        let facade = self.facade;
-        let (constants, shape) = (local("constants"), local("shape"));
+        let kernels = self.kernels;
+        self.three_by_place("shape", kernels.readouts.shapes.iter())
+    }
+
+    /// A function of constants and a place, with three numbers at each; nothing without a place.
+    fn three_by_place<'k>(
+        &mut self,
+        name: &str,
+        kernels: impl Iterator<Item = &'k Kernel>,
+    ) -> TokenStream {
         let mut arms = TokenStream::new();
-        for (at, sizes) in self.kernels.readouts.shapes.iter().enumerate() {
+        for (at, kernel) in kernels.enumerate() {
             let StraightLine {
                 statements,
                 outputs,
-            } = self.line(sizes);
+            } = self.line(kernel);
             arms.extend(quote!(#at => { #statements [#(#outputs),*] }));
         }
+        if arms.is_empty() {
+            return arms;
+        }
+        let (facade, constants, place) = (self.facade, local("constants"), local(name));
+        let function = format_ident!("{name}");
         quote! {
-            fn shape<__S: #facade::Scalar>(
+            fn #function<__S: #facade::Scalar>(
                 #constants: &Self::Constants<__S>,
-                #shape: usize,
+                #place: usize,
             ) -> [__S; 3] {
-                match #shape {
+                match #place {
                     #arms
                     _ => [__S::zero(); 3],
                 }

@@ -385,7 +385,7 @@ fn a_row_that_grows_without_bound_makes_no_other_stop_singular() {
     }
 }
 
-/// An equation that is a product of a squared distance and a sine: along a sweep its gradient
+/// An equation that is a product of a squared distance and a sine. Along a sweep its gradient
 /// varies by many decades, and the greatest of them is no measure of the others.
 const PRODUCT: &str = "
     #[mechanism(redundant = \"drop\")]

@@ -232,19 +232,24 @@ impl Reader<'_, '_> {
 
     /// Numbers that the macro can see.
     fn seen(&mut self, shape: &Formulas<'_>, parts: &[Expr; 3]) -> Option<[f64; 3]> {
-        let mut seen = [0.0; 3];
-        for (seen, part) in seen.iter_mut().zip(parts) {
-            let part = self.numbers.part(part, self.faults)?;
-            if !part.is_written {
-                self.faults.at(
-                    shape.call,
-                    "several shapes, a given orientation and `up` need numbers that the macro can see, to find principal axes",
-                );
-                return None;
-            }
-            *seen = part.seen?;
+        let [x, y, z] = parts;
+        Some([
+            self.seen_one(shape, x)?,
+            self.seen_one(shape, y)?,
+            self.seen_one(shape, z)?,
+        ])
+    }
+
+    fn seen_one(&mut self, shape: &Formulas<'_>, number: &Expr) -> Option<f64> {
+        let part = self.numbers.part(number, self.faults)?;
+        if !part.is_written {
+            self.faults.at(
+                shape.call,
+                "several shapes, a given orientation and `up` need numbers that the macro can see, to find principal axes",
+            );
+            return None;
         }
-        Some(seen)
+        part.seen
     }
 
     fn in_numbers(
@@ -269,9 +274,8 @@ impl Reader<'_, '_> {
         if let Weight::Mass(mass) = weight {
             // So far of density 1.
             self.at("mass");
-            let part = self.numbers.part(mass, self.faults)?;
-            let whole = self.seen(&shapes[0], &[mass.clone(), mass.clone(), mass.clone()])?[0];
-            if part.seen.is_some_and(|mass| mass <= 0.0) {
+            let whole = self.seen_one(&shapes[0], mass)?;
+            if whole <= 0.0 {
                 // The sentence about it.
                 self.mass(mass)?;
             }
@@ -323,7 +327,7 @@ impl Reader<'_, '_> {
             _ => parse_quote!(1.0),
         };
         let mass = product(&density, &shape.volume.volume);
-        let [mass, ..] = self.seen(shape, &[mass.clone(), mass.clone(), mass])?;
+        let mass = self.seen_one(shape, &mass)?;
         let centre = self.seen(shape, &shape.centre)?;
         let moments = self.seen(shape, &shape.volume.moments)?;
         let p = literals(&self.own_axes(shape)?)?;
