@@ -6,9 +6,22 @@ use proc_macro::TokenStream;
 
 /// Generates the kernels of the mechanism that the struct describes. See the documentation of
 /// `holonom`.
-#[proc_macro_derive(Mechanism, attributes(mechanism, body, joint, force, param, input))]
+#[proc_macro_derive(
+    Mechanism,
+    attributes(mechanism, body, joint, force, part, port, param, input)
+)]
 pub fn derive_mechanism(input: TokenStream) -> TokenStream {
     holonom_engine::derive(input.into()).into()
+}
+
+/// Makes the struct a part that mechanisms may have, once or several times. See the documentation
+/// of `holonom`.
+#[proc_macro_derive(
+    Assembly,
+    attributes(mechanism, body, joint, force, part, port, param, input)
+)]
+pub fn derive_assembly(input: TokenStream) -> TokenStream {
+    holonom_engine::derive_assembly(input.into()).into()
 }
 
 /// Defines a joint; called by `holonom::joint!`.

@@ -171,6 +171,10 @@ pub mod joints;
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
 
+/// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
+/// [`guide::parts`].
+pub use holonom_macros::Assembly;
+
 pub use constraints::projection::Projection;
 pub use error::{Fault, ParameterError, RunError, SimulationError};
 pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, StandardLagrange};
@@ -214,10 +218,10 @@ pub mod prelude {
     pub use crate::mechanism::{InputsOf, StateOf};
     pub use crate::run::Simulate;
     pub use crate::{
-        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
-        KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
-        Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation, SimulationError,
-        StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
+        Assembly, AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation,
+        JointCoordinates, KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError,
+        Particle, Penalty, Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation,
+        SimulationError, StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }
 

@@ -216,14 +216,56 @@ macro_rules! force {
     };
 }
 
-/// A type made by `joint!` or `force!`.
+/// The handles of a part in a stub.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __stub_part {
+    ($part:ident $($field:ident: $([$length:expr])? $kind:ident $($path:path)?,)*) => {
+        #[allow(warnings, clippy::all, clippy::pedantic)]
+        pub struct $part<__M> {
+            $(pub $field: $crate::__stub_mechanism!(@handle $([$length])? $kind $($path)?),)*
+            __mechanism: ::core::marker::PhantomData<fn() -> __M>,
+        }
+        impl<__M> ::core::clone::Clone for $part<__M> {
+            fn clone(&self) -> Self { *self }
+        }
+        impl<__M> ::core::marker::Copy for $part<__M> {}
+        impl<__M> ::core::fmt::Debug for $part<__M> {
+            fn fmt(&self, _: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result { loop {} }
+        }
+        #[allow(warnings, clippy::all, clippy::pedantic)]
+        impl<__M> $part<__M> {
+            const VALUE: Self = Self {
+                $($field: $crate::__stub_mechanism!(@value $([$length])? $kind $($path)?),)*
+                __mechanism: ::core::marker::PhantomData,
+            };
+        }
+    };
+}
+
+/// A type made by `joint!`, by `force!` or by `#[derive(Assembly)]`.
 pub trait Element {}
 
-/// A body, a joint or a force: what the fields of a mechanism are.
+/// A type made by `#[derive(Assembly)]`.
+pub trait Assembly {
+    /// Tells descriptions apart.
+    const FINGERPRINT: u64;
+
+    /// A parameter or an input by its number, in the order of the fields and of those of parts.
+    fn value(&self, number: usize) -> f64;
+}
+
+/// The type of a field of an assembly, of an element if it is an array, by its number.
+pub trait FieldOf<const NUMBER: usize> {
+    /// The type.
+    type Type;
+}
+
+/// A body, a joint, a force or an assembly: what the fields of a mechanism are.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is neither a body nor a joint nor a force",
-    label = "described as a body, a joint or a force",
-    note = "a body is a `Body` or a `Particle`; a joint is one of `holonom::joints`, or defined with `holonom::joint!`; a force is one of `holonom::forces`, or defined with `holonom::force!`"
+    message = "`{Self}` is neither a body nor a joint, a force or an assembly",
+    label = "described as a body, a joint, a force or a part",
+    note = "a body is a `Body` or a `Particle`; a joint is one of `holonom::joints`, or defined with `holonom::joint!`; a force is one of `holonom::forces`, or defined with `holonom::force!`; an assembly is a struct with `#[derive(Assembly)]`"
 )]
 pub trait Part {}
 
@@ -236,7 +278,7 @@ impl Part for crate::Particle {}
 #[diagnostic::do_not_recommend]
 impl<E: Element> Part for E {}
 
-/// Asks whether a type is a body, a joint or a force.
+/// Asks whether a type is a body, a joint, a force or an assembly.
 pub const fn part<T: Part>() {}
 
 /// In a stub, the type of a field that is described as a joint and is none: it may be used like any
@@ -268,6 +310,8 @@ macro_rules! __stub_mechanism {
     (@handle joint) => { $crate::JointHandle<__M, $crate::__private::AnyJoint> };
     (@handle force $($path:path)?) => { $crate::ForceHandle<__M, $crate::__private::AnyJoint> };
     (@handle joint $path:path) => { $crate::JointHandle<__M, $path> };
+    (@handle part $part:ident) => { $part<__M> };
+    (@value part $part:ident) => { $part::VALUE };
     (@value body) => { $crate::BodyHandle::new(0) };
     (@value force $($path:path)?) => { $crate::ForceHandle::new(0) };
     (@value joint $($path:path)?) => { $crate::JointHandle::new(0) };

@@ -36,6 +36,7 @@ use check::definition::{Definition, Definitions};
 use check::kinds;
 use diag::Faults;
 use model::{BodyKind, ElementKind};
+use syntax::mechanism::{Assemblies, AssemblySyntax};
 use wire::{Carried, Delivery};
 
 /// `joint!`: the tokens are the path of the run-time crate in brackets, then the definition.
@@ -76,35 +77,49 @@ fn element(tokens: TokenStream, kind: ElementKind) -> TokenStream {
 /// `#[derive(Mechanism)]`: sends the struct on its way through the carriers of its field types.
 #[must_use]
 pub fn derive(tokens: TokenStream) -> TokenStream {
+    sent(tokens, &TokenStream::new())
+}
+
+/// `#[derive(Assembly)]`: the same for a part of mechanisms.
+#[must_use]
+pub fn derive_assembly(tokens: TokenStream) -> TokenStream {
+    sent(tokens, &wire::assembly_mark())
+}
+
+fn sent(tokens: TokenStream, mark: &TokenStream) -> TokenStream {
     guarded(|| {
         let mut faults = Faults::new();
-        let input = faults
-            .accept(syntax::depth::of_input(&tokens))
-            .and_then(|()| {
-                let tokens = syntax::words::raw(tokens.clone());
-                faults.accept(syn::parse2::<DeriveInput>(tokens))
-            });
-        let Some(input) = input else {
+        let Some(input) = item(&tokens, &mut faults) else {
             return faults.into_tokens();
         };
         let mut paths = syntax::mechanism::carrier_paths(&input);
         if !paths.is_empty() {
-            let syntax = syntax::mechanism::parse(&input, &mut faults);
+            let syntax = syntax::mechanism::parse(&input, &Vec::new(), &mut faults);
             // They are found again at the end of the way.
             drop(faults.into_tokens());
             if kinds::too_many(&syntax, paths.len()).is_some() {
                 paths.truncate(1);
             }
-            return wire::call(&paths, &tokens);
+            return wire::call(&paths, &quote!(#mark #tokens));
         }
         // Nobody can tell where the run-time crate is: say what can be said without it.
-        let syntax = syntax::mechanism::parse(&input, &mut faults);
+        let syntax = syntax::mechanism::parse(&input, &Vec::new(), &mut faults);
         if syntax.is_plain {
             let facade = TokenStream::new();
-            passes::mechanism(&syntax, &Vec::new(), Vec::new(), &facade, &mut faults);
+            if mark.is_empty() {
+                passes::mechanism(&syntax, &Vec::new(), Vec::new(), &facade, &mut faults);
+            } else {
+                passes::assembly(&syntax, &Vec::new(), Vec::new(), &facade, &mut faults);
+            }
         }
         faults.into_tokens()
     })
+}
+
+/// The annotated struct.
+fn item(tokens: &TokenStream, faults: &mut Faults) -> Option<DeriveInput> {
+    faults.accept(syntax::depth::of_input(tokens))?;
+    faults.accept(syn::parse2(syntax::words::raw(tokens.clone())))
 }
 
 /// `assemble!`: the end of the way; all definitions are there.
@@ -115,99 +130,174 @@ pub fn assemble(tokens: TokenStream) -> TokenStream {
         let delivery = faults
             .accept(syntax::depth::of_input(&tokens))
             .and_then(|()| faults.accept(wire::unpack(tokens)));
-        let Some(Delivery {
-            facade,
-            carried,
-            payload,
-        }) = delivery
-        else {
+        let Some(delivery) = delivery else {
             return faults.into_tokens();
         };
-        let payload = syntax::words::raw(payload);
-        let Some(input) = faults.accept(syn::parse2::<DeriveInput>(payload)) else {
+        let Some(input) = item(&delivery.payload, &mut faults) else {
             return faults.into_tokens();
         };
-        let syntax = syntax::mechanism::parse(&input, &mut faults);
-        let paths = syntax::mechanism::carrier_paths(&input);
-        if let Some(message) = kinds::too_many(&syntax, paths.len()) {
-            faults.at(&syntax.name, message);
-            let unknown = paths
-                .iter()
-                .map(|path| (path.to_string(), Definition::Faulty));
-            let items = emit::fallback::emit(&syntax, &unknown.collect(), &facade);
-            let errors = faults.into_tokens();
-            return quote!(#errors #items);
-        }
-        let mut definitions = Vec::new();
-        let types: Definitions = paths
-            .iter()
-            .zip(carried)
-            .map(|(path, carried)| {
-                (
-                    path.to_string(),
-                    resolve(carried, path, &mut definitions, &mut faults),
-                )
-            })
-            .collect();
-        let model = if syntax.is_plain {
-            passes::mechanism(&syntax, &types, definitions, &facade, &mut faults)
+        if delivery.is_assembly {
+            assembly(delivery, &input, faults)
         } else {
-            None
-        };
-        let is_faulty = types
-            .iter()
-            .any(|(_, definition)| matches!(definition, Definition::Faulty));
-        let is_ambiguous = check::mechanism::is_ambiguous(&syntax);
-        if model.is_none() && !faults.any() && !is_faulty && !is_ambiguous {
-            faults.at(
-                &syntax.name,
-                format!(
-                    "holonom's generator failed on `{}`; please report this",
-                    syntax.name
-                ),
-            );
+            mechanism(delivery, &input, faults)
         }
-        let items = match &model {
-            Some(model) if !faults.any() => emit::mechanism::emit(model, &facade),
-            _ => emit::fallback::emit(&syntax, &types, &facade),
-        };
-        let errors = faults.into_tokens();
-        quote!(#errors #items)
     })
 }
 
-fn resolve(
-    carried: Carried,
-    path: &TokenStream,
-    definitions: &mut Vec<model::ElementDef>,
-    faults: &mut Faults,
-) -> Definition {
-    match carried {
-        Carried::Body => Definition::Body(BodyKind::Rigid),
-        Carried::Particle => Definition::Body(BodyKind::Particle),
-        Carried::Faulty => Definition::Faulty,
-        Carried::Element(kind, body) => {
-            // It was checked where it is defined.
-            let mut known = Faults::new();
-            let joint = syntax::joint::parse_transported(body, kind, &mut known)
-                .and_then(|syntax| check::joint::check(&syntax, &mut known));
-            drop(known.into_tokens());
-            match joint {
-                Some(joint) => {
-                    definitions.push(joint);
-                    Definition::Element(definitions.len() - 1)
-                }
-                None => {
-                    let name = diag::code(path);
-                    faults.at(
-                        path,
-                        format!("the definition of `{name}` cannot be read; use one version of holonom throughout"),
-                    );
-                    Definition::Faulty
-                }
+fn mechanism(delivery: Delivery, input: &DeriveInput, mut faults: Faults) -> TokenStream {
+    let facade = &delivery.facade;
+    let mut known = Known::default();
+    let paths = known.read(&delivery.carried, input, "", &mut faults);
+    let syntax = syntax::mechanism::parse(input, &known.assemblies, &mut faults);
+    if let Some(message) = kinds::too_many(&syntax, paths.len()) {
+        faults.at(&syntax.name, message);
+        let unknown = paths
+            .iter()
+            .map(|path| (path.to_string(), Definition::Faulty));
+        let items = emit::fallback::emit(&syntax, &unknown.collect(), facade);
+        let errors = faults.into_tokens();
+        return quote!(#errors #items);
+    }
+    let is_faulty = known.is_faulty() || syntax.parts.iter().any(|part| !part.is_sound);
+    let Known {
+        types, definitions, ..
+    } = known;
+    let are_parts_sound = syntax.parts.iter().all(|part| part.is_sound);
+    let model = if syntax.is_plain && are_parts_sound {
+        passes::mechanism(&syntax, &types, definitions, facade, &mut faults)
+    } else {
+        None
+    };
+    let is_ambiguous = check::mechanism::is_ambiguous(&syntax);
+    if model.is_none() && !faults.any() && !is_faulty && !is_ambiguous {
+        failed(&syntax.name, &mut faults);
+    }
+    let items = match &model {
+        Some(model) if !faults.any() => emit::mechanism::emit(model, facade),
+        _ => emit::fallback::emit(&syntax, &types, facade),
+    };
+    let errors = faults.into_tokens();
+    quote!(#errors #items)
+}
+
+fn assembly(delivery: Delivery, input: &DeriveInput, mut faults: Faults) -> TokenStream {
+    let facade = &delivery.facade;
+    let mut known = Known::default();
+    known.read(&delivery.carried, input, "", &mut faults);
+    let syntax = syntax::mechanism::parse(input, &known.assemblies, &mut faults);
+    let are_parts_sound = syntax.parts.iter().all(|part| part.is_sound);
+    let is_faulty = known.is_faulty() || !are_parts_sound;
+    let Known {
+        types, definitions, ..
+    } = known;
+    let is_ambiguous = check::mechanism::is_ambiguous(&syntax);
+    let mut model = None;
+    if syntax.is_plain && are_parts_sound {
+        model = passes::assembly(&syntax, &types, definitions, facade, &mut faults);
+    }
+    if model.is_none() && !faults.any() && !is_faulty && !is_ambiguous {
+        failed(&syntax.name, &mut faults);
+    }
+    let model = model.filter(|_| !faults.any());
+    let items = emit::assembly::emit(input, &delivery, model.as_ref());
+    let errors = faults.into_tokens();
+    quote!(#errors #items)
+}
+
+fn failed(name: &syn::Ident, faults: &mut Faults) {
+    let message = format!("holonom's generator failed on `{name}`; please report this");
+    faults.at(name, message);
+}
+
+/// What the carriers brought.
+#[derive(Default)]
+struct Known {
+    types: Definitions,
+    definitions: Vec<model::ElementDef>,
+    assemblies: Assemblies,
+}
+
+impl Known {
+    /// Reads what the field types of a struct turned out to be; their paths.
+    fn read(
+        &mut self,
+        carried: &[Carried],
+        input: &DeriveInput,
+        context: &str,
+        faults: &mut Faults,
+    ) -> Vec<TokenStream> {
+        let paths = syntax::mechanism::carrier_paths(input);
+        for (path, carried) in paths.iter().zip(carried) {
+            let key = format!("{context}{path}");
+            let definition = match carried {
+                Carried::Body => Definition::Body(BodyKind::Rigid),
+                Carried::Particle => Definition::Body(BodyKind::Particle),
+                Carried::Faulty => Definition::Faulty,
+                Carried::Element(kind, body) => self.element(*kind, body, path, faults),
+                Carried::Assembly(assembly) => self.assembly(assembly, &key, path, faults),
+            };
+            self.types.push((key, definition));
+        }
+        paths
+    }
+
+    fn element(
+        &mut self,
+        kind: ElementKind,
+        body: &TokenStream,
+        path: &TokenStream,
+        faults: &mut Faults,
+    ) -> Definition {
+        // It was checked where it is defined.
+        let mut known = Faults::new();
+        let joint = syntax::joint::parse_transported(body.clone(), kind, &mut known)
+            .and_then(|syntax| check::joint::check(&syntax, &mut known));
+        drop(known.into_tokens());
+        match joint {
+            Some(joint) => {
+                self.definitions.push(joint);
+                Definition::Element(self.definitions.len() - 1)
             }
+            None => unreadable(path, faults),
         }
     }
+
+    fn assembly(
+        &mut self,
+        assembly: &wire::Assembly,
+        key: &str,
+        path: &TokenStream,
+        faults: &mut Faults,
+    ) -> Definition {
+        let mut known = Faults::new();
+        let input = item(&assembly.item, &mut known);
+        drop(known.into_tokens());
+        let Some(input) = input else {
+            return unreadable(path, faults);
+        };
+        self.read(&assembly.carried, &input, &format!("{key}/"), faults);
+        let syntax = AssemblySyntax {
+            input,
+            fingerprint: assembly.fingerprint,
+            is_sound: assembly.is_sound,
+        };
+        self.assemblies.push((key.to_owned(), syntax));
+        Definition::Assembly
+    }
+
+    fn is_faulty(&self) -> bool {
+        let mut definitions = self.types.iter().map(|(_, definition)| definition);
+        definitions.any(|definition| matches!(definition, Definition::Faulty))
+    }
+}
+
+fn unreadable(path: &TokenStream, faults: &mut Faults) -> Definition {
+    let name = diag::code(path);
+    faults.at(
+        path,
+        format!("the definition of `{name}` cannot be read; use one version of holonom throughout"),
+    );
+    Definition::Faulty
 }
 
 /// A panic is our mistake: it becomes an error that says so instead of a broken compiler session.

@@ -49,14 +49,55 @@ pub fn call(paths: &[TokenStream], payload: &TokenStream) -> TokenStream {
     }
 }
 
-/// The carrier of a joint or force.
-pub fn carrier(
-    joint: &JointSyntax,
-    facade: &TokenStream,
-    fingerprint: u64,
-    sound: bool,
-) -> TokenStream {
-    let name = &joint.name;
+/// What a carrier hands on, and under which name.
+pub struct Carrier<'a> {
+    /// The name of the type, which is that of the carrier.
+    pub name: &'a Ident,
+    /// Its visibility, which is that of the carrier.
+    pub visibility: &'a syn::Visibility,
+    /// The path of the run-time crate.
+    pub facade: &'a TokenStream,
+    /// The fingerprint of the definition.
+    pub fingerprint: u64,
+    /// The definition in brackets.
+    pub definition: TokenStream,
+    /// What it is, for messages.
+    pub word: &'a str,
+}
+
+/// The definition of a joint or force, as it is handed on.
+pub fn element(joint: &JointSyntax, is_sound: bool) -> TokenStream {
+    let (word, body) = (format_ident!("{}", joint.kind.word()), &joint.body);
+    if is_sound {
+        quote!([#word { #body }])
+    } else {
+        quote!([faulty])
+    }
+}
+
+/// The definition of an assembly, as it is handed on, with the definitions that it needs.
+pub fn assembly(item: &TokenStream, carried: &TokenStream, is_sound: bool) -> TokenStream {
+    let word = format_ident!(
+        "{}",
+        if is_sound {
+            "assembly"
+        } else {
+            "faulty_assembly"
+        }
+    );
+    quote!([#word { #item } [#carried]])
+}
+
+/// Writes a carrier.
+pub fn carrier(carrier: Carrier<'_>) -> TokenStream {
+    let Carrier {
+        name,
+        visibility,
+        facade,
+        fingerprint,
+        definition,
+        word,
+    } = carrier;
     let place = place(name.span());
     let carrier = format_ident!(
         "__holonom_part_{}_{:016x}",
@@ -65,18 +106,14 @@ pub fn carrier(
         span = Span::call_site()
     );
     let version = version();
-    let body = &joint.body;
-    let word = format_ident!("{}", joint.kind.word());
-    let definition = if sound {
-        quote!([#word { #body }])
-    } else {
-        quote!([faulty])
-    };
-    let exported = matches!(joint.visibility, syn::Visibility::Public(_));
+    let exported = matches!(visibility, syn::Visibility::Public(_));
     let export = exported.then(|| quote!(#[macro_export]));
-    let visibility = &joint.visibility;
+    let article = if word == "assembly" { "an" } else { "a" };
     let message = format!(
-        "`{name}` is a {word}: name it as the type of a field in a struct with `#[derive(Mechanism)]`"
+        "`{name}` is {article} {word}: name it as the type of a field in a struct with `#[derive(Mechanism)]`"
+    );
+    let other = format!(
+        "this {word} was defined with another version of holonom; use one version throughout"
     );
     // Where the compiler speaks of it, it stands where the definition does.
     let at = name.span().resolved_at(Span::call_site());
@@ -91,11 +128,7 @@ pub fn carrier(
                 const _: () = #facade::__private::part::<$($next)+>();
                 $($next)+ ! { @ #version [$($rest)*] [$($definitions)* #definition] $payload }
             };
-            (@ $($other:tt)*) => {
-                ::core::compile_error! {
-                    "this joint was defined with another version of holonom; use one version throughout"
-                }
-            };
+            (@ $($other:tt)*) => { ::core::compile_error! { #other } };
             ($($other:tt)*) => { ::core::compile_error! { #message } };
         }
         #[doc(hidden)]
@@ -118,6 +151,12 @@ pub fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
     })
 }
 
+/// Stands before an annotated struct that is an assembly.
+#[must_use]
+pub fn assembly_mark() -> TokenStream {
+    quote!(@)
+}
+
 /// What a carrier says of its type.
 #[derive(Clone, Debug)]
 pub enum Carried {
@@ -127,8 +166,56 @@ pub enum Carried {
     Particle,
     /// A joint or force: what stands behind the word.
     Element(ElementKind, TokenStream),
+    /// An assembly.
+    Assembly(Assembly),
     /// A joint or force with faults, reported where it is defined.
     Faulty,
+}
+
+/// What the carrier of an assembly says.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    /// The annotated struct.
+    pub item: TokenStream,
+    /// The definitions of its field types, in the order of the carriers.
+    pub carried: Vec<Carried>,
+    /// The fingerprint of all of it.
+    pub fingerprint: u64,
+    /// Whether it has no faults; they are reported where it is described.
+    pub is_sound: bool,
+}
+
+/// The fingerprint of an assembly and the definitions that it needs: of its tokens, but for
+/// invisible groups and spaces, which change on the way through a macro.
+#[must_use]
+pub fn fingerprint(item: &TokenStream, carried: &TokenStream) -> u64 {
+    let mut words = String::new();
+    for tokens in [item, carried] {
+        write_words(tokens.clone(), &mut words);
+    }
+    hash(words.bytes())
+}
+
+fn write_words(tokens: TokenStream, words: &mut String) {
+    for token in tokens {
+        match token {
+            TokenTree::Group(group) => {
+                let (open, close) = match group.delimiter() {
+                    Delimiter::Parenthesis => ("(", ")"),
+                    Delimiter::Brace => ("{", "}"),
+                    Delimiter::Bracket => ("[", "]"),
+                    Delimiter::None => ("", ""),
+                };
+                words.push_str(open);
+                write_words(group.stream(), words);
+                words.push_str(close);
+            }
+            other => {
+                words.push(' ');
+                words.push_str(&other.to_string());
+            }
+        }
+    }
 }
 
 /// What reaches `assemble!`.
@@ -138,8 +225,12 @@ pub struct Delivery {
     pub facade: TokenStream,
     /// The definitions in the order of the carriers.
     pub carried: Vec<Carried>,
+    /// The same as tokens.
+    pub definitions: TokenStream,
     /// The annotated struct.
     pub payload: TokenStream,
+    /// Whether it is an assembly.
+    pub is_assembly: bool,
 }
 
 /// Unpacks what reaches `assemble!`.
@@ -151,9 +242,15 @@ pub fn unpack(tokens: TokenStream) -> syn::Result<Delivery> {
         let facade = group(input, Delimiter::Bracket)?.stream();
         let definitions = group(input, Delimiter::Bracket)?.stream();
         let payload = group(input, Delimiter::Brace)?.stream();
+        let mut rest = payload.clone().into_iter();
+        let is_assembly =
+            matches!(rest.next(), Some(TokenTree::Punct(mark)) if mark.as_char() == '@');
+        let payload = if is_assembly { rest.collect() } else { payload };
         Ok(Delivery {
+            is_assembly,
             facade,
-            carried: unpack_definitions(definitions)?,
+            carried: unpack_definitions(definitions.clone())?,
+            definitions,
             payload,
         })
     };
@@ -200,6 +297,16 @@ fn unpack_definition(input: ParseStream<'_>) -> syn::Result<Carried> {
             ElementKind::Force,
             group(input, Delimiter::Brace)?.stream(),
         )),
+        word @ ("assembly" | "faulty_assembly") => {
+            let item = group(input, Delimiter::Brace)?.stream();
+            let carried = group(input, Delimiter::Bracket)?.stream();
+            Ok(Carried::Assembly(Assembly {
+                fingerprint: fingerprint(&item, &carried),
+                carried: unpack_definitions(carried)?,
+                item,
+                is_sound: word == "assembly",
+            }))
+        }
         _ => Err(syn::Error::new(kind.span(), "unknown definition")),
     }
 }

@@ -10,17 +10,19 @@ pub enum Definition {
     Body(BodyKind),
     /// A joint or force by its place among the definitions.
     Element(usize),
+    /// An assembly.
+    Assembly,
     /// A joint or force with a fault in its definition, which is reported where it is defined.
     Faulty,
 }
 
-/// The definitions behind the field types, by the path as it was written.
+/// The definitions behind the field types, by context and path as it was written.
 pub type Definitions = Vec<(String, Definition)>;
 
 /// What the type of a field turned out to be.
 #[must_use]
 pub fn definition<'a>(field: &Field, types: &'a Definitions) -> Option<&'a Definition> {
-    let path = carrier_path(&field.ty)?.to_string();
+    let path = format!("{}{}", field.context, carrier_path(&field.ty)?);
     types
         .iter()
         .find(|(known, _)| *known == path)

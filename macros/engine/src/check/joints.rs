@@ -1,32 +1,26 @@
 //! The joints and forces of a mechanism: bodies by name, parameters by value.
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Span, TokenStream};
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::between::{Between, Mentioned};
 use super::definition::{Definition, Definitions, definition};
-use super::elements::{Found, Reference, bare, known};
 use super::expression::too_large;
 use super::laws::LawReader;
+use super::mirror::pseudovectors;
 use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
-use crate::diag::{Faults, code, did_you_mean, list};
+use super::parts::Part;
+use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Name,
-    Number, ParameterKind, Term,
+    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Number,
+    ParameterKind, Term,
 };
 use crate::syntax::array::is_index;
-use crate::syntax::mechanism::{Field, carrier_path};
+use crate::syntax::mechanism::Field;
 use crate::syntax::{Value, ungroup};
-
-/// The bodies that joints name, by their places.
-pub(super) struct Mentioned {
-    pub(super) bodies: Vec<bool>,
-    /// Whether all names could be read; if not, the body that seems to be left alone may be meant
-    /// by one of the others.
-    pub(super) is_certain: bool,
-}
 
 /// Checks one field that is described as a joint or a force.
 pub(super) struct JointChecker<'a> {
@@ -34,11 +28,13 @@ pub(super) struct JointChecker<'a> {
     pub(super) kind: ElementKind,
     /// The word of its attribute.
     pub(super) word: Span,
-    /// The fields that joints may name, and the bodies that they are.
-    pub(super) names: &'a [&'a Name],
+    /// How the field's type is named, from the mechanism.
+    pub(super) path: Option<TokenStream>,
+    /// Where the part is whose field it is.
+    pub(super) part: Option<&'a Part<'a>>,
+    /// What joints may name, and the bodies that they are.
+    pub(super) between: &'a Between<'a>,
     pub(super) bodies: &'a [Option<Body>],
-    /// Arrays whose length was refused.
-    pub(super) unmeasured: &'a [Ident],
     pub(super) definitions: &'a [ElementDef],
     /// Which kernels the mechanism has.
     pub(super) coordinates: Coordinates,
@@ -77,6 +73,16 @@ impl JointChecker<'_> {
                 mentioned.is_certain = false;
                 return None;
             }
+            Some(Definition::Assembly) => {
+                faults.at_span(
+                    self.word,
+                    format!(
+                        "`{found}` is an assembly: describe `{name}` by `#[part(at = [..], ..)]`"
+                    ),
+                );
+                mentioned.is_certain = false;
+                return None;
+            }
             other => {
                 // A fault in a definition is reported there.
                 if other.is_none() {
@@ -89,7 +95,7 @@ impl JointChecker<'_> {
                     );
                 }
                 match pairs.optional("between", faults) {
-                    Some(expr) => _ = self.between(expr, mentioned, faults),
+                    Some(expr) => _ = self.read_between(expr, mentioned, faults),
                     None => mentioned.is_certain = false,
                 }
                 return None;
@@ -110,7 +116,7 @@ impl JointChecker<'_> {
         };
         let between = pairs.required("between", &example, faults);
         mentioned.is_certain &= between.is_some();
-        let bodies = between.and_then(|expr| self.between(expr, mentioned, faults));
+        let bodies = between.and_then(|expr| self.read_between(expr, mentioned, faults));
         if let Some(expr) = between
             && let Some(found) = elements(expr).map(|elements| elements.len())
             && found != joint.bodies.len()
@@ -174,6 +180,7 @@ impl JointChecker<'_> {
         pairs.finish(faults);
         let bodies = bodies.filter(|bodies| bodies.len() == joint.bodies.len())?;
         let bindings: Vec<Binding> = bindings.into_iter().collect::<Option<_>>()?;
+        let bindings = self.placed(joint, &bodies, bindings, numbers, faults)?;
         self.particles(joint, &bodies, &bindings, faults)?;
         let law = |parameter: usize, arguments: &[Extent]| match &bindings[parameter] {
             Binding::Law(law) => law.extent(arguments),
@@ -185,7 +192,7 @@ impl JointChecker<'_> {
         }
         Some(Element {
             name: name.clone(),
-            path: carrier_path(&self.field.ty)?,
+            path: self.path.clone()?,
             definition,
             bodies,
             bindings,
@@ -235,84 +242,66 @@ impl JointChecker<'_> {
         }
     }
 
-    fn between(
+    /// The bodies of `between`.
+    fn read_between(
         &self,
         expr: &Expr,
         mentioned: &mut Mentioned,
         faults: &mut Faults,
     ) -> Option<Vec<Option<usize>>> {
-        let Some(elements) = elements(expr) else {
-            faults.at(
-                expr,
-                "`between` takes bodies in brackets, as in `[ground, rod]`",
-            );
-            mentioned.is_certain = false;
-            return None;
-        };
-        let mut bodies: Vec<Option<Option<usize>>> = Vec::new();
-        for element in &elements {
-            let place = self.body(element, faults);
-            match place {
-                Some(Some(place)) => mentioned.bodies[place] = true,
-                Some(None) => {}
-                None => mentioned.is_certain = false,
-            }
-            if place.is_some() && bodies.contains(&place) {
-                let twice = match place {
-                    Some(Some(place)) => self.names[place].to_string(),
-                    _ => "ground".into(),
-                };
-                faults.at(
-                    element,
-                    format!(
-                        "a {} between `{twice}` and itself does nothing; name each body once",
-                        self.kind.word()
-                    ),
-                );
-            }
-            bodies.push(place);
-        }
-        bodies.into_iter().collect()
+        self.between
+            .read(expr, self.kind, &self.field.name, mentioned, faults)
     }
 
-    fn body(&self, expr: &Expr, faults: &mut Faults) -> Option<Option<usize>> {
-        let names = self.names.iter().copied();
-        let known = || {
-            let fields = names.clone().filter(|name| name.field() != "ground");
-            let mut known = known(fields);
-            known.push("ground".into());
-            known
+    /// What a joint or a force of a part is, seen from the mechanism.
+    fn placed(
+        &self,
+        joint: &ElementDef,
+        bodies: &[Option<usize>],
+        bindings: Vec<Binding>,
+        numbers: &mut Numbers<'_>,
+        faults: &mut Faults,
+    ) -> Option<Vec<Binding>> {
+        let Some(part) = self.part else {
+            return Some(bindings);
         };
-        let Some(reference) = Reference::of(expr) else {
-            let known = list(known());
-            faults.at(
-                expr,
-                format!("expected the name of a body; there are {known}"),
-            );
-            return None;
+        let placement = part.placement.as_ref()?;
+        let pseudovectors = match placement.mirror {
+            Some(_) => pseudovectors(joint).or_else(|| {
+                let (kind, name) = (&joint.name, &self.field.name);
+                let word = self.kind.word();
+                faults.at_span(
+                    part.mirror_span(),
+                    format!(
+                        "the mirror image of {word} `{name}` is no `{kind}`: it has the other hand; take it out of the assembly, and                          write one for each side"
+                    ),
+                );
+                None
+            })?,
+            None => vec![false; joint.parameters.len()],
         };
-        let by = self.field.name.index();
-        match reference.find(names.clone(), self.unmeasured, by, faults) {
-            Found::At(place) => return Some(Some(place)),
-            Found::Refused => return None,
-            Found::Nothing => {}
-        }
-        let ground = Name::from(Ident::new("ground", reference.field.span()));
-        match reference.find([&ground], &[], by, faults) {
-            Found::At(_) => return Some(None),
-            Found::Refused => return None,
-            Found::Nothing => {}
-        }
-        let (found, known) = (reference.field, known());
-        let near = did_you_mean(&found.to_string(), known.iter().map(|name| bare(name)));
-        faults.at(
-            found,
-            format!(
-                "no body `{found}` in this mechanism; it has {}{near}",
-                list(known.iter())
-            ),
-        );
-        None
+        let parameters = joint.parameters.iter().zip(pseudovectors);
+        let placed = parameters.zip(bindings).map(|((parameter, odd), binding)| {
+            numbers.attribute = parameter.name.to_string();
+            let own = |body: &Option<usize>| {
+                let body = body.and_then(|body| self.bodies[body].as_ref());
+                body.is_some_and(|body| body.name.parts().starts_with(part.steps()))
+            };
+            if matches!(binding, Binding::Local(_)) && !bodies.iter().all(own) {
+                let key = &parameter.name;
+                let written = self.field.list.pairs.iter().find(|pair| pair.key == *key);
+                faults.at_span(
+                    written.map_or(self.word, |pair| pair.key.span()),
+                    format!(
+                        "`{key}` by `local(..)` needs the axes of a body outside the part `{}`; give it in the axes of the assembly,                          as in `[0.0, 0.5, 0.0]`",
+                        part.name()
+                    ),
+                );
+                return None;
+            }
+            Some(placement.binding(binding, parameter.kind, odd, numbers))
+        });
+        placed.collect()
     }
 
     fn binding(

@@ -26,6 +26,7 @@ impl LawReader<'_, '_, '_> {
                 | Expr::Call(_)
                 | Expr::Path(_)
                 | Expr::Index(_)
+                | Expr::Field(_)
         );
         if is_number && !self.varies(expr) {
             return self.numbers.scalar(expr, faults).map(LawTerm::Number);
@@ -34,12 +35,9 @@ impl LawReader<'_, '_, '_> {
             Expr::Path(path) => {
                 let name = path.path.get_ident()?;
                 let place = self.arguments.iter().position(|argument| argument == name);
-                if self
-                    .numbers
-                    .values
-                    .iter()
-                    .any(|value| value.name.field() == name)
-                {
+                let scope = self.numbers.field.parts();
+                let mut fields = self.numbers.values.iter().map(|value| &value.name);
+                if fields.any(|field| field.field() == name && field.parts() == scope) {
                     faults.at(
                         name,
                         format!(

@@ -2,19 +2,21 @@
 
 use std::collections::HashSet;
 
+use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Expr, ExprLit, Lit};
 
+use super::between::{Between, Mentioned};
 use super::bodies;
 use super::definition::{Definition, Definitions, definition};
-use super::joints::{JointChecker, Mentioned};
+use super::joints::JointChecker;
 use super::number::Numbers;
 use super::pairs::Pairs;
-use super::{kinds, redundant};
+use super::{kinds, parts, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::{
-    Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Redundant,
+    Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
 };
 use crate::syntax::array::is_index;
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
@@ -43,7 +45,63 @@ pub fn check<'a>(
     syntax: &'a MechanismSyntax,
     types: &Definitions,
     definitions: Vec<ElementDef>,
-    facade: &proc_macro2::TokenStream,
+    facade: &TokenStream,
+    faults: &mut Faults,
+) -> Option<Checked<'a>> {
+    for field in &syntax.fields {
+        if let Some((Role::Port, word)) = &field.role {
+            faults.at(
+                word,
+                "a port is a body of an assembly, which is named where the assembly is a part; this is a mechanism, whose bodies are                  described by `#[body(..)]`",
+            );
+        }
+    }
+    described(syntax, types, definitions, facade, faults)
+}
+
+/// Checks an assembly by itself: its ports are bodies of which nothing is known.
+pub fn check_assembly(
+    syntax: &MechanismSyntax,
+    types: &Definitions,
+    definitions: Vec<ElementDef>,
+    facade: &TokenStream,
+    faults: &mut Faults,
+) -> Option<Model> {
+    if let [first, ..] = &syntax.list.pairs[..] {
+        faults.at(
+            &first.key,
+            format!(
+                "`{}` is an assembly: what `#[mechanism(..)]` says is said of the mechanism that it is a part of",
+                syntax.name
+            ),
+        );
+    }
+    for field in &syntax.fields {
+        let Some((Role::Port, _)) = &field.role else {
+            continue;
+        };
+        let name = &field.name;
+        if name.index().is_some() {
+            faults.at_name(
+                name,
+                format!("`{}` is an array; a port is one body", name.field()),
+            );
+        }
+        if parts::KEYS.iter().any(|key| name.field() == key) {
+            faults.at_name(
+                name,
+                format!("`{name}` says where a part is; take another name for this port"),
+            );
+        }
+    }
+    described(syntax, types, definitions, facade, faults).map(|checked| checked.model)
+}
+
+fn described<'a>(
+    syntax: &'a MechanismSyntax,
+    types: &Definitions,
+    definitions: Vec<ElementDef>,
+    facade: &TokenStream,
     faults: &mut Faults,
 ) -> Option<Checked<'a>> {
     let owner = Name::from(syntax.name.clone());
@@ -55,6 +113,8 @@ pub fn check<'a>(
         wish,
         coordinates,
     } = attributes(syntax, &mut numbers, faults);
+    let parts = parts::parts(syntax, &mut numbers, faults);
+    let part_of = |field: &Field| field.origin.map(|origin| &parts[origin.part]);
     let mut names: Vec<&Name> = Vec::new();
     let mut bodies = Vec::new();
     for field in &syntax.fields {
@@ -66,16 +126,28 @@ pub fn check<'a>(
                 );
             }
             names.push(&field.name);
-            let body = |faults: &mut Faults| body(field, types, &mut numbers, faults);
+            let body = |faults: &mut Faults| {
+                let mut body = body(field, types, &mut numbers, faults)?;
+                if let Some(part) = part_of(field) {
+                    part.placement.as_ref()?.body(&mut body, &mut numbers);
+                }
+                Some(body)
+            };
             bodies.push(faults.within(&field.name, body));
         }
     }
-    let mut joints = Vec::new();
-    let mut forces = Vec::new();
     let mut mentioned = Mentioned {
         bodies: vec![false; names.len()],
         is_certain: true,
     };
+    let mut between = Between {
+        names,
+        ports: Vec::new(),
+        unmeasured: &syntax.unmeasured,
+    };
+    parts::ports(&parts, &mut between, faults);
+    let mut joints = Vec::new();
+    let mut forces = Vec::new();
     for field in &syntax.fields {
         let Some((role, word)) = &field.role else {
             mentioned.is_certain = false;
@@ -92,15 +164,21 @@ pub fn check<'a>(
         let kind = match role {
             Role::Joint => ElementKind::Joint,
             Role::Force => ElementKind::Force,
-            Role::Body | Role::Param | Role::Input => continue,
+            Role::Part => {
+                mentioned.is_certain = false;
+                refuse_part(field, faults);
+                continue;
+            }
+            Role::Body | Role::Port | Role::Param | Role::Input => continue,
         };
         let checker = JointChecker {
             field,
             kind,
             word: word.span(),
-            names: &names,
+            path: syntax.type_path(&field.ty, field.origin, facade),
+            part: part_of(field),
+            between: &between,
             bodies: &bodies,
-            unmeasured: &syntax.unmeasured,
             definitions: &definitions,
             coordinates,
         };
@@ -112,6 +190,7 @@ pub fn check<'a>(
             ElementKind::Force => forces.push(element),
         }
     }
+    let names = between.names;
     if names.is_empty() {
         faults.at(
             &syntax.name,
@@ -135,6 +214,15 @@ pub fn check<'a>(
     if is_ambiguous(syntax) {
         return None;
     }
+    let are_placed = parts.iter().all(|part| part.placement.is_some());
+    let parts = syntax.parts.iter().map(|part| {
+        Some(Part {
+            name: part.name.clone(),
+            path: syntax.type_path(&part.ty, part.origin, facade)?,
+            fingerprint: part.fingerprint,
+        })
+    });
+    let parts: Vec<_> = parts.collect::<Option<_>>().filter(|_| are_placed)?;
     let bodies: Vec<_> = bodies.into_iter().collect::<Option<_>>()?;
     let joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
     let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
@@ -146,6 +234,7 @@ pub fn check<'a>(
         bodies,
         joints,
         forces,
+        parts,
         values,
         definitions,
         symbols,
@@ -153,6 +242,17 @@ pub fn check<'a>(
         coordinates,
     };
     Some(Checked { model, wish })
+}
+
+/// A field that is described as a part, and whose type is no assembly.
+fn refuse_part(field: &Field, faults: &mut Faults) {
+    let (name, found) = (&field.name, code(&field.ty));
+    faults.at(
+        &field.ty,
+        format!(
+            "`{name}` is described as a part, but `{found}` is no assembly; an assembly is a struct with `#[derive(Assembly)]`"
+        ),
+    );
 }
 
 /// Reads `#[mechanism(..)]`.
@@ -230,19 +330,22 @@ fn choice<T: Copy>(key: &str, expr: &Expr, all: &[(&str, T)], faults: &mut Fault
 pub fn is_ambiguous(syntax: &MechanismSyntax) -> bool {
     let mut before = HashSet::new();
     let fields = syntax.fields.iter().map(|field| &field.name);
-    let mut names = fields.filter(|name| name.is_first());
+    let parts = syntax.parts.iter().map(|part| &part.name);
+    // What is in a part is asked where the assembly is described.
+    let own = fields.chain(parts).filter(|name| name.parts().is_empty());
+    let mut names = own.filter(|name| name.is_first());
     names.any(|name| !before.insert(name.field().unraw()))
 }
 
 /// Refuses a field of the index's name beside an array: in its attributes nobody could tell them
 /// apart.
 fn refuse_index(syntax: &MechanismSyntax, faults: &mut Faults) {
-    let has_arrays = syntax
-        .fields
-        .iter()
-        .any(|field| field.name.index().is_some());
-    let names = syntax.fields.iter().map(|field| &field.name);
-    for name in names.filter(|name| has_arrays && is_index(name.field())) {
+    let names = || syntax.fields.iter().map(|field| &field.name);
+    let has_arrays = |scope: &Name| {
+        let mut beside = names().filter(|name| name.parts() == scope.parts());
+        beside.any(|name| name.index().is_some())
+    };
+    for name in names().filter(|name| is_index(name.field()) && has_arrays(name)) {
         faults.at_name(
             name,
             "`k` is the number of an element, in the attributes of a field that is an array; take another name for this field",
@@ -253,7 +356,7 @@ fn refuse_index(syntax: &MechanismSyntax, faults: &mut Faults) {
 /// Whether joints may name the field, even if something is wrong with its description.
 fn may_be_body(field: &Field, types: &Definitions) -> bool {
     match (&field.role, definition(field, types)) {
-        (Some((Role::Body, _)), _) | (_, Some(Definition::Body(_))) => true,
+        (Some((Role::Body | Role::Port, _)), _) | (_, Some(Definition::Body(_))) => true,
         (Some(_), _) => false,
         (None, definition) => definition.is_none(),
     }
@@ -265,10 +368,12 @@ fn body(
     numbers: &mut Numbers<'_>,
     faults: &mut Faults,
 ) -> Option<crate::model::Body> {
-    let Some((Role::Body, word)) = &field.role else {
-        return None;
-    };
     let name = &field.name;
+    let word = match &field.role {
+        Some((Role::Body, word)) => word,
+        Some((Role::Port, _)) => return Some(bodies::port(name)),
+        _ => return None,
+    };
     let found = code(&field.ty);
     match definition(field, types) {
         Some(Definition::Body(kind)) => {
@@ -277,6 +382,13 @@ fn body(
             let body = bodies::check(name, *kind, word.span(), &field.list, numbers, faults);
             numbers.no_inputs = None;
             body
+        }
+        Some(Definition::Assembly) => {
+            faults.at(
+                word,
+                format!("`{found}` is an assembly: describe `{name}` by `#[part(at = [..], ..)]`"),
+            );
+            None
         }
         Some(Definition::Element(_) | Definition::Faulty) => {
             faults.at(

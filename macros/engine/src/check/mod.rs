@@ -15,11 +15,15 @@
 //!   the reason.
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
 //!   all names are known (`syntax/integer.rs`). See `docs/decisions/003-arrays-of-fields.md`.
+//! - `between.rs`: bodies by name, of the mechanism and of its parts.
+//! - `parts.rs`, `placement.rs`, `mirror.rs`: where parts are, and what that makes of what is in
+//!   them. See `docs/decisions/022-assemblies.md`.
 //! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
 //!
 //! Bounds. `syntax/depth.rs` limits nesting before anything recurses. `model::Extent` limits what
 //! is differentiated. Both refuse.
 
+mod between;
 pub mod bodies;
 pub mod definition;
 mod elements;
@@ -31,10 +35,13 @@ pub mod kinds;
 mod later;
 mod laws;
 pub mod mechanism;
+mod mirror;
 mod motion;
 mod moves;
 pub mod number;
 pub mod pairs;
+mod parts;
+mod placement;
 mod redundant;
 mod values;
 

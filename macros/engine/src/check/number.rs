@@ -2,13 +2,13 @@
 
 use std::ops::RangeInclusive;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, quote, quote_spanned};
 use syn::spanned::Spanned;
-use syn::{BinOp, Expr, Lit, UnOp};
+use syn::{Expr, Lit, UnOp};
 
 use super::elements::{Found, Reference, bare, known};
-use super::later::{Later, Value, union};
+use super::later::{Later, Value};
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::number::literals;
 use crate::model::{Name, Number, RunTimeValue, Symbol};
@@ -80,55 +80,67 @@ impl<'a> Numbers<'a> {
 
     /// One number.
     pub fn scalar(&mut self, expr: &Expr, faults: &mut Faults) -> Option<Number> {
-        match self.value(expr, faults)? {
-            Value::Literal(value) => in_range(value, expr, faults).map(Number::Literal),
-            Value::Later(Later {
-                expression,
-                scalar,
-                is_const,
-                is_varying,
-                values,
-                like,
-            }) => {
-                if let Some(like) = like {
+        let value = self.value(expr, faults)?;
+        match &value {
+            Value::Literal(value) => {
+                in_range(*value, expr, faults)?;
+            }
+            Value::Later(later) => {
+                if let Some(like) = later.like {
                     in_range_where(like, AT_LIKES, expr, faults)?;
                 }
-                let number = if is_varying {
-                    Number::Varying
-                } else {
-                    Number::Symbol
-                };
-                // A constant of another type, or an unknown one, is refused by the compiler: with
-                // one sentence, wherever the expression is used. The call changes nothing; it tells
-                // the type where that of the constant is not known.
-                let value = local("value");
-                let expression = quote! {
-                    ::core::convert::identity::<f64>({ let #value: f64 = #expression; #value })
-                };
-                if let Some(known) = self.known(&expression) {
-                    return Some(number(known));
-                }
-                let place = u32::try_from(self.symbols.len()).ok()?;
-                let name = local(&format!("CONSTANT_{place}"));
-                let is_checked = is_const && must_be_positive(&self.attribute);
-                let (expression, constant) = if is_checked {
-                    (quote!(#name), Some((name, expression)))
-                } else {
-                    (expression, None)
-                };
-                self.symbols.push(Symbol {
-                    expression,
-                    scalar,
-                    values,
-                    like,
-                    constant,
-                    span: expr.span(),
-                    field: self.field.clone(),
-                    attribute: self.attribute.clone(),
-                });
-                Some(number(place))
             }
         }
+        self.number(value, expr.span())
+    }
+
+    /// The number that a value is: an expression becomes a symbol.
+    pub(super) fn number(&mut self, value: Value, span: Span) -> Option<Number> {
+        let Later {
+            expression,
+            scalar,
+            is_const,
+            is_varying,
+            values,
+            like,
+        } = match value {
+            Value::Literal(value) => return Some(Number::Literal(value)),
+            Value::Later(later) => later,
+        };
+        let number = if is_varying {
+            Number::Varying
+        } else {
+            Number::Symbol
+        };
+        // A constant of another type, or an unknown one, is refused by the compiler: with one
+        // sentence, wherever the expression is used. The call changes nothing; it tells the type
+        // where that of the constant is not known.
+        let value = local("value");
+        let expression = quote! {
+            ::core::convert::identity::<f64>({ let #value: f64 = #expression; #value })
+        };
+        if let Some(known) = self.known(&expression) {
+            return Some(number(known));
+        }
+        let place = u32::try_from(self.symbols.len()).ok()?;
+        let name = local(&format!("CONSTANT_{place}"));
+        let is_checked = is_const && must_be_positive(&self.attribute);
+        let (expression, constant) = if is_checked {
+            (quote!(#name), Some((name, expression)))
+        } else {
+            (expression, None)
+        };
+        self.symbols.push(Symbol {
+            expression,
+            scalar,
+            values,
+            like,
+            constant,
+            span,
+            field: self.field.clone(),
+            attribute: self.attribute.clone(),
+        });
+        Some(number(place))
     }
 
     /// What the macro sees of a number that others are made of. It becomes no symbol.
@@ -236,40 +248,11 @@ impl<'a> Numbers<'a> {
                 let left = self.value(&binary.left, faults);
                 let right = self.value(&binary.right, faults);
                 let (left, right) = (left?, right?);
-                let operation: fn(f64, f64) -> f64 = match binary.op {
-                    BinOp::Add(_) => |x, y| x + y,
-                    BinOp::Sub(_) => |x, y| x - y,
-                    BinOp::Mul(_) => |x, y| x * y,
-                    BinOp::Div(_) => |x, y| x / y,
-                    _ => {
-                        super::refuse_operator(&binary.op, faults);
-                        return None;
-                    }
-                };
-                let folded = match (&left, &right) {
-                    (Value::Literal(x), Value::Literal(y)) => {
-                        Some(Value::Literal(operation(*x, *y)))
-                    }
-                    _ => None,
-                };
-                Some(folded.unwrap_or_else(|| {
-                    let (x, y, op) = (left.tokens(), right.tokens(), binary.op);
-                    let scalar = (left.is_run_time() || right.is_run_time()).then(|| {
-                        let (x, y) = (left.scalar(), right.scalar());
-                        match op {
-                            BinOp::Div(_) => quote!((#x * __S::reciprocal(#y))),
-                            _ => quote!((#x #op #y)),
-                        }
-                    });
-                    Value::Later(Later {
-                        expression: quote!((#x #op #y)),
-                        scalar,
-                        is_const: left.is_const() && right.is_const(),
-                        is_varying: left.is_varying() || right.is_varying(),
-                        values: union(left.values(), right.values()),
-                        like: left.like().zip(right.like()).map(|(x, y)| operation(x, y)),
-                    })
-                }))
+                let combined = left.combined(&binary.op, right);
+                if combined.is_none() {
+                    super::refuse_operator(&binary.op, faults);
+                }
+                combined
             }
             Expr::Call(call) => self.call(call, faults),
             Expr::Path(path) if path.path.is_ident("PI") => {
@@ -278,7 +261,7 @@ impl<'a> Numbers<'a> {
             Expr::Path(path) if path.path.is_ident("TAU") => {
                 Some(Value::Literal(std::f64::consts::TAU))
             }
-            Expr::Path(_) | Expr::Index(_) => match self.place(expr, faults) {
+            Expr::Path(_) | Expr::Index(_) | Expr::Field(_) => match self.place(expr, faults) {
                 Found::At(place) => self.run_time_value(place, expr, faults).map(Value::Later),
                 Found::Nothing => self.constant(expr, faults).map(|expression| {
                     Value::Later(Later {
@@ -332,7 +315,7 @@ impl<'a> Numbers<'a> {
         };
         let is_small = !name.starts_with("r#") && name.starts_with(char::is_lowercase);
         if is_small {
-            let values = known(self.values.iter().map(|value| &value.name));
+            let values = known(self.values.iter().map(|value| &value.name), &self.field);
             let words = self.words.iter().cloned();
             let constants = ["PI", "TAU"].map(ToString::to_string);
             let all: Vec<String> = words.chain(values).chain(constants).collect();
@@ -360,7 +343,7 @@ impl<'a> Numbers<'a> {
     fn place(&self, expr: &Expr, faults: &mut Faults) -> Found {
         let names = self.values.iter().map(|value| &value.name);
         Reference::of(expr).map_or(Found::Nothing, |reference| {
-            reference.find(names, self.unmeasured, self.field.index(), faults)
+            reference.find(names, self.unmeasured, &self.field, faults)
         })
     }
 
@@ -516,12 +499,16 @@ fn must_be_positive(attribute: &str) -> bool {
 #[must_use]
 pub fn value_name(name: &Name) -> Ident {
     // An element must not meet a field whose name is like its own in one word.
-    let kind = if name.index().is_some() {
-        "element"
-    } else {
-        "value"
+    let kind = match name.index() {
+        Some(_) => "element",
+        None => "value",
     };
-    local(&format!("{kind}_of_{}", name.word()))
+    let part = if name.parts().is_empty() {
+        ""
+    } else {
+        "_in_part"
+    };
+    local(&format!("{kind}{part}_of_{}", name.word()))
 }
 
 /// A number that is finite, and of a size that products and reciprocals bear.

@@ -183,7 +183,7 @@ fn undecided(model: &Model) -> String {
         .filter(|s| {
             is_joint(&s.field) || matches!(s.attribute.as_str(), "position" | "orientation")
         })
-        .map(|s| format!("`{}` of `{}`", s.attribute, s.field.field()))
+        .map(|s| format!("`{}` of `{}`", s.attribute, s.field.text()))
         .collect();
     places.dedup();
     let among = if places.is_empty() {

@@ -84,8 +84,8 @@ fn of_element<'a>(
         return Some(written);
     };
     let fields = syntax.fields.iter();
-    let count = fields.filter(|field| field.name.field() == name.field());
-    let field = name.field();
+    let count = fields.filter(|field| field.name.text() == name.text());
+    let field = name.text();
     match (name.index(), count.count()) {
         (Some(index), count) if several.len() == count => several.get(index).copied(),
         (Some(_), count) => {

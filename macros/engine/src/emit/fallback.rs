@@ -2,13 +2,15 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
+use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, format_ident, quote};
 use syn::ext::IdentExt;
 
+use super::nested::{Fields, Nested, nested};
 use crate::check::definition::{Definition, Definitions, definition};
+use crate::model::Name;
 use crate::syntax::array::array;
-use crate::syntax::mechanism::{Field, MechanismSyntax, Role, carrier_path};
+use crate::syntax::mechanism::{Field, MechanismSyntax, PartSyntax, Role};
 
 /// Writes the stub of a faulty mechanism.
 #[must_use]
@@ -18,11 +20,18 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     let bounds = clause.map(|clause| &clause.predicates);
     // The compiler itself reports fields of one name.
     let mut before = HashSet::new();
-    let is_first = |field: &&Field| before.insert(field.name.field().unraw());
-    let fields: Vec<&Field> = syntax.fields.iter().filter(is_first).collect();
-    let is_part = |field: &&&Field| field.role.as_ref().is_none_or(|(role, _)| role.is_part());
-    let handles = fields.iter().filter(is_part).map(|field| {
-        let (name, handle) = (&field.name, handle(field, types));
+    let mut is_first = |name: &Name| before.insert(name.field().unraw());
+    let own: Vec<&Field> = syntax
+        .fields
+        .iter()
+        .filter(|field| field.origin.is_none() && is_first(&field.name))
+        .collect();
+    let has_handle = |field: &&&Field| {
+        let role = field.role.as_ref().map(|(role, _)| *role);
+        role.is_none_or(|role| role.has_carrier() && role != Role::Part)
+    };
+    let handles = own.iter().filter(has_handle).map(|field| {
+        let (name, handle) = (&field.name, handle(syntax, field, types, facade));
         match array(&field.written) {
             Some(array) => {
                 let length = &array.len;
@@ -31,21 +40,13 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
             None => quote!(#name: #handle,),
         }
     });
-    let parameters = fields
-        .iter()
-        .filter(|field| matches!(field.role, Some((Role::Param, _))))
-        .map(|field| match array(&field.written) {
-            Some(array) => {
-                let (name, length) = (&field.name, &array.len);
-                quote!(#name: [::core::primitive::f64; #length])
-            }
-            None => {
-                let name = &field.name;
-                quote!(#name: ::core::primitive::f64)
-            }
-        })
-        .collect::<Vec<_>>();
-    let inputs: Vec<TokenStream> = fields
+    let (parts, parts_of_handles) = parts(syntax, types, facade);
+    let of_parts = parts_of_handles.into_iter();
+    let of_parts = of_parts.filter(|(field, _)| is_first(&field.clone().into()));
+    let handles = handles.chain(of_parts.map(|(field, handle)| quote!(#field: #handle,)));
+    let handles: TokenStream = handles.collect();
+    let parameters = parameters(syntax, &own);
+    let inputs: Vec<TokenStream> = own
         .iter()
         .filter(|field| matches!(field.role, Some((Role::Input, _))))
         .map(|field| {
@@ -73,8 +74,94 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
         #construction
         const _: () = {
             #inputs_type
-            #facade::__stub_mechanism! { [#declared] [#name #arguments] [#bounds] [#inputs_kind] #(#handles)* }
+            #parts
+            #facade::__stub_mechanism! { [#declared] [#name #arguments] [#bounds] [#inputs_kind] #handles }
         };
+    }
+}
+
+/// The arguments of `new`.
+fn parameters(syntax: &MechanismSyntax, own: &[&Field]) -> Vec<TokenStream> {
+    let own = own
+        .iter()
+        .filter(|field| matches!(field.role, Some((Role::Param, _))));
+    let own = own.map(|field| match array(&field.written) {
+        Some(array) => {
+            let (name, length) = (&field.name, &array.len);
+            quote!(#name: [::core::primitive::f64; #length])
+        }
+        None => {
+            let name = &field.name;
+            quote!(#name: ::core::primitive::f64)
+        }
+    });
+    let has_parameters = |part: &&PartSyntax| {
+        let is_in = |field: &Field| field.name.parts().first() == part.name.steps().next().as_ref();
+        let mut fields = syntax.fields.iter();
+        let is_own = part.origin.is_none() && part.name.is_first();
+        is_own && fields.any(|field| matches!(field.role, Some((Role::Param, _))) && is_in(field))
+    };
+    let parts = syntax.parts.iter().filter(has_parameters).map(|part| {
+        let (name, ty) = (&part.name, &part.written);
+        quote!(#name: #ty)
+    });
+    own.chain(parts).collect()
+}
+
+/// The structs of the handles of parts, and the handle of each.
+fn parts(
+    syntax: &MechanismSyntax,
+    types: &Definitions,
+    facade: &TokenStream,
+) -> (TokenStream, Vec<(Ident, TokenStream)>) {
+    let fields = syntax.fields.iter().filter(|field| {
+        let role = field.role.as_ref().map(|(role, _)| *role);
+        field.origin.is_some() && role.is_some_and(Role::has_carrier)
+    });
+    let all = fields.map(|field| (&field.name, handle(syntax, field, types, facade)));
+    let mut declared = TokenStream::new();
+    let mut count = 0;
+    let handles = part_fields(&nested(all), facade, &mut declared, &mut count);
+    (declared, handles)
+}
+
+fn part_fields(
+    fields: &Fields<TokenStream>,
+    facade: &TokenStream,
+    declared: &mut TokenStream,
+    count: &mut usize,
+) -> Vec<(Ident, TokenStream)> {
+    let fields = fields.0.iter();
+    let written =
+        fields.map(|(field, nested)| (field.clone(), part_field(nested, facade, declared, count)));
+    written.collect()
+}
+
+fn part_field(
+    nested: &Nested<TokenStream>,
+    facade: &TokenStream,
+    declared: &mut TokenStream,
+    count: &mut usize,
+) -> TokenStream {
+    match nested {
+        Nested::One(handle) => handle.clone(),
+        // All have the type of the first.
+        Nested::Elements(elements) => {
+            let length = elements.len();
+            let first = elements.first();
+            let first = first.map(|first| part_field(first, facade, declared, count));
+            quote!([#length] #first)
+        }
+        Nested::Part(fields) => {
+            let name = format_ident!("__Part{count}");
+            *count += 1;
+            let handles = part_fields(fields, facade, declared, count);
+            let handles = handles
+                .iter()
+                .map(|(field, handle)| quote!(#field: #handle,));
+            declared.extend(quote!(#facade::__stub_part! { #name #(#handles)* }));
+            quote!(part #name)
+        }
     }
 }
 
@@ -98,11 +185,16 @@ fn inputs_of(fields: &[TokenStream], facade: &TokenStream) -> (TokenStream, Toke
 }
 
 /// `body`, `joint` or `force` with its type, or `joint` or `force` where the type is none.
-fn handle(field: &Field, types: &Definitions) -> TokenStream {
+fn handle(
+    syntax: &MechanismSyntax,
+    field: &Field,
+    types: &Definitions,
+    facade: &TokenStream,
+) -> TokenStream {
     match (definition(field, types), &field.role) {
         (Some(Definition::Body(_)), _) | (None, Some((Role::Body, _))) => quote!(body),
-        (Some(Definition::Element(_) | Definition::Faulty), role) => {
-            let path = carrier_path(&field.ty);
+        (Some(Definition::Element(_) | Definition::Faulty | Definition::Assembly), role) => {
+            let path = syntax.type_path(&field.ty, field.origin, facade);
             match role {
                 Some((Role::Force, _)) => quote!(force #path),
                 _ => quote!(joint #path),

@@ -4,9 +4,10 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::nested::{Structs, nested};
+use super::parameters::read;
 use super::store::Store;
 use super::straight_line::StraightLine;
-use crate::model::name::fields;
 use crate::model::{Model, RunTimeValue};
 use crate::syntax::words::local;
 
@@ -27,8 +28,7 @@ fn inputs(model: &Model) -> impl Iterator<Item = (usize, &RunTimeValue)> {
 }
 
 pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
-    let fields = fields(inputs(model).map(|(_, value)| &value.name));
-    if fields.is_empty() {
+    if inputs(model).next().is_none() {
         return Inputs {
             declared: TokenStream::new(),
             kind: quote!(()),
@@ -37,18 +37,21 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
             },
         };
     }
-    let (mut types, mut zeros, mut read) = (Vec::new(), Vec::new(), Vec::new());
-    for (field, length) in &fields {
-        if let Some(length) = length {
-            types.push(quote!(pub #field: [__S; #length]));
-            zeros.push(quote!(#field: [__S::constant(0.0); #length]));
-            read.push(quote!(#field: self.#field.map(__S::constant)));
-        } else {
-            types.push(quote!(pub #field: __S));
-            zeros.push(quote!(#field: __S::constant(0.0)));
-            read.push(quote!(#field: __S::constant(self.#field)));
-        }
-    }
+    let documentation = format!("The inputs of [`{}`], zero by default.", model.name);
+    let head = quote! {
+        #[doc = #documentation]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+    };
+    let with = |value: &dyn Fn(&RunTimeValue) -> TokenStream| {
+        let values = inputs(model).map(|(_, input)| (&input.name, (quote!(__S), value(input))));
+        let structs = Structs::new("__Inputs", head.clone(), quote!(<__S>));
+        structs.written(&nested(values))
+    };
+    let (declared, zero) = with(&|_| quote!(__S::constant(0.0)));
+    let (_, read) = with(&|input| {
+        let value = read(model, &input.name, facade);
+        quote!(__S::constant(#value))
+    });
     let [given, parameters, values] = ["inputs", "parameters", "values"].map(local);
     let place = inputs(model).map(|(number, value)| {
         let (at, name) = (value.name.place(), value.name.to_string());
@@ -56,24 +59,21 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
         quote!((#number, #name, #given.#at))
     });
     let count = inputs(model).count();
-    let documentation = format!("The inputs of [`{}`], zero by default.", model.name);
     Inputs {
         declared: quote! {
-            #[doc = #documentation]
-            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
-            pub struct __Inputs<__S> { #(#types),* }
+            #declared
 
             #[automatically_derived]
             impl<__S: #facade::Scalar> ::core::default::Default for __Inputs<__S> {
                 fn default() -> Self {
-                    Self { #(#zeros),* }
+                    #zero
                 }
             }
         },
         kind: quote!(__Inputs<__S>),
         functions: quote! {
             fn inputs<__S: #facade::Scalar>(&self) -> Self::Inputs<__S> {
-                __Inputs { #(#read),* }
+                #read
             }
 
             #[inline]

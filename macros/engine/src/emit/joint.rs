@@ -19,7 +19,14 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStre
         ..
     } = syntax;
     let fingerprint = joint.map_or(0, |joint| joint.fingerprint);
-    let carrier = wire::carrier(syntax, facade, fingerprint, joint.is_some());
+    let carrier = wire::carrier(wire::Carrier {
+        name,
+        visibility,
+        facade,
+        fingerprint,
+        definition: wire::element(syntax, joint.is_some()),
+        word: syntax.kind.word(),
+    });
     let documentation = joint.map(documentation);
     let text = name.to_string();
     let equations = joint.map_or(0, ElementDef::equations);

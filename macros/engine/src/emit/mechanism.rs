@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use super::construction::of_mechanism;
 use super::coordinates;
 use super::documentation::documentation;
 use super::inputs::{Inputs, inputs_of, taken};
@@ -70,7 +71,7 @@ impl Writer<'_> {
         );
         let assertions = parameters::assertions(model, facade);
         let parameters = parameters::parameters(model, facade);
-        let construction = parameters::construction(model, facade);
+        let construction = of_mechanism(model, facade);
         let vector_rows = &kernels.vector_rows;
         let joints = self.in_joint_coordinates();
         let default_coordinates = match model.coordinates {

@@ -19,6 +19,8 @@
 //! `likes.rs` writes the omitted equations as a kernel. `joint.rs` writes type, traits, carrier
 //! and documentation of a definition.
 
+pub mod assembly;
+mod construction;
 mod coordinates;
 pub mod documentation;
 pub mod fallback;
@@ -29,6 +31,7 @@ mod joint_report;
 mod joint_solution;
 mod likes;
 pub mod mechanism;
+mod nested;
 pub mod parameters;
 mod parts;
 mod readouts;

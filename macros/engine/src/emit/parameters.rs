@@ -3,13 +3,12 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::construction::{given_parts, parts};
 use crate::check::number::value_name;
-use crate::model::name::fields;
 use crate::model::{ElementKind, Model, Name, Number, Symbol};
-use crate::syntax::words::local;
 
 /// Numbers that the macro could not see are checked by the compiler where it can evaluate them.
 pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
@@ -22,7 +21,7 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
         tokens.extend(quote!(const #constant: f64 = #value;));
         // What the elements of an array have in common is refused once.
         let field = &symbol.field;
-        let common = format!("{}.{}: {value}", field.field(), symbol.attribute);
+        let common = format!("{}.{}: {value}", field.text(), symbol.attribute);
         if field.index().is_some() && !said.insert(common) {
             continue;
         }
@@ -36,6 +35,17 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
         });
     }
     let mut known = HashSet::new();
+    for part in &model.parts {
+        let (path, fingerprint) = (&part.path, Literal::u64_suffixed(part.fingerprint));
+        if known.insert(path.to_string()) {
+            tokens.extend(quote! {
+                const _: () = ::core::assert!(
+                    <#path as #facade::__private::Assembly>::FINGERPRINT == #fingerprint,
+                    "the type and the definition of an assembly differ; is one of them shadowed?"
+                );
+            });
+        }
+    }
     for element in model.elements() {
         let path = &element.path;
         if !known.insert(path.to_string()) {
@@ -74,126 +84,39 @@ fn positive_symbols(model: &Model) -> impl Iterator<Item = &Symbol> {
 /// The function `parameters`: run-time values, checked.
 pub fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
     let parts = parts(model).into_iter().map(|(field, _)| field);
+    let given = given_parts(model).into_iter().map(|(field, ..)| field);
+    let given: Vec<_> = given.collect();
+    let parts = parts.chain(&given);
     let checks = checks(model, facade);
     let names = model.values.iter().map(|value| &value.name);
-    let places = names.clone().map(Name::place);
+    let read = names.clone().map(|name| read(model, name, facade));
     let values: Vec<_> = names.map(value_name).collect();
     quote! {
         fn parameters<__S: #facade::Scalar>(
             &self,
         ) -> ::core::result::Result<Self::Parameters<__S>, #facade::ParameterError> {
             #( let _ = &self.#parts; )*
-            #( let #values: f64 = self.#places; )*
+            #( let #values: f64 = #read; )*
             #checks
             ::core::result::Result::Ok([#(__S::constant(#values)),*])
         }
     }
 }
 
-/// `Default` without parameters, else `new` with one argument for each.
-pub fn construction(model: &Model, facade: &TokenStream) -> TokenStream {
-    let name = &model.name;
-    let parts = parts(model).into_iter();
-    let parts: Vec<_> = parts
-        .map(|(part, length)| match length {
-            // The standard library has a default of short arrays only.
-            Some(_) => {
-                quote!(#part: ::core::array::from_fn(|_| ::core::default::Default::default()),)
-            }
-            None => quote!(#part: ::core::default::Default::default(),),
-        })
-        .collect();
-    let of = |wanted: bool| {
-        let values = model.values.iter();
-        let values = values.filter(move |value| value.is_input == wanted);
-        fields(values.map(|value| &value.name))
+/// How a run-time value of the struct is read. The fields of a part may be private.
+pub(super) fn read(model: &Model, name: &Name, facade: &TokenStream) -> TokenStream {
+    let Some((field, index)) = name.parts().first() else {
+        let place = name.place();
+        return quote!(self.#place);
     };
-    let (inputs, given) = (of(true), of(false));
-    let has_inputs = !inputs.is_empty();
-    let inputs = inputs.into_iter();
-    let inputs: Vec<_> = inputs
-        .map(|(input, length)| match length {
-            Some(length) => quote!(#input: [0.0; #length],),
-            None => quote!(#input: 0.0,),
-        })
-        .collect();
-    let arguments = given.iter().map(|(argument, length)| match length {
-        Some(length) => quote!(#argument: [f64; #length]),
-        None => quote!(#argument: f64),
+    let top = |other: &Name| other.parts().first() == Some(&(field.clone(), *index));
+    let own = model.values.iter().filter(|value| top(&value.name));
+    let number = own.take_while(|value| value.name != *name).count();
+    let at = index.map(|index| {
+        let index = Literal::usize_unsuffixed(index);
+        quote!([#index])
     });
-    let mechanism = local("mechanism");
-    let default = |values: TokenStream| {
-        quote! {
-            #[automatically_derived]
-            impl ::core::default::Default for #name {
-                fn default() -> Self {
-                    Self {
-                        #(#parts)*
-                        #values
-                        #(#inputs)*
-                    }
-                }
-            }
-        }
-    };
-    if given.is_empty() {
-        return default(TokenStream::new());
-    }
-    let likes = super::likes::defaults(model).map(|likes| {
-        let mut likes = likes.into_iter();
-        let values = given.iter().map(|(argument, length)| {
-            let own: Vec<f64> = likes.by_ref().take(length.unwrap_or(1)).collect();
-            match length {
-                Some(_) => quote!(#argument: [#(#own),*],),
-                None => quote!(#argument: #(#own)*,),
-            }
-        });
-        default(values.collect())
-    });
-    let given: Vec<_> = given.iter().map(|(argument, _)| argument).collect();
-    let documentation = format!(
-        " The mechanism with these parameters, in the order of its fields{}.",
-        if has_inputs { "; inputs are zero" } else { "" }
-    );
-    let (checked, refused) = if model.independence.likes.is_empty() {
-        (quote!(parameters::<f64>(&#mechanism)?), TokenStream::new())
-    } else {
-        let refused = " A value with which the mechanism cannot be assembled, or with which its equations do not depend on each other \
-             as they do at the typical values of the parameters.";
-        (
-            quote!(check_likes::<f64>(&#mechanism, ::core::option::Option::None)?),
-            quote!(#[doc = #refused]),
-        )
-    };
-    quote! {
-        #likes
-
-        #[automatically_derived]
-        impl #name {
-            #[doc = #documentation]
-            ///
-            /// # Errors
-            /// A number that is not finite, or a mass, inertia, axis or orientation made of it that
-            /// is not acceptable.
-            #refused
-            pub fn new(#(#arguments),*) -> ::core::result::Result<Self, #facade::ParameterError> {
-                let #mechanism = Self {
-                    #(#parts)*
-                    #( #given, )*
-                    #(#inputs)*
-                };
-                <Self as #facade::Mechanism>::#checked;
-                ::core::result::Result::Ok(#mechanism)
-            }
-        }
-    }
-}
-
-/// The fields that are bodies, joints and forces, and the lengths of those that are arrays.
-fn parts(model: &Model) -> Vec<(&Ident, Option<usize>)> {
-    let elements = model.elements().map(|element| &element.name);
-    let bodies = model.bodies.iter().map(|body| &body.name);
-    fields(bodies.chain(elements))
+    quote!(#facade::__private::Assembly::value(&self.#field #at, #number))
 }
 
 /// The checks of `parameters`.

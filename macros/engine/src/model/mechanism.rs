@@ -131,6 +131,17 @@ pub struct Element {
     pub is_cut: bool,
 }
 
+/// A field, or an element of one, that is an assembly.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The field, or its element.
+    pub name: Name,
+    /// The type, as the compiler finds it from the mechanism.
+    pub path: TokenStream,
+    /// The fingerprint of its description.
+    pub fingerprint: u64,
+}
+
 /// A field, or an element of one, that holds a number for run time.
 #[derive(Clone, Debug)]
 pub struct RunTimeValue {
@@ -198,6 +209,8 @@ pub struct Model {
     pub joints: Vec<Element>,
     /// The forces in the order of the fields.
     pub forces: Vec<Element>,
+    /// The parts in the order of the fields, each before those in it.
+    pub parts: Vec<Part>,
     /// Run-time values in the order of the fields.
     pub values: Vec<RunTimeValue>,
     /// The definitions that joints and forces use.

@@ -16,7 +16,9 @@ pub use comparison::Comparison;
 pub use joint::{
     Action, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term, Turn,
 };
-pub use mechanism::{Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, RunTimeValue};
+pub use mechanism::{
+    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, Part, RunTimeValue,
+};
 pub use motion::{Direction, Motion};
 pub use name::Name;
 pub use number::{Number, Symbol};

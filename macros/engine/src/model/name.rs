@@ -1,5 +1,5 @@
 //! The names of bodies, joints, forces and values: a field, or an element of a field that is an
-//! array.
+//! array, of the mechanism or of one of its parts.
 
 use std::cmp::Ordering;
 use std::fmt::{self, Display};
@@ -7,12 +7,17 @@ use std::fmt::{self, Display};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 
-/// A field, or an element of one. As tokens it is the field's name, where the user wrote it; in
-/// words it is `rod` or `links[3]`.
+/// A field and the element of it, on the way into a part.
+pub type Step = (Ident, Option<usize>);
+
+/// A field, or an element of one, of the mechanism or of a part of it. As tokens it is the field's
+/// name, where the user wrote it; in words it is `rod`, `links[3]` or `left.rod`.
 #[derive(Clone, Debug)]
 pub struct Name {
+    /// The parts that it lies in, the outermost first.
+    parts: Vec<Step>,
     field: Ident,
-    /// The field's name: asking an identifier for it again and again costs time.
+    /// All but the number of the element: asking an identifier for it again and again costs time.
     text: String,
     index: Option<usize>,
 }
@@ -28,10 +33,39 @@ impl Name {
         }
     }
 
+    /// The same field in a part.
+    #[must_use]
+    pub fn within(&self, part: &Self) -> Self {
+        let parts = part.steps().chain(self.parts.iter().cloned());
+        Self {
+            parts: parts.collect(),
+            text: format!("{part}.{}", self.text),
+            ..self.clone()
+        }
+    }
+
+    /// The parts that it lies in, the outermost first.
+    #[must_use]
+    pub fn parts(&self) -> &[Step] {
+        &self.parts
+    }
+
+    /// The way to it: its parts, then itself.
+    pub fn steps(&self) -> impl Iterator<Item = Step> {
+        let own = (self.field.clone(), self.index);
+        self.parts.iter().cloned().chain(std::iter::once(own))
+    }
+
     /// The field.
     #[must_use]
     pub const fn field(&self) -> &Ident {
         &self.field
+    }
+
+    /// The field with its parts in words, without the number of the element.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// Which element it is; `None` of a field that is no array.
@@ -46,33 +80,35 @@ impl Name {
         matches!(self.index, None | Some(0))
     }
 
-    /// How a field of the struct is read: `rod` or `links[3]`.
+    /// How a field of the struct is read: `rod`, `links[3]` or `left.rod`.
     #[must_use]
     pub fn place(&self) -> TokenStream {
-        let field = &self.field;
-        match self.index {
+        let steps = self.steps().map(|(field, index)| match index {
             Some(index) => {
                 let index = Literal::usize_unsuffixed(index);
                 quote!(#field[#index])
             }
             None => quote!(#field),
-        }
+        });
+        quote!(#(#steps).*)
     }
 
-    /// One word for it, for local names: `rod` or `links_3`.
+    /// One word for it, for local names: `rod`, `links_3` or `left__rod`.
     #[must_use]
     pub fn word(&self) -> String {
-        let text = self.text.trim_start_matches("r#");
-        match self.index {
-            Some(index) => format!("{text}_{index}"),
-            None => text.into(),
-        }
+        let word = |(field, index): Step| {
+            let field = field.to_string();
+            let field = field.trim_start_matches("r#");
+            index.map_or(field.into(), |index| format!("{field}_{index}"))
+        };
+        self.steps().map(word).collect::<Vec<_>>().join("__")
     }
 }
 
 impl From<Ident> for Name {
     fn from(field: Ident) -> Self {
         Self {
+            parts: Vec::new(),
             text: field.to_string(),
             field,
             index: None,
@@ -116,13 +152,14 @@ impl PartialEq for Name {
 
 impl Eq for Name {}
 
-/// The fields of some names in order, each once, with the number of elements of arrays.
-pub fn fields<'a>(names: impl IntoIterator<Item = &'a Name>) -> Vec<(&'a Ident, Option<usize>)> {
-    let mut fields: Vec<(&Ident, Option<usize>)> = Vec::new();
+/// The fields of some names in order, each once and by its first element, with the number of
+/// elements of arrays.
+pub fn fields<'a>(names: impl IntoIterator<Item = &'a Name>) -> Vec<(&'a Name, Option<usize>)> {
+    let mut fields: Vec<(&Name, Option<usize>)> = Vec::new();
     for name in names {
         match (name.index, fields.last_mut()) {
             (Some(1..), Some((_, Some(length)))) => *length += 1,
-            (index, _) => fields.push((&name.field, index.map(|_| 1))),
+            (index, _) => fields.push((name, index.map(|_| 1))),
         }
     }
     fields
@@ -144,5 +181,16 @@ mod tests {
         let names = [links(0), links(1), rod, links(0)];
         let lengths: Vec<_> = fields(&names).iter().map(|(_, length)| *length).collect();
         assert_eq!(lengths, [Some(2), None, Some(1)]);
+    }
+
+    #[test]
+    fn a_part_stands_before_its_fields() {
+        let wheel = Name::element(format_ident!("wheels"), 2);
+        let left = Name::element(format_ident!("axles"), 1).within(&format_ident!("car").into());
+        let wheel = wheel.within(&left);
+        assert_eq!(wheel.to_string(), "car.axles[1].wheels[2]");
+        assert_eq!(wheel.word(), "car__axles_1__wheels_2");
+        let place = wheel.place().to_string().replace(' ', "");
+        assert_eq!(place, wheel.to_string());
     }
 }

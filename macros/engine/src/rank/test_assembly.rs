@@ -176,6 +176,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         bodies: bodies.into(),
         joints: vec![used],
         forces: Vec::new(),
+        parts: Vec::new(),
         values: Vec::new(),
         definitions: vec![joint.clone()],
         symbols: Vec::new(),

@@ -54,6 +54,8 @@ pub(super) fn elements(field: Field, faults: &mut Faults) -> (Vec<Field>, bool) 
             written: field.written.clone(),
             ty: field.ty.clone(),
             role: field.role.clone(),
+            context: field.context.clone(),
+            origin: field.origin,
         }
     });
     (elements.collect(), length.is_some())
@@ -141,11 +143,16 @@ fn placed(expr: &Expr, index: usize, faults: &mut Faults) -> Option<Expr> {
         // An argument by its name, such as the radius of a shape.
         Expr::Assign(argument) => inner(&mut argument.right)?,
         Expr::Index(found) => {
-            // A table of tables.
-            if let Expr::Index(_) = ungroup(&found.expr) {
+            // A table of tables, or a field of a part.
+            if let Expr::Index(_) | Expr::Field(_) = ungroup(&found.expr) {
                 inner(&mut found.expr)?;
             }
             inner(&mut found.index)?;
+        }
+        Expr::Field(field) => {
+            if let Expr::Index(_) | Expr::Field(_) = ungroup(&field.base) {
+                inner(&mut field.base)?;
+            }
         }
         Expr::If(choice) => {
             let chosen = chosen(choice, index, faults)?;

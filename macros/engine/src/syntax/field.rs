@@ -14,6 +14,10 @@ pub enum Role {
     Joint,
     /// `#[force(..)]`.
     Force,
+    /// `#[part(..)]`: an assembly.
+    Part,
+    /// `#[port]`: a body of an assembly that its user names.
+    Port,
     /// `#[param]`.
     Param,
     /// `#[input]`.
@@ -21,18 +25,20 @@ pub enum Role {
 }
 
 impl Role {
-    pub(super) const ALL: [(&'static str, Self); 5] = [
+    pub(super) const ALL: [(&'static str, Self); 7] = [
         ("body", Self::Body),
         ("joint", Self::Joint),
         ("force", Self::Force),
+        ("part", Self::Part),
+        ("port", Self::Port),
         ("param", Self::Param),
         ("input", Self::Input),
     ];
 
-    /// Whether the field's type is a body, a joint or a force.
+    /// Whether the field's type is a body, a joint, a force or an assembly.
     #[must_use]
-    pub const fn is_part(self) -> bool {
-        matches!(self, Self::Body | Self::Joint | Self::Force)
+    pub const fn has_carrier(self) -> bool {
+        matches!(self, Self::Body | Self::Joint | Self::Force | Self::Part)
     }
 }
 
@@ -49,4 +55,18 @@ pub struct Field {
     pub role: Option<(Role, syn::Path)>,
     /// The list of its attribute.
     pub list: List,
+    /// Where its type has its meaning: nothing in the mechanism itself, else the path of the part's
+    /// type and `/`.
+    pub context: String,
+    /// The part whose field it is.
+    pub origin: Option<Origin>,
+}
+
+/// A field of an assembly.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin {
+    /// The place of the part.
+    pub part: usize,
+    /// The number of the field in its struct.
+    pub number: usize,
 }

@@ -4,8 +4,9 @@ use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
 use syn::{Attribute, Data, DeriveInput, Fields, Type};
 
-pub use super::field::{Field, Role};
-use super::{List, array};
+pub use super::field::{Field, Origin, Role};
+pub use super::part::{Assemblies, AssemblySyntax, PartSyntax};
+use super::{List, array, part};
 use crate::diag::Faults;
 
 /// An annotated struct as written.
@@ -17,8 +18,10 @@ pub struct MechanismSyntax {
     pub generics: syn::Generics,
     /// The list of `#[mechanism(..)]`.
     pub list: List,
-    /// Its fields, and the elements of those that are arrays.
+    /// Its fields, and the elements of those that are arrays; in the place of a part its fields.
     pub fields: Vec<Field>,
+    /// Its parts, each before those in it.
+    pub parts: Vec<PartSyntax>,
     /// Arrays of a length that was refused: only the first element is there, and nobody knows which
     /// others are meant.
     pub unmeasured: Vec<Ident>,
@@ -26,13 +29,15 @@ pub struct MechanismSyntax {
     pub is_plain: bool,
 }
 
-/// Parses the struct; what can be understood of a faulty one is kept.
-pub fn parse(input: &DeriveInput, faults: &mut Faults) -> MechanismSyntax {
+/// Parses the struct; what can be understood of a faulty one is kept. A part whose assembly is not
+/// among these stays one field.
+pub fn parse(input: &DeriveInput, assemblies: &Assemblies, faults: &mut Faults) -> MechanismSyntax {
     let mut result = MechanismSyntax {
         name: input.ident.clone(),
         generics: input.generics.clone(),
         list: List::default(),
         fields: Vec::new(),
+        parts: Vec::new(),
         unmeasured: Vec::new(),
         is_plain: true,
     };
@@ -72,7 +77,9 @@ pub fn parse(input: &DeriveInput, faults: &mut Faults) -> MechanismSyntax {
         if let Some(name) = field.ident.clone() {
             let written = parse_field(name.clone(), field, faults);
             let (elements, is_measured) = array::elements(written, faults);
-            result.fields.extend(elements);
+            for element in elements {
+                part::expand(element, assemblies, &mut result);
+            }
             if !is_measured {
                 result.unmeasured.push(name);
             }
@@ -106,7 +113,7 @@ fn shape(input: &DeriveInput) -> Option<(TokenStream, String)> {
 }
 
 /// The fields of a struct with named fields; none of anything else.
-fn named_fields(input: &DeriveInput) -> impl Iterator<Item = &syn::Field> {
+pub(super) fn named_fields(input: &DeriveInput) -> impl Iterator<Item = &syn::Field> {
     match &input.data {
         Data::Struct(data) => match &data.fields {
             Fields::Named(fields) => Some(fields.named.iter()),
@@ -124,13 +131,15 @@ fn role(attribute: &Attribute) -> Option<Role> {
     known.map(|(_, role)| role)
 }
 
-fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
+pub(super) fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
     let mut result = Field {
         name: name.into(),
         written: field.ty.clone(),
         ty: array::element_type(&field.ty).clone(),
         role: None,
         list: List::default(),
+        context: String::new(),
+        origin: None,
     };
     for attribute in &field.attrs {
         if attribute.path().is_ident("mechanism") {
@@ -153,13 +162,19 @@ fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
             continue;
         }
         result.role = Some((role, attribute.path().clone()));
-        if role.is_part() || role == Role::Param {
+        if role.has_carrier() || role == Role::Param {
             result.list = super::list(attribute, faults);
         } else if !matches!(attribute.meta, syn::Meta::Path(_)) {
             let word = attribute.path().to_token_stream();
+            let what = match role {
+                Role::Port => {
+                    "it stands above a `Body`, which is named where the assembly is a part"
+                }
+                _ => "it stands above a field of type `f64`, and it is 0 until the field is set",
+            };
             faults.at(
                 attribute,
-                format!("`#[{word}]` takes nothing besides: it stands above a field of type `f64`, and it is 0 until the field is set"),
+                format!("`#[{word}]` takes nothing besides: {what}"),
             );
         }
     }
@@ -167,7 +182,7 @@ fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
 }
 
 /// The distinct types of described fields, as paths without generic arguments: bodies first, then
-/// joints, then forces, each in the order of the fields.
+/// joints, forces and assemblies, each in the order of the fields.
 ///
 /// The derive calls each of them as a macro. A carrier asks of the next whether it is a body or a
 /// joint, so that what is surely one comes first.
@@ -177,7 +192,7 @@ pub fn carrier_paths(input: &DeriveInput) -> Vec<TokenStream> {
     let Data::Struct(data) = &input.data else {
         return paths;
     };
-    for wanted in [Role::Body, Role::Joint, Role::Force] {
+    for wanted in [Role::Body, Role::Joint, Role::Force, Role::Part] {
         for field in &data.fields {
             let ty = array::element_type(&field.ty);
             if field.attrs.iter().find_map(role) != Some(wanted) || is_parameter(ty, input) {

@@ -7,6 +7,7 @@ pub mod integer;
 pub mod joint;
 pub mod mechanism;
 pub mod motion;
+mod part;
 mod piece;
 pub mod words;
 
@@ -142,6 +143,7 @@ pub fn list(attribute: &syn::Attribute, faults: &mut Faults) -> List {
                 "joint" => "#[joint(between = [ground, rod], ..)]",
                 "force" => "#[force(between = [ground, rod], ..)]",
                 "param" => "#[param(like = 0.8)]",
+                "part" => "#[part(at = [0.0, 0.5, 0.0], ..)]",
                 _ => "#[mechanism(gravity = [0.0, 0.0, -9.81])]",
             };
             faults.at(

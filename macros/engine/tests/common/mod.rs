@@ -143,7 +143,7 @@ pub(crate) fn checked(
 ) -> Result<Model, String> {
     let input = syn::parse2(item.clone()).expect("a struct");
     let mut faults = Faults::new();
-    let written = syntax::mechanism::parse(&input, &mut faults);
+    let written = syntax::mechanism::parse(&input, &Vec::new(), &mut faults);
     let mut definitions: Vec<ElementDef> = Vec::new();
     let mut types: Definitions = Vec::new();
     for path in paths(item) {

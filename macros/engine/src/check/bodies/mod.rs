@@ -73,6 +73,41 @@ pub fn check(
     })
 }
 
+/// Euler parameters of a rotation that the macro can see, in the attribute of a field.
+pub fn rotation(
+    name: &Name,
+    attribute: &str,
+    expr: &Expr,
+    numbers: &mut Numbers<'_>,
+    faults: &mut Faults,
+) -> Option<[f64; 4]> {
+    let mut reader = Reader {
+        name,
+        numbers,
+        faults,
+    };
+    reader.at(attribute);
+    reader.turn(expr)
+}
+
+/// What stands in the place of a port as long as nobody says which body it is.
+#[must_use]
+pub fn port(name: &Name) -> Body {
+    Body {
+        name: name.clone(),
+        kind: BodyKind::Rigid,
+        mass: Number::ONE,
+        inertia: [Number::ONE; 3],
+        user_axes: IDENTITY,
+        position: [Number::ZERO; 3],
+        orientation: IDENTITY.map(Number::Literal),
+        velocity: [Number::ZERO; 3],
+        angular_velocity: [Number::ZERO; 3],
+        free: true,
+        shapes: Vec::new(),
+    }
+}
+
 impl Reader<'_, '_> {
     /// A body whose mass and inertia are given.
     fn measured(&mut self, pairs: &mut Pairs<'_>) -> Option<Solid> {

@@ -1,0 +1,172 @@
+//! Where a part is: its points, directions and rotations, from its own axes to global ones.
+
+use super::number::Numbers;
+use crate::model::inertia::{IDENTITY, compose, rotation};
+use crate::model::{Binding, Body, Number, ParameterKind, Shape};
+
+/// A mirror, then a rotation, then a translation.
+#[derive(Clone, Debug)]
+pub(super) struct Placement {
+    /// The axis that the plane of the mirror is perpendicular to.
+    pub(super) mirror: Option<usize>,
+    /// Euler parameters of the rotation.
+    pub(super) rotation: [f64; 4],
+    /// The translation (m).
+    pub(super) at: [Number; 3],
+}
+
+impl Placement {
+    /// The placement of a part of this part.
+    pub(super) fn of_part(&self, inner: &Self, numbers: &mut Numbers<'_>) -> Self {
+        let turned = compose(self.rotation, mirrored(inner.rotation, self.mirror));
+        let (mirror, turned) = match (self.mirror, inner.mirror) {
+            (one, None) | (None, one) => (one, turned),
+            (Some(a), Some(b)) if a == b => (None, turned),
+            // Two mirrors are half a turn about the third axis.
+            (Some(a), Some(b)) => {
+                let mut half = [0.0; 4];
+                half[1 + (3 - a - b)] = 1.0;
+                (None, compose(turned, half))
+            }
+        };
+        Self {
+            mirror,
+            rotation: turned,
+            at: self.point(inner.at, numbers),
+        }
+    }
+
+    /// The matrix of mirror and rotation.
+    fn matrix(&self) -> [[f64; 3]; 3] {
+        let mut matrix = rotation(self.rotation);
+        if let Some(axis) = self.mirror {
+            matrix.iter_mut().for_each(|row| row[axis] = -row[axis]);
+        }
+        matrix
+    }
+
+    /// A point in global axes.
+    pub(super) fn point(&self, point: [Number; 3], numbers: &mut Numbers<'_>) -> [Number; 3] {
+        let matrix = self.matrix();
+        [0, 1, 2].map(|k| numbers.linear(matrix[k], point, self.at[k]))
+    }
+
+    /// A direction in global axes.
+    fn direction(&self, direction: [Number; 3], numbers: &mut Numbers<'_>) -> [Number; 3] {
+        self.matrix()
+            .map(|row| numbers.linear(row, direction, Number::ZERO))
+    }
+
+    /// A vector in the axes of a body, which are mirrored with it.
+    fn local(&self, vector: [Number; 3], numbers: &mut Numbers<'_>) -> [Number; 3] {
+        let mut local = vector;
+        if let Some(axis) = self.mirror {
+            local[axis] = numbers.negated(local[axis]);
+        }
+        local
+    }
+
+    /// Moves a body there. Its user's axes are mirrored as they are: one of a mirrored part has
+    /// axes that lie as those of the part do, seen in the mirror, but for the one across it.
+    pub(super) fn body(&self, body: &mut Body, numbers: &mut Numbers<'_>) {
+        let name = body.name.clone();
+        let at = |numbers: &mut Numbers<'_>, attribute: &str| {
+            numbers.field = name.clone();
+            numbers.attribute = attribute.into();
+        };
+        at(numbers, "position");
+        body.position = self.point(body.position, numbers);
+        at(numbers, "velocity");
+        body.velocity = self.direction(body.velocity, numbers);
+        at(numbers, "angular_velocity");
+        let spin = self.local(body.angular_velocity, numbers);
+        body.angular_velocity = match self.mirror {
+            Some(_) => spin.map(|component| numbers.negated(component)),
+            None => spin,
+        };
+        at(numbers, "orientation");
+        body.orientation = self.orientation(body.orientation, numbers);
+        body.user_axes = mirrored(body.user_axes, self.mirror);
+        body.shapes.iter_mut().for_each(|shape| self.shape(shape));
+    }
+
+    /// Euler parameters of a body's axes.
+    fn orientation(&self, p: [Number; 4], numbers: &mut Numbers<'_>) -> [Number; 4] {
+        let mut p = p;
+        if let Some(axis) = self.mirror {
+            for k in [0, 1, 2] {
+                if k != axis {
+                    p[1 + k] = numbers.negated(p[1 + k]);
+                }
+            }
+        }
+        if self.rotation == IDENTITY {
+            return p;
+        }
+        let [a, b, c, d] = self.rotation;
+        let product = [[a, -b, -c, -d], [b, a, -d, c], [c, d, a, -b], [d, -c, b, a]];
+        product.map(|row| numbers.linear(row, p, Number::ZERO))
+    }
+
+    /// What a body looks like, in its axes. Every shape is symmetric to the plane across its z axis.
+    fn shape(&self, shape: &mut Shape) {
+        let Some(axis) = self.mirror else { return };
+        shape.centre[axis] = -shape.centre[axis];
+        // Mirrors across `axis` and across the shape's own z are a rotation.
+        let turned = mirrored(shape.axes, Some(axis));
+        shape.axes = if axis == 2 {
+            turned
+        } else {
+            let mut half = [0.0; 4];
+            half[1 + (1 - axis)] = 1.0;
+            compose(turned, half)
+        };
+    }
+
+    /// Moves what a parameter of a joint or a force is. `is_pseudovector`: see `mirror.rs`.
+    pub(super) fn binding(
+        &self,
+        binding: Binding,
+        kind: ParameterKind,
+        is_pseudovector: bool,
+        numbers: &mut Numbers<'_>,
+    ) -> Binding {
+        let signed = |vector: [Number; 3], numbers: &mut Numbers<'_>| {
+            if self.mirror.is_some() && is_pseudovector {
+                vector.map(|component| numbers.negated(component))
+            } else {
+                vector
+            }
+        };
+        match binding {
+            Binding::Global(point) if kind == ParameterKind::Point => {
+                Binding::Global(self.point(point, numbers))
+            }
+            Binding::Global(vector) => {
+                let placed = self.direction(vector, numbers);
+                Binding::Global(signed(placed, numbers))
+            }
+            Binding::Local(copies) => {
+                let copies = copies.into_iter().map(|copy| {
+                    let local = self.local(copy, numbers);
+                    signed(local, numbers)
+                });
+                Binding::Local(copies.collect())
+            }
+            other => other,
+        }
+    }
+}
+
+/// Euler parameters of a rotation that is seen in a mirror.
+fn mirrored(p: [f64; 4], mirror: Option<usize>) -> [f64; 4] {
+    let mut p = p;
+    if let Some(axis) = mirror {
+        for k in [0, 1, 2] {
+            if k != axis {
+                p[1 + k] = -p[1 + k];
+            }
+        }
+    }
+    p
+}
