@@ -220,7 +220,7 @@ macro_rules! force {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __stub_part {
-    ($part:ident $($field:ident: $([$length:expr])? $kind:ident $($path:path)?,)*) => {
+    ($part:ident $($field:ident: $([$length:expr])? $kind:ident $($path:ty)?,)*) => {
         #[allow(warnings, clippy::all, clippy::pedantic)]
         pub struct $part<__M> {
             $(pub $field: $crate::__stub_mechanism!(@handle $([$length])? $kind $($path)?),)*
@@ -308,18 +308,18 @@ impl crate::mechanism::Driven for AnyJoint {
 macro_rules! __stub_mechanism {
     (@handle body) => { $crate::BodyHandle<__M> };
     (@handle joint) => { $crate::JointHandle<__M, $crate::__private::AnyJoint> };
-    (@handle force $($path:path)?) => { $crate::ForceHandle<__M, $crate::__private::AnyJoint> };
-    (@handle joint $path:path) => { $crate::JointHandle<__M, $path> };
-    (@handle part $part:ident) => { $part<__M> };
-    (@value part $part:ident) => { $part::VALUE };
+    (@handle force $($path:ty)?) => { $crate::ForceHandle<__M, $crate::__private::AnyJoint> };
+    (@handle joint $path:ty) => { $crate::JointHandle<__M, $path> };
+    (@handle part $part:ty) => { $part };
+    (@value part $part:ty) => { <$part>::VALUE };
     (@value body) => { $crate::BodyHandle::new(0) };
-    (@value force $($path:path)?) => { $crate::ForceHandle::new(0) };
-    (@value joint $($path:path)?) => { $crate::JointHandle::new(0) };
-    (@handle [$length:expr] $kind:ident $($path:path)?) => { [$crate::__stub_mechanism!(@handle $kind $($path)?); $length] };
-    (@value [$length:expr] $kind:ident $($path:path)?) => { [$crate::__stub_mechanism!(@value $kind $($path)?); $length] };
+    (@value force $($path:ty)?) => { $crate::ForceHandle::new(0) };
+    (@value joint $($path:ty)?) => { $crate::JointHandle::new(0) };
+    (@handle [$length:expr] $kind:ident $($path:ty)?) => { [$crate::__stub_mechanism!(@handle $kind $($path)?); $length] };
+    (@value [$length:expr] $kind:ident $($path:ty)?) => { [$crate::__stub_mechanism!(@value $kind $($path)?); $length] };
     (
         [$($declared:tt)*] [$mechanism:ty] [$($bounds:tt)*] [$inputs:ty]
-        $($field:ident: $([$length:expr])? $kind:ident $($path:path)?,)*
+        $($field:ident: $([$length:expr])? $kind:ident $($path:ty)?,)*
     ) => {
         #[allow(warnings, clippy::all, clippy::pedantic)]
         const _: () = {

@@ -160,7 +160,7 @@ fn part_field(
                 .iter()
                 .map(|(field, handle)| quote!(#field: #handle,));
             declared.extend(quote!(#facade::__stub_part! { #name #(#handles)* }));
-            quote!(part #name)
+            quote!(part #name<__M>)
         }
     }
 }
