@@ -1,10 +1,9 @@
 //! The problems of `study trade`.
 
+#[cfg(feature = "huge")]
+use holonom_models::problems::{Chain, Leaf, QuintupleParallelogram, Ring, Squeezer};
 #[cfg(feature = "large")]
-use holonom_models::problems::{
-    Chain, Crank, DoubleParallelogram, Governor, Leaf, LongPendulum, QuintupleParallelogram, Ring,
-    Slide, Squeezer, Top,
-};
+use holonom_models::problems::{Crank, DoubleParallelogram, Governor, LongPendulum, Slide, Top};
 use holonom_models::problems::{Parallelogram, Pendulum};
 use holonom_study::StudyError;
 use holonom_study::compare::measure::candidates;
@@ -14,8 +13,8 @@ use holonom_study::trade::{Posed, Subject};
 use crate::baselines::START;
 use crate::reference_kernel::Written;
 
-/// All of them, two without the feature `large`: every one is compiled for two descriptions, four
-/// formulations and two number types.
+/// All of them with the feature `huge`, most with `large`, two without either: every one is compiled
+/// for two descriptions, four formulations and two number types.
 #[must_use]
 pub fn problems() -> Vec<Box<dyn Subject>> {
     vec![
@@ -23,13 +22,13 @@ pub fn problems() -> Vec<Box<dyn Subject>> {
         Box::new(Posed::in_both(Parallelogram::default())),
         #[cfg(feature = "large")]
         Box::new(Posed::in_both(DoubleParallelogram::default())),
-        #[cfg(feature = "large")]
+        #[cfg(feature = "huge")]
         Box::new(Posed::in_both(QuintupleParallelogram::default())),
         #[cfg(feature = "large")]
         Box::new(Posed::in_both(LongPendulum::default())),
-        #[cfg(feature = "large")]
+        #[cfg(feature = "huge")]
         Box::new(Posed::in_both(Squeezer::default())),
-        #[cfg(feature = "large")]
+        #[cfg(feature = "huge")]
         Box::new(Posed::in_both(Ring::default())),
         #[cfg(feature = "large")]
         Box::new(Posed::in_both(Governor::default())),
@@ -39,9 +38,9 @@ pub fn problems() -> Vec<Box<dyn Subject>> {
         Box::new(Posed::in_both(Slide::default())),
         #[cfg(feature = "large")]
         Box::new(Posed::in_both(Crank::default())),
-        #[cfg(feature = "large")]
+        #[cfg(feature = "huge")]
         Box::new(Posed::in_both(Chain::default())),
-        #[cfg(feature = "large")]
+        #[cfg(feature = "huge")]
         Box::new(Posed::in_both(Leaf::default())),
     ]
 }
@@ -68,10 +67,12 @@ pub fn problem(name: &str) -> Result<Box<dyn Subject>, String> {
     {
         Some(place) => Ok(problems.swap_remove(place)),
         None => {
-            let more = if cfg!(feature = "large") {
+            let more = if cfg!(feature = "huge") {
                 ""
+            } else if cfg!(feature = "large") {
+                "; more with --huge"
             } else {
-                "; more with --large"
+                "; more with --large, all with --huge"
             };
             Err(format!(
                 "there is no problem `{name}` here; there are {}{more}",

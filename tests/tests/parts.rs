@@ -175,7 +175,10 @@ fn agree(course: &Course, original: &Course, image: &Image, tolerance: f64) {
     assert!(moved(original) > 0.01, "nothing moves");
     for (own, other) in course.iter().zip(original) {
         for (place, (a, b)) in own.0.iter().zip(&other.0).enumerate() {
-            assert!((a - b).abs() < tolerance * (1.0 + b.abs()), "{place}: {a} {b}");
+            assert!(
+                (a - b).abs() < tolerance * (1.0 + b.abs()),
+                "{place}: {a} {b}"
+            );
         }
         for (place, (a, b)) in own.1.iter().zip(&other.1).enumerate() {
             let b = image.matrix * b + image.at;
@@ -198,7 +201,12 @@ fn a_mirrored_part_moves_as_its_mirror_image() {
     let alone = Alone::new(machine()).unwrap();
     let original = course!(alone, Alone::HANDLES.machine);
     let seen = Seen::new(machine()).unwrap();
-    agree(&course!(seen, Seen::HANDLES.machine), &original, &image, 1e-11);
+    agree(
+        &course!(seen, Seen::HANDLES.machine),
+        &original,
+        &image,
+        1e-11,
+    );
     let alone = Alone::new(machine()).unwrap();
     let original = course!(alone, Alone::HANDLES.machine, joint_coordinates);
     let seen = Seen::new(machine()).unwrap();
@@ -208,7 +216,10 @@ fn a_mirrored_part_moves_as_its_mirror_image() {
 
 #[test]
 fn parts_of_parts_are_where_both_say() {
-    let original = course!(Weightless::new(machine()).unwrap(), Weightless::HANDLES.machine);
+    let original = course!(
+        Weightless::new(machine()).unwrap(),
+        Weightless::HANDLES.machine
+    );
     let case = Boxed::new(0.15, machine());
     let nested = Nested::new(case).unwrap();
     let course = course!(nested, Nested::HANDLES.case.machine);
@@ -305,7 +316,9 @@ mod axle {
         let (a, b) = (Axle::HANDLES, ByArrays::HANDLES);
         let operations = |report: &holonom::Report| {
             let kernels = report.kernels.iter();
-            kernels.map(|kernel| (kernel.name, kernel.operations.total())).collect::<Vec<_>>()
+            kernels
+                .map(|kernel| (kernel.name, kernel.operations.total()))
+                .collect::<Vec<_>>()
         };
         let mut heights = Vec::new();
         let settings = |t| Rk4::every(t);

@@ -9,6 +9,7 @@
 //! | [`coming_from`] | names for users of Pinocchio, MuJoCo, Drake, Modelica and Adams; what is missing |
 //! | [`mechanism`] | bodies, joints and the start; how to choose joints so that the degrees of freedom are right |
 //! | [`shapes`] | bodies by shapes and densities, rotations by words: no centre or inertia by hand |
+//! | [`parts`] | assemblies: a left and a right, several equal legs, each described once |
 //! | [`mod@reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
 //! | [`joint`] | how to define your own joint |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
@@ -94,6 +95,13 @@ pub mod mechanism {}
 #[doc = ""]
 #[doc = include_str!("shapes.md")]
 pub mod shapes {}
+
+#[doc = "Describe a part once and use it several times: mirrored, turned, moved, with other parameters."]
+#[doc = ""]
+#[doc = include_str!("parts.svg")]
+#[doc = ""]
+#[doc = include_str!("parts.md")]
+pub mod parts {}
 
 #[doc = include_str!("reference.md")]
 pub mod reference {}

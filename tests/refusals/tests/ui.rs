@@ -11,6 +11,7 @@ fn refusals() {
         "joint",
         "law",
         "mechanism",
+        "part",
         "types",
     ] {
         cases.compile_fail(format!("tests/ui/{feature}/*.rs"));

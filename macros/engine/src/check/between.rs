@@ -82,7 +82,8 @@ impl Between<'_> {
         let ports = self.ports.iter().map(|(name, _)| *name);
         let known = || {
             let fields = names.clone().filter(|name| name.field() != "ground");
-            let mut known = known(fields.chain(ports.clone()), by);
+            let own = ports.clone().filter(|port| port.parts() == by.parts());
+            let mut known = known(fields.chain(own), by);
             known.push("ground".into());
             known
         };

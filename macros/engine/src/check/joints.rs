@@ -273,7 +273,7 @@ impl JointChecker<'_> {
                 faults.at_span(
                     part.mirror_span(),
                     format!(
-                        "the mirror image of {word} `{name}` is no `{kind}`: it has the other hand; take it out of the assembly, and                          write one for each side"
+                        "the mirror image of {word} `{name}` is no `{kind}`: it has the other hand; take it out of the assembly, and write one for each side"
                     ),
                 );
                 None
@@ -293,7 +293,7 @@ impl JointChecker<'_> {
                 faults.at_span(
                     written.map_or(self.word, |pair| pair.key.span()),
                     format!(
-                        "`{key}` by `local(..)` needs the axes of a body outside the part `{}`; give it in the axes of the assembly,                          as in `[0.0, 0.5, 0.0]`",
+                        "`{key}` by `local(..)` needs the axes of a body outside the part `{}`; give it in the axes of the assembly, as in `[0.0, 0.5, 0.0]`",
                         part.name()
                     ),
                 );

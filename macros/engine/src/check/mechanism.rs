@@ -52,7 +52,7 @@ pub fn check<'a>(
         if let Some((Role::Port, word)) = &field.role {
             faults.at(
                 word,
-                "a port is a body of an assembly, which is named where the assembly is a part; this is a mechanism, whose bodies are                  described by `#[body(..)]`",
+                "a port is a body of an assembly, which is named where the assembly is a part; this is a mechanism, whose bodies are described by `#[body(..)]`",
             );
         }
     }

@@ -11,9 +11,11 @@ extern crate std;
 pub mod averaging;
 pub mod differences;
 mod slider;
+mod swing;
 mod telescope;
 
 pub use slider::Slider;
+pub use swing::{Bob, Swing};
 pub use telescope::Telescope;
 
 kinematics::joint! {

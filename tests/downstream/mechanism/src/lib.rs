@@ -38,6 +38,7 @@ mod crane;
 mod linkage;
 pub mod own_names;
 pub mod ropes;
+pub mod swings;
 mod telescope;
 
 pub use crane::{Crane, sway};

@@ -172,3 +172,34 @@ fn a_joint_imported_by_name_comes_before_that_of_the_prelude() {
     assert_eq!(kinds, [("Gear", 3), ("PointOnPlane", 1)]);
     assert_eq!(Swing::REPORT.forces.len(), 1);
 }
+
+/// A hinge turns about the mirrored axis with the same sign.
+#[test]
+fn parts_of_another_crate_are_like_what_is_written_by_hand() {
+    use crate::swings::{ByHand, Swings};
+    use downstream_joints::{Bob, Swing};
+    use mech::{Rk4, Simulation, StandardLagrange, every};
+
+    let parts = Swings::new([Swing::new(Bob::new(0.6)); 2]).unwrap();
+    let hand = ByHand::new(0.6).unwrap();
+    let mut courses = [[0.0_f64; 3]; 2];
+    let h = Swings::HANDLES;
+    let _ = Simulation::new(&parts, StandardLagrange, Rk4::every(0.01))
+        .run(0.0..=0.5, every(0.5), |sample| {
+            let [right, left] = h.swings.map(|swing| sample.angle(swing.hinge));
+            courses[0] = [sample.displacement(h.slide), right, left];
+        })
+        .unwrap();
+    let h = ByHand::HANDLES;
+    let _ = Simulation::new(&hand, StandardLagrange, Rk4::every(0.01))
+        .run(0.0..=0.5, every(0.5), |sample| {
+            let [right, left] = h.hinges.map(|hinge| sample.angle(hinge));
+            courses[1] = [sample.displacement(h.slide), right, left];
+        })
+        .unwrap();
+    let [parts, hand] = courses;
+    assert!(parts[1].abs() > 0.1, "{parts:?}");
+    for (a, b) in parts.iter().zip(hand) {
+        assert!((a - b).abs() < 1e-11, "{parts:?} {hand:?}");
+    }
+}
