@@ -12,6 +12,7 @@ fn refusals() {
         "law",
         "mechanism",
         "types",
+        "urdf",
     ] {
         cases.compile_fail(format!("tests/ui/{feature}/*.rs"));
     }
