@@ -10,6 +10,7 @@
 //! |---|---|
 //! | bodies, joints and drivers, forces | [`Body`], [`Particle`], [`joints`], [`forces`] |
 //! | joints and forces of one's own | [`joint!`], [`force!`] |
+//! | a robot from a URDF file | `urdf!`, with the feature `urdf` |
 //! | a run over an interval of time, with reports | [`Simulation`], [`every`], [`Sample`], [`RunReport`] |
 //! | whether its result can be trusted | [`RunReport::warnings`], [`Monitor`], [`guide::trust`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |

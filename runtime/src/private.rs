@@ -1,6 +1,8 @@
 //! What generated code may call. Not an interface: it changes with every release.
 
 pub use holonom_macros::{assemble, force_impl, joint_impl};
+#[cfg(feature = "urdf")]
+pub use holonom_urdf_macros::urdf_impl;
 
 pub use crate::dynamics::likes::{Like, check_likes};
 pub use crate::error::ParameterFault;
@@ -240,6 +242,62 @@ macro_rules! __stub_part {
                 __mechanism: ::core::marker::PhantomData,
             };
         }
+    };
+}
+
+/// Makes a mechanism of a URDF file. It needs the feature `urdf`.
+///
+/// ```
+/// use holonom::prelude::*;
+///
+/// holonom::urdf! {
+///     /// The arm of the cell.
+///     #[urdf(round_angles)]
+///     pub struct Arm = "../urdf/arm.urdf";
+/// }
+///
+/// let mut arm = Arm::default();
+/// arm.shoulder_torque = 4.0; // N m
+/// assert_eq!(Arm::REPORT.degrees_of_freedom, 2);
+/// assert_eq!(Arm::EFFORT_LIMITS[1], 50.0);
+/// ```
+///
+/// The path begins at the folder of the crate's `Cargo.toml`. The struct is the one that the
+/// command `holonom-urdf` prints, with the same fields, constants and documentation. It is made
+/// anew when the file changes. Every fault of the file is an error of the compiler, with its line.
+///
+/// | `#[urdf(..)]` | |
+/// |---|---|
+/// | `floating` | the root link is a free body; else it is the ground |
+/// | `passive` | joints have no inputs and no motors; damping stays |
+/// | `round_angles` | angles of frames within 1e-5 rad of a quarter turn are exact: 1.5708 is pi / 2 |
+///
+/// A `#[mechanism(..)]` takes the place of the one that is printed,
+/// `#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]`. Other attributes are added.
+/// Fields of your own follow the file in braces. They name bodies by their fields. So you close a
+/// loop or add a spring without a copy of the struct:
+///
+/// ```
+/// use holonom::prelude::*;
+///
+/// holonom::urdf! {
+///     pub struct Sprung = "../urdf/arm.urdf" {
+///         #[param]
+///         stiffness: f64,
+///         #[force(between = [upper_arm, forearm], axis = [0.0, 1.0, 0.0], stiffness = stiffness)]
+///         spring: TorsionalSpringDamper,
+///     }
+/// }
+///
+/// let arm = Sprung::new(20.0)?;
+/// assert_eq!(Sprung::REPORT.forces.len(), 3); // two motors and the spring
+/// # Ok::<(), holonom::ParameterError>(())
+/// ```
+#[cfg(feature = "urdf")]
+#[macro_export]
+macro_rules! urdf {
+    ($($robot:tt)*) => {
+        $crate::__private::urdf_impl! { [$crate] $($robot)* }
     };
 }
 

@@ -45,7 +45,7 @@ pub(crate) fn mechanism(robot: &Robot, options: &Options) -> Mechanism {
             |joint: &Joint| joint.kind.has_field() && joint.between.contains(&Some(place));
         body.is_free = !mechanism.joints.iter().any(is_named);
     }
-    mechanism.frames = frames(robot, first);
+    mechanism.frames = frames(robot, first, &mut names);
     mechanism
 }
 
@@ -123,30 +123,35 @@ fn joints(robot: &Robot, first: usize, options: &Options, names: &mut Names) -> 
     joints.collect()
 }
 
-fn frames(robot: &Robot, first: usize) -> Vec<LinkFrame> {
+/// The frames of all links. Names of fields are given out last, so that others do not hang on them.
+fn frames(robot: &Robot, first: usize, fields: &mut Names) -> Vec<LinkFrame> {
     let (document, tree) = (&robot.document, &robot.tree);
     let mut names = Names::new();
-    let frames = document
-        .links
-        .iter()
-        .zip(&tree.places)
-        .map(|(link, place)| {
-            let body = place.group.checked_sub(first);
-            let inertia = tree.groups[place.group].inertia;
-            // On the ground the frame of the root, which is global.
-            let centre = inertia
-                .filter(|_| body.is_some())
-                .map_or(Vector3::zeros(), |i| i.centre);
-            LinkFrame {
-                link: link.name.clone(),
-                constant: names.field(&snake_case(&link.name), "link").to_uppercase(),
-                body,
-                origin: clean(place.within.origin - centre),
-                orientation: orientation(&place.within.rotation),
-                global_origin: clean(place.global.origin),
-                global_orientation: orientation(&place.global.rotation),
-            }
-        });
+    let frames =
+        document
+            .links
+            .iter()
+            .enumerate()
+            .zip(&tree.places)
+            .map(|((number, link), place)| {
+                let body = place.group.checked_sub(first);
+                let inertia = tree.groups[place.group].inertia;
+                // On the ground the frame of the root, which is global.
+                let centre = inertia
+                    .filter(|_| body.is_some())
+                    .map_or(Vector3::zeros(), |i| i.centre);
+                let is_fixed = body.is_some() && tree.groups[place.group].links[0] != number;
+                LinkFrame {
+                    link: link.name.clone(),
+                    point: is_fixed.then(|| fields.field(&link.name, "point")),
+                    constant: names.field(&snake_case(&link.name), "link").to_uppercase(),
+                    body,
+                    origin: clean(place.within.origin - centre),
+                    orientation: orientation(&place.within.rotation),
+                    global_origin: clean(place.global.origin),
+                    global_orientation: orientation(&place.global.rotation),
+                }
+            });
     frames.collect()
 }
 

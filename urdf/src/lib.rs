@@ -1,6 +1,18 @@
 //! Robots from URDF files: prints the annotated struct that [holonom](https://docs.rs/holonom)
 //! takes, as source to read and to change.
 //!
+//! To take a file in place, call `holonom::urdf!`, which is there with the feature `urdf` of
+//! `holonom`. Fields and constants are the same:
+//!
+//! ```
+//! use holonom::prelude::*;
+//!
+//! holonom::urdf! { struct Arm = "arm.urdf"; }
+//!
+//! assert_eq!(Arm::REPORT.degrees_of_freedom, 2);
+//! assert_eq!(Arm::TIP_ORIGIN, [0.0, 0.0, 0.15]);
+//! ```
+//!
 //! ```
 //! use holonom_urdf::{Options, Robot};
 //!
@@ -28,7 +40,8 @@
 //! ```
 //!
 //! The command does the same with files: `holonom-urdf arm.urdf > arm.rs`. It has the options
-//! `--floating`, `--passive`, `--round-angles` and `--name`.
+//! `--floating`, `--passive`, `--round-angles` and `--name`. Those of the macro are
+//! `#[urdf(floating, passive, round_angles)]` on the struct.
 //!
 //! # What becomes of the elements
 //!
@@ -60,6 +73,8 @@
 //! arm.urdf:12: joint "elbow": child "fore_arm" is no link; did you mean "forearm"?
 //! ```
 //!
+//! The macro reports the same sentences as errors of the compiler, at the name of the file.
+//!
 //! - Elements that are not read and not known to change no motion, xacro sources among them.
 //! - Links that form no tree: two roots, circles, a link with two parents.
 //! - A link that moves without mass, or with an inertia that no body has. Links that are fixed to
@@ -73,6 +88,9 @@
 //! exact.
 //!
 //! A `mimic` with an offset is violated with all joints at zero. Start with `assembled`.
+//!
+//! MJCF is not read. Convert it to URDF, and compare the masses: converters leave out damping, the
+//! inertia of rotors, actuators and contacts.
 
 #![forbid(unsafe_code)]
 
@@ -91,3 +109,8 @@ pub use document::{JointKind, Limits};
 pub use faults::{Fault, Faults};
 pub use mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options};
 pub use robot::Robot;
+
+/// The example of the README is compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

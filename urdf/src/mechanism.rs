@@ -124,6 +124,8 @@ pub struct LinkFrame {
     pub link: String,
     /// The beginning of the names of constants.
     pub constant: String,
+    /// The field of its origin as a point, where the link is fixed to another one of a body.
+    pub(crate) point: Option<String>,
     /// The place in [`Mechanism::bodies`] of the body that the frame moves
     /// with. The ground has none.
     pub body: Option<usize>,

@@ -13,6 +13,7 @@ fn refusals() {
         "mechanism",
         "part",
         "types",
+        "urdf",
     ] {
         cases.compile_fail(format!("tests/ui/{feature}/*.rs"));
     }

@@ -1,11 +1,12 @@
 //! The mechanism as Rust source for a reader.
 //!
-//! `page` lays out lines, `couplings` says how joints mimic, `fields` writes the struct and
-//! `tables` the constants behind it.
+//! `page` lays out lines, `couplings` says how joints mimic, `fields` writes the struct with
+//! `points` of fixed links, and `tables` the constants behind it.
 
 mod couplings;
 mod fields;
 mod page;
+mod points;
 mod tables;
 
 use std::fmt;

@@ -1,7 +1,9 @@
-//! Sources that are printed, compiled: accelerations of the robots against those of Pinocchio.
+//! Sources that are printed or put in place, compiled: accelerations of the robots against those of
+//! Pinocchio.
 
 #![forbid(unsafe_code)]
 
+mod in_place;
 mod robots;
 
 use std::collections::{BTreeMap, HashMap};
@@ -58,6 +60,13 @@ fn by_name<'a>(names: &'a [String], values: &[f64]) -> HashMap<&'a str, f64> {
 /// Holds accelerations of joints, hinges and slides by their names in the file, to those of the
 /// reference, in given states under given efforts.
 macro_rules! moves_as_given {
+    ($robot:literal, [$printed:ty, $placed:ty], $($rest:tt)*) => {
+        moves_as_given!($robot, $printed, $($rest)*);
+        moves_as_given!($robot, $placed, $($rest)*);
+        assert_eq!(<$printed>::REPORT, <$placed>::REPORT);
+        assert_eq!(<$printed>::JOINT_NAMES, <$placed>::JOINT_NAMES);
+        assert_eq!(<$printed>::POSITION_LIMITS, <$placed>::POSITION_LIMITS);
+    };
     ($robot:literal, $type:ty, hinges: [$($hinge:literal $a:ident),*], slides: [$($slide:literal $d:ident),*],
         efforts: [$($leader:literal $input:ident),*]) => {{
         let motion = motion($robot);
@@ -107,7 +116,7 @@ const LIMIT: f64 = 1e-12;
 fn ur5() {
     moves_as_given!(
         "ur5",
-        robots::ur5::Ur5,
+        [robots::ur5::Ur5, in_place::Ur5],
         hinges: [
             "shoulder_pan_joint" shoulder_pan_joint,
             "shoulder_lift_joint" shoulder_lift_joint,
@@ -133,7 +142,7 @@ fn ur5() {
 fn panda() {
     moves_as_given!(
         "panda",
-        robots::panda::Panda,
+        [robots::panda::Panda, in_place::Panda],
         hinges: [
             "panda_joint1" panda_joint1,
             "panda_joint2" panda_joint2,
@@ -164,7 +173,7 @@ fn panda() {
 fn so100() {
     moves_as_given!(
         "so100",
-        robots::so100::SoArm100,
+        [robots::so100::SoArm100, in_place::SoArm100],
         hinges: [
             "shoulder_pan" shoulder_pan,
             "shoulder_lift" shoulder_lift,
@@ -189,7 +198,7 @@ fn so100() {
 fn double_pendulum() {
     moves_as_given!(
         "double_pendulum",
-        robots::double_pendulum::Robot2dofPlanar,
+        [robots::double_pendulum::Robot2dofPlanar, in_place::Robot2dofPlanar],
         hinges: ["joint1" joint1, "joint2" joint2],
         slides: [],
         efforts: ["joint1" joint1_torque, "joint2" joint2_torque]
@@ -202,7 +211,7 @@ fn double_pendulum() {
 fn crane() {
     moves_as_given!(
         "crane",
-        robots::crane::Crane,
+        [robots::crane::Crane, in_place::Crane],
         hinges: [
             "type" type_joint,
             "pulley" pulley_joint,

@@ -37,6 +37,7 @@ extern crate std;
 mod crane;
 mod linkage;
 pub mod own_names;
+pub mod robots;
 pub mod ropes;
 pub mod swings;
 mod telescope;

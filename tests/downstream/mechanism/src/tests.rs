@@ -7,6 +7,8 @@ use mech::nalgebra::Vector3;
 use mech::prelude::*;
 
 use super::own_names::Swing;
+use super::robots::inner::Arm;
+use super::robots::{Gripper, Weightless};
 use super::{Crane, Crossed, HALF, Linkage, Probe, sway};
 
 #[test]
@@ -202,4 +204,24 @@ fn parts_of_another_crate_are_like_what_is_written_by_hand() {
     for (a, b) in parts.iter().zip(hand) {
         assert!((a - b).abs() < 1e-11, "{parts:?} {hand:?}");
     }
+}
+
+/// Robots of a file are what their options say, wherever they are.
+#[test]
+fn robots_are_made_in_modules_and_in_functions() {
+    mech::urdf! {
+        struct Local = "../../../urdf/tests/data/gripper.urdf";
+    }
+    assert_eq!(Local::REPORT.joints, Gripper::REPORT.joints);
+    assert_eq!(Local::JOINT_NAMES, ["left", "tip", "right"]);
+    assert_eq!(Gripper::REPORT.forces.len(), 1);
+    assert!(Weightless::REPORT.forces.is_empty());
+    assert_eq!(Weightless::default(), Weightless::default());
+    let arm = Arm::new(3.0).expect("a stiffness");
+    let mut state = arm.described_state::<f64>().expect("sound");
+    arm.set_angle(&mut state, Arm::HANDLES.elbow, 0.5)
+        .expect("it carries");
+    let stored = |arm: &Arm| arm.view(0.0, &state).expect("sound").potential_energy();
+    let slack = Arm::new(0.0).expect("a stiffness");
+    assert!((stored(&arm) - stored(&slack) - 0.375).abs() < 1e-12);
 }
