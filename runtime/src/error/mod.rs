@@ -9,5 +9,5 @@ pub(crate) mod readable;
 pub(crate) mod setting;
 
 pub use kinds::{
-    Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
+    AngleSet, Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
 };

@@ -5,12 +5,14 @@
 
 mod acceleration;
 pub(crate) mod access;
+pub(crate) mod angles;
 pub(crate) mod load;
 pub(crate) mod reaction;
 pub(crate) mod unwrapped;
 pub(crate) mod view;
 pub(crate) mod viewed;
 
+pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
 pub use load::{AppliedForces, ForceLaw, NoForces};
 pub use unwrapped::UnwrappedAngle;
 pub use view::OwnedView;

@@ -18,6 +18,8 @@
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
+#[cfg(feature = "recorder")]
+mod columns;
 pub(crate) mod companion;
 pub(crate) mod direct;
 pub(crate) mod kinematics;
