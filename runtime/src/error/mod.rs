@@ -6,6 +6,8 @@
 mod kinds;
 pub(crate) mod message;
 pub(crate) mod readable;
+#[cfg(feature = "serde")]
+pub(crate) mod sentence;
 pub(crate) mod setting;
 
 pub use kinds::{

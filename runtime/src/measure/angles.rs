@@ -36,6 +36,7 @@ macro_rules! angles {
     ) => {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub struct $name<S> {
             $($(#[$field_about])* pub $field: S,)*
         }

@@ -36,6 +36,8 @@ pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
 pub(crate) mod within;
+#[cfg(feature = "serde")]
+mod written;
 
 pub use companion::{BodyError, Verification};
 pub use kinematics::KinematicResult;
