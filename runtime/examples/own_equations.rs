@@ -9,18 +9,14 @@ use holonom::integrate::{Advance, Integration, Integrator, OneStep, System, Time
 use holonom::prelude::*;
 
 /// `L i' = u - R i - K w` and `J w' = K i - d w`.
-struct Motor {
-    /// Voltage (V).
-    voltage: f64,
-    /// Resistance (ohm) and inductance (H).
-    resistance: f64,
-    inductance: f64,
-    /// Torque by current (N m/A), which is voltage by speed (V s/rad).
-    constant: f64,
-    /// Moment of inertia (kg m^2) and damping (N m s/rad).
-    inertia: f64,
-    damping: f64,
-}
+struct Motor;
+
+const VOLTAGE: f64 = 12.0; // V
+const RESISTANCE: f64 = 0.5; // ohm
+const INDUCTANCE: f64 = 1e-3; // H
+const CONSTANT: f64 = 0.05; // torque by current (N m/A), which is voltage by speed (V s/rad)
+const INERTIA: f64 = 2e-4; // kg m^2
+const DAMPING: f64 = 1e-5; // N m s/rad
 
 /// The state: current (A) and speed (rad/s).
 impl System<f64> for Motor {
@@ -28,21 +24,14 @@ impl System<f64> for Motor {
 
     fn rates(&mut self, _time: f64, &[current, speed]: &[f64; 2]) -> Result<[f64; 2], Fault> {
         Ok([
-            (self.voltage - self.resistance * current - self.constant * speed) / self.inductance,
-            (self.constant * current - self.damping * speed) / self.inertia,
+            (VOLTAGE - RESISTANCE * current - CONSTANT * speed) / INDUCTANCE,
+            (CONSTANT * current - DAMPING * speed) / INERTIA,
         ])
     }
 }
 
 fn main() -> Result<(), Fault> {
-    let mut motor = Motor {
-        voltage: 12.0,
-        resistance: 0.5,
-        inductance: 1e-3,
-        constant: 0.05,
-        inertia: 2e-4,
-        damping: 1e-5,
-    };
+    let mut motor = Motor;
     // Single steps of one size.
     let mut fixed = [0.0; 2];
     for step in 0..5000 {
@@ -59,12 +48,9 @@ fn main() -> Result<(), Fault> {
         integration.advance(&mut motor)?;
     }
     let adaptive = *integration.state();
-    println!(
-        "{fixed:?} and {adaptive:?} (A, rad/s), {:?}",
-        integration.counts()
-    );
+    println!("{fixed:?} and {adaptive:?} (A, rad/s)");
     assert!((fixed[1] - adaptive[1]).abs() < 1e-2);
     // The speed at which the voltage is used up, but for what damping takes.
-    assert!(fixed[1] > 200.0 && fixed[1] < 12.0 / 0.05);
+    assert!(fixed[1] > 200.0 && fixed[1] < VOLTAGE / CONSTANT);
     Ok(())
 }

@@ -18,6 +18,8 @@
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
 //! | integrators | [`Rk4`], [`DormandPrince`] |
 //! | poses, velocities, angles, reactions, energies, violations by name | [`View`], [`MechanismExt`] |
+//! | orientations as Euler, Bryant or roll-pitch-yaw angles | [`View::euler_angles`], [`measure`] |
+//! | states in files, by name | `measure::NamedState`, with the feature `serde` |
 //! | samples as lines of a CSV file | `Recorder`, with the feature `recorder` |
 //! | correction onto the constraints | [`Projection`] |
 //! | the kernels themselves, sizes and operation counts | [`trait@Mechanism`], [`Report`] |

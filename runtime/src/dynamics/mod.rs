@@ -108,6 +108,7 @@ fn parameters<S: Real, M: Mechanism>(mechanism: &M) -> Result<M::Parameters<S>, 
 
 /// How often the augmented Lagrangian solved its system.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Iterations {
     /// In all evaluations together.
     pub total: usize,

@@ -281,8 +281,28 @@ pub enum Fault {
         /// How many were given.
         given: usize,
     },
+    /// Angles of an orientation were asked for where they are singular (gimbal lock): the first and
+    /// the third turn about one axis, and only their sum or difference is known.
+    SingularAngles {
+        /// The body's field.
+        body: &'static str,
+        /// Which angles.
+        angles: AngleSet,
+    },
     /// A parameter of the mechanism is not acceptable.
     Parameter(ParameterError),
+}
+
+/// Three angles that describe an orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AngleSet {
+    /// Euler angles, z-x-z.
+    EulerZxz,
+    /// Bryant angles, x-y-z.
+    BryantXyz,
+    /// Roll, pitch and yaw.
+    RollPitchYaw,
 }
 
 /// Where rates that are not finite began.

@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::error::readable::{Given, Measured};
 use crate::error::{
-    Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
+    AngleSet, Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
 };
 
 impl fmt::Display for ParameterError {
@@ -369,6 +369,18 @@ impl fmt::Display for Fault {
                     _ => write!(f, "`{element}` counts turns of {counted} angles"),
                 }?;
                 write!(f, ", not of {given}")
+            }
+            Self::SingularAngles { body, angles } => {
+                let (names, first, last, regular) = match angles {
+                    AngleSet::EulerZxz => ("Euler", "precession", "spin", "Bryant angles"),
+                    AngleSet::BryantXyz => ("Bryant", "the first", "the third", "Euler angles"),
+                    AngleSet::RollPitchYaw => ("roll-pitch-yaw", "roll", "yaw", "Euler angles"),
+                };
+                write!(
+                    f,
+                    "the {names} angles of body `{body}` are singular here: {first} and {last} turn about one axis, and only their sum or difference is \
+                     known; {regular} are regular there"
+                )
             }
             Self::Parameter(error) => error.fmt(f),
         }

@@ -6,8 +6,10 @@
 mod kinds;
 pub(crate) mod message;
 pub(crate) mod readable;
+#[cfg(feature = "serde")]
+pub(crate) mod sentence;
 pub(crate) mod setting;
 
 pub use kinds::{
-    Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
+    AngleSet, Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
 };

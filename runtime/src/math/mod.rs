@@ -2,8 +2,10 @@
 //!
 //! `Scalar` has what kernels need, and no comparison but `select`. `Real` adds what integrators
 //! need. The time of a stepper is a sum of two numbers (`clock.rs`): one holds what the last
-//! digits of the other leave over. `versine.rs` turns pairs by increments.
+//! digits of the other leave over. `versine.rs` turns pairs by increments. `angles.rs` reads
+//! rotations as three angles.
 
+pub(crate) mod angles;
 pub(crate) mod clock;
 pub(crate) mod quaternion;
 pub(crate) mod scalar;

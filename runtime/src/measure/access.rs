@@ -20,6 +20,18 @@ use crate::state::vector::{Array, StateParts};
 
 /// Where a body is.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        into = "crate::measure::written::WrittenPose<S>",
+        from = "crate::measure::written::WrittenPose<S>",
+        bound(
+            serialize = "S: serde::Serialize",
+            deserialize = "S: serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct Pose<S: Scalar> {
     /// The centre of mass (m, global).
     pub position: Vector3<S>,

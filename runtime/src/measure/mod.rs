@@ -5,13 +5,23 @@
 
 mod acceleration;
 pub(crate) mod access;
+pub(crate) mod angles;
 pub(crate) mod load;
+#[cfg(feature = "serde")]
+pub(crate) mod named_state;
 pub(crate) mod reaction;
+#[cfg(feature = "mint")]
+mod to_mint;
 pub(crate) mod unwrapped;
 pub(crate) mod view;
 pub(crate) mod viewed;
+#[cfg(feature = "serde")]
+pub(crate) mod written;
 
+pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
 pub use load::{AppliedForces, ForceLaw, NoForces};
+#[cfg(feature = "serde")]
+pub use named_state::NamedState;
 pub use unwrapped::UnwrappedAngle;
 pub use view::OwnedView;
 pub use viewed::Viewed;

@@ -11,6 +11,18 @@ use crate::state::vector::{Array, StateParts};
 
 /// A force and a moment, reduced to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        into = "crate::measure::written::WrittenWrench<S>",
+        from = "crate::measure::written::WrittenWrench<S>",
+        bound(
+            serialize = "S: Scalar + serde::Serialize",
+            deserialize = "S: Scalar + serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct Wrench<S> {
     /// The force (N, global).
     pub force: Vector3<S>,

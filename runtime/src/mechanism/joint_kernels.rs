@@ -195,6 +195,7 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Joint
 
 /// What the coordinates of a mechanism's joints are.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointReport {
     /// The motions in the order of the velocities; a ball has three of these.
     pub motions: &'static [JointMotion],
@@ -222,6 +223,7 @@ pub struct JointReport {
 
 /// One motion of a joint that carries a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointMotion {
     /// The joint; empty for a body that no joint carries, which moves freely.
     pub joint: &'static str,
@@ -244,6 +246,7 @@ pub struct JointMotion {
 
 /// An auxiliary variable of a state: an angle that counts turns (rad).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointCounter {
     /// The field of the joint or force that counts it.
     pub element: &'static str,
@@ -253,6 +256,7 @@ pub struct JointCounter {
 
 /// What a motion is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Freedom {
     /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may
     /// be measured against what carries the run ([`JointMotion::against`]); and the angle need not

@@ -2,6 +2,7 @@
 
 /// Sizes, names and operation counts of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Report {
     /// The name of the annotated struct.
     pub name: &'static str,
@@ -52,6 +53,7 @@ pub struct Report {
 
 /// Where the time itself stands in the equations of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ExplicitTime {
     /// In the constraints: the mechanism has drivers.
     pub constraints: bool,
@@ -91,6 +93,7 @@ impl ExplicitTime {
 /// Parameters have their typical values (`#[param(like = 0.8)]`). `new` of the mechanism checks
 /// that the rank is the same at the given ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Rank {
     /// Found.
     Decided {
@@ -117,6 +120,7 @@ impl Rank {
 
 /// An equation that follows from others, wherever the mechanism moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RedundantRow {
     /// The joint.
     pub joint: usize,
@@ -155,6 +159,7 @@ impl Report {
 
 /// A body and where its coordinates stand in the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BodyInfo {
     /// The name of the field.
     pub name: &'static str,
@@ -173,6 +178,7 @@ pub struct BodyInfo {
 /// joint's angle or displacement is set by moving what it carries
 /// ([`MechanismExt::set_angle`](crate::MechanismExt::set_angle)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Carrier {
     /// The body that carries it; `None` for the ground.
     pub body: Option<usize>,
@@ -182,6 +188,7 @@ pub struct Carrier {
 
 /// Whether a body has an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum BodyKind {
     /// Position and orientation: 7 coordinates, 6 velocities.
     Rigid,
@@ -191,6 +198,7 @@ pub enum BodyKind {
 
 /// A joint, its rows and its bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointInfo {
     /// The name of the field.
     pub name: &'static str,
@@ -222,6 +230,7 @@ pub struct JointInfo {
 
 /// A force and its bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ForceInfo {
     /// The name of the field.
     pub name: &'static str,
@@ -240,6 +249,7 @@ pub struct ForceInfo {
 /// bodies on a hinge have a marker each for its point and for its axis. Of a spring each body has
 /// one end: a point is a marker of those bodies on which the definition uses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Marker {
     /// The joint or force.
     pub of: ElementPlace,
@@ -255,6 +265,7 @@ pub struct Marker {
 
 /// A joint or a force by its place in a [`Report`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ElementPlace {
     /// A place in [`Report::joints`].
     Joint(usize),
@@ -264,6 +275,7 @@ pub enum ElementPlace {
 
 /// What a [`Marker`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum MarkerKind {
     /// A point (m).
     Point,
@@ -275,6 +287,7 @@ pub enum MarkerKind {
 
 /// A shape of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Shape {
     /// The body.
     pub body: usize,
@@ -292,6 +305,7 @@ pub struct Shape {
 /// What a [`Shape`] is. Its sizes (m) are those of [`crate::Mechanism::shape`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ShapeKind {
     /// Length, radius.
     Cylinder,
@@ -310,6 +324,7 @@ pub enum ShapeKind {
 /// Its values stand row by row from `offset` on in the array that [`crate::Mechanism::jacobian`]
 /// returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Block {
     /// The joint.
     pub joint: usize,
@@ -329,6 +344,7 @@ pub struct Block {
 
 /// The cost of one kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Kernel {
     /// What it computes, for instance `"evaluate standard"`.
     pub name: &'static str,
@@ -340,6 +356,7 @@ pub struct Kernel {
 /// whatever it takes; a fused multiply-add is two; signs, comparisons and rounding to an integer
 /// are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Operations {
     /// Additions and subtractions.
     pub additions: usize,

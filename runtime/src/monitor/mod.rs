@@ -58,6 +58,8 @@ mod verdict;
 mod violations;
 mod warning;
 mod within;
+#[cfg(feature = "serde")]
+mod written;
 
 pub(crate) use beginning::Beginning;
 pub use gradients::ShortestGradient;

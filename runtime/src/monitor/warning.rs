@@ -10,6 +10,7 @@ use crate::error::readable::Measured;
 /// to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Warning {
     /// The run was not monitored.
     Unmonitored,

@@ -72,6 +72,7 @@ pub struct Verification<S: Real, M: Mechanism> {
 /// The estimated error of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BodyError<S> {
     /// The field of the body.
     pub body: &'static str,

@@ -18,6 +18,8 @@
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
+#[cfg(feature = "recorder")]
+mod columns;
 pub(crate) mod companion;
 pub(crate) mod direct;
 pub(crate) mod kinematics;
@@ -34,6 +36,8 @@ pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
 pub(crate) mod within;
+#[cfg(feature = "serde")]
+mod written;
 
 pub use companion::{BodyError, Verification};
 pub use kinematics::KinematicResult;

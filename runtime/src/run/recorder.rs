@@ -5,15 +5,17 @@ use std::format;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
-use std::string::{String, ToString};
+use std::string::String;
 use std::vec::Vec;
 
+use crate::error::AngleSet;
 use crate::math::scalar::Real;
 use crate::measure::unwrapped::UnwrappedAngle;
 use crate::mechanism::handle::{BodyHandle, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::readout::AngleParts;
-use crate::mechanism::report::{BodyKind, JointInfo};
+use crate::mechanism::report::BodyKind;
+use crate::run::columns::{Extra, columns, loaded, rigid};
 use crate::run::record_error::RecordError;
 use crate::run::sample::Sample;
 
@@ -31,7 +33,14 @@ use crate::run::sample::Sample;
 /// | `slide.displacement [m]`, `slide.displacement_rate [m/s]` | of a joint with a displacement |
 /// | `kinetic_energy [J]`, `potential_energy [J]` | of the mechanism |
 /// | `violation` | `Phi^T Phi`, in the mixed units of the equations |
+/// | `rod.euler_angles.precession [rad]`, nutation, spin | with [`Recorder::with_euler_angles`], of every body but particles, see [`View::euler_angles`](crate::View::euler_angles) |
+/// | `rod.bryant_angles.first [rad]`, second, third | with [`Recorder::with_bryant_angles`], likewise |
+/// | `rod.roll_pitch_yaw.roll [rad]`, pitch, yaw | with [`Recorder::with_roll_pitch_yaw`], likewise |
 /// | `pivot.force.x [N]`, y, z, `pivot.moment.x [N m]`, y, z | with [`Recorder::with_reactions`]: what the joint exerts on the last body of its `between`, global, reduced to the joint's point on it; `gears.wheel.force.x [N]` for each body where a joint has more than two |
+///
+/// Three angles of an orientation are singular somewhere (gimbal lock). There the fields of the
+/// first and the third angle are empty, which programs read as a missing value. They jump from `pi`
+/// to `-pi`.
 ///
 /// A line goes to the writer in one piece and is flushed: an interruption loses the line that it
 /// meets and no other. Numbers are written with the fewest digits that read back to the same `f64`.
@@ -60,7 +69,7 @@ use crate::run::sample::Sample;
 #[derive(Debug)]
 pub struct Recorder<W> {
     writer: W,
-    reactions: bool,
+    extra: Extra,
     /// The mechanism of the first sample.
     mechanism: Option<TypeId>,
     /// The angles of its joints, in their order, after the last line.
@@ -86,7 +95,7 @@ impl<W: Write> Recorder<W> {
     pub fn new(writer: W) -> Self {
         Self {
             writer,
-            reactions: false,
+            extra: Extra::default(),
             mechanism: None,
             angles: Vec::new(),
             torn: false,
@@ -96,7 +105,32 @@ impl<W: Write> Recorder<W> {
     /// Records the reactions of all joints as well, at one evaluation a sample.
     #[must_use]
     pub fn with_reactions(mut self) -> Self {
-        self.reactions = true;
+        self.extra.reactions = true;
+        self
+    }
+
+    /// Records the Euler angles of all bodies as well.
+    #[must_use]
+    pub fn with_euler_angles(self) -> Self {
+        self.with_angles(AngleSet::EulerZxz)
+    }
+
+    /// Records the Bryant angles of all bodies as well.
+    #[must_use]
+    pub fn with_bryant_angles(self) -> Self {
+        self.with_angles(AngleSet::BryantXyz)
+    }
+
+    /// Records roll, pitch and yaw of all bodies as well.
+    #[must_use]
+    pub fn with_roll_pitch_yaw(self) -> Self {
+        self.with_angles(AngleSet::RollPitchYaw)
+    }
+
+    fn with_angles(mut self, angles: AngleSet) -> Self {
+        if !self.extra.angles.contains(&angles) {
+            self.extra.angles.push(angles);
+        }
         self
     }
 
@@ -118,18 +152,19 @@ impl<W: Write> Recorder<W> {
         }
         let mut angles = self.angles.clone();
         angles.resize_with(M::REPORT.joints.len(), UnwrappedAngle::default);
-        let row = Row::of(sample, &mut angles, self.reactions)?;
-        if let Some(place) = row.values.iter().position(|value| !value.is_finite()) {
-            let column = columns::<M>(self.reactions).swap_remove(place);
+        let row = Row::of(sample, &mut angles, &self.extra)?;
+        let is_wrong = |value: &Option<f64>| value.is_some_and(|value| !value.is_finite());
+        if let Some(place) = row.values.iter().position(is_wrong) {
+            let column = columns::<M>(&self.extra).swap_remove(place);
             return Err(RecordError::NotFinite { column });
         }
         if first {
-            self.line(&columns::<M>(self.reactions))?;
+            self.line(&columns::<M>(&self.extra))?;
             self.mechanism = Some(mechanism);
         }
         self.angles = angles;
-        let digits: Vec<String> = row.values.iter().map(|x| format!("{x:?}")).collect();
-        self.line(&digits)
+        let digits = |value: &Option<f64>| value.map_or_else(String::new, |x| format!("{x:?}"));
+        self.line(&row.values.iter().map(digits).collect::<Vec<_>>())
     }
 
     /// The writer.
@@ -160,16 +195,16 @@ impl<W: Write> Recorder<W> {
     }
 }
 
-/// The values of a sample, in the order of the columns.
+/// The values of a sample, in the order of the columns; `None` for an angle that is not known.
 struct Row {
-    values: Vec<f64>,
+    values: Vec<Option<f64>>,
 }
 
 impl Row {
     fn of<S: Real, M: Mechanism>(
         sample: &Sample<'_, S, M>,
         angles: &mut [UnwrappedAngle<f64>],
-        reactions: bool,
+        extra: &Extra,
     ) -> Result<Self, RecordError> {
         let mut row = Self { values: Vec::new() };
         row.push(&[sample.time()]);
@@ -201,7 +236,13 @@ impl Row {
             sample.potential_energy(),
             sample.violation(),
         ]);
-        if reactions {
+        for &angles in &extra.angles {
+            for (place, _) in rigid::<M>() {
+                let found = sample.known_angles(BodyHandle::new(place), angles);
+                row.values.extend(found.map(|angle| angle.map(S::to_f64)));
+            }
+        }
+        if extra.reactions {
             for (place, joint) in M::REPORT.joints.iter().enumerate() {
                 let handle = JointHandle::<M, ()>::new(place);
                 for body in loaded(joint) {
@@ -216,7 +257,7 @@ impl Row {
 
     fn push<S: Real>(&mut self, values: &[S]) {
         self.values
-            .extend(values.iter().map(|value| value.to_f64()));
+            .extend(values.iter().map(|value| Some(value.to_f64())));
     }
 }
 
@@ -228,66 +269,4 @@ fn in_double<S: Real>(parts: &AngleParts<S>) -> AngleParts<f64> {
         rate: parts.rate.to_f64(),
         turns: parts.turns.map(S::to_f64),
     }
-}
-
-/// The places in `between` of the bodies whose reactions are recorded.
-fn loaded(joint: &JointInfo) -> core::ops::Range<usize> {
-    let bodies = joint.bodies.len();
-    if bodies > 2 {
-        0..bodies
-    } else {
-        bodies.saturating_sub(1)..bodies
-    }
-}
-
-/// The names of the columns.
-fn columns<M: Mechanism>(reactions: bool) -> Vec<String> {
-    let mut names = std::vec!["time [s]".to_string()];
-    for body in M::REPORT.bodies {
-        let rigid = body.kind == BodyKind::Rigid;
-        vector3(&mut names, body.name, "position", "m");
-        if rigid {
-            names.extend((0..4).map(|k| format!("{}.orientation.e{k}", body.name)));
-        }
-        vector3(&mut names, body.name, "velocity", "m/s");
-        if rigid {
-            vector3(&mut names, body.name, "angular_velocity", "rad/s");
-        }
-    }
-    for joint in M::REPORT.joints {
-        let name = joint.name;
-        if joint.has_angle {
-            names.push(format!("{name}.angle [rad]"));
-            names.push(format!("{name}.angle_rate [rad/s]"));
-        }
-        if joint.has_displacement {
-            names.push(format!("{name}.displacement [m]"));
-            names.push(format!("{name}.displacement_rate [m/s]"));
-        }
-    }
-    names.extend(["kinetic_energy [J]", "potential_energy [J]", "violation"].map(String::from));
-    if reactions {
-        for joint in M::REPORT.joints {
-            for place in loaded(joint) {
-                let name = reaction_name::<M>(joint, place);
-                vector3(&mut names, &name, "force", "N");
-                vector3(&mut names, &name, "moment", "N m");
-            }
-        }
-    }
-    names
-}
-
-fn vector3(names: &mut Vec<String>, name: &str, quantity: &str, unit: &str) {
-    names.extend(["x", "y", "z"].map(|axis| format!("{name}.{quantity}.{axis} [{unit}]")));
-}
-
-/// The name of the joint; with the body where more than one is recorded.
-fn reaction_name<M: Mechanism>(joint: &JointInfo, place: usize) -> String {
-    if joint.bodies.len() <= 2 {
-        return joint.name.to_string();
-    }
-    let body = joint.bodies.get(place).copied().flatten();
-    let body = body.and_then(|body| M::REPORT.bodies.get(body));
-    format!("{}.{}", joint.name, body.map_or("ground", |body| body.name))
 }

@@ -249,3 +249,45 @@ fn angles_of_a_record_go_on_over_turns() {
     }
     assert!(rows.last().unwrap()[angle] > 60.0);
 }
+
+/// The body's z axis goes from across that of the ground to against it, where Euler angles are
+/// singular.
+#[test]
+fn angles_that_are_singular_are_empty_fields() {
+    let mut recorder = Recorder::new(Vec::new())
+        .with_euler_angles()
+        .with_bryant_angles()
+        .with_roll_pitch_yaw();
+    let mut expected = Vec::new();
+    follow(core::f64::consts::FRAC_PI_2, |sample| {
+        recorder.record(sample).unwrap();
+        expected.push((sample.euler_angles(CRANK), sample.bryant_angles(CRANK)));
+    });
+    let bytes = recorder.into_inner();
+    let mut reader = csv::Reader::from_reader(&bytes[..]);
+    let names = reader.headers().unwrap().clone();
+    let place = |name: &str| names.iter().position(|known| known == name).unwrap();
+    let [first, middle, last] = ["precession", "nutation", "spin"]
+        .map(|angle| place(&std::format!("rod.euler_angles.{angle} [rad]")));
+    let bryant = place("rod.bryant_angles.first [rad]");
+    assert_eq!(place("rod.roll_pitch_yaw.yaw [rad]") + 1, names.len());
+    let mut singular = 0;
+    for (row, (euler, angles)) in reader.records().zip(expected) {
+        let row = row.unwrap();
+        match euler {
+            Ok(euler) => {
+                assert_eq!(row[first].parse(), Ok(euler.precession));
+                assert_eq!(row[middle].parse(), Ok(euler.nutation));
+                assert_eq!(row[last].parse(), Ok(euler.spin));
+            }
+            Err(_) => {
+                singular += 1;
+                assert_eq!((&row[first], &row[last]), ("", ""));
+                let nutation: f64 = row[middle].parse().unwrap();
+                assert!((nutation - core::f64::consts::PI).abs() < 1e-7);
+            }
+        }
+        assert_eq!(row[bryant].parse(), Ok(angles.unwrap().first));
+    }
+    assert_eq!(singular, 1);
+}
