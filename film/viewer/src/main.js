@@ -179,7 +179,7 @@ for (const name of Object.keys(shown)) {
 id("show-reactions").hidden = film.arrows.length === 0;
 id("show-traces").hidden = film.traces.length === 0;
 id("show-forces").hidden = !film.elements.some((element) => element.type === "force");
-id("scale").textContent = `arrows: ${digits(set.perMetre)} N to 1 m`;
+id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
 
 // What can be hidden.
 function entry(kind, index, said, colour) {
@@ -207,10 +207,16 @@ id("list").onclick = () => {
 for (const warning of film.warnings) {
   const line = document.createElement("button");
   line.className = "warning";
+  line.title = warning.text;
+  line.setAttribute("aria-expanded", false);
   line.textContent = `⚠ ${warning.text}`;
   id("warnings").append(line);
+  // A line, so that the mechanism is seen; all of it after a click.
+  line.onclick = () => {
+    line.setAttribute("aria-expanded", line.getAttribute("aria-expanded") === "false");
+    if (warning.time !== null) seek(warning.time);
+  };
   if (warning.time === null) continue;
-  line.onclick = () => seek(warning.time);
   const mark = document.createElement("button");
   mark.className = "mark";
   mark.title = warning.text;
