@@ -95,6 +95,11 @@ pub mod mechanism {}
 #[doc = include_str!("shapes.md")]
 pub mod shapes {}
 
+#[doc = "The whole language on one page: every attribute and its values; every joint, driver and"]
+#[doc = "force with its axes, equations, zeros and signs."]
+#[doc = ""]
+#[doc = include_str!("joints.svg")]
+#[doc = ""]
 #[doc = include_str!("reference.md")]
 pub mod reference {}
 
