@@ -60,7 +60,7 @@ impl Scene {
 /// For mechanisms whose equations are independent.
 const ACCURATE: &str = "standard Lagrange multipliers in joint coordinates, projected; Dormand-Prince 5(4), tolerance 1e-8";
 /// For mechanisms that pass singular configurations.
-const THROUGH_SINGULAR: &str = "augmented Lagrangian in absolute coordinates, projected, because the mechanism passes singular \
+const THROUGH_SINGULAR: &str = "penalty in absolute coordinates, projected, because the mechanism passes singular \
      configurations; Dormand-Prince 5(4), tolerance 1e-8";
 /// For stiff mechanisms.
 #[cfg(feature = "large")]
@@ -375,10 +375,10 @@ fn through_singular<M>(
 ) -> Result<Recorded, Box<dyn Error>>
 where
     M: Mechanism,
-    DormandPrince<f64>: Runs<f64, M, AugmentedLagrangian<f64>, Absolute>,
+    DormandPrince<f64>: Runs<f64, M, Penalty<f64>, Absolute>,
 {
     let integrator = DormandPrince::new(Tolerance::of(mechanism, TOLERANCE)?);
-    let formulation = AugmentedLagrangian::of(mechanism)?;
+    let formulation = Penalty::of(mechanism)?;
     let simulation = Simulation::new(mechanism, formulation, integrator).absolute_coordinates();
     recorded(
         &simulation.projection(Projection::default()),
