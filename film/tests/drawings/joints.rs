@@ -166,7 +166,7 @@ const CELLS: [Cell; 24] = [
         pen.turn(v(0.0, 22.0, 14.0), Z, 30.0 * Y, [70.0, -50.0]);
         pen.word("o", v(0.0, -29.0, 44.0), [-34.0, -2.0], "axis_i");
         pen.word("o", v(0.0, 22.0, 44.0), [5.0, -2.0], "axis_j");
-        pen.word("s", v(0.0, 8.0, -50.0), [-28.0, 4.0], "ratio = -1/2");
+        pen.word("s", v(0.0, 8.0, -50.0), [-28.0, 0.0], "ratio = -1/2");
     }),
     ("RackAndPinion", "axis, point, slide, radius", |pen| {
         pen.block(Of::K, v(-4.0, 0.0, -33.0), v(14.0, 56.0, 3.0));

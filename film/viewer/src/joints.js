@@ -145,12 +145,12 @@ export function symbol(element, size, way) {
 /** An arrow about an axis, right-handed. */
 function turning(axis, radius, said) {
   const group = new THREE.Group();
-  const [far, arc] = [2 * radius, 1.5 * Math.PI];
-  const head = mesh(new THREE.ConeGeometry(0.42 * radius, 0.95 * radius, 20), dark(), said);
+  const [far, arc] = [1.6 * radius, 1.5 * Math.PI];
+  const head = mesh(new THREE.ConeGeometry(0.36 * radius, 0.8 * radius, 20), dark(), said);
   head.position.set(far * Math.cos(arc), far * Math.sin(arc), 0);
   along(head, new THREE.Vector3(-Math.sin(arc), Math.cos(arc), 0));
   const made = new THREE.Group();
-  made.add(mesh(new THREE.TorusGeometry(far, 0.17 * radius, 10, 48, arc), dark(), said), head);
+  made.add(mesh(new THREE.TorusGeometry(far, 0.13 * radius, 10, 48, arc), dark(), said), head);
   // Beside the hinge that it turns.
   made.position.z = 1.7 * radius;
   group.add(made);

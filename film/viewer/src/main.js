@@ -64,6 +64,8 @@ const cameras = {
 };
 let camera = cameras.perspective;
 let reach = radius;
+/** The direction of a view that nobody has changed since: it stays fitted when the page changes its size. */
+let fitted = null;
 let controls;
 function useCamera(next) {
   next.up.copy(set.up);
@@ -74,6 +76,7 @@ function useCamera(next) {
   controls = new OrbitControls(camera, canvas);
   controls.enableDamping = true;
   controls.dampingFactor = 0.12;
+  controls.addEventListener("start", () => (fitted = null));
   controls.target.copy(target);
   resize();
 }
@@ -103,6 +106,7 @@ function fit(direction) {
     const high = (Math.abs(off.dot(upward)) + margin) / (0.72 * half);
     distance = Math.max(distance, Math.max(wide, high) + off.dot(way));
   }
+  fitted = way.clone();
   controls.target.copy(centre);
   camera.position.copy(centre).addScaledVector(way, distance);
   reach = distance * half;
@@ -273,7 +277,7 @@ addEventListener("keydown", (event) => {
   act();
 });
 
-addEventListener("resize", resize);
+new ResizeObserver(() => (fitted ? fit(fitted.clone()) : resize())).observe(canvas);
 useCamera(camera);
 fit(isFlat() ?? isotropic());
 theme();
