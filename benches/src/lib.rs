@@ -12,6 +12,8 @@ pub mod measures;
 pub mod output;
 #[cfg(any(feature = "compare", feature = "trade"))]
 pub mod reference_kernel;
+#[cfg(feature = "show")]
+pub mod show;
 pub mod terminal;
 #[cfg(feature = "trade")]
 pub mod trade;

@@ -1,4 +1,4 @@
-//! The studies that measure more than chapter 15: built where they are asked for, and run.
+//! The studies beside chapter 15: built where they are asked for, and run.
 
 use std::error::Error;
 use std::ffi::OsString;
@@ -55,6 +55,12 @@ pub const EXTREMES: Measures = Measures {
     name: "extremes",
     feature: "extremes",
     seconds: [Some(136), None],
+};
+/// `study show`.
+pub const SHOW: Measures = Measures {
+    name: "show",
+    feature: "show",
+    seconds: [None, None],
 };
 
 /// Whose seconds these are.

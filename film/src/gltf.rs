@@ -17,8 +17,8 @@ use gltf_json::{Accessor, Animation, Buffer, Extras, Index, Material, Mesh, Root
 use holonom::nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use crate::page::Shape;
-use crate::picture::{Subject, colour};
 use crate::solid::Surface;
+use crate::subject::{Subject, colour};
 
 /// The thickness of a bar, over the size of the mechanism.
 const THIN: f64 = 0.018;

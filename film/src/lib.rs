@@ -52,6 +52,9 @@
 
 #![forbid(unsafe_code)]
 
+mod anchors;
+mod description;
+mod gears;
 mod gltf;
 mod page;
 mod picture;
@@ -59,6 +62,7 @@ mod record;
 mod reference;
 mod sketch;
 mod solid;
+mod subject;
 
 pub use record::{Film, FilmError};
 pub use reference::Sketch;

@@ -13,6 +13,8 @@ pub(crate) struct Page<'a> {
     pub(crate) elements: &'a [Element],
     pub(crate) markers: &'a [Marker],
     pub(crate) shapes: &'a [Shape],
+    pub(crate) wheels: &'a [Wheel],
+    pub(crate) racks: &'a [Rack],
     /// Gravity (m/s^2), which points down.
     pub(crate) gravity: [f64; 3],
     pub(crate) times: &'a [f64],
@@ -40,6 +42,41 @@ pub(crate) struct Shape {
     pub(crate) axes: [f64; 4],
 }
 
+/// A toothed wheel on a body (`None` is the ground), in its axes.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Wheel {
+    /// The joints that it belongs to.
+    pub(crate) elements: Vec<usize>,
+    pub(crate) body: Option<usize>,
+    /// From the centre of mass (m).
+    pub(crate) centre: [f64; 3],
+    pub(crate) axis: [f64; 3],
+    /// Towards the middle of a tooth.
+    pub(crate) tooth: [f64; 3],
+    /// Of the pitch circle (m).
+    pub(crate) radius: f64,
+    pub(crate) teeth: u32,
+    /// Whether its teeth point inwards.
+    pub(crate) is_ring: bool,
+}
+
+/// A rack on a body, in its axes.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Rack {
+    pub(crate) element: usize,
+    pub(crate) body: Option<usize>,
+    /// The middle of a tooth on the pitch line (m, from the centre of mass).
+    pub(crate) at: [f64; 3],
+    pub(crate) along: [f64; 3],
+    /// Where its teeth point.
+    pub(crate) tips: [f64; 3],
+    /// From tooth to tooth (m).
+    pub(crate) pitch: f64,
+    /// The first and the last tooth, counted from that one.
+    pub(crate) teeth: [i32; 2],
+}
+
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Body {
     pub(crate) name: &'static str,
@@ -56,7 +93,8 @@ pub(crate) struct Element {
     pub(crate) bodies: &'static [Option<usize>],
 }
 
-/// A point or direction in the user's axes of its body, a point from the centre of mass.
+/// A point or direction in the user's axes of its body, a point from the centre of mass. Where a
+/// joint or force names no point, an anchor says where its symbol is.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Marker {
     pub(crate) element: usize,

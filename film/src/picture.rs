@@ -3,14 +3,11 @@
 
 use std::fmt::Write as _;
 
-use holonom::nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
+use holonom::nalgebra::{Rotation3, Vector3};
 
-use crate::page::{Element, Marker, Trace};
+use crate::page::{Element, Marker};
+use crate::subject::{Subject, colour};
 
-/// Colours of bodies, those of the viewer.
-const COLOURS: [&str; 8] = [
-    "#4c8eda", "#e8853d", "#4fae6a", "#c85f8e", "#8e77d6", "#c9a227", "#3aa6a6", "#a8734b",
-];
 /// Width of a picture, and what stays free on each side.
 const WIDTH: f64 = 640.0;
 const MARGIN: f64 = 36.0;
@@ -18,20 +15,8 @@ const MARGIN: f64 = 36.0;
 const FRAMES: usize = 120;
 /// Places that a trace is drawn through, at most.
 const WAY: usize = 500;
-/// Below this part of the size, points are one, or lie in one plane.
+/// Below this part of the size, points lie in one plane.
 const SAME: f64 = 1e-3;
-
-/// What a picture is drawn of.
-pub(crate) struct Subject<'a> {
-    pub(crate) title: &'a str,
-    pub(crate) elements: &'a [Element],
-    pub(crate) markers: &'a [Marker],
-    pub(crate) traces: &'a [Trace],
-    pub(crate) gravity: [f64; 3],
-    pub(crate) bodies: usize,
-    pub(crate) times: &'a [f64],
-    pub(crate) poses: &'a [f32],
-}
 
 impl Subject<'_> {
     /// The picture.
@@ -57,11 +42,9 @@ impl Subject<'_> {
             let way = way.map(|frame| self.place(frame, Some(trace.body), trace.at));
             pen.trace(&way.collect::<Vec<_>>(), colour(trace.body));
         }
-        for (marker, element) in self.named_by_joints() {
-            if marker.body.is_none() && marker.kind == "point" {
-                let at = self.place(first, None, marker.at);
-                pen.foot(at, &format!("{}: {}", element.name, element.kind));
-            }
+        for (marker, element) in self.feet() {
+            let at = self.place(first, None, marker.at);
+            pen.foot(at, &format!("{}: {}", element.name, element.kind));
         }
         for body in 0..self.bodies {
             for [from, to] in self.bars(body) {
@@ -108,82 +91,6 @@ impl Subject<'_> {
         let named = named.map(|marker| (marker, &self.elements[marker.element]));
         named.filter(|(_, element)| element.of == "joint")
     }
-
-    /// All points that are drawn, in a frame: those of joints and forces, traces, centres of mass.
-    pub(crate) fn all_places(&self, frame: usize) -> Vec<Vector3<f64>> {
-        let points = self.markers.iter().filter(|marker| marker.kind == "point");
-        let points = points.map(|marker| (marker.body, marker.at));
-        let traced = self.traces.iter();
-        let traced = traced.map(|trace| (Some(trace.body), trace.at));
-        let centres = (0..self.bodies).map(|body| (Some(body), [0.0; 3]));
-        let all = points.chain(traced).chain(centres);
-        all.map(|(body, at)| self.place(frame, body, at)).collect()
-    }
-
-    /// The largest extent of the mechanism in the first frame (m); 1 where it is a point.
-    pub(crate) fn size(&self) -> f64 {
-        let places = self.all_places(0);
-        let span = |k: usize| {
-            let along = places.iter().map(|place| place[k]);
-            let low = along.clone().fold(f64::INFINITY, f64::min);
-            along.fold(f64::NEG_INFINITY, f64::max) - low
-        };
-        let size = span(0).max(span(1)).max(span(2));
-        if size > 0.0 { size } else { 1.0 }
-    }
-
-    /// Whether all axes of joints are along an axis.
-    pub(crate) fn is_plane(&self, axis: usize) -> bool {
-        let axes = self.markers.iter().filter(|marker| marker.kind == "axis");
-        let mut axes = axes.map(|marker| {
-            let from = self.place(0, marker.body, [0.0; 3]);
-            self.place(0, marker.body, marker.at) - from
-        });
-        axes.all(|direction| direction[axis].abs() > 1.0 - SAME)
-    }
-
-    /// A point of a body (global) in a frame.
-    pub(crate) fn place(&self, frame: usize, body: Option<usize>, at: [f64; 3]) -> Vector3<f64> {
-        let at = Vector3::from(at);
-        let Some(body) = body else { return at };
-        let first = (frame * self.bodies + body) * 7;
-        let number = |k: usize| f64::from(self.poses[first + k]);
-        let turn = Quaternion::new(number(3), number(4), number(5), number(6));
-        Vector3::new(number(0), number(1), number(2)) + UnitQuaternion::new_normalize(turn) * at
-    }
-
-    /// The shortest lines that join the points of a body and its centre of mass (Prim).
-    pub(crate) fn bars(&self, body: usize) -> Vec<[Vector3<f64>; 2]> {
-        let mut places: Vec<Vector3<f64>> = Vec::new();
-        let named = self.markers.iter();
-        let named = named.filter(|marker| marker.body == Some(body) && marker.kind == "point");
-        let named = named.map(|marker| marker.at);
-        let traced = self.traces.iter().filter(|trace| trace.body == body);
-        let traced = traced.map(|trace| trace.at);
-        for place in named.chain(traced).chain([[0.0; 3]]).map(Vector3::from) {
-            if places.iter().all(|known| (known - place).norm() > 1e-9) {
-                places.push(place);
-            }
-        }
-        let mut joined = vec![places.remove(0)];
-        let mut bars = Vec::new();
-        while !places.is_empty() {
-            let pairs = joined.iter().flat_map(|from| {
-                let ends = places.iter().enumerate();
-                ends.map(move |(k, to)| ((to - from).norm(), *from, k))
-            });
-            let nearest = pairs.min_by(|(a, ..), (b, ..)| a.total_cmp(b));
-            let Some((_, from, k)) = nearest else { break };
-            let to = places.remove(k);
-            bars.push([from, to]);
-            joined.push(to);
-        }
-        bars
-    }
-}
-
-pub(crate) fn colour(body: usize) -> &'static str {
-    COLOURS[body % COLOURS.len()]
 }
 
 /// From places to the paper.

@@ -4,14 +4,15 @@ use std::marker::PhantomData;
 use std::path::Path;
 use std::{error, fmt, fs, io};
 
-use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind, ShapeKind};
-use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, View, Warnings};
 
+use crate::anchors::anchors;
+use crate::description::{arrows, bodies, elements, markers, placement, shapes};
+use crate::gears::{Gearing, Proportion, proportions};
 use crate::gltf::gltf;
-use crate::page::{Arrow, Body, Element, Floats, Marker, Page, Reading, Remark, Shape, Trace};
-use crate::picture::Subject;
+use crate::page::{Arrow, Element, Floats, Marker, Page, Reading, Remark, Shape, Trace};
 use crate::sketch::sketch;
+use crate::subject::Subject;
 
 /// The page with empty places for the title's data.
 const PAGE: &str = include_str!("page.html");
@@ -24,6 +25,7 @@ pub struct Film<M> {
     title: String,
     markers: Vec<Marker>,
     shapes: Vec<Shape>,
+    proportions: Vec<Proportion>,
     gravity: [f64; 3],
     arrows: Vec<Arrow>,
     shows_arrows: bool,
@@ -57,6 +59,7 @@ impl<M: Mechanism> Film<M> {
             title: M::REPORT.name.into(),
             markers: Vec::new(),
             shapes: Vec::new(),
+            proportions: Vec::new(),
             gravity: [0.0; 3],
             arrows: Vec::new(),
             shows_arrows: false,
@@ -132,7 +135,11 @@ impl<M: Mechanism> Film<M> {
         film.begin(view);
         film.frame(view);
         let names: Vec<&str> = M::REPORT.bodies.iter().map(|body| body.name).collect();
-        sketch(&film.subject(&elements::<M>()), &names)
+        let elements = elements::<M>();
+        let subject = film.subject(&elements);
+        let gearing = Gearing::new(&subject, &film.proportions);
+        let anchors = [anchors(&subject), gearing.anchors.clone()].concat();
+        sketch(&subject, &gearing, &anchors, &names)
     }
 
     /// What pictures are drawn of.
@@ -194,6 +201,9 @@ impl<M: Mechanism> Film<M> {
     pub fn html(&self) -> Result<String, FilmError> {
         self.check()?;
         let (bodies, elements) = (bodies::<M>(), elements::<M>());
+        let subject = self.subject(&elements);
+        let gearing = Gearing::new(&subject, &self.proportions);
+        let markers = [&self.markers[..], &anchors(&subject), &gearing.anchors].concat();
         let full: Vec<Vec<f32>> = self
             .readings
             .iter()
@@ -208,8 +218,10 @@ impl<M: Mechanism> Film<M> {
             title: &self.title,
             bodies: &bodies,
             elements: &elements,
-            markers: &self.markers,
+            markers: &markers,
             shapes: &self.shapes,
+            wheels: &gearing.wheels,
+            racks: &gearing.racks,
             gravity: self.gravity,
             times: &self.times,
             poses: Floats(&self.poses),
@@ -292,107 +304,16 @@ impl<M: Mechanism> Film<M> {
         fs::write(path, self.html()?).map_err(FilmError::Write)
     }
 
-    /// What does not change: markers on their bodies, gravity, the places of arrows.
-    fn begin<S: Real>(&mut self, sample: &View<'_, S, M>) {
-        self.gravity = sample.gravity().map(Real::to_f64).into();
-        self.markers = M::REPORT
-            .markers
-            .iter()
-            .enumerate()
-            .map(|(index, marker)| {
-                let mut at = sample.marker(index).map(Real::to_f64);
-                if let Some(body) = marker.body {
-                    let (position, orientation) = placement(sample, body);
-                    if marker.kind == MarkerKind::Point {
-                        at -= position;
-                    }
-                    at = UnitQuaternion::new_normalize(orientation).inverse() * at;
-                }
-                Marker {
-                    element: match marker.of {
-                        ElementPlace::Joint(joint) => joint,
-                        ElementPlace::Force(force) => M::REPORT.joints.len() + force,
-                    },
-                    place: marker.place,
-                    body: marker.body,
-                    name: marker.name,
-                    kind: match marker.kind {
-                        MarkerKind::Point => "point",
-                        MarkerKind::Axis => "axis",
-                        MarkerKind::Vector => "vector",
-                    },
-                    at: at.into(),
-                }
-            })
-            .collect();
-        let shapes = M::REPORT.shapes.iter().enumerate();
-        self.shapes = shapes
-            .filter(|(_, shape)| !shape.is_hole)
-            .map(|(index, shape)| Shape {
-                body: shape.body,
-                kind: match shape.kind {
-                    ShapeKind::Cylinder => "cylinder",
-                    ShapeKind::Tube => "tube",
-                    ShapeKind::Cone => "cone",
-                    ShapeKind::Block => "block",
-                    _ => "ball",
-                },
-                sizes: sample.shape(index).map(Real::to_f64),
-                centre: shape.centre,
-                axes: shape.axes,
-            })
-            .collect();
+    /// What does not change in a run.
+    fn begin<S: Real>(&mut self, view: &View<'_, S, M>) {
+        self.gravity = view.gravity().map(Real::to_f64).into();
+        self.markers = markers(view);
+        self.shapes = shapes(view);
+        self.proportions = proportions(view);
         if self.shows_arrows {
-            let joints = M::REPORT.joints.iter().enumerate();
-            self.arrows = joints
-                .filter(|(_, joint)| joint.has_point && joint.rows > 0)
-                .filter_map(|(index, joint)| {
-                    let place = joint.bodies.iter().rposition(Option::is_some)?;
-                    Some(Arrow {
-                        joint: index,
-                        place,
-                    })
-                })
-                .collect();
+            self.arrows = arrows::<M>();
         }
     }
-}
-
-/// Position and orientation of a body in double precision.
-fn placement<S: Real, M: Mechanism>(
-    sample: &View<'_, S, M>,
-    body: usize,
-) -> (Vector3<f64>, Quaternion<f64>) {
-    let pose = sample.pose(BodyHandle::<M>::new(body));
-    let [i, j, k, w] = pose.orientation.coords.into();
-    let [w, i, j, k] = [w, i, j, k].map(Real::to_f64);
-    (pose.position.map(Real::to_f64), Quaternion::new(w, i, j, k))
-}
-
-fn bodies<M: Mechanism>() -> Vec<Body> {
-    let bodies = M::REPORT.bodies.iter();
-    bodies
-        .map(|body| Body {
-            name: body.name,
-            particle: body.kind == BodyKind::Particle,
-        })
-        .collect()
-}
-
-fn elements<M: Mechanism>() -> Vec<Element> {
-    let joints = M::REPORT.joints.iter().map(|joint| Element {
-        name: joint.name,
-        kind: joint.kind,
-        of: "joint",
-        bodies: joint.bodies,
-    });
-    let forces = M::REPORT.forces.iter().map(|force| Element {
-        name: force.name,
-        kind: force.kind,
-        of: "force",
-        bodies: force.bodies,
-    });
-    joints.chain(forces).collect()
 }
 
 /// Why there is no page.

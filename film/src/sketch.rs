@@ -1,12 +1,14 @@
 //! A drawing of the reference configuration: views along the axes and from a corner, joints by
 //! number, and a table of them.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use holonom::nalgebra::{Rotation3, Vector3};
 
-use crate::page::{Element, Marker};
-use crate::picture::{Subject, colour};
+use crate::gears::Gearing;
+use crate::page::{Element, Marker, Wheel};
+use crate::subject::{Subject, colour};
 
 /// Width of the drawing, of which a view takes a half, or all.
 const WIDTH: f64 = 720.0;
@@ -19,6 +21,16 @@ const LINE: f64 = 19.0;
 /// The largest height of a view over its width.
 const TALLEST: f64 = 0.75;
 
+/// Joints that are drawn as a line between two points.
+const LINKS: [&str; 6] = [
+    "Distance",
+    "DistanceDriver",
+    "RevoluteSpherical",
+    "RevoluteRevolute",
+    "Perpendicular2",
+    "Parallel2",
+];
+
 /// A view: its title, and a rotation that turns what looks at it to z and what is up to y.
 struct View {
     title: String,
@@ -26,8 +38,19 @@ struct View {
 }
 
 /// The drawing.
-pub(crate) fn sketch(subject: &Subject<'_>, names: &[&str]) -> String {
-    let places = subject.all_places(0);
+pub(crate) fn sketch(
+    subject: &Subject<'_>,
+    gearing: &Gearing,
+    anchors: &[Marker],
+    names: &[&str],
+) -> String {
+    let circles: Vec<_> = gearing
+        .wheels
+        .iter()
+        .map(|wheel| circle(subject, wheel))
+        .collect();
+    let mut places = subject.all_places(0);
+    places.extend(circles.iter().flat_map(|(_, circle)| circle));
     let (low, high) = places.iter().fold(
         (
             Vector3::repeat(f64::INFINITY),
@@ -54,7 +77,7 @@ pub(crate) fn sketch(subject: &Subject<'_>, names: &[&str]) -> String {
             let left = wide * place as f64;
             height = height.max(panel(
                 &mut text,
-                subject,
+                (subject, &circles, anchors),
                 view,
                 &places,
                 [left, top, wide, scale],
@@ -146,7 +169,7 @@ fn scale(view: &View, places: &[Vector3<f64>], wide: f64) -> f64 {
 /// Draws a view; returns its height.
 fn panel(
     text: &mut String,
-    subject: &Subject<'_>,
+    (subject, circles, anchors): (&Subject<'_>, &[Circle], &[Marker]),
     view: &View,
     places: &[Vector3<f64>],
     [left, top, wide, scale]: [f64; 4],
@@ -167,7 +190,7 @@ fn panel(
         "<text class=\"view\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>",
         view.title
     );
-    for marker in points(subject).filter(|marker| marker.body.is_none()) {
+    for (marker, _) in subject.feet() {
         let [x, y] = at(subject.place(0, None, marker.at));
         let (a, b, c) = (x - 10.0, x + 10.0, y + 15.0);
         let _ = write!(
@@ -176,7 +199,15 @@ fn panel(
         );
     }
     for body in 0..subject.bodies {
-        for [from, to] in subject.bars(body) {
+        let bars = subject.bars(body);
+        if bars.is_empty() {
+            let ([x, y], colour) = (at(subject.place(0, Some(body), [0.0; 3])), colour(body));
+            let _ = write!(
+                text,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"11\" fill=\"{colour}\"/>"
+            );
+        }
+        for [from, to] in bars {
             let [x1, y1] = at(subject.place(0, Some(body), from.into()));
             let [x2, y2] = at(subject.place(0, Some(body), to.into()));
             let colour = colour(body);
@@ -192,11 +223,21 @@ fn panel(
             "<path class=\"centre\" d=\"M{a:.1},{y:.1}H{b:.1}M{x:.1},{c:.1}V{d:.1}\"/>"
         );
     }
-    for force in (0..subject.elements.len()).filter(|&k| subject.elements[k].of == "force") {
+    for (body, circle) in circles {
+        let places = circle.iter().map(|place| at(*place));
+        let places: Vec<String> = places.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        let (places, colour) = (places.join(" "), body.map_or("#8a93a3", colour));
+        let _ = write!(
+            text,
+            "<polygon points=\"{places}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"3\" stroke-dasharray=\"3 2\"/>"
+        );
+    }
+    let is_line = |element: &Element| element.of == "force" || LINKS.contains(&element.kind);
+    for line in (0..subject.elements.len()).filter(|&k| is_line(&subject.elements[k])) {
         let mut ends = subject.markers.iter();
         let mut ends = ends
             .by_ref()
-            .filter(|marker| marker.element == force && marker.kind == "point");
+            .filter(|marker| marker.element == line && marker.kind == "point");
         if let (Some(from), Some(to)) = (ends.next(), ends.next_back()) {
             let [x1, y1] = at(subject.place(0, from.body, from.at));
             let [x2, y2] = at(subject.place(0, to.body, to.at));
@@ -214,11 +255,11 @@ fn panel(
     let mut labels: Vec<([f64; 2], Vec<usize>)> = Vec::new();
     for joint in 0..joints.len() {
         let own = |kind: &str| {
-            let mut markers = subject.markers.iter();
+            let mut markers = subject.markers.iter().chain(anchors);
             let found = markers.find(|marker| marker.element == joint && marker.kind == kind);
             found.map(|marker| (marker.body, marker.at))
         };
-        let Some((body, point)) = own("point") else {
+        let Some((body, point)) = own("point").or_else(|| own("anchor")) else {
             continue;
         };
         let point = subject.place(0, body, point);
@@ -252,10 +293,18 @@ fn panel(
     height
 }
 
-fn points<'a>(subject: &'a Subject<'_>) -> impl Iterator<Item = &'a Marker> {
-    let of_joints = |marker: &&Marker| subject.elements[marker.element].of == "joint";
-    let markers = subject.markers.iter().filter(of_joints);
-    markers.filter(|marker| marker.kind == "point")
+/// The body of a wheel, and places around its pitch circle.
+type Circle = (Option<usize>, Vec<Vector3<f64>>);
+
+fn circle(subject: &Subject<'_>, wheel: &Wheel) -> Circle {
+    let centre = subject.place(0, wheel.body, wheel.centre);
+    let axis = subject.direction(0, wheel.body, wheel.axis);
+    let first = wheel.radius * subject.direction(0, wheel.body, wheel.tooth);
+    let around = (0..72).map(|step| {
+        let (sine, cosine) = (TAU * f64::from(step) / 72.0).sin_cos();
+        centre + cosine * first + sine * axis.cross(&first)
+    });
+    (wheel.body, around.collect())
 }
 
 /// Bodies by colour, joints and forces by number; returns where it ends.
@@ -303,6 +352,8 @@ fn table(text: &mut String, subject: &Subject<'_>, names: &[&str], top: f64) -> 
     y + 8.0
 }
 
+/// Of HTML, and of Markdown, in which it may stand.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('[', "&#91;").replace('_', "&#95;")
 }

@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// Five rods and the ground in a ring of six hinges: it moves, although the count of its equations
 /// says that it cannot.
 ///
+#[doc = include_str!("sketches/bricard.svg")]
+///
 /// ```text
 ///         P1 ------- P2        y        hinge    axis
 ///        :           |         |        P1, P4   y

@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// A pole that stands on a cart, which a force pushes; at rest, 0.1 rad from upright at the start,
 /// gravity along -y.
 ///
+#[doc = include_str!("sketches/cart_pole.svg")]
+///
 /// ```text
 ///     y        / pole, angle from upright towards x
 ///     |       /

@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// A door on two hinges whose common axis leans 10 degrees from the vertical, released 90 degrees
 /// from where it would come to rest.
 ///
+#[doc = include_str!("sketches/door.svg")]
+///
 /// ```text
 ///     z
 ///     |   o    upper hinge        the edge with the hinges leans by 10 degrees from z towards +x;

@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// Two balls on rods turn about a vertical shaft at one turn a second and lift a slider through
 /// stiff spring-dampers.
 ///
+#[doc = include_str!("sketches/flyball_governor.svg")]
+///
 /// ```text
 ///           z
 ///     hinge | hinge        the view along y: the arms sink from the hinges by alpha = 30 degrees,

@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// A parallelogram of three uniform links of 1 m and 1 kg, upright at the start, moving at 1 m/s,
 /// gravity along -y.
 ///
+#[doc = include_str!("sketches/four_bar.svg")]
+///
 /// ```text
 ///     y
 ///     o---------o   coupler      pins at (0, 0), (1, 0), (0, 1), (1, 1) m

@@ -6,6 +6,8 @@ use crate::FourBar;
 
 /// Two parallelograms in a row with one upright link in common, as [`FourBar`] otherwise: N = 2.
 ///
+#[doc = include_str!("sketches/double_four_bar.svg")]
+///
 /// Problem A02 of the IFToMM library as it stands there ("double four-bar"), 10 s. 35 equations, of
 /// which 6 are dropped; the links lie on one line for the first time after 0.71436 s.
 ///
@@ -75,6 +77,8 @@ impl DoubleFourBar {
 }
 
 /// Five parallelograms in a row, as [`FourBar`] otherwise: N = 5.
+///
+#[doc = include_str!("sketches/quintuple_four_bar.svg")]
 ///
 /// 80 equations, of which 15 are dropped; the links lie on one line for the first time after
 /// 0.71869 s.

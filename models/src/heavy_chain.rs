@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// Three point masses of 1 g and a bob of 1000 kg on four massless links of 0.25 m, straight, at
 /// rest, 60 degrees from the vertical, gravity along -y, in the xy plane.
 ///
+#[doc = include_str!("sketches/heavy_chain.svg")]
+///
 /// ```text
 ///     y
 ///     o------- x       z towards the reader

@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// A fast top on a ball joint at the origin, its axis in the horizontal at the start, gravity along
 /// -z.
 ///
+#[doc = include_str!("sketches/heavy_top.svg")]
+///
 /// ```text
 ///        z
 ///        |

@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// Franka Emika's Panda with motors on its axes, fingers locked, upright at the start, at rest,
 /// gravity along -z.
 ///
+#[doc = include_str!("sketches/panda.svg")]
+///
 /// Masses, inertias about the centres of mass and axes: `panda_description`, as in
 /// `example-robot-data`, given here along global axes with all angles zero. The joints turn about
 /// z, y, z, -y, z, -y and -z. All tensors of inertia are full.

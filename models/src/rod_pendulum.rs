@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// A steel rod of 1 m x 30 mm x 30 mm on a hinge at one end, at rest in the horizontal, gravity
 /// along -z.
 ///
+#[doc = include_str!("sketches/rod_pendulum.svg")]
+///
 /// ```text
 ///       z
 ///       |

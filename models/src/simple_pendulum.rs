@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// A point mass of 1 kg on a massless link of 1 m, released from the horizontal at -x, gravity
 /// along -y, moving in the xy plane.
 ///
+#[doc = include_str!("sketches/simple_pendulum.svg")]
+///
 /// ```text
 ///     y
 ///     |

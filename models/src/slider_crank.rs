@@ -4,6 +4,8 @@ use holonom::prelude::*;
 
 /// A slider-crank at 150 rad/s, stretched along x at the start, gravity along -y.
 ///
+#[doc = include_str!("sketches/slider_crank.svg")]
+///
 /// ```text
 ///     y
 ///     |     crank         rod
@@ -56,6 +58,8 @@ pub struct SliderCrank {
 }
 
 /// The [`SliderCrank`] with a motor on its crank, whose angle is `150 t + 0.2 (1 - cos(75 t))` rad.
+///
+#[doc = include_str!("sketches/driven_slider_crank.svg")]
 ///
 /// Geometry and masses: Flores, Leine and Glocker 2010, see there; the motion is ours: it starts as
 /// the free mechanism does, and its speed varies by 10 % of the mean.

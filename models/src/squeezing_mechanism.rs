@@ -6,6 +6,8 @@ use holonom::prelude::*;
 /// Seven bodies in a plane, three loops: a motor of 0.033 N m turns a crank of 7 mm against a stiff
 /// spring, for 0.03 s or 0.05 s.
 ///
+#[doc = include_str!("sketches/squeezing_mechanism.svg")]
+///
 /// ```text
 ///                                        C      y
 ///                                       :       |

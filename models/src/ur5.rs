@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// Universal Robots' UR5 with motors on its axes, stretched out along x at the start, at rest,
 /// gravity along -z.
 ///
+#[doc = include_str!("sketches/ur5.svg")]
+///
 /// ```text
 ///     z
 ///     |         upper arm         forearm

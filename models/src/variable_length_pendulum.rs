@@ -5,6 +5,8 @@ use holonom::prelude::*;
 /// An arm on a hinge with a torsional spring, and a slider along it on a spring and a damper,
 /// released 60 degrees from the vertical.
 ///
+#[doc = include_str!("sketches/variable_length_pendulum.svg")]
+///
 /// ```text
 ///     y
 ///     |

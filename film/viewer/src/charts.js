@@ -100,7 +100,9 @@ export function charts(place, seek) {
     }
     pen.textAlign = "center";
     for (const mark of marks(start, end, Math.max(2, width / 110))) {
-      pen.fillText(`${+mark.toPrecision(6)} s`, x(mark), height - 9);
+      const said = `${+mark.toPrecision(6)} s`;
+      const half = pen.measureText(said).width / 2;
+      pen.fillText(said, Math.min(x(mark), width - half), height - 9);
     }
     lines.forEach(({ values }, k) => {
       pen.strokeStyle = hex(colourOf(k));

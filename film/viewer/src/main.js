@@ -64,6 +64,8 @@ const cameras = {
 };
 let camera = cameras.perspective;
 let reach = radius;
+/** The direction of a view that nobody has changed since: it stays fitted when the page changes its size. */
+let fitted = null;
 let controls;
 function useCamera(next) {
   next.up.copy(set.up);
@@ -74,6 +76,7 @@ function useCamera(next) {
   controls = new OrbitControls(camera, canvas);
   controls.enableDamping = true;
   controls.dampingFactor = 0.12;
+  controls.addEventListener("start", () => (fitted = null));
   controls.target.copy(target);
   resize();
 }
@@ -103,6 +106,7 @@ function fit(direction) {
     const high = (Math.abs(off.dot(upward)) + margin) / (0.72 * half);
     distance = Math.max(distance, Math.max(wide, high) + off.dot(way));
   }
+  fitted = way.clone();
   controls.target.copy(centre);
   camera.position.copy(centre).addScaledVector(way, distance);
   reach = distance * half;
@@ -179,7 +183,7 @@ for (const name of Object.keys(shown)) {
 id("show-reactions").hidden = film.arrows.length === 0;
 id("show-traces").hidden = film.traces.length === 0;
 id("show-forces").hidden = !film.elements.some((element) => element.type === "force");
-id("scale").textContent = `arrows: ${digits(set.perMetre)} N to 1 m`;
+id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
 
 // What can be hidden.
 function entry(kind, index, said, colour) {
@@ -207,10 +211,16 @@ id("list").onclick = () => {
 for (const warning of film.warnings) {
   const line = document.createElement("button");
   line.className = "warning";
+  line.title = warning.text;
+  line.setAttribute("aria-expanded", false);
   line.textContent = `⚠ ${warning.text}`;
   id("warnings").append(line);
+  // A line, so that the mechanism is seen; all of it after a click.
+  line.onclick = () => {
+    line.setAttribute("aria-expanded", line.getAttribute("aria-expanded") === "false");
+    if (warning.time !== null) seek(warning.time);
+  };
   if (warning.time === null) continue;
-  line.onclick = () => seek(warning.time);
   const mark = document.createElement("button");
   mark.className = "mark";
   mark.title = warning.text;
@@ -267,7 +277,7 @@ addEventListener("keydown", (event) => {
   act();
 });
 
-addEventListener("resize", resize);
+new ResizeObserver(() => (fitted ? fit(fitted.clone()) : resize())).observe(canvas);
 useCamera(camera);
 fit(isFlat() ?? isotropic());
 theme();

@@ -1,8 +1,8 @@
-// What bodies, joints and forces look like. Lengths are fractions of the size of the mechanism.
+// What bodies, springs and arrows look like. Lengths are fractions of the size of the mechanism.
 
 import * as THREE from "three";
 import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
-import { film, markersOf, points } from "./data.js";
+import { film, points } from "./data.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
 const vector = (at) => new THREE.Vector3(...at);
@@ -11,10 +11,11 @@ const vector = (at) => new THREE.Vector3(...at);
 const COLOURS = [0x4c8eda, 0xe8853d, 0x4fae6a, 0xc85f8e, 0x8e77d6, 0xc9a227, 0x3aa6a6, 0xa8734b];
 export const colourOf = (index) => COLOURS[index % COLOURS.length];
 
-const METAL = { metalness: 0.35, roughness: 0.42 };
-const dark = () => new THREE.MeshStandardMaterial({ color: 0x4a5260, ...METAL });
+export const METAL = { metalness: 0.35, roughness: 0.42 };
+/** Of what stands still. */
+export const inGroundColour = 0x8a93a3;
 
-function mesh(geometry, material, name) {
+export function mesh(geometry, material, name) {
   const made = new THREE.Mesh(geometry, material);
   made.castShadow = true;
   made.receiveShadow = true;
@@ -23,7 +24,7 @@ function mesh(geometry, material, name) {
 }
 
 /** Turns something that is made along y into a direction. */
-function along(object, direction) {
+export function along(object, direction) {
   object.quaternion.setFromUnitVectors(UP, direction.clone().normalize());
   return object;
 }
@@ -71,9 +72,12 @@ export function body(index, size) {
   }
   const all = distinct([...named, new THREE.Vector3()], size);
   for (const [from, to] of shortest(all)) group.add(capsule(from, to, radius, material, name));
-  if (all.length === 1) group.add(mesh(new THREE.SphereGeometry(2.2 * radius, 32, 20), material, name));
-  if (named.length > 2 && !inLine(named)) {
-    const hull = new ConvexGeometry(named.flatMap((corner) => ball(corner, 0.55 * radius)));
+  // Small enough for its joint to be seen.
+  if (all.length === 1) group.add(mesh(new THREE.SphereGeometry(1.4 * radius, 32, 20), material, name));
+  // The centre of mass of a leaf on two hinges is far from both.
+  const corners = inLine(all, 0.25) ? named : all;
+  if (corners.length > 2 && !inLine(corners)) {
+    const hull = new ConvexGeometry(corners.flatMap((corner) => ball(corner, 0.55 * radius)));
     const plate = material.clone();
     Object.assign(plate, { transparent: true, opacity: 0.42, depthWrite: false });
     group.add(mesh(hull, plate, name));
@@ -128,12 +132,13 @@ function shortest(places) {
   return lines;
 }
 
-function inLine(places) {
+function inLine(places, near = 0.02) {
+  if (places.length < 3) return true;
   const line = new THREE.Line3(places[0], places[1]);
   const nearest = new THREE.Vector3();
   return places.every((place) => {
     line.closestPointToPoint(place, false, nearest);
-    return nearest.distanceTo(place) < 0.02 * line.distance();
+    return nearest.distanceTo(place) < near * line.distance();
   });
 }
 
@@ -173,54 +178,10 @@ export function centreOfMass(size, name) {
   return group;
 }
 
-const HINGES = /^(Revolute|Cylindrical|Screw|Gear|AngleDriver|TorsionalSpring|Bearing)/;
-export const SLIDES = /^(Prismatic|Translational|Slide|Sleeve|PositionDriver)/;
-
-/** A joint, on the body at its first place: hinge, slide, ball, cross or a plain mark. A slide's rail
- * is as long as what slides goes. */
-export function joint(element, size, slid) {
-  const { kind, name } = film.elements[element];
-  const markers = markersOf(element, 0);
-  const group = new THREE.Group();
-  const said = `${name}: ${kind}`;
-  const at = markers.find((m) => m.kind === "point");
-  const axes = markers.filter((m) => m.kind === "axis").map((m) => vector(m.at));
-  const radius = 0.03 * size;
-  if (!at) return group;
-  const place = new THREE.Group();
-  place.position.set(...at.at);
-  group.add(place);
-  const material = dark();
-  if (SLIDES.test(kind) && axes.length) {
-    const [low, high] = slid ?? [-4 * radius, 4 * radius];
-    const length = high - low + 5 * radius;
-    const rail = mesh(new THREE.BoxGeometry(0.8 * radius, length, 0.8 * radius), material, said);
-    along(rail, axes[0]).position.copy(axes[0]).multiplyScalar(0.5 * (low + high));
-    place.add(rail);
-  } else if (/^Universal|^ConstantVelocity/.test(kind)) {
-    for (const axis of axes.length ? axes : [UP]) {
-      const pin = new THREE.CylinderGeometry(0.35 * radius, 0.35 * radius, 3.2 * radius, 20);
-      place.add(along(mesh(pin, material, said), axis));
-    }
-    place.add(mesh(new THREE.SphereGeometry(0.7 * radius, 24, 16), material, said));
-  } else if (axes.length && (HINGES.test(kind) || axes.length === 1)) {
-    const length = /^Cylindrical|^Screw/.test(kind) ? 6 : 2.4;
-    const pin = new THREE.CylinderGeometry(0.62 * radius, 0.62 * radius, length * radius, 32);
-    place.add(along(mesh(pin, material, said), axes[0]));
-    const collar = new THREE.TorusGeometry(0.82 * radius, 0.16 * radius, 12, 40);
-    const ring = mesh(collar, material, said);
-    ring.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), axes[0].clone().normalize());
-    place.add(ring);
-  } else {
-    place.add(mesh(new THREE.SphereGeometry(radius, 28, 20), material, said));
-  }
-  return group;
-}
-
 /** What stands on the ground at a point: a foot that points down. */
 export function foot(at, down, size) {
   const radius = 0.05 * size;
-  const material = new THREE.MeshStandardMaterial({ color: 0x8a93a3, metalness: 0.1, roughness: 0.8 });
+  const material = new THREE.MeshStandardMaterial({ color: inGroundColour, metalness: 0.1, roughness: 0.8 });
   const cone = mesh(new THREE.ConeGeometry(radius, 1.5 * radius, 4, 1), material, "ground");
   along(cone, down.clone().negate());
   cone.position.set(...at).addScaledVector(down, 0.75 * radius);

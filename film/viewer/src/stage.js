@@ -2,20 +2,43 @@
 
 import * as THREE from "three";
 import { film, frameAt, LOAD, markersOf, points, POSE } from "./data.js";
+import { LINES, PLANES, rack, symbol, wheel } from "./joints.js";
 import * as shapes from "./shapes.js";
 
 const vector = (at) => new THREE.Vector3(...at);
 
-/** Where the bodies' points are in all frames. */
+/** Joints that are drawn as a line between two points. */
+const LINKS = /^Distance|Length|^RevoluteSpherical|^RevoluteRevolute|^(Perpendicular|Parallel)2/;
+
+/** What a body reaches to, in its axes: its points, shapes and wheels. */
+function reach(body) {
+  const places = points(body).map((marker) => vector(marker.at));
+  for (const { sizes, kind, centre, axes } of film.shapes.filter((shape) => shape.body === body)) {
+    const [long, wide, narrow] = sizes;
+    const half = { block: [long / 2, wide / 2, narrow / 2], ball: [long, long, long] }[kind] ?? [long / 2, wide, wide];
+    const [w, x, y, z] = axes;
+    for (let k = 0; k < 8; k++) {
+      const corner = vector(half.map((far, axis) => (k & (1 << axis) ? far : -far)));
+      places.push(corner.applyQuaternion(new THREE.Quaternion(x, y, z, w)).add(vector(centre)));
+    }
+  }
+  for (const { centre, axis, tooth, radius } of film.wheels.filter((wheel) => wheel.body === body))
+    for (let k = 0; k < 12; k++)
+      places.push(vector(tooth).applyAxisAngle(vector(axis), (k * Math.PI) / 6).multiplyScalar(radius).add(vector(centre)));
+  return places;
+}
+
+/** Where that is in all frames. */
 function cloud() {
-  const places = points(null).map((marker) => vector(marker.at));
+  const places = reach(null);
+  const own = film.bodies.map((_, body) => reach(body));
   const turn = new THREE.Quaternion();
   const stride = Math.max(1, Math.floor(film.times.length / 120));
   for (let frame = 0; frame < film.times.length; frame += stride) {
     film.bodies.forEach((_, body) => {
       const [at, p] = poseIn(frame, body, turn);
       places.push(at.clone());
-      for (const marker of points(body)) places.push(vector(marker.at).applyQuaternion(p).add(at));
+      for (const place of own[body]) places.push(place.clone().applyQuaternion(p).add(at));
     });
   }
   return places.length ? places : [new THREE.Vector3()];
@@ -28,12 +51,14 @@ function poseIn(frame, body, turn = new THREE.Quaternion()) {
   return [new THREE.Vector3(x, y, z), turn.set(e1, e2, e3, e0).normalize()];
 }
 
-/** How far the second body's point of a slide goes along the axis, from the first body's point. */
-function slid(index) {
+/** How far the second body's point goes from the first body's: along its axis, least and most; from
+ * it, where it moves in a plane. */
+function wayOf(index) {
   const element = film.elements[index];
   const markers = (place, kind) => markersOf(index, place).find((m) => m.kind === kind);
   const [from, axis, to] = [markers(0, "point"), markers(0, "axis"), markers(1, "point")];
-  if (!shapes.SLIDES.test(element.kind) || !from || !axis || !to) return undefined;
+  const isPlane = PLANES.test(element.kind);
+  if (!(isPlane || LINES.test(element.kind)) || !from || !axis || !to) return undefined;
   let [low, high] = [0, 0];
   const global = (marker, frame) => {
     const at = vector(marker.at);
@@ -46,7 +71,8 @@ function slid(index) {
     return axis.body === null ? way : way.applyQuaternion(poseIn(frame, axis.body)[1]);
   };
   for (let frame = 0; frame < film.times.length; frame++) {
-    const far = global(to, frame).sub(global(from, frame)).dot(turned(frame));
+    const off = global(to, frame).sub(global(from, frame));
+    const far = isPlane ? off.length() : off.dot(turned(frame));
     [low, high] = [Math.min(low, far), Math.max(high, far)];
   }
   return [low, high];
@@ -55,12 +81,11 @@ function slid(index) {
 /** The size of the mechanism as it stands at the start: what pins and rods are measured by. */
 function sizeAtStart() {
   const box = new THREE.Box3();
-  for (const marker of points(null)) box.expandByPoint(vector(marker.at));
+  for (const place of reach(null)) box.expandByPoint(place);
   film.bodies.forEach((_, body) => {
     const [at, turn] = poseIn(0, body);
     box.expandByPoint(at);
-    for (const marker of points(body))
-      box.expandByPoint(vector(marker.at).applyQuaternion(turn).add(at));
+    for (const place of reach(body)) box.expandByPoint(place.applyQuaternion(turn).add(at));
   });
   return box.isEmpty() ? 0 : box.getSize(new THREE.Vector3()).length();
 }
@@ -68,8 +93,7 @@ function sizeAtStart() {
 export function stage(scene) {
   const places = cloud();
   const box = new THREE.Box3().setFromPoints(places);
-  const reach = box.getSize(new THREE.Vector3()).length();
-  const size = sizeAtStart() || reach || 1;
+  const size = sizeAtStart() || box.getSize(new THREE.Vector3()).length() || 1;
   const down = vector(film.gravity);
   const isFlat = box.max.z - box.min.z < 0.02 * size;
   const free = isFlat ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);
@@ -98,16 +122,20 @@ export function stage(scene) {
   });
   const elements = film.elements.map((element, index) => {
     const parts = [];
-    if (element.type === "joint") {
-      const object = shapes.joint(index, size, slid(index));
+    const layer = element.type === "joint" ? layers.joints : layers.forces;
+    const add = (body, group) => {
+      // A holder that moves with the body, so that the group keeps its place on it.
       const holder = new THREE.Group();
-      holder.add(object);
-      parts.push(object);
-      if (element.bodies[0] === null) layers.joints.add(holder);
-      else ride(layers.joints, element.bodies[0], holder);
-    }
+      holder.add(group);
+      parts.push(group);
+      if (body === null) layer.add(holder);
+      else ride(layer, body, holder);
+    };
+    for (const { place, group } of symbol(index, size, wayOf(index))) add(element.bodies[place], group);
+    for (const made of film.wheels.filter((wheel) => wheel.elements[0] === index)) add(made.body, wheel(made, size));
+    for (const made of film.racks.filter((rack) => rack.element === index)) add(made.body, rack(made, size));
     element.bodies.forEach((body, place) => {
-      if (body !== null) return;
+      if (body !== null || PLANES.test(element.kind)) return;
       for (const marker of markersOf(index, place).filter((m) => m.kind === "point"))
         ground.add(shapes.foot(marker.at, up.clone().negate(), size));
     });
@@ -119,7 +147,7 @@ export function stage(scene) {
   film.elements.forEach((element, index) => {
     const ends = element.bodies.flatMap((body, place) =>
       markersOf(index, place).filter((m) => m.kind === "point"));
-    const isLine = element.type === "force" || /^Distance|Length/.test(element.kind);
+    const isLine = element.type === "force" || LINKS.test(element.kind);
     const pair = linePair(element, ends);
     if (!isLine || !pair) return;
     const isCoil = element.type === "force" && /Spring|Bushing/.test(element.kind);

@@ -103,6 +103,11 @@ pub mod shapes {}
 #[doc = include_str!("parts.md")]
 pub mod parts {}
 
+#[doc = "The whole language on one page: every attribute and its values; every joint, driver and"]
+#[doc = "force with its axes, equations, zeros and signs."]
+#[doc = ""]
+#[doc = include_str!("joints.svg")]
+#[doc = ""]
 #[doc = include_str!("reference.md")]
 pub mod reference {}
 

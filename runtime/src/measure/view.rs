@@ -91,7 +91,10 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         View::new(self.constants(), self.time, self.state)
     }
 
-    pub(crate) fn constants(&self) -> &M::Constants<S> {
+    /// For the kernels of [`Mechanism`].
+    #[doc(hidden)]
+    #[must_use]
+    pub fn constants(&self) -> &M::Constants<S> {
         self.constants.borrow()
     }
 

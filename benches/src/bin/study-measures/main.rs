@@ -7,6 +7,8 @@
 mod comparison;
 #[cfg(feature = "extremes")]
 mod extremes;
+#[cfg(feature = "show")]
+mod show;
 #[cfg(feature = "trade")]
 mod trade;
 
@@ -14,7 +16,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// What evaluations and accuracy cost, and where the numerics stop to hold.
+/// What evaluations and accuracy cost, where the numerics stop to hold, and what moves.
 #[derive(Debug, Parser)]
 #[command(version, bin_name = "study")]
 struct Arguments {
@@ -41,6 +43,9 @@ enum Study {
     /// interrupted map goes on with the same command.
     #[cfg(feature = "extremes")]
     Extremes(extremes::Extremes),
+    /// A problem that moves: its run, recorded into a page that opens from disk.
+    #[cfg(feature = "show")]
+    Show(show::Show),
 }
 
 fn main() -> ExitCode {
@@ -54,6 +59,8 @@ fn main() -> ExitCode {
         Study::Recommend(arguments) => trade::recommend(arguments),
         #[cfg(feature = "extremes")]
         Study::Extremes(arguments) => extremes::study(arguments),
+        #[cfg(feature = "show")]
+        Study::Show(arguments) => show::study(arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

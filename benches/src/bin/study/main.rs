@@ -1,7 +1,8 @@
 //! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores
 //! (2015), `study compare` shows what an evaluation costs, `study trade` what accuracy costs,
-//! `study recommend` which setting does, and `study extremes` where the numerics stop to hold. The
-//! latter are a program of their own, which is built where it is asked for.
+//! `study recommend` which setting does, `study extremes` where the numerics stop to hold, and
+//! `study show` how a problem moves. The latter are a program of their own, which is built where it
+//! is asked for.
 
 #![forbid(unsafe_code)]
 
@@ -39,6 +40,8 @@ enum Study {
     Recommend(Handed),
     /// Where the numerics stop to hold.
     Extremes(Handed),
+    /// How a problem moves: a page that opens from disk.
+    Show(Handed),
 }
 
 fn main() -> ExitCode {
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Some(Study::Trade(handed)) => measures::TRADE.run(handed),
         Some(Study::Recommend(handed)) => measures::RECOMMEND.run(handed),
         Some(Study::Extremes(handed)) => measures::EXTREMES.run(handed),
+        Some(Study::Show(handed)) => measures::SHOW.run(handed),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("study: {error}");
