@@ -10,6 +10,7 @@
 //!   reference configuration, where there is no time and no rate.
 //! - `number.rs`: numbers the macro can see. A path or a run-time value becomes a symbol with two
 //!   expressions: one in `f64` for checks, one over the scalar type for kernels.
+//! - `linear.rs`: linear functions of such numbers.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
 //! - `values.rs`: parameters and inputs. A reader that meets an input where none may be is given
 //!   the reason.
@@ -34,6 +35,7 @@ mod joints;
 pub mod kinds;
 mod later;
 mod laws;
+mod linear;
 pub mod mechanism;
 mod mirror;
 mod motion;

@@ -1,5 +1,7 @@
 //! Fields of an annotated struct.
 
+use proc_macro2::TokenStream;
+use quote::ToTokens;
 use syn::Type;
 
 use super::List;
@@ -69,4 +71,57 @@ pub struct Origin {
     pub part: usize,
     /// The number of the field in its struct.
     pub number: usize,
+}
+
+/// The path by which a type's carrier is called; `None` for a type that cannot be that of a joint
+/// or body.
+#[must_use]
+pub fn carrier_path(ty: &Type) -> Option<TokenStream> {
+    // What is surely neither: calling it as a macro would only hide our own sentence.
+    const OTHERS: [&str; 28] = [
+        "Arc",
+        "Box",
+        "Cell",
+        "HashMap",
+        "Option",
+        "PhantomData",
+        "Rc",
+        "RefCell",
+        "Result",
+        "String",
+        "Vec",
+        "bool",
+        "char",
+        "f32",
+        "f64",
+        "i128",
+        "i16",
+        "i32",
+        "i64",
+        "i8",
+        "isize",
+        "str",
+        "u128",
+        "u16",
+        "u32",
+        "u64",
+        "u8",
+        "usize",
+    ];
+    match ty {
+        Type::Group(group) => carrier_path(&group.elem),
+        Type::Paren(paren) => carrier_path(&paren.elem),
+        Type::Path(path) if path.qself.is_none() => {
+            let last = path.path.segments.last()?;
+            if OTHERS.iter().any(|other| last.ident == other) {
+                return None;
+            }
+            let mut path = path.path.clone();
+            for segment in &mut path.segments {
+                segment.arguments = syn::PathArguments::None;
+            }
+            Some(path.into_token_stream())
+        }
+        _ => None,
+    }
 }

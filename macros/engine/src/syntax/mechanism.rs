@@ -1,10 +1,12 @@
 //! The annotated struct.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::ToTokens;
-use syn::{Attribute, Data, DeriveInput, Fields, Type};
+use quote::{ToTokens, quote};
+use syn::{Data, DeriveInput, Fields, Type};
 
-pub use super::field::{Field, Origin, Role};
+use super::attributes::{named_fields, parse_field, role};
+pub use super::field::{Field, Origin, Role, carrier_path};
+use super::part::Expanded;
 pub use super::part::{Assemblies, AssemblySyntax, PartSyntax};
 use super::{List, array, part};
 use crate::diag::Faults;
@@ -73,18 +75,20 @@ pub fn parse(input: &DeriveInput, assemblies: &Assemblies, faults: &mut Faults) 
             );
         }
     }
+    let mut expanded = Expanded::default();
     for field in named_fields(input) {
         if let Some(name) = field.ident.clone() {
             let written = parse_field(name.clone(), field, faults);
             let (elements, is_measured) = array::elements(written, faults);
             for element in elements {
-                part::expand(element, assemblies, &mut result);
+                part::expand(element, assemblies, &mut expanded);
             }
             if !is_measured {
                 result.unmeasured.push(name);
             }
         }
     }
+    (result.fields, result.parts) = (expanded.fields, expanded.parts);
     result
 }
 
@@ -110,75 +114,6 @@ fn shape(input: &DeriveInput) -> Option<(TokenStream, String)> {
         Data::Union(data) => (data.union_token.to_token_stream(), "a union"),
     };
     Some((tokens, format!("`{name}` is {found}; {expected}")))
-}
-
-/// The fields of a struct with named fields; none of anything else.
-pub(super) fn named_fields(input: &DeriveInput) -> impl Iterator<Item = &syn::Field> {
-    match &input.data {
-        Data::Struct(data) => match &data.fields {
-            Fields::Named(fields) => Some(fields.named.iter()),
-            _ => None,
-        },
-        _ => None,
-    }
-    .into_iter()
-    .flatten()
-}
-
-fn role(attribute: &Attribute) -> Option<Role> {
-    let mut roles = Role::ALL.into_iter();
-    let known = roles.find(|(word, _)| attribute.path().is_ident(word));
-    known.map(|(_, role)| role)
-}
-
-pub(super) fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) -> Field {
-    let mut result = Field {
-        name: name.into(),
-        written: field.ty.clone(),
-        ty: array::element_type(&field.ty).clone(),
-        role: None,
-        list: List::default(),
-        context: String::new(),
-        origin: None,
-    };
-    for attribute in &field.attrs {
-        if attribute.path().is_ident("mechanism") {
-            faults.at(
-                attribute.path(),
-                "`#[mechanism(..)]` describes the struct, not a field",
-            );
-        }
-        let Some(role) = role(attribute) else {
-            continue;
-        };
-        if result.role.is_some() {
-            faults.at(
-                attribute.path(),
-                format!(
-                    "`{}` is described twice; one attribute says what it is",
-                    result.name
-                ),
-            );
-            continue;
-        }
-        result.role = Some((role, attribute.path().clone()));
-        if role.has_carrier() || role == Role::Param {
-            result.list = super::list(attribute, faults);
-        } else if !matches!(attribute.meta, syn::Meta::Path(_)) {
-            let word = attribute.path().to_token_stream();
-            let what = match role {
-                Role::Port => {
-                    "it stands above a `Body`, which is named where the assembly is a part"
-                }
-                _ => "it stands above a field of type `f64`, and it is 0 until the field is set",
-            };
-            faults.at(
-                attribute,
-                format!("`#[{word}]` takes nothing besides: {what}"),
-            );
-        }
-    }
-    result
 }
 
 /// The distinct types of described fields, as paths without generic arguments: bodies first, then
@@ -218,55 +153,20 @@ fn is_parameter(ty: &Type, input: &DeriveInput) -> bool {
         .any(|parameter| path.path.is_ident(&parameter.ident))
 }
 
-/// The path by which a type's carrier is called; `None` for a type that cannot be that of a joint
-/// or body.
-#[must_use]
-pub fn carrier_path(ty: &Type) -> Option<TokenStream> {
-    // What is surely neither: calling it as a macro would only hide our own sentence.
-    const OTHERS: [&str; 28] = [
-        "Arc",
-        "Box",
-        "Cell",
-        "HashMap",
-        "Option",
-        "PhantomData",
-        "Rc",
-        "RefCell",
-        "Result",
-        "String",
-        "Vec",
-        "bool",
-        "char",
-        "f32",
-        "f64",
-        "i128",
-        "i16",
-        "i32",
-        "i64",
-        "i8",
-        "isize",
-        "str",
-        "u128",
-        "u16",
-        "u32",
-        "u64",
-        "u8",
-        "usize",
-    ];
-    match ty {
-        Type::Group(group) => carrier_path(&group.elem),
-        Type::Paren(paren) => carrier_path(&paren.elem),
-        Type::Path(path) if path.qself.is_none() => {
-            let last = path.path.segments.last()?;
-            if OTHERS.iter().any(|other| last.ident == other) {
-                return None;
-            }
-            let mut path = path.path.clone();
-            for segment in &mut path.segments {
-                segment.arguments = syn::PathArguments::None;
-            }
-            Some(path.into_token_stream())
-        }
-        _ => None,
+impl MechanismSyntax {
+    /// The type of a field, or of its elements, as the compiler finds it from the mechanism.
+    #[must_use]
+    pub fn type_path(
+        &self,
+        ty: &Type,
+        origin: Option<Origin>,
+        facade: &TokenStream,
+    ) -> Option<TokenStream> {
+        let Some(Origin { part, number }) = origin else {
+            return carrier_path(ty);
+        };
+        let part = &self.parts[part];
+        let outer = self.type_path(&part.ty, part.origin, facade)?;
+        Some(quote!(<#outer as #facade::__private::FieldOf<#number>>::Type))
     }
 }

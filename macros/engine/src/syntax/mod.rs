@@ -1,6 +1,7 @@
 //! What was written: tokens with their spans, no meaning yet.
 
 pub mod array;
+mod attributes;
 pub mod depth;
 mod field;
 pub mod integer;

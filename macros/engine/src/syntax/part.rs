@@ -3,14 +3,12 @@
 //!
 //! What the names in its attributes mean stays with the part: they are looked up there first.
 
-use proc_macro2::TokenStream;
-use quote::quote;
 use syn::{DeriveInput, Type};
 
 use super::List;
 use super::array;
-use super::field::{Field, Origin, Role};
-use super::mechanism::{MechanismSyntax, carrier_path, named_fields, parse_field};
+use super::attributes::{named_fields, parse_field};
+use super::field::{Field, Origin, Role, carrier_path};
 use crate::diag::Faults;
 use crate::model::Name;
 
@@ -51,8 +49,15 @@ pub struct PartSyntax {
     pub is_sound: bool,
 }
 
+/// Fields, and the parts that some of them belong to.
+#[derive(Debug, Default)]
+pub(super) struct Expanded {
+    pub(super) fields: Vec<Field>,
+    pub(super) parts: Vec<PartSyntax>,
+}
+
 /// Adds a field, or in its place the fields of the assembly that it is.
-pub(super) fn expand(field: Field, assemblies: &Assemblies, result: &mut MechanismSyntax) {
+pub(super) fn expand(field: Field, assemblies: &Assemblies, result: &mut Expanded) {
     let Some((Role::Part, word)) = &field.role else {
         result.fields.push(field);
         return;
@@ -95,22 +100,4 @@ pub(super) fn expand(field: Field, assemblies: &Assemblies, result: &mut Mechani
         }
     }
     drop(known.into_tokens());
-}
-
-impl MechanismSyntax {
-    /// The type of a field, or of its elements, as the compiler finds it from the mechanism.
-    #[must_use]
-    pub fn type_path(
-        &self,
-        ty: &Type,
-        origin: Option<Origin>,
-        facade: &TokenStream,
-    ) -> Option<TokenStream> {
-        let Some(Origin { part, number }) = origin else {
-            return carrier_path(ty);
-        };
-        let part = &self.parts[part];
-        let outer = self.type_path(&part.ty, part.origin, facade)?;
-        Some(quote!(<#outer as #facade::__private::FieldOf<#number>>::Type))
-    }
 }
