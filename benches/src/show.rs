@@ -33,7 +33,7 @@ pub struct Scene {
     pub seconds: f64,
     /// The formulation and the integrator, and why they are taken.
     pub method: &'static str,
-    run: fn(&Self, f64) -> Result<Recorded, Box<dyn Error>>,
+    run: fn(&Self, f64) -> Outcome,
 }
 
 /// A film and what is said about it.
@@ -46,6 +46,9 @@ pub struct Recorded {
     /// "no warnings", or those of the run, a line each.
     pub warnings: String,
 }
+
+/// A film, or what stopped the run.
+type Outcome = Result<Recorded, Box<dyn Error>>;
 
 impl Scene {
     /// Runs the problem for so many seconds.
@@ -334,7 +337,7 @@ fn accurate<M>(
     film: Film<M>,
     seconds: f64,
     read: impl Fn(&mut Film<M>, &Sample<'_, f64, M>),
-) -> Result<Recorded, Box<dyn Error>>
+) -> Outcome
 where
     M: JointCoordinates,
     DormandPrince<f64>: Runs<f64, M, StandardLagrange, Relative>,
@@ -356,7 +359,7 @@ fn stiff<M>(
     film: Film<M>,
     seconds: f64,
     read: impl Fn(&mut Film<M>, &Sample<'_, f64, M>),
-) -> Result<Recorded, Box<dyn Error>>
+) -> Outcome
 where
     M: JointCoordinates,
     RadauIIA<f64>: Runs<f64, M, StandardLagrange, Relative>,
@@ -372,7 +375,7 @@ fn through_singular<M>(
     film: Film<M>,
     seconds: f64,
     read: impl Fn(&mut Film<M>, &Sample<'_, f64, M>),
-) -> Result<Recorded, Box<dyn Error>>
+) -> Outcome
 where
     M: Mechanism,
     DormandPrince<f64>: Runs<f64, M, Penalty<f64>, Absolute>,
@@ -393,7 +396,7 @@ fn recorded<M, F, I, C>(
     mut film: Film<M>,
     seconds: f64,
     read: impl Fn(&mut Film<M>, &Sample<'_, f64, M>),
-) -> Result<Recorded, Box<dyn Error>>
+) -> Outcome
 where
     M: Mechanism,
     F: Formulation<f64>,

@@ -1,5 +1,5 @@
-//! A digger whose bodies are described by shapes: a page, a moving picture, a glTF file and a sketch,
-//! in a folder:
+//! A digger whose bodies are described by shapes: a page, a moving picture, a glTF file and a
+//! sketch, in a folder:
 //!
 //! ```text
 //! cargo run --release -p holonom-film --example digger -- target/films
