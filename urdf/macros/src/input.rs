@@ -32,6 +32,10 @@ impl Parse for Input {
         let visibility = input.parse()?;
         input.parse::<Token![struct]>()?;
         let name: Ident = input.parse()?;
+        if !input.peek(Token![=]) {
+            let message = format!("`struct {name}` has no file; `= \"robot.urdf\"` is accepted");
+            return Err(input.error(message));
+        }
         input.parse::<Token![=]>()?;
         let file = input.parse()?;
         let fields = if input.peek(token::Brace) {

@@ -22,11 +22,11 @@ fn placed(call: &str) -> File {
 }
 
 fn structure(file: &File) -> &ItemStruct {
-    let structures = file.items.iter().filter_map(|item| match item {
+    let mut structures = file.items.iter().filter_map(|item| match item {
         Item::Struct(item) => Some(item),
         _ => None,
     });
-    structures.last().expect("a struct")
+    structures.next_back().expect("a struct")
 }
 
 fn text(tokens: impl ToTokens) -> String {
