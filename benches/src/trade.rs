@@ -13,8 +13,8 @@ use holonom_study::trade::{Posed, Subject};
 use crate::baselines::START;
 use crate::reference_kernel::Written;
 
-/// All of them with the feature `huge`, most with `large`, two without either: every one is compiled
-/// for two descriptions, four formulations and two number types.
+/// All of them with the feature `huge`, most with `large`, two without either: every one is
+/// compiled for two descriptions, four formulations and two number types.
 #[must_use]
 pub fn problems() -> Vec<Box<dyn Subject>> {
     vec![

@@ -174,10 +174,6 @@ pub mod joints;
 /// the implementation shows as well.
 pub use holonom_macros::Mechanism;
 
-/// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
-/// [`guide::parts`].
-pub use holonom_macros::Assembly;
-
 pub use constraints::projection::Projection;
 pub use error::{Fault, ParameterError, RunError, SimulationError};
 pub use formulation::{AugmentedLagrangian, Baumgarte, Formulation, Penalty, StandardLagrange};
@@ -218,13 +214,13 @@ pub mod prelude {
     pub use crate::forces::*;
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
-    pub use crate::mechanism::{InputsOf, StateOf};
+    pub use crate::mechanism::{Assembly, InputsOf, StateOf};
     pub use crate::run::Simulate;
     pub use crate::{
-        Assembly, AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation,
-        JointCoordinates, KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError,
-        Particle, Penalty, Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation,
-        SimulationError, StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
+        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
+        KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
+        Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation, SimulationError,
+        StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }
 

@@ -22,6 +22,9 @@ pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };
 pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint};
+/// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
+/// [`guide::parts`](crate::guide::parts).
+pub use holonom_macros::Assembly;
 pub use joint_kernels::{Freedom, JointCounter, JointMotion, JointParts, JointReport};
 pub use kernels::{
     Compliant, InputsOf, Pivot, Plain, Rigid, Stabilisation, Stabilised, StateOf, Terms,

@@ -71,7 +71,8 @@ impl Between<'_> {
         bodies.into_iter().collect()
     }
 
-    /// A body by its name, as the attribute of the field `by` writes it; `None` in it is the ground.
+    /// A body by its name, as the attribute of the field `by` writes it; `None` in it is the
+    /// ground.
     pub(super) fn body(
         &self,
         expr: &Expr,

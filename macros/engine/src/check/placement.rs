@@ -108,7 +108,8 @@ impl Placement {
         product.map(|row| numbers.linear(row, p, Number::ZERO))
     }
 
-    /// What a body looks like, in its axes. Every shape is symmetric to the plane across its z axis.
+    /// What a body looks like, in its axes. Every shape is symmetric to the plane across its z
+    /// axis.
     fn shape(&self, shape: &mut Shape) {
         let Some(axis) = self.mirror else { return };
         shape.centre[axis] = -shape.centre[axis];

@@ -3,7 +3,8 @@
 
 use super::Rod;
 use kinematics::joints::Revolute as Hinge;
-use kinematics::{Assembly, Body, Particle};
+use kinematics::mechanism::Assembly;
+use kinematics::{Body, Particle};
 
 /// A bob on a rod.
 #[derive(Assembly, Clone, Copy, Debug, PartialEq)]
