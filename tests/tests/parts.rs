@@ -347,3 +347,35 @@ mod axle {
         }
     }
 }
+
+/// Lengths of arrays by a constant, which counts in attributes too.
+mod lengths {
+    use super::*;
+
+    const LINKS: usize = 3;
+
+    #[derive(Mechanism)]
+    #[mechanism(gravity = [0.0, 0.0, -9.81], LINKS = 3)]
+    struct Chain {
+        #[body(mass = 1.0 / LINKS, inertia = [0.01, 0.01, 0.01], position = [(k + 0.5) / LINKS, 0.0, 0.0])]
+        links: [Body; LINKS],
+        #[joint(
+            between = [if k == 0 { ground } else { links[k - 1] }, links[k]], point = [k / LINKS, 0.0, 0.0], axis = [0.0, 1.0, 0.0]
+        )]
+        hinges: [Revolute; LINKS],
+        #[body(mass = 0.1, position = [1.0 / LINKS, 0.0, LINKS])]
+        bead: Particle,
+        #[joint(between = [ground, bead], head = [0.0, 0.0, LINKS], tail = [1.0 / LINKS, 0.0, LINKS])]
+        wire: Distance,
+    }
+
+    #[test]
+    fn a_constant_counts_elements() {
+        let (chain, h) = (Chain::default(), Chain::HANDLES);
+        assert_eq!(h.links.len(), LINKS);
+        let state = chain.described_state::<f64>().unwrap();
+        let view = chain.view(0.0, &state).unwrap();
+        assert_eq!(view.pose(h.links[2]).position.x, 2.5 / 3.0);
+        assert_eq!(view.pose(h.bead).position.z, 3.0);
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Expr, ExprLit, Lit};
@@ -18,7 +18,7 @@ use crate::diag::{Faults, code, did_you_mean};
 use crate::model::{
     Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
 };
-use crate::syntax::array::is_index;
+use crate::syntax::array::{is_constant, is_index};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
 use crate::syntax::ungroup;
 
@@ -67,9 +67,15 @@ pub fn check_assembly(
     facade: &TokenStream,
     faults: &mut Faults,
 ) -> Option<Model> {
-    if let [first, ..] = &syntax.list.pairs[..] {
+    let is_length = |key: &Ident| syntax.lengths.iter().any(|(length, _)| length == key);
+    let mut others = syntax
+        .list
+        .pairs
+        .iter()
+        .filter(|pair| !is_length(&pair.key));
+    if let Some(other) = others.next() {
         faults.at(
-            &first.key,
+            &other.key,
             format!(
                 "`{}` is an assembly: what `#[mechanism(..)]` says is said of the mechanism that it is a part of",
                 syntax.name
@@ -240,6 +246,7 @@ fn described<'a>(
         symbols,
         independence: Independence::default(),
         coordinates,
+        lengths: syntax.lengths.clone(),
     };
     Some(Checked { model, wish })
 }
@@ -280,6 +287,12 @@ fn attributes<'a>(
         .optional("coordinates", faults)
         .and_then(|expr| choice("coordinates", expr, &Coordinates::ALL, faults));
     kinds::read(pairs.optional(kinds::KEY, faults), faults);
+    // They are read with the arrays.
+    for pair in &syntax.list.pairs {
+        if is_constant(&pair.key) && pairs.has(&pair.key.to_string()) {
+            pairs.known_elsewhere(&pair.key.to_string(), faults);
+        }
+    }
     pairs.finish(faults);
     Attributes {
         gravity,

@@ -89,6 +89,12 @@ impl<'a> Pairs<'a> {
         None
     }
 
+    /// A key that was read before; what it takes is not listed.
+    pub fn known_elsewhere(&mut self, key: &str, faults: &mut Faults) {
+        self.optional(key, faults);
+        self.known.pop();
+    }
+
     /// A key without a value.
     pub fn flag(&mut self, key: &str, faults: &mut Faults) -> bool {
         let pair = self.take(key, faults);

@@ -5,7 +5,7 @@ use quote::quote;
 use syn::{Attribute, Data, DeriveInput, Field};
 
 use super::construction::of_assembly;
-use super::parameters::read;
+use super::parameters::{lengths, read};
 use crate::model::Model;
 use crate::syntax::array::element_type;
 use crate::syntax::mechanism::carrier_path;
@@ -63,7 +63,7 @@ pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> 
         quote!(#number => #value,)
     });
     let used = fields.iter().filter_map(|field| field.ident.as_ref());
-    let construction = of_assembly(model);
+    let (lengths, construction) = (lengths(model), of_assembly(model));
     quote! {
         #[allow(
             clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, missing_docs, unreachable_pub, unused_qualifications
@@ -88,6 +88,7 @@ pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> 
             }
 
             #(#types)*
+            #lengths
 
             #construction
         };

@@ -34,6 +34,7 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
             const _: () = __holonom_assert!(#constant > 0.0_f64, #message);
         });
     }
+    tokens.extend(lengths(model));
     let mut known = HashSet::new();
     for part in &model.parts {
         let (path, fingerprint) = (&part.path, Literal::u64_suffixed(part.fingerprint));
@@ -65,6 +66,15 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
         });
     }
     tokens
+}
+
+/// Constants have the values that the attribute says.
+pub(super) fn lengths(model: &Model) -> TokenStream {
+    let lengths = model.lengths.iter().map(|(name, length)| {
+        let message = format!("`{name}` is not {length}, as `#[mechanism({name} = {length})]` says");
+        quote::quote_spanned!(name.span()=> const _: () = ::core::assert!(#name == #length, #message);)
+    });
+    lengths.collect()
 }
 
 fn positive_symbols(model: &Model) -> impl Iterator<Item = &Symbol> {

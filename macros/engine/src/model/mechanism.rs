@@ -221,6 +221,8 @@ pub struct Model {
     pub independence: Independence,
     /// By what the bodies are described.
     pub coordinates: Coordinates,
+    /// Constants by their names that are said to have these values.
+    pub lengths: Vec<(Ident, usize)>,
 }
 
 impl Model {

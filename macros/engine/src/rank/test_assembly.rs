@@ -177,6 +177,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         joints: vec![used],
         forces: Vec::new(),
         parts: Vec::new(),
+        lengths: Vec::new(),
         values: Vec::new(),
         definitions: vec![joint.clone()],
         symbols: Vec::new(),

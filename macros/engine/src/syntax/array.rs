@@ -38,16 +38,32 @@ pub fn element_type(ty: &Type) -> &Type {
     array(ty).map_or(ty, |array| element_type(&array.elem))
 }
 
+/// Lengths by names of constants, `#[mechanism(N = 16)]`.
+pub type Lengths = Vec<(Ident, usize)>;
+
 /// The elements of a field as fields, and whether their number is known; where it was refused, the
 /// first stands for all.
-pub(super) fn elements(field: Field, faults: &mut Faults) -> (Vec<Field>, bool) {
+pub(super) fn elements(field: Field, lengths: &Lengths, faults: &mut Faults) -> (Vec<Field>, bool) {
     let Some(written) = array(&field.written) else {
-        return (vec![field], true);
+        let list = if lengths.is_empty() {
+            field.list
+        } else {
+            let words = Words {
+                index: None,
+                lengths,
+            };
+            placed_list(&field.list, words, faults)
+        };
+        return (vec![Field { list, ..field }], true);
     };
-    let length = length(&field, written, faults);
+    let length = length(&field, written, lengths, faults);
     let elements = (0..length.unwrap_or(1)).map(|index| {
         let name = Name::element(field.name.field().clone(), index);
-        let list = faults.within(&name, |faults| placed_list(&field.list, index, faults));
+        let words = Words {
+            index: Some(index),
+            lengths,
+        };
+        let list = faults.within(&name, |faults| placed_list(&field.list, words, faults));
         Field {
             name,
             list,
@@ -61,7 +77,31 @@ pub(super) fn elements(field: Field, faults: &mut Faults) -> (Vec<Field>, bool) 
     (elements.collect(), length.is_some())
 }
 
-fn length(field: &Field, array: &TypeArray, faults: &mut Faults) -> Option<usize> {
+/// What names stand for.
+#[derive(Clone, Copy)]
+struct Words<'a> {
+    /// The number of the element, in an array.
+    index: Option<usize>,
+    /// Constants whose values are given.
+    lengths: &'a Lengths,
+}
+
+impl Words<'_> {
+    fn value(self, name: &Ident) -> Option<usize> {
+        if is_index(name) {
+            return self.index;
+        }
+        let known = self.lengths.iter().find(|(known, _)| known == name);
+        known.map(|(_, value)| *value)
+    }
+}
+
+fn length(
+    field: &Field,
+    array: &TypeArray,
+    lengths: &Lengths,
+    faults: &mut Faults,
+) -> Option<usize> {
     let name = &field.name;
     if let Some(inner) = self::array(&array.elem) {
         let (outer, inner) = (code(&array.len), code(&inner.len));
@@ -74,36 +114,84 @@ fn length(field: &Field, array: &TypeArray, faults: &mut Faults) -> Option<usize
         );
         return None;
     }
-    let literal = match ungroup(&array.len) {
+    let named = |path: &syn::ExprPath| {
+        let name = path.path.get_ident()?;
+        let known = lengths.iter().find(|(known, _)| known == name);
+        known.map(|(_, length)| length.to_string())
+    };
+    let (written, length) = match ungroup(&array.len) {
         Expr::Lit(syn::ExprLit {
             lit: syn::Lit::Int(literal),
             ..
-        }) => literal,
+        }) => (literal.to_string(), literal.base10_parse::<usize>().ok()),
+        Expr::Path(path) if let Some(length) = named(path) => {
+            let parsed = length.parse().ok();
+            (length, parsed)
+        }
         other => {
             let found = code(other);
+            let advice = match other {
+                Expr::Path(path) if path.path.get_ident().is_some_and(is_constant) => {
+                    format!(", or say it in `#[mechanism({found} = 16)]`")
+                }
+                _ => String::new(),
+            };
             faults.at(
                 &array.len,
-                format!("the macro cannot see how many elements `{found}` are; write the length of `{name}` in figures, as in `[{}; 16]`", code(&field.ty)),
+                format!("the macro cannot see how many elements `{found}` are; write the length of `{name}` in figures, as in `[{}; 16]`{advice}", code(&field.ty)),
             );
             return None;
         }
     };
-    match literal.base10_parse::<usize>() {
-        Ok(length) if (1..=LONGEST).contains(&length) => Some(length),
+    match length {
+        Some(length) if (1..=LONGEST).contains(&length) => Some(length),
         _ => {
             faults.at(
                 &array.len,
-                format!("`{name}` has {literal} elements; an array has from 1 to {LONGEST}"),
+                format!("`{name}` has {written} elements; an array has from 1 to {LONGEST}"),
             );
             None
         }
     }
 }
 
-fn placed_list(list: &List, index: usize, faults: &mut Faults) -> List {
+/// Whether a name is that of a constant: `N`, `LEGS`.
+#[must_use]
+pub fn is_constant(name: &Ident) -> bool {
+    let text = name.to_string();
+    text.starts_with(|first: char| first.is_ascii_uppercase())
+        && text
+            .chars()
+            .all(|c| matches!(c, 'A'..='Z' | '0'..='9' | '_'))
+}
+
+/// The lengths that the list of `#[mechanism(..)]` gives.
+pub(super) fn lengths(list: &List, faults: &mut Faults) -> Lengths {
+    let mut lengths = Lengths::new();
+    for KeyValue { key, value } in list.pairs.iter().filter(|pair| is_constant(&pair.key)) {
+        let Value::Expr(expr) = value else { continue };
+        let length = match ungroup(expr) {
+            Expr::Lit(syn::ExprLit {
+                lit: syn::Lit::Int(literal),
+                ..
+            }) => literal.base10_parse().ok(),
+            _ => None,
+        };
+        match length {
+            Some(length) => lengths.push((key.clone(), length)),
+            None => faults.at(
+                expr,
+                format!("`{key}` takes the value of the constant in figures, as in `{key} = 16`"),
+            ),
+        }
+    }
+    lengths
+}
+
+fn placed_list(list: &List, words: Words<'_>, faults: &mut Faults) -> List {
     let pairs = list.pairs.iter().map(|KeyValue { key, value }| {
         let value = match value {
-            Value::Expr(expr) => placed(expr, index, faults)
+            Value::Expr(expr) => placed(expr, words, faults)
                 .map_or(Value::Faulty, |placed| Value::Expr(Box::new(placed))),
             other => other.clone(),
         };
@@ -118,15 +206,18 @@ fn placed_list(list: &List, index: usize, faults: &mut Faults) -> List {
 
 /// An expression for one element. What is no expression of the language is left as it is; it is
 /// refused where it is read.
-fn placed(expr: &Expr, index: usize, faults: &mut Faults) -> Option<Expr> {
+fn placed(expr: &Expr, words: Words<'_>, faults: &mut Faults) -> Option<Expr> {
     let mut result = expr.clone();
     let mut inner = |expr: &mut Expr| -> Option<()> {
-        *expr = placed(expr, index, faults)?;
+        *expr = placed(expr, words, faults)?;
         Some(())
     };
     match &mut result {
-        Expr::Path(path) if path.path.is_ident(INDEX) => {
-            return Some(literal(index, path.span()));
+        Expr::Path(path) => {
+            let value = path.path.get_ident().and_then(|name| words.value(name));
+            if let Some(value) = value {
+                return Some(literal(value, path.span()));
+            }
         }
         Expr::Group(group) => inner(&mut group.expr)?,
         Expr::Paren(paren) => inner(&mut paren.expr)?,
@@ -134,7 +225,9 @@ fn placed(expr: &Expr, index: usize, faults: &mut Faults) -> Option<Expr> {
         Expr::Binary(binary) => {
             let operands = [&mut binary.left, &mut binary.right].into_iter();
             every(operands.map(|operand| inner(operand)))?;
-            if let BinOp::Rem(_) = binary.op {
+            if words.index.is_some()
+                && let BinOp::Rem(_) = binary.op
+            {
                 return remainder(&result, faults);
             }
         }
@@ -154,11 +247,11 @@ fn placed(expr: &Expr, index: usize, faults: &mut Faults) -> Option<Expr> {
                 inner(&mut field.base)?;
             }
         }
-        Expr::If(choice) => {
-            let chosen = chosen(choice, index, faults)?;
-            return placed(chosen, index, faults);
+        Expr::If(choice) if words.index.is_some() => {
+            let chosen = chosen(choice, words, faults)?;
+            return placed(chosen, words, faults);
         }
-        Expr::Cast(cast) => {
+        Expr::Cast(cast) if words.index.is_some() => {
             let number = code(&cast.expr);
             let message = format!(
                 "numbers are not converted here, and integers are numbers; write `{number}`"
@@ -198,9 +291,9 @@ fn remainder(expr: &Expr, faults: &mut Faults) -> Option<Expr> {
 }
 
 /// What an `if` leaves for one element.
-fn chosen<'a>(choice: &'a ExprIf, index: usize, faults: &mut Faults) -> Option<&'a Expr> {
+fn chosen<'a>(choice: &'a ExprIf, words: Words<'_>, faults: &mut Faults) -> Option<&'a Expr> {
     let condition =
-        placed(&choice.cond, index, faults).and_then(|expr| faults.accept(condition(&expr)));
+        placed(&choice.cond, words, faults).and_then(|expr| faults.accept(condition(&expr)));
     let then = only(&choice.then_branch, faults);
     let Some((_, otherwise)) = &choice.else_branch else {
         faults.at(

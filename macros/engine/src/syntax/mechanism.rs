@@ -4,6 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::{Data, DeriveInput, Fields, Type};
 
+use super::array::Lengths;
 use super::attributes::{named_fields, parse_field, role};
 pub use super::field::{Field, Origin, Role, carrier_path};
 use super::part::Expanded;
@@ -24,6 +25,8 @@ pub struct MechanismSyntax {
     pub fields: Vec<Field>,
     /// Its parts, each before those in it.
     pub parts: Vec<PartSyntax>,
+    /// The lengths of arrays that are given by the names of constants.
+    pub lengths: Lengths,
     /// Arrays of a length that was refused: only the first element is there, and nobody knows which
     /// others are meant.
     pub unmeasured: Vec<Ident>,
@@ -40,6 +43,7 @@ pub fn parse(input: &DeriveInput, assemblies: &Assemblies, faults: &mut Faults) 
         list: List::default(),
         fields: Vec::new(),
         parts: Vec::new(),
+        lengths: Lengths::new(),
         unmeasured: Vec::new(),
         is_plain: true,
     };
@@ -75,11 +79,12 @@ pub fn parse(input: &DeriveInput, assemblies: &Assemblies, faults: &mut Faults) 
             );
         }
     }
+    result.lengths = array::lengths(&result.list, faults);
     let mut expanded = Expanded::default();
     for field in named_fields(input) {
         if let Some(name) = field.ident.clone() {
             let written = parse_field(name.clone(), field, faults);
-            let (elements, is_measured) = array::elements(written, faults);
+            let (elements, is_measured) = array::elements(written, &result.lengths, faults);
             for element in elements {
                 part::expand(element, assemblies, &mut expanded);
             }

@@ -84,6 +84,13 @@ pub(super) fn expand(field: Field, assemblies: &Assemblies, result: &mut Expande
     });
     // They are reported where the assembly is described.
     let mut known = Faults::new();
+    let mut list = List::default();
+    for attribute in &assembly.input.attrs {
+        if attribute.path().is_ident("mechanism") {
+            list.pairs.extend(super::list(attribute, &mut known).pairs);
+        }
+    }
+    let lengths = array::lengths(&list, &mut known);
     for (number, written) in named_fields(&assembly.input).enumerate() {
         let Some(name) = written.ident.clone() else {
             continue;
@@ -91,7 +98,7 @@ pub(super) fn expand(field: Field, assemblies: &Assemblies, result: &mut Expande
         let mut inner = parse_field(name, written, &mut known);
         inner.context = format!("{key}/");
         inner.origin = Some(Origin { part, number });
-        for mut element in array::elements(inner, &mut known).0 {
+        for mut element in array::elements(inner, &lengths, &mut known).0 {
             element.name = element.name.within(&field.name);
             match element.role {
                 Some((Role::Port, _)) => result.parts[part].ports.push(element.name),
