@@ -12,7 +12,7 @@ pub struct Swings {
     #[joint(between = [ground, post], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     slide: Prismatic,
     #[part(post = post, mirror = if k == 0 { none } else { x }, at = [0.2 * (1 - 2 * k), 0.0, 0.0])]
-    swings: [Swing; 2],
+    pair: [Swing; 2],
 }
 
 /// One of them by hand.

@@ -188,7 +188,7 @@ fn parts_of_another_crate_are_like_what_is_written_by_hand() {
     let h = Swings::HANDLES;
     let _ = Simulation::new(&parts, StandardLagrange, Rk4::every(0.01))
         .run(0.0..=0.5, every(0.5), |sample| {
-            let [right, left] = h.swings.map(|swing| sample.angle(swing.hinge));
+            let [right, left] = h.pair.map(|swing| sample.angle(swing.hinge));
             courses[0] = [sample.displacement(h.slide), right, left];
         })
         .unwrap();
