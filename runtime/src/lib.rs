@@ -214,7 +214,7 @@ pub mod prelude {
     pub use crate::forces::*;
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
-    pub use crate::mechanism::{Assembly, InputsOf, StateOf};
+    pub use crate::mechanism::{Assembly, InputsOf, Point, StateOf};
     pub use crate::run::Simulate;
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,

@@ -10,8 +10,8 @@ pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
     HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointReport, Kernel, Marker,
-    MarkerKind, Operations, Pivot, Rank, RedundantRow, Relative, Shape, ShapeKind, Stabilisation,
-    Terms,
+    MarkerKind, Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape,
+    ShapeKind, Stabilisation, Terms,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -370,6 +370,8 @@ macro_rules! __stub_mechanism {
     (@handle joint $path:ty) => { $crate::JointHandle<__M, $path> };
     (@handle part $part:ty) => { $part };
     (@value part $part:ty) => { <$part>::VALUE };
+    (@handle point) => { $crate::__private::PointHandle<__M> };
+    (@value point) => { $crate::__private::PointHandle::new(0) };
     (@value body) => { $crate::BodyHandle::new(0) };
     (@value force $($path:ty)?) => { $crate::ForceHandle::new(0) };
     (@value joint $($path:ty)?) => { $crate::JointHandle::new(0) };
@@ -419,6 +421,7 @@ macro_rules! __stub_mechanism {
                     joints: &[],
                     forces: &[],
                     markers: &[],
+                    points: &[],
                     shapes: &[],
                     carriers: &[],
                     blocks: &[],

@@ -25,6 +25,13 @@ pub(crate) fn cross<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     [a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1]
 }
 
+/// `a + b`.
+pub(crate) fn plus<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
+    let [a1, a2, a3] = *a;
+    let [b1, b2, b3] = *b;
+    [a1 + b1, a2 + b2, a3 + b3]
+}
+
 /// `a - b`.
 pub(crate) fn minus<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     let [a1, a2, a3] = *a;

@@ -21,13 +21,6 @@ type Moving<S> = Forward<S, 1>;
 /// ([`Evaluation::rates`](crate::mechanism::Evaluation::rates)). A [`Sample`](crate::Sample) has
 /// them by itself.
 impl<S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'_, S, M, K> {
-    /// The acceleration of the centre of mass (m/s^2, global).
-    #[must_use]
-    pub fn acceleration(&self, rates: &M::State<S>, body: BodyHandle<M>) -> Vector3<S> {
-        let place = body.info().map_or(usize::MAX, |info| info.velocity);
-        Vector3::from(read(rates.velocities().as_slice(), place))
-    }
-
     /// The angular acceleration (rad/s^2) along the user's body axes: the rate of
     /// [`View::angular_velocity`]. Zero for a particle.
     #[must_use]

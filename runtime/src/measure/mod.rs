@@ -9,6 +9,7 @@ pub(crate) mod angles;
 pub(crate) mod load;
 #[cfg(feature = "serde")]
 pub(crate) mod named_state;
+mod points;
 pub(crate) mod reaction;
 #[cfg(feature = "mint")]
 mod to_mint;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::math::quaternion::rotate;
 use crate::math::scalar::Scalar;
-use crate::math::vec3::{cross, minus, read};
+use crate::math::vec3::{cross, minus, plus, read};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::{Array, StateParts};
@@ -146,10 +146,4 @@ pub(crate) fn in_global_axes<S: Scalar, M: Mechanism>(
     components: [S; 3],
 ) -> [S; 3] {
     rotate(&orientation::<S, M>(state, body), &components)
-}
-
-fn plus<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
-    let [a1, a2, a3] = *a;
-    let [b1, b2, b3] = *b;
-    [a1 + b1, a2 + b2, a3 + b3]
 }

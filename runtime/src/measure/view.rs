@@ -117,12 +117,6 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         M::pose(self.state, body)
     }
 
-    /// The velocity of the centre of mass (m/s, global).
-    #[must_use]
-    pub fn velocity(&self, body: BodyHandle<M>) -> Vector3<S> {
-        M::velocity(self.state, body)
-    }
-
     /// The angular velocity (rad/s) along the user's body axes.
     #[must_use]
     pub fn angular_velocity(&self, body: BodyHandle<M>) -> Vector3<S> {
@@ -397,7 +391,7 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     }
 
     /// The state as the kernels of the saddle system read it.
-    fn state_of_kernels(&self) -> M::State<S> {
+    pub(super) fn state_of_kernels(&self) -> M::State<S> {
         with_unit_orientations::<S, M>(self.state)
     }
 }

@@ -262,6 +262,12 @@ pub trait Mechanism: Sized + 'static {
         [S::zero(); 3]
     }
 
+    /// A named point by its place in [`Report::points`], from the centre of mass (m) in principal
+    /// axes of its body; global on the ground. Zeros for a point that is not there.
+    fn named_point<S: Scalar>(_constants: &Self::Constants<S>, _point: usize) -> [S; 3] {
+        [S::zero(); 3]
+    }
+
     /// The sizes (m) of a shape by its place in [`Report::shapes`], as
     /// [`ShapeKind`](crate::mechanism::ShapeKind) lists them; zeros behind them, and for a shape
     /// that is not there.

@@ -14,6 +14,7 @@ pub(crate) mod joint_kernels;
 pub(crate) mod joint_report;
 pub(crate) mod kernels;
 pub(crate) mod orientations;
+pub(crate) mod point;
 pub(crate) mod readout;
 pub(crate) mod relative;
 pub(crate) mod report;
@@ -31,8 +32,9 @@ pub use kernels::{
 };
 #[doc(hidden)]
 pub use kernels::{Normalised, Orientation};
+pub use point::{Located, Point, PointHandle};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{
     Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
-    Marker, MarkerKind, Operations, Rank, RedundantRow, Shape, ShapeKind,
+    Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind,
 };

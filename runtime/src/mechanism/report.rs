@@ -15,6 +15,8 @@ pub struct Report {
     /// The points and directions that joints and forces name, fixed on their bodies: see
     /// [`crate::Mechanism::marker`].
     pub markers: &'static [Marker],
+    /// The named points in the order of the fields.
+    pub points: &'static [PointInfo],
     /// What bodies look like that are described by shapes, body by body: see
     /// [`crate::Mechanism::shape`].
     pub shapes: &'static [Shape],
@@ -261,6 +263,15 @@ pub struct Marker {
     pub name: &'static str,
     /// Point or direction.
     pub kind: MarkerKind,
+}
+
+/// A named point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointInfo {
+    /// The name of the field.
+    pub name: &'static str,
+    /// The body that it is fixed on; `None` for the ground.
+    pub body: Option<usize>,
 }
 
 /// A joint or a force by its place in a [`Report`].

@@ -14,6 +14,7 @@ use crate::measure::view::View;
 use crate::mechanism::coordinates::Evaluation;
 use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::point::Located;
 use crate::state::vector::StateParts;
 
 /// A state at a reporting time: a [`View`], and what takes an evaluation.
@@ -139,12 +140,12 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
         Ok(*self.evaluation()?.rates.velocities())
     }
 
-    /// The acceleration of the centre of mass of a body (m/s^2, global).
+    /// The acceleration of a body's centre of mass or of a named point (m/s^2, global).
     ///
     /// # Errors
     /// The fault of the evaluation.
-    pub fn acceleration(&self, body: BodyHandle<M>) -> Result<Vector3<S>, Fault> {
-        Ok(self.view.acceleration(&self.evaluation()?.rates, body))
+    pub fn acceleration(&self, at: impl Located<M>) -> Result<Vector3<S>, Fault> {
+        Ok(self.view.acceleration(&self.evaluation()?.rates, at))
     }
 
     /// The angular acceleration of a body (rad/s^2) along its own axes, as the user gave them.

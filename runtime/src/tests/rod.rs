@@ -99,6 +99,7 @@ impl Mechanism for Rod {
         }],
         forces: &[],
         markers: &[],
+        points: &[],
         shapes: &[],
         carriers: &[Carrier {
             body: None,

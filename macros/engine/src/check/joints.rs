@@ -12,11 +12,12 @@ use super::mirror::pseudovectors;
 use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use super::parts::Part;
+use super::points::position_of;
 use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Number,
-    ParameterKind, Term,
+    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent,
+    NamedPoint, Number, ParameterKind, Term,
 };
 use crate::syntax::array::is_index;
 use crate::syntax::mechanism::Field;
@@ -34,6 +35,7 @@ pub(super) struct JointChecker<'a> {
     pub(super) part: Option<&'a Part<'a>>,
     /// What joints may name, and the bodies that they are.
     pub(super) between: &'a Between<'a>,
+    pub(super) points: &'a [Option<NamedPoint>],
     pub(super) bodies: &'a [Option<Body>],
     pub(super) definitions: &'a [ElementDef],
     /// Which kernels the mechanism has.
@@ -140,7 +142,7 @@ impl JointChecker<'_> {
             numbers.attribute.clone_from(&key);
             if parameter.default.is_some() && !pairs.has(&key) {
                 pairs.optional(&key, faults);
-                bindings.push(Some(Binding::Default));
+                bindings.push(Some((Binding::Default, false)));
                 continue;
             }
             let expr = pairs.required(&key, parameter.kind.example(), faults);
@@ -164,7 +166,7 @@ impl JointChecker<'_> {
                     numbers.words = std::iter::once("time".to_string()).chain(words).collect();
                     let law = LawReader { arguments, numbers }.read(expr, faults);
                     numbers.words.clear();
-                    return law.map(Binding::Law);
+                    return law.map(|law| (Binding::Law(law), false));
                 }
                 self.binding(
                     expr,
@@ -179,7 +181,7 @@ impl JointChecker<'_> {
         }
         pairs.finish(faults);
         let bodies = bodies.filter(|bodies| bodies.len() == joint.bodies.len())?;
-        let bindings: Vec<Binding> = bindings.into_iter().collect::<Option<_>>()?;
+        let bindings: Vec<(Binding, bool)> = bindings.into_iter().collect::<Option<_>>()?;
         let bindings = self.placed(joint, &bodies, bindings, numbers, faults)?;
         self.particles(joint, &bodies, &bindings, faults)?;
         let law = |parameter: usize, arguments: &[Extent]| match &bindings[parameter] {
@@ -258,12 +260,12 @@ impl JointChecker<'_> {
         &self,
         joint: &ElementDef,
         bodies: &[Option<usize>],
-        bindings: Vec<Binding>,
+        bindings: Vec<(Binding, bool)>,
         numbers: &mut Numbers<'_>,
         faults: &mut Faults,
     ) -> Option<Vec<Binding>> {
         let Some(part) = self.part else {
-            return Some(bindings);
+            return Some(bindings.into_iter().map(|(binding, _)| binding).collect());
         };
         let placement = part.placement.as_ref()?;
         let pseudovectors = match placement.mirror {
@@ -281,7 +283,10 @@ impl JointChecker<'_> {
             None => vec![false; joint.parameters.len()],
         };
         let parameters = joint.parameters.iter().zip(pseudovectors);
-        let placed = parameters.zip(bindings).map(|((parameter, odd), binding)| {
+        let placed = parameters.zip(bindings).map(|((parameter, odd), (binding, is_placed))| {
+            if is_placed {
+                return Some(binding);
+            }
             numbers.attribute = parameter.name.to_string();
             let own = |body: &Option<usize>| {
                 let body = body.and_then(|body| self.bodies[body].as_ref());
@@ -304,6 +309,7 @@ impl JointChecker<'_> {
         placed.collect()
     }
 
+    /// What a parameter is, and whether that is already seen from the mechanism.
     fn binding(
         &self,
         expr: &Expr,
@@ -312,7 +318,7 @@ impl JointChecker<'_> {
         joint: &ElementDef,
         numbers: &mut Numbers<'_>,
         faults: &mut Faults,
-    ) -> Option<Binding> {
+    ) -> Option<(Binding, bool)> {
         if !kind.is_vector() {
             if elements(expr).is_some() {
                 faults.at(
@@ -321,7 +327,19 @@ impl JointChecker<'_> {
                 );
                 return None;
             }
-            return numbers.scalar(expr, faults).map(Binding::Scalar);
+            let number = numbers.scalar(expr, faults);
+            return number.map(|number| (Binding::Scalar(number), false));
+        }
+        if let Some(position) = position_of(expr, self.points, self.field, faults) {
+            if kind == ParameterKind::Point {
+                return position.map(|position| (Binding::Global(position), true));
+            }
+            let (key, found) = (&numbers.attribute, code(expr));
+            faults.at(
+                expr,
+                format!("`{found}` is a point; `{key}` takes {}", kind.example()),
+            );
+            return None;
         }
         if let Expr::Call(call) = ungroup(expr)
             && matches!(ungroup(&call.func), Expr::Path(path) if path.path.is_ident("local"))
@@ -343,13 +361,11 @@ impl JointChecker<'_> {
                 );
                 return None;
             }
-            return copies
-                .into_iter()
-                .collect::<Option<_>>()
-                .map(Binding::Local);
+            let copies = copies.into_iter().collect::<Option<_>>();
+            return copies.map(|copies| (Binding::Local(copies), false));
         }
-        self.vector(expr, kind, numbers, faults)
-            .map(Binding::Global)
+        let vector = self.vector(expr, kind, numbers, faults);
+        vector.map(|vector| (Binding::Global(vector), false))
     }
 
     fn vector(

@@ -13,7 +13,7 @@ use super::definition::{Definition, Definitions, definition};
 use super::joints::JointChecker;
 use super::number::Numbers;
 use super::pairs::Pairs;
-use super::{kinds, parts, redundant};
+use super::{kinds, parts, points, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::{
     Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
@@ -152,6 +152,7 @@ fn described<'a>(
         unmeasured: &syntax.unmeasured,
     };
     parts::ports(&parts, &mut between, faults);
+    let points = points::points(syntax, &parts, &between, &bodies, &mut numbers, faults);
     let mut joints = Vec::new();
     let mut forces = Vec::new();
     for field in &syntax.fields {
@@ -160,7 +161,7 @@ fn described<'a>(
             faults.at_name(
                 &field.name,
                 format!(
-                    "field `{}` is not described; write `#[body(..)]`, `#[joint(..)]`, `#[force(..)]`, `#[param]` or \
+                    "field `{}` is not described; write `#[body(..)]`, `#[joint(..)]`, `#[force(..)]`, `#[point(..)]`, `#[param]` or \
                      `#[input]` above it",
                     field.name.field()
                 ),
@@ -175,7 +176,7 @@ fn described<'a>(
                 refuse_part(field, faults);
                 continue;
             }
-            Role::Body | Role::Port | Role::Param | Role::Input => continue,
+            Role::Body | Role::Port | Role::Point | Role::Param | Role::Input => continue,
         };
         let checker = JointChecker {
             field,
@@ -184,6 +185,7 @@ fn described<'a>(
             path: syntax.type_path(&field.ty, field.origin, facade),
             part: part_of(field),
             between: &between,
+            points: &points,
             bodies: &bodies,
             definitions: &definitions,
             coordinates,
@@ -232,6 +234,7 @@ fn described<'a>(
     let bodies: Vec<_> = bodies.into_iter().collect::<Option<_>>()?;
     let joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
     let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
+    let points: Vec<_> = points.into_iter().collect::<Option<_>>()?;
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
     let model = Model {
@@ -240,6 +243,7 @@ fn described<'a>(
         bodies,
         joints,
         forces,
+        points,
         parts,
         values,
         definitions,

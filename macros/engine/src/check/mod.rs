@@ -17,6 +17,7 @@
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
 //!   all names are known (`syntax/integer.rs`). See `docs/decisions/003-arrays-of-fields.md`.
 //! - `between.rs`: bodies by name, of the mechanism and of its parts.
+//! - `points.rs`: named points.
 //! - `parts.rs`, `placement.rs`, `mirror.rs`: where parts are, and what that makes of what is in
 //!   them. See `docs/decisions/022-assemblies.md`.
 //! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
@@ -44,6 +45,7 @@ pub mod number;
 pub mod pairs;
 mod parts;
 mod placement;
+mod points;
 mod redundant;
 mod values;
 

@@ -197,7 +197,8 @@ fn given(model: &Model) -> Vec<Given> {
 pub(super) fn parts(model: &Model) -> Vec<(&Ident, Option<usize>)> {
     let elements = model.elements().map(|element| &element.name);
     let bodies = model.bodies.iter().map(|body| &body.name);
-    let own = bodies.chain(elements);
+    let points = model.points.iter().map(|point| &point.name);
+    let own = bodies.chain(elements).chain(points);
     let parts = model.parts.iter().map(|part| &part.name);
     let parts = parts.filter(|part| !has_parameters(model, part));
     let own = own.chain(parts).filter(|name| name.parts().is_empty());

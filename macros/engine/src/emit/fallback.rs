@@ -28,7 +28,7 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
         .collect();
     let has_handle = |field: &&&Field| {
         let role = field.role.as_ref().map(|(role, _)| *role);
-        role.is_none_or(|role| role.has_carrier() && role != Role::Part)
+        role.is_none_or(|role| matches!(role, Role::Body | Role::Joint | Role::Force | Role::Point))
     };
     let handles = own.iter().filter(has_handle).map(|field| {
         let (name, handle) = (&field.name, handle(syntax, field, types, facade));
@@ -116,7 +116,8 @@ fn parts(
 ) -> (TokenStream, Vec<(Ident, TokenStream)>) {
     let fields = syntax.fields.iter().filter(|field| {
         let role = field.role.as_ref().map(|(role, _)| *role);
-        field.origin.is_some() && role.is_some_and(Role::has_carrier)
+        let has_handle = |role: Role| role.has_carrier() || role == Role::Point;
+        field.origin.is_some() && role.is_some_and(has_handle)
     });
     let all = fields.map(|field| (&field.name, handle(syntax, field, types, facade)));
     let mut declared = TokenStream::new();
@@ -192,6 +193,7 @@ fn handle(
     facade: &TokenStream,
 ) -> TokenStream {
     match (definition(field, types), &field.role) {
+        (_, Some((Role::Point, _))) => quote!(point),
         (Some(Definition::Body(_)), _) | (None, Some((Role::Body, _))) => quote!(body),
         (Some(Definition::Element(_) | Definition::Faulty | Definition::Assembly), role) => {
             let path = syntax.type_path(&field.ty, field.origin, facade);

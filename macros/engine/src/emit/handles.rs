@@ -27,12 +27,17 @@ impl Writer<'_> {
             let value = quote!(#facade::ForceHandle::new(#place));
             (&force.name, (kind, value))
         });
+        let points = self.model.points.iter().enumerate().map(|(place, point)| {
+            let kind = quote!(#facade::__private::PointHandle<#name>);
+            let value = quote!(#facade::__private::PointHandle::new(#place));
+            (&point.name, (kind, value))
+        });
         let documentation = format!("The handles of [`{name}`], one per field.");
         let head = quote! {
             #[doc = #documentation]
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         };
         let structs = Structs::new("__Handles", head, TokenStream::new());
-        structs.written(&nested(bodies.chain(joints).chain(forces)))
+        structs.written(&nested(bodies.chain(joints).chain(forces).chain(points)))
     }
 }

@@ -198,6 +198,7 @@ impl Writer<'_> {
         let mut tokens = self.angles();
         tokens.extend(self.points());
         tokens.extend(self.markers());
+        tokens.extend(self.named_points());
         tokens.extend(self.shapes());
         tokens.extend(self.displacements());
         tokens.extend(self.sides());

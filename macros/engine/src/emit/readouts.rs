@@ -160,6 +160,12 @@ impl Writer<'_> {
         self.three_by_place("marker", markers.map(|marker| &marker.components))
     }
 
+    /// Only where there are named points.
+    pub(super) fn named_points(&mut self) -> TokenStream {
+        let kernels = self.kernels;
+        self.three_by_place("named_point", kernels.readouts.named_points.iter())
+    }
+
     /// Only where bodies are described by shapes.
     pub(super) fn shapes(&mut self) -> TokenStream {
         let kernels = self.kernels;

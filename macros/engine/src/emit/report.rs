@@ -213,6 +213,10 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     });
     let markers = kernels.readouts.markers.iter();
     let markers = markers.map(|found| marker(model, found, facade));
+    let points = model.points.iter().map(|point| {
+        let (name, body) = (point.name.to_string(), option(point.body));
+        quote!(#facade::__private::PointInfo { name: #name, body: #body })
+    });
     let bodies_and_shapes = model.bodies.iter().enumerate();
     let shapes = bodies_and_shapes.flat_map(|(place, body)| {
         let shapes = body.shapes.iter();
@@ -266,6 +270,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             joints: &[#(#joints),*],
             forces: &[#(#forces),*],
             markers: &[#(#markers),*],
+            points: &[#(#points),*],
             shapes: &[#(#shapes),*],
             carriers: &[#(#carriers),*],
             blocks: &[#(#blocks),*],

@@ -131,6 +131,17 @@ pub struct Element {
     pub is_cut: bool,
 }
 
+/// A named point, fixed on a body.
+#[derive(Clone, Debug)]
+pub struct NamedPoint {
+    /// The field, or its element.
+    pub name: Name,
+    /// The body; `None` is the ground.
+    pub body: Option<usize>,
+    /// Where it is at the start (m, global).
+    pub position: [Number; 3],
+}
+
 /// A field, or an element of one, that is an assembly.
 #[derive(Clone, Debug)]
 pub struct Part {
@@ -209,6 +220,8 @@ pub struct Model {
     pub joints: Vec<Element>,
     /// The forces in the order of the fields.
     pub forces: Vec<Element>,
+    /// The named points in the order of the fields.
+    pub points: Vec<NamedPoint>,
     /// The parts in the order of the fields, each before those in it.
     pub parts: Vec<Part>,
     /// Run-time values in the order of the fields.

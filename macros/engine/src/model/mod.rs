@@ -17,7 +17,7 @@ pub use joint::{
     Action, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term, Turn,
 };
 pub use mechanism::{
-    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, Part, RunTimeValue,
+    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, NamedPoint, Part, RunTimeValue,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;

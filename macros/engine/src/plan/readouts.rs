@@ -4,7 +4,7 @@ use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model, ParameterKind};
 use crate::symbolic::arena::{Arena, Input};
 use crate::symbolic::equations::{Kernel, with_scene};
-use crate::symbolic::fixed::triple;
+use crate::symbolic::fixed::{point_on, triple};
 use crate::symbolic::motion::Gradient;
 use crate::symbolic::scene::Scene;
 use crate::symbolic::vector::{Frame, VectorId};
@@ -23,6 +23,8 @@ pub struct Readouts {
     pub points: Vec<(usize, usize, Kernel)>,
     /// The points and directions that joints and forces name, on each of their bodies.
     pub markers: Vec<Marker>,
+    /// The components of each named point, as those of a marker.
+    pub named_points: Vec<Kernel>,
     /// The sizes of each shape, body by body.
     pub shapes: Vec<Kernel>,
     /// The potential energy of each force, and the power of what it does besides.
@@ -55,6 +57,7 @@ impl Readouts {
             sides: sides(scene, model),
             points: points(scene, model),
             markers: markers(scene, model),
+            named_points: named_points(scene, model),
             shapes: shapes(scene, model),
             energies: (0..model.forces.len())
                 .map(|force| with_scene(scene, |scene| scene.energy_and_power(force).into()))
@@ -149,6 +152,17 @@ fn markers(scene: &Scene, model: &Model) -> Vec<Marker> {
         }
     }
     markers
+}
+
+fn named_points(scene: &Scene, model: &Model) -> Vec<Kernel> {
+    let points = model.points.iter();
+    points
+        .map(|point| {
+            with_scene(scene, |scene| {
+                point_on(&mut scene.space.arena, model, point.body, point.position).into()
+            })
+        })
+        .collect()
 }
 
 fn shapes(scene: &Scene, model: &Model) -> Vec<Kernel> {

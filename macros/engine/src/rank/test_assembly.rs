@@ -176,6 +176,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         bodies: bodies.into(),
         joints: vec![used],
         forces: Vec::new(),
+        points: Vec::new(),
         parts: Vec::new(),
         lengths: Vec::new(),
         values: Vec::new(),

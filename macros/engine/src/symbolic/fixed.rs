@@ -253,6 +253,19 @@ pub fn copies(arena: &mut Arena, model: &Model, joint: &Element, parameter: usiz
     Copies { vector, normals }
 }
 
+/// A point that is given at the start (global axes), from the centre of mass in the principal axes
+/// of a body.
+pub fn point_on(
+    arena: &mut Arena,
+    model: &Model,
+    body: Option<usize>,
+    point: [Number; 3],
+) -> Triple {
+    let at = placement(arena, model, body);
+    let binding = Binding::Global(point);
+    copy(arena, ParameterKind::Point, &binding, 0, &at)
+}
+
 /// The components of a vector parameter in the principal axes of a body.
 fn copy(
     arena: &mut Arena,

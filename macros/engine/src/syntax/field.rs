@@ -16,6 +16,8 @@ pub enum Role {
     Joint,
     /// `#[force(..)]`.
     Force,
+    /// `#[point(..)]`: a named point of a body.
+    Point,
     /// `#[part(..)]`: an assembly.
     Part,
     /// `#[port]`: a body of an assembly that its user names.
@@ -27,10 +29,11 @@ pub enum Role {
 }
 
 impl Role {
-    pub(super) const ALL: [(&'static str, Self); 7] = [
+    pub(super) const ALL: [(&'static str, Self); 8] = [
         ("body", Self::Body),
         ("joint", Self::Joint),
         ("force", Self::Force),
+        ("point", Self::Point),
         ("part", Self::Part),
         ("port", Self::Port),
         ("param", Self::Param),
