@@ -267,6 +267,7 @@ pub struct Marker {
 
 /// A named point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PointInfo {
     /// The name of the field.
     pub name: &'static str,
