@@ -313,6 +313,12 @@ pub trait Assembly {
     fn value(&self, number: usize) -> f64;
 }
 
+/// A constant that an assembly names by its path, by the fingerprint of that.
+pub trait ConstantOf<const FINGERPRINT: u64> {
+    /// Its value.
+    const VALUE: f64;
+}
+
 /// The type of a field of an assembly, of an element if it is an array, by its number.
 pub trait FieldOf<const NUMBER: usize> {
     /// The type.

@@ -185,12 +185,12 @@ pub struct Assembly {
     pub is_sound: bool,
 }
 
-/// The fingerprint of an assembly and the definitions that it needs: of its tokens, but for
+/// The fingerprint of tokens, as of an assembly and the definitions that it needs, but for
 /// invisible groups and spaces, which change on the way through a macro.
 #[must_use]
-pub fn fingerprint(item: &TokenStream, carried: &TokenStream) -> u64 {
+pub fn fingerprint<const N: usize>(parts: [&TokenStream; N]) -> u64 {
     let mut words = String::new();
-    for tokens in [item, carried] {
+    for tokens in parts {
         write_words(tokens.clone(), &mut words);
     }
     hash(words.bytes())
@@ -301,7 +301,7 @@ fn unpack_definition(input: ParseStream<'_>) -> syn::Result<Carried> {
             let item = group(input, Delimiter::Brace)?.stream();
             let carried = group(input, Delimiter::Bracket)?.stream();
             Ok(Carried::Assembly(Assembly {
-                fingerprint: fingerprint(&item, &carried),
+                fingerprint: fingerprint([&item, &carried]),
                 carried: unpack_definitions(carried)?,
                 item,
                 is_sound: word == "assembly",

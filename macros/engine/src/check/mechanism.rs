@@ -15,6 +15,7 @@ use super::number::Numbers;
 use super::pairs::Pairs;
 use super::{kinds, parts, points, redundant};
 use crate::diag::{Faults, code, did_you_mean};
+use crate::model::name::Step;
 use crate::model::{
     Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
 };
@@ -119,6 +120,7 @@ fn described<'a>(
         wish,
         coordinates,
     } = attributes(syntax, &mut numbers, faults);
+    numbers.scopes = scopes(syntax, facade);
     let parts = parts::parts(syntax, &mut numbers, faults);
     let part_of = |field: &Field| field.origin.map(|origin| &parts[origin.part]);
     let mut names: Vec<&Name> = Vec::new();
@@ -237,6 +239,9 @@ fn described<'a>(
     let points: Vec<_> = points.into_iter().collect::<Option<_>>()?;
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
+    let mut known = HashSet::new();
+    let mut constants = std::mem::take(&mut numbers.constants);
+    constants.retain(|constant| known.insert(constant.to_string()));
     let model = Model {
         name: syntax.name.clone(),
         gravity: gravity?,
@@ -250,9 +255,20 @@ fn described<'a>(
         symbols,
         independence: Independence::default(),
         coordinates,
+        constants,
         lengths: syntax.lengths.clone(),
     };
     Some(Checked { model, wish })
+}
+
+/// The types of parts, by the way to each.
+fn scopes(syntax: &MechanismSyntax, facade: &TokenStream) -> Vec<(Vec<Step>, TokenStream)> {
+    let parts = syntax.parts.iter();
+    let scopes = parts.filter_map(|part| {
+        let owner = syntax.type_path(&part.ty, part.origin, facade)?;
+        Some((part.name.steps().collect(), owner))
+    });
+    scopes.collect()
 }
 
 /// A field that is described as a part, and whose type is no assembly.

@@ -10,6 +10,7 @@ use syn::{Expr, Lit, UnOp};
 use super::elements::{Found, Reference, bare, known};
 use super::later::{Later, Value};
 use crate::diag::{Faults, code, did_you_mean, list};
+use crate::model::name::Step;
 use crate::model::number::literals;
 use crate::model::{Name, Number, RunTimeValue, Symbol};
 use crate::syntax::array::is_index;
@@ -45,6 +46,10 @@ pub struct Numbers<'a> {
     pub no_inputs: Option<&'static str>,
     /// Symbols met so far.
     pub symbols: Vec<Symbol>,
+    /// Constants by their paths, met so far outside parts.
+    pub constants: Vec<TokenStream>,
+    /// The types of parts by the way to each: the constants of an assembly have their meaning there.
+    pub scopes: Vec<(Vec<Step>, TokenStream)>,
     /// Arrays among the values whose length was refused.
     pub unmeasured: &'a [Ident],
     /// The field that is being read.
@@ -72,6 +77,8 @@ impl<'a> Numbers<'a> {
             words: Vec::new(),
             no_inputs: None,
             symbols: Vec::new(),
+            constants: Vec::new(),
+            scopes: Vec::new(),
             unmeasured,
             field: owner,
             attribute: String::new(),
@@ -265,7 +272,7 @@ impl<'a> Numbers<'a> {
                 Found::At(place) => self.run_time_value(place, expr, faults).map(Value::Later),
                 Found::Nothing => self.constant(expr, faults).map(|expression| {
                     Value::Later(Later {
-                        expression,
+                        expression: self.in_scope(expression),
                         scalar: None,
                         is_const: true,
                         is_varying: false,
@@ -277,6 +284,17 @@ impl<'a> Numbers<'a> {
             },
             _ => self.refuse(expr, faults),
         }
+    }
+
+    /// A constant as it is named from the mechanism. Another one of its name may be there.
+    fn in_scope(&mut self, constant: TokenStream) -> TokenStream {
+        let scope = self.field.parts();
+        let Some((_, owner)) = self.scopes.iter().find(|(known, _)| known == scope) else {
+            self.constants.push(constant.clone());
+            return constant;
+        };
+        let (facade, number) = (self.facade, crate::wire::fingerprint([&constant]));
+        quote!(<#owner as #facade::__private::ConstantOf<#number>>::VALUE)
     }
 
     /// A constant by its path, or an entry of one that is an array.

@@ -19,7 +19,7 @@ const WITH_TYPES: [&str; 4] = ["body", "joint", "force", "part"];
 #[must_use]
 pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> TokenStream {
     let (name, facade) = (&input.ident, &delivery.facade);
-    let fingerprint = wire::fingerprint(&delivery.payload, &delivery.definitions);
+    let fingerprint = wire::fingerprint([&delivery.payload, &delivery.definitions]);
     let carrier = wire::carrier(wire::Carrier {
         name,
         visibility: &input.vis,
@@ -63,6 +63,15 @@ pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> 
         quote!(#number => #value,)
     });
     let used = fields.iter().filter_map(|field| field.ident.as_ref());
+    let constants = model.constants.iter().map(|constant| {
+        let number = wire::fingerprint([constant]);
+        quote! {
+            #[automatically_derived]
+            impl #facade::__private::ConstantOf<#number> for #name {
+                const VALUE: f64 = #constant;
+            }
+        }
+    });
     let (lengths, construction) = (lengths(model), of_assembly(model));
     quote! {
         #[allow(
@@ -88,6 +97,7 @@ pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> 
             }
 
             #(#types)*
+            #(#constants)*
             #lengths
 
             #construction

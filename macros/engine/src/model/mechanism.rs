@@ -234,6 +234,8 @@ pub struct Model {
     pub independence: Independence,
     /// By what the bodies are described.
     pub coordinates: Coordinates,
+    /// The constants by path that an assembly has, each once.
+    pub constants: Vec<TokenStream>,
     /// Constants by their names that are said to have these values.
     pub lengths: Vec<(Ident, usize)>,
 }

@@ -178,6 +178,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         forces: Vec::new(),
         points: Vec::new(),
         parts: Vec::new(),
+        constants: Vec::new(),
         lengths: Vec::new(),
         values: Vec::new(),
         definitions: vec![joint.clone()],

@@ -170,7 +170,10 @@ impl MechanismSyntax {
         let Some(Origin { part, number }) = origin else {
             return carrier_path(ty);
         };
+        // The first of its assembly, so that equal parts have equal handles.
         let part = &self.parts[part];
+        let mut parts = self.parts.iter();
+        let part = parts.find(|other| other.is_like(part)).unwrap_or(part);
         let outer = self.type_path(&part.ty, part.origin, facade)?;
         Some(quote!(<#outer as #facade::__private::FieldOf<#number>>::Type))
     }

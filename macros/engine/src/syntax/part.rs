@@ -35,6 +35,8 @@ pub struct PartSyntax {
     pub written: Type,
     /// The type, of an element if it is one.
     pub ty: Type,
+    /// Context and path of the type: parts of one assembly have one.
+    key: String,
     /// The word of its attribute.
     pub word: syn::Path,
     /// The list of its attribute.
@@ -56,6 +58,14 @@ pub(super) struct Expanded {
     pub(super) parts: Vec<PartSyntax>,
 }
 
+impl PartSyntax {
+    /// Whether another part is of the same assembly.
+    #[must_use]
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
 /// Adds a field, or in its place the fields of the assembly that it is.
 pub(super) fn expand(field: Field, assemblies: &Assemblies, result: &mut Expanded) {
     let Some((Role::Part, word)) = &field.role else {
@@ -75,6 +85,7 @@ pub(super) fn expand(field: Field, assemblies: &Assemblies, result: &mut Expande
         name: field.name.clone(),
         written: field.written.clone(),
         ty: field.ty.clone(),
+        key: key.clone(),
         word: word.clone(),
         list: field.list.clone(),
         origin: field.origin,

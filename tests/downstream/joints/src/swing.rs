@@ -6,6 +6,9 @@ use kinematics::joints::Revolute as Hinge;
 use kinematics::mechanism::Assembly;
 use kinematics::{Body, Particle};
 
+/// How long the beam is (m). A mechanism may have a constant of this name.
+const ARM: f64 = 1.0;
+
 /// A bob on a rod.
 #[derive(Assembly, Clone, Copy, Debug, PartialEq)]
 pub struct Bob {
@@ -24,10 +27,10 @@ pub struct Bob {
 pub struct Swing {
     #[port]
     post: Body,
-    #[body(mass = 1.0, inertia = [0.1, 0.2, 0.2], position = [0.5, 0.0, 0.0])]
+    #[body(mass = 1.0, inertia = [0.1, 0.2, 0.2], position = [ARM / 2.0, 0.0, 0.0])]
     beam: Body,
     #[joint(between = [post, beam], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
     hinge: Hinge,
-    #[part(beam = beam, at = [1.0, 0.0, 0.0])]
+    #[part(beam = beam, at = [ARM, 0.0, 0.0])]
     bob: Bob,
 }

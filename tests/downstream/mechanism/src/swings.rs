@@ -3,6 +3,9 @@
 use downstream_joints::{Rod, Swing};
 use mech::prelude::*;
 
+/// The distance (m) of a hinge from the post: not the constant of this name that a swing has.
+const ARM: f64 = 0.2;
+
 /// Two swings on one post, which slides along x.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81])]
@@ -11,7 +14,7 @@ pub struct Swings {
     post: Body,
     #[joint(between = [ground, post], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     slide: Prismatic,
-    #[part(post = post, mirror = if k == 0 { none } else { x }, at = [0.2 * (1 - 2 * k), 0.0, 0.0])]
+    #[part(post = post, mirror = if k == 0 { none } else { x }, at = [ARM * (1 - 2 * k), 0.0, 0.0])]
     pair: [Swing; 2],
 }
 
