@@ -48,7 +48,8 @@ pub struct Numbers<'a> {
     pub symbols: Vec<Symbol>,
     /// Constants by their paths, met so far outside parts.
     pub constants: Vec<TokenStream>,
-    /// The types of parts by the way to each: the constants of an assembly have their meaning there.
+    /// The types of parts by the way to each: the constants of an assembly have their meaning
+    /// there.
     pub scopes: Vec<(Vec<Step>, TokenStream)>,
     /// Arrays among the values whose length was refused.
     pub unmeasured: &'a [Ident],
