@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::BinOp;
+use syn::{BinOp, parse_quote};
 
 /// A number, or an expression of type `f64`.
 pub(super) enum Value {
@@ -59,15 +59,35 @@ impl Value {
 
     /// What an operator makes of two values; `None` if it is none of numbers.
     pub(super) fn combined(self, op: &BinOp, right: Self) -> Option<Self> {
-        let operation: fn(f64, f64) -> f64 = match op {
-            BinOp::Add(_) => |x, y| x + y,
-            BinOp::Sub(_) => |x, y| x - y,
-            BinOp::Mul(_) => |x, y| x * y,
-            BinOp::Div(_) => |x, y| x / y,
+        Some(match op {
+            BinOp::Add(_) => self.by(op, |x, y| x + y, right),
+            BinOp::Sub(_) => self.by(op, |x, y| x - y, right),
+            BinOp::Mul(_) => self.by(op, |x, y| x * y, right),
+            BinOp::Div(_) => self.by(op, |x, y| x / y, right),
             _ => return None,
-        };
+        })
+    }
+
+    /// A sum. What is zero is left out.
+    pub(super) fn plus(self, right: Self) -> Self {
+        match self {
+            Self::Literal(0.0) => right,
+            _ => self.by(&parse_quote!(+), |x, y| x + y, right),
+        }
+    }
+
+    /// A product with a number that is seen.
+    pub(super) fn times(self, factor: f64) -> Self {
+        match factor {
+            1.0 => self,
+            -1.0 => self.negated(),
+            _ => Self::Literal(factor).by(&parse_quote!(*), |x, y| x * y, self),
+        }
+    }
+
+    fn by(self, op: &BinOp, operation: fn(f64, f64) -> f64, right: Self) -> Self {
         if let (Self::Literal(x), Self::Literal(y)) = (&self, &right) {
-            return Some(Self::Literal(operation(*x, *y)));
+            return Self::Literal(operation(*x, *y));
         }
         let (x, y) = (self.tokens(), right.tokens());
         let scalar = (self.is_run_time() || right.is_run_time()).then(|| {
@@ -77,14 +97,14 @@ impl Value {
                 _ => quote!((#x #op #y)),
             }
         });
-        Some(Self::Later(Later {
+        Self::Later(Later {
             expression: quote!((#x #op #y)),
             scalar,
             is_const: self.is_const() && right.is_const(),
             is_varying: self.is_varying() || right.is_varying(),
             values: union(self.values(), right.values()),
             like: self.like().zip(right.like()).map(|(x, y)| operation(x, y)),
-        }))
+        })
     }
 
     /// The value over `S`.

@@ -1,6 +1,6 @@
 //! Linear functions of numbers that may be symbols.
 
-use syn::BinOp;
+use proc_macro2::Span;
 
 use super::later::{Later, Value};
 use super::number::Numbers;
@@ -14,33 +14,12 @@ impl Numbers<'_> {
         vector: [Number; N],
         constant: Number,
     ) -> Number {
-        let mut sum = self.later(constant);
-        for (factor, number) in row.into_iter().zip(vector) {
-            if factor == 0.0 || number == Number::ZERO {
-                continue;
-            }
-            let value = self.later(number);
-            let (value, op) = match factor {
-                1.0 => (Some(value), syn::parse_quote!(+)),
-                -1.0 => (Some(value), syn::parse_quote!(-)),
-                _ => {
-                    let factor = Value::Literal(factor);
-                    let product = factor.combined(&syn::parse_quote!(*), value);
-                    (product, syn::parse_quote!(+))
-                }
-            };
-            let Some(value) = value else { continue };
-            sum = match (sum, &op) {
-                (Value::Literal(0.0), BinOp::Add(_)) => value,
-                (Value::Literal(0.0), _) => value.negated(),
-                (other, op) => match other.combined(op, value) {
-                    Some(sum) => sum,
-                    None => return constant,
-                },
-            };
-        }
-        let span = proc_macro2::Span::call_site();
-        self.number(sum, span).unwrap_or(constant)
+        let terms = row.into_iter().zip(vector);
+        let terms = terms.filter(|(factor, number)| *factor != 0.0 && *number != Number::ZERO);
+        let sum = terms.fold(self.later(constant), |sum, (factor, number)| {
+            sum.plus(self.later(number).times(factor))
+        });
+        self.number(sum, Span::call_site())
     }
 
     /// A number with the other sign.

@@ -99,11 +99,11 @@ impl<'a> Numbers<'a> {
                 }
             }
         }
-        self.number(value, expr.span())
+        Some(self.number(value, expr.span()))
     }
 
     /// The number that a value is: an expression becomes a symbol.
-    pub(super) fn number(&mut self, value: Value, span: Span) -> Option<Number> {
+    pub(super) fn number(&mut self, value: Value, span: Span) -> Number {
         let Later {
             expression,
             scalar,
@@ -112,7 +112,7 @@ impl<'a> Numbers<'a> {
             values,
             like,
         } = match value {
-            Value::Literal(value) => return Some(Number::Literal(value)),
+            Value::Literal(value) => return Number::Literal(value),
             Value::Later(later) => later,
         };
         let number = if is_varying {
@@ -128,9 +128,9 @@ impl<'a> Numbers<'a> {
             ::core::convert::identity::<f64>({ let #value: f64 = #expression; #value })
         };
         if let Some(known) = self.known(&expression) {
-            return Some(number(known));
+            return number(known);
         }
-        let place = u32::try_from(self.symbols.len()).ok()?;
+        let place = u32::try_from(self.symbols.len()).expect("fewer symbols than tokens");
         let name = local(&format!("CONSTANT_{place}"));
         let is_checked = is_const && must_be_positive(&self.attribute);
         let (expression, constant) = if is_checked {
@@ -148,7 +148,7 @@ impl<'a> Numbers<'a> {
             field: self.field.clone(),
             attribute: self.attribute.clone(),
         });
-        Some(number(place))
+        number(place)
     }
 
     /// What the macro sees of a number that others are made of. It becomes no symbol.
