@@ -4,6 +4,17 @@
 use holonom::nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
 use holonom::prelude::*;
 
+holonom::joint! {
+    /// A runner on a wave beside a shaft. A cross product says on which side the wave is: in the
+    /// mirror `axis` is turned round, and `side` is not.
+    joint Wave(i, j; foot: Point, point: Point, axis: Axis, side: Axis, offset: Length, rise: Length) {
+        let arm = j.point - i.foot;
+        dot(i.axis.normals(), j.axis);
+        dot(i.side, arm) - offset;
+        dot(cross(i.axis, i.side), arm) - rise * (1.0 - cos(3.0 * dot(i.axis, arm)));
+    }
+}
+
 /// Nearly every kind of joint and force on one port, with all that a body may be described by.
 #[derive(Assembly, Clone, Copy)]
 struct Machine {
@@ -61,6 +72,13 @@ struct Machine {
     twist: ConstantMoment,
     #[force(between = [end], moment = [0.01, -0.02, 0.015])]
     spin: FollowerMoment,
+    #[body(mass = 0.3, inertia = [0.003, 0.004, 0.005], position = [-0.4, 0.1, 0.1])]
+    runner: Body,
+    #[joint(
+        between = [frame, runner], foot = [-0.4, 0.0, 0.1], point = [-0.4, 0.1, 0.1], axis = [1.0, 0.0, 0.2],
+        side = [0.0, 1.0, 0.0], offset = 0.1, rise = 0.2
+    )]
+    wave: Wave,
     #[body(mass = 0.1, position = [0.2, -0.3, 0.5])]
     bead: Particle,
     #[joint(between = [frame, bead], point = [0.2, -0.3, 0.5], axis = [0.3, 1.0, 0.2])]
@@ -160,7 +178,7 @@ macro_rules! course {
                 ];
                 scalars.push(sample.reaction(h.ball, h.end)?.force.norm());
                 scalars.push(sample.reaction(h.hinge, h.base)?.moment.norm());
-                let centres = [h.base, h.arm, h.wrist, h.end, h.sleeve, h.wheel, h.bead, h.table];
+                let centres = [h.base, h.arm, h.wrist, h.end, h.sleeve, h.wheel, h.bead, h.table, h.runner,];
                 course.push((scalars, centres.map(|body| sample.pose(body).position).to_vec()));
                 Ok(())
             })

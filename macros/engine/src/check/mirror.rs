@@ -3,10 +3,10 @@
 //!
 //! A mirrored part moves as the mirror image of the part, with the same angles and displacements.
 //! Points and arrows are mirrored; the axis of a rotation, a pseudovector, is mirrored and turned
-//! round. A definition does not say which of its directions is which, but how it uses them does:
-//! with the right choice every expression either stays or changes sign as a whole.
+//! round. How a definition uses its directions tells them apart. With the right choice every
+//! expression stays, or changes sign as a whole.
 
-use crate::model::{Action, Direction, ElementDef, Function, Motion, Term};
+use crate::model::{Action, ElementDef, Function, Motion, Term};
 
 /// What a mirror does to an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,8 +67,9 @@ impl Choice {
             | Term::Time
             | Term::Point { .. }
             | Term::Origin(_)
-            | Term::Components(_)
             | Term::Normal { which: 0, .. } => Parity::Even,
+            // Along global axes, which no mirror changes.
+            Term::Components(parts) => self.if_all_stay(parts.iter().map(|part| &**part)),
             Term::Fixed { parameter, .. } => self.direction(*parameter),
             // Axis, normal and binormal are right-handed in either world.
             Term::Normal { parameter, .. } => self.direction(*parameter).turned_round(),
@@ -86,10 +87,15 @@ impl Choice {
                 (Parity::Odd | Parity::Mixed, _) => Parity::Mixed,
                 (Parity::Any | Parity::Even, _) => Parity::Even,
             },
-            Term::Law { arguments, .. } => {
-                let stay = arguments.iter().all(|argument| self.of(argument).stays());
-                if stay { Parity::Even } else { Parity::Mixed }
-            }
+            Term::Law { arguments, .. } => self.if_all_stay(arguments.iter()),
+        }
+    }
+
+    fn if_all_stay<'t>(&self, mut terms: impl Iterator<Item = &'t Term>) -> Parity {
+        if terms.all(|term| self.of(term).stays()) {
+            Parity::Even
+        } else {
+            Parity::Mixed
         }
     }
 
@@ -124,32 +130,24 @@ impl Choice {
             && defaults.all(|term| self.of(term).stays())
     }
 
-    /// How many of its readings and motions keep their sign.
-    fn kept(&self, definition: &ElementDef) -> usize {
-        let turn = |axis: usize| usize::from(self.direction(axis) == Parity::Odd);
-        let angle = definition.angle.map_or(0, |angle| turn(angle.axis));
+    /// Whether the displacement that can be read keeps its sign.
+    fn keeps_displacement(&self, definition: &ElementDef) -> bool {
         let displacement = definition.displacement.as_ref();
-        let displacement = displacement.map_or(0, |term| usize::from(self.of(term).stays()));
+        displacement.is_none_or(|term| self.of(term).stays())
+    }
+
+    /// How many of its angles and motions keep their sign.
+    fn kept(&self, definition: &ElementDef) -> usize {
+        let turns = |axis: usize| self.direction(axis) == Parity::Odd;
+        let angles = definition.angle.iter().chain(&definition.turns);
+        let angles = angles.filter(|angle| turns(angle.axis));
         let motions = definition.motions.iter().flatten();
-        let motions = motions.map(|motion| match motion {
-            Motion::Turn {
-                axis:
-                    Direction {
-                        parameter,
-                        normal: None,
-                    },
-                ..
-            } => turn(*parameter),
-            Motion::Slide {
-                along:
-                    Direction {
-                        parameter,
-                        normal: None,
-                    },
-            } => 1 - turn(*parameter),
-            _ => 0,
+        let motions = motions.filter(|motion| match motion {
+            Motion::Turn { axis, .. } => axis.normal.is_none() && turns(axis.parameter),
+            Motion::Slide { along } => along.normal.is_none() && !turns(along.parameter),
+            Motion::Screw { .. } | Motion::Ball { .. } => false,
         });
-        angle + displacement + motions.sum::<usize>()
+        angles.count() + motions.count()
     }
 }
 
@@ -178,7 +176,83 @@ pub(super) fn pseudovectors(definition: &ElementDef) -> Option<Vec<bool>> {
         choice
     });
     let possible = choices.filter(|choice| choice.holds(definition));
-    let fewest = |choice: &Choice| choice.0.iter().filter(|is_odd| !**is_odd).count();
-    let best = possible.max_by_key(|choice| (choice.kept(definition), fewest(choice)));
+    let best = possible.max_by_key(|choice| {
+        let arrows = choice.0.iter().filter(|is_odd| !**is_odd).count();
+        let displacement = choice.keeps_displacement(definition);
+        (displacement, choice.kept(definition), arrows)
+    });
     best.map(|choice| choice.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pseudovectors;
+    use crate::check::joint;
+    use crate::diag::Faults;
+    use crate::model::ElementKind;
+    use crate::syntax::joint::parse_transported;
+
+    /// The pseudovectors of a definition by their names; `None` if it has no mirror image.
+    fn mirrored(kind: ElementKind, text: &str) -> Option<Vec<String>> {
+        let mut faults = Faults::new();
+        let tokens = text.parse().expect("brackets in pairs");
+        let syntax = parse_transported(tokens, kind, &mut faults).expect("a definition");
+        let definition = joint::check(&syntax, &mut faults).expect("a sound one");
+        assert!(faults.into_tokens().is_empty());
+        let found = pseudovectors(&definition)?;
+        let parameters = definition.parameters.iter().zip(found);
+        let odd = parameters.filter(|(_, is_odd)| *is_odd);
+        Some(
+            odd.map(|(parameter, _)| parameter.name.to_string())
+                .collect(),
+        )
+    }
+
+    fn joint(text: &str) -> Option<Vec<String>> {
+        mirrored(ElementKind::Joint, text)
+    }
+
+    #[test]
+    fn the_axis_of_a_rotation_is_a_pseudovector_and_that_of_a_translation_is_none() {
+        let hinge =
+            "J(i, j; p: Point, a: Axis) { j.p - i.p; dot(i.a.normals(), j.a); angle about a; }";
+        assert_eq!(joint(hinge).unwrap(), ["a"]);
+        let slide = "J(i, j; p: Point, a: Axis, m: Law) { drive dot(i.a, j.p - i.p) to m(); }";
+        assert!(joint(slide).unwrap().is_empty());
+        let rack = "J(i, j, k; a: Axis, p: Point, s: Axis, r: Length) { dot(k.s, j.p - k.p) - r * angle(k, i, a); }";
+        assert_eq!(joint(rack).unwrap(), ["a"]);
+        // A cross product of two arrows is a pseudovector, and a volume changes its sign.
+        let volume = "J(i, j; p: Point, a: Axis, b: Axis, h: Length) { dot(cross(i.a, i.b), j.p - i.p) - h; dot(i.a, j.p - i.p) - h; }";
+        assert_eq!(joint(volume).unwrap(), ["b"]);
+    }
+
+    #[test]
+    fn of_an_angle_and_a_displacement_along_one_axis_the_displacement_stays() {
+        let sleeve = "J(i, j; p: Point, a: Axis) { dot(i.a.normals(), j.a); dot(i.a.normals(), j.p - i.p); angle about a; \
+             displacement dot(i.a, j.p - i.p); }";
+        assert!(joint(sleeve).unwrap().is_empty());
+    }
+
+    #[test]
+    fn what_has_a_hand_has_no_mirror_image() {
+        let screw =
+            "J(i, j; p: Point, a: Axis, h: Length) { dot(i.a, j.p - i.p) - h * angle(i, j, a); }";
+        assert_eq!(joint(screw), None);
+        // The sine of an angle changes its sign, its square does not.
+        let sine = "J(i, j; p: Point, a: Axis) { dot(i.a, j.p - i.p) - sin(angle(i, j, a)); }";
+        assert_eq!(joint(sine), None);
+        let square = "J(i, j; p: Point, a: Axis) { dot(i.a, j.p - i.p) - cos(angle(i, j, a)); }";
+        assert!(joint(square).unwrap().is_empty());
+        let along = "J(i, j; p: Point, a: Axis) { dot([angle(i, j, a), 0.0, 0.0], j.p - i.p) - 1.0; dot(i.a, j.p - i.p) - 1.0; }";
+        assert_eq!(joint(along), None);
+    }
+
+    #[test]
+    fn a_moment_is_a_pseudovector_and_a_force_is_none() {
+        let force = |text| mirrored(ElementKind::Force, text).unwrap();
+        assert!(force("F(j; p: Point, f: Vector) { force j.f at j.p; }").is_empty());
+        assert_eq!(force("F(j; m: Vector) { moment j.m on j; }"), ["m"]);
+        let both = "F(j; p: Point, f: Vector, m: Vector) { force j.f at j.p; moment cross(j.f, j.p - j.origin) + j.m on j; }";
+        assert_eq!(force(both), ["m"]);
+    }
 }
