@@ -12,12 +12,12 @@ use super::mirror::pseudovectors;
 use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use super::parts::Part;
-use super::points::position_of;
+use super::points::{NamedPoints, position_of};
 use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent,
-    NamedPoint, Number, ParameterKind, Term,
+    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Number,
+    ParameterKind, Term,
 };
 use crate::syntax::array::is_index;
 use crate::syntax::mechanism::Field;
@@ -35,7 +35,7 @@ pub(super) struct JointChecker<'a> {
     pub(super) part: Option<&'a Part<'a>>,
     /// What joints may name, and the bodies that they are.
     pub(super) between: &'a Between<'a>,
-    pub(super) points: &'a [Option<NamedPoint>],
+    pub(super) points: &'a NamedPoints<'a>,
     pub(super) bodies: &'a [Option<Body>],
     pub(super) definitions: &'a [ElementDef],
     /// Which kernels the mechanism has.
@@ -275,7 +275,8 @@ impl JointChecker<'_> {
                 faults.at_span(
                     part.mirror_span(),
                     format!(
-                        "the mirror image of {word} `{name}` is no `{kind}`: it has the other hand; take it out of the assembly, and write one for each side"
+                        "the mirror image of {word} `{name}` is no `{kind}`: it has the other hand; take it out of the \
+                         assembly, and write one for each side"
                     ),
                 );
                 None
@@ -298,7 +299,8 @@ impl JointChecker<'_> {
                 faults.at_span(
                     written.map_or(self.word, |pair| pair.key.span()),
                     format!(
-                        "`{key}` by `local(..)` needs the axes of a body outside the part `{}`; give it in the axes of the assembly, as in `[0.0, 0.5, 0.0]`",
+                        "`{key}` by `local(..)` needs the axes of a body outside the part `{}`; give it in the axes of \
+                         the assembly, as in `[0.0, 0.5, 0.0]`",
                         part.name()
                     ),
                 );

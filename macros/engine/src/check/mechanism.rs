@@ -60,7 +60,8 @@ pub fn check<'a>(
     described(syntax, types, definitions, facade, faults)
 }
 
-/// Checks an assembly by itself: its ports are bodies of which nothing is known.
+/// Checks an assembly by itself: its ports are bodies of which nothing is known. What numbers tell
+/// is asked of the mechanisms that have it.
 pub fn check_assembly(
     syntax: &MechanismSyntax,
     types: &Definitions,
@@ -236,7 +237,8 @@ fn described<'a>(
     let bodies: Vec<_> = bodies.into_iter().collect::<Option<_>>()?;
     let joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
     let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
-    let points: Vec<_> = points.into_iter().collect::<Option<_>>()?;
+    let points = points.into_iter().map(|(_, point)| point);
+    let points: Vec<_> = points.collect::<Option<_>>()?;
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
     let mut known = HashSet::new();

@@ -10,26 +10,30 @@ use super::number::Numbers;
 use super::pairs::Pairs;
 use super::parts::Part;
 use crate::diag::{Faults, code};
-use crate::model::{Body, BodyKind, NamedPoint, Number};
+use crate::model::{Body, BodyKind, Name, NamedPoint, Number};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
 
-/// The named points in the order of the fields; `None` in the place of one that was refused.
-pub(super) fn points(
-    syntax: &MechanismSyntax,
+/// The names of points, with what they mean; `None` for one that was refused.
+pub(super) type NamedPoints<'a> = Vec<(&'a Name, Option<NamedPoint>)>;
+
+/// The named points in the order of the fields.
+pub(super) fn points<'a>(
+    syntax: &'a MechanismSyntax,
     parts: &[Part<'_>],
     between: &Between<'_>,
     bodies: &[Option<Body>],
     numbers: &mut Numbers<'_>,
     faults: &mut Faults,
-) -> Vec<Option<NamedPoint>> {
+) -> NamedPoints<'a> {
     let fields = syntax.fields.iter();
     let points = fields.filter(|field| matches!(field.role, Some((Role::Point, _))));
     points
         .map(|field| {
-            faults.within(&field.name, |faults| {
+            let point = faults.within(&field.name, |faults| {
                 let part = field.origin.map(|origin| &parts[origin.part]);
                 point(field, part, between, bodies, numbers, faults)
-            })
+            });
+            (&field.name, point)
         })
         .collect()
 }
@@ -95,18 +99,17 @@ fn point(
     })
 }
 
-/// The place at the start of the named point that an expression is.
+/// Where the named point that an expression is lies at the start; `None` in it if that was refused.
 pub(super) fn position_of(
     expr: &Expr,
-    points: &[Option<NamedPoint>],
+    points: &NamedPoints<'_>,
     field: &Field,
     faults: &mut Faults,
 ) -> Option<Option<[Number; 3]>> {
     let reference = Reference::of(expr)?;
-    let known = points.iter().flatten();
-    let names = known.clone().map(|point| &point.name);
+    let names = points.iter().map(|(name, _)| *name);
     match reference.find(names, &[], &field.name, faults) {
-        Found::At(place) => Some(known.clone().nth(place).map(|point| point.position)),
+        Found::At(place) => Some(points[place].1.as_ref().map(|point| point.position)),
         Found::Refused => Some(None),
         Found::Nothing => None,
     }

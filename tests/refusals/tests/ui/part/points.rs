@@ -31,6 +31,9 @@ struct Robot {
     tool: Point,
     #[joint(between = [ground, hull], point = tool, axis = tool)]
     hinge: Revolute,
+    // What is wrong with a point is said once.
+    #[joint(between = [ground, hull], point = fifth)]
+    other: Spherical,
     #[joint(between = [ground, hull], point = tol)]
     ball: Spherical,
 }
