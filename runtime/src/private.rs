@@ -223,7 +223,6 @@ macro_rules! force {
 #[macro_export]
 macro_rules! __stub_part {
     ($part:ident $($field:ident: $([$length:expr])? $kind:ident $($path:ty)?,)*) => {
-        #[allow(warnings, clippy::all, clippy::pedantic)]
         pub struct $part<__M> {
             $(pub $field: $crate::__stub_mechanism!(@handle $([$length])? $kind $($path)?),)*
             __mechanism: ::core::marker::PhantomData<fn() -> __M>,
@@ -235,7 +234,6 @@ macro_rules! __stub_part {
         impl<__M> ::core::fmt::Debug for $part<__M> {
             fn fmt(&self, _: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result { loop {} }
         }
-        #[allow(warnings, clippy::all, clippy::pedantic)]
         impl<__M> $part<__M> {
             const VALUE: Self = Self {
                 $($field: $crate::__stub_mechanism!(@value $([$length])? $kind $($path)?),)*

@@ -36,8 +36,8 @@ use check::definition::{Definition, Definitions};
 use check::kinds;
 use diag::Faults;
 use model::{BodyKind, ElementKind};
-use syntax::mechanism::{Assemblies, AssemblySyntax};
-use wire::{Carried, Delivery};
+use syntax::mechanism::{Assemblies, AssemblySyntax, MechanismSyntax};
+use wire::Carried;
 
 /// `joint!`: the tokens are the path of the run-time crate in brackets, then the definition.
 #[must_use]
@@ -77,40 +77,36 @@ fn element(tokens: TokenStream, kind: ElementKind) -> TokenStream {
 /// `#[derive(Mechanism)]`: sends the struct on its way through the carriers of its field types.
 #[must_use]
 pub fn derive(tokens: TokenStream) -> TokenStream {
-    sent(tokens, &TokenStream::new())
+    sent(&tokens, false)
 }
 
 /// `#[derive(Assembly)]`: the same for a part of mechanisms.
 #[must_use]
 pub fn derive_assembly(tokens: TokenStream) -> TokenStream {
-    sent(tokens, &wire::assembly_mark())
+    sent(&tokens, true)
 }
 
-fn sent(tokens: TokenStream, mark: &TokenStream) -> TokenStream {
+fn sent(tokens: &TokenStream, is_assembly: bool) -> TokenStream {
     guarded(|| {
         let mut faults = Faults::new();
-        let Some(input) = item(&tokens, &mut faults) else {
+        let Some(input) = item(tokens, &mut faults) else {
             return faults.into_tokens();
         };
         let mut paths = syntax::mechanism::carrier_paths(&input);
+        let syntax = syntax::mechanism::parse(&input, &Vec::new(), &mut faults);
         if !paths.is_empty() {
-            let syntax = syntax::mechanism::parse(&input, &Vec::new(), &mut faults);
             // They are found again at the end of the way.
             drop(faults.into_tokens());
             if kinds::too_many(&syntax, paths.len()).is_some() {
                 paths.truncate(1);
             }
+            let mark = is_assembly.then(wire::assembly_mark);
             return wire::call(&paths, &quote!(#mark #tokens));
         }
         // Nobody can tell where the run-time crate is: say what can be said without it.
-        let syntax = syntax::mechanism::parse(&input, &Vec::new(), &mut faults);
         if syntax.is_plain {
             let facade = TokenStream::new();
-            if mark.is_empty() {
-                passes::mechanism(&syntax, &Vec::new(), Vec::new(), &facade, &mut faults);
-            } else {
-                passes::assembly(&syntax, &Vec::new(), Vec::new(), &facade, &mut faults);
-            }
+            Known::default().model(&syntax, is_assembly, &facade, &mut faults);
         }
         faults.into_tokens()
     })
@@ -136,77 +132,29 @@ pub fn assemble(tokens: TokenStream) -> TokenStream {
         let Some(input) = item(&delivery.payload, &mut faults) else {
             return faults.into_tokens();
         };
-        if delivery.is_assembly {
-            assembly(delivery, &input, faults)
+        let (facade, is_assembly) = (&delivery.facade, delivery.is_assembly);
+        let mut known = Known::default();
+        let paths = known.read(&delivery.carried, &input, "", &mut faults);
+        let syntax = syntax::mechanism::parse(&input, &known.assemblies, &mut faults);
+        let mut model = None;
+        if let Some(message) = kinds::too_many(&syntax, paths.len()) {
+            faults.at(&syntax.name, message);
+            let unknown = paths.iter().map(ToString::to_string);
+            known.types = unknown.map(|path| (path, Definition::Faulty)).collect();
         } else {
-            mechanism(delivery, &input, faults)
+            model = known.model(&syntax, is_assembly, facade, &mut faults);
         }
-    })
-}
-
-fn mechanism(delivery: Delivery, input: &DeriveInput, mut faults: Faults) -> TokenStream {
-    let facade = &delivery.facade;
-    let mut known = Known::default();
-    let paths = known.read(&delivery.carried, input, "", &mut faults);
-    let syntax = syntax::mechanism::parse(input, &known.assemblies, &mut faults);
-    if let Some(message) = kinds::too_many(&syntax, paths.len()) {
-        faults.at(&syntax.name, message);
-        let unknown = paths
-            .iter()
-            .map(|path| (path.to_string(), Definition::Faulty));
-        let items = emit::fallback::emit(&syntax, &unknown.collect(), facade);
+        let model = model.filter(|_| !faults.any());
+        let items = match &model {
+            model if is_assembly => {
+                emit::assembly::emit(&input, &syntax, &delivery, model.as_ref())
+            }
+            Some(model) => emit::mechanism::emit(model, facade),
+            None => emit::fallback::emit(&syntax, &known.types, facade),
+        };
         let errors = faults.into_tokens();
-        return quote!(#errors #items);
-    }
-    let is_faulty = known.is_faulty() || syntax.parts.iter().any(|part| !part.is_sound);
-    let Known {
-        types, definitions, ..
-    } = known;
-    let are_parts_sound = syntax.parts.iter().all(|part| part.is_sound);
-    let model = if syntax.is_plain && are_parts_sound {
-        passes::mechanism(&syntax, &types, definitions, facade, &mut faults)
-    } else {
-        None
-    };
-    let is_ambiguous = check::mechanism::is_ambiguous(&syntax);
-    if model.is_none() && !faults.any() && !is_faulty && !is_ambiguous {
-        failed(&syntax.name, &mut faults);
-    }
-    let items = match &model {
-        Some(model) if !faults.any() => emit::mechanism::emit(model, facade),
-        _ => emit::fallback::emit(&syntax, &types, facade),
-    };
-    let errors = faults.into_tokens();
-    quote!(#errors #items)
-}
-
-fn assembly(delivery: Delivery, input: &DeriveInput, mut faults: Faults) -> TokenStream {
-    let facade = &delivery.facade;
-    let mut known = Known::default();
-    known.read(&delivery.carried, input, "", &mut faults);
-    let syntax = syntax::mechanism::parse(input, &known.assemblies, &mut faults);
-    let are_parts_sound = syntax.parts.iter().all(|part| part.is_sound);
-    let is_faulty = known.is_faulty() || !are_parts_sound;
-    let Known {
-        types, definitions, ..
-    } = known;
-    let is_ambiguous = check::mechanism::is_ambiguous(&syntax);
-    let mut model = None;
-    if syntax.is_plain && are_parts_sound {
-        model = passes::assembly(&syntax, &types, definitions, facade, &mut faults);
-    }
-    if model.is_none() && !faults.any() && !is_faulty && !is_ambiguous {
-        failed(&syntax.name, &mut faults);
-    }
-    let model = model.filter(|_| !faults.any());
-    let items = emit::assembly::emit(input, &delivery, model.as_ref());
-    let errors = faults.into_tokens();
-    quote!(#errors #items)
-}
-
-fn failed(name: &syn::Ident, faults: &mut Faults) {
-    let message = format!("holonom's generator failed on `{name}`; please report this");
-    faults.at(name, message);
+        quote!(#errors #items)
+    })
 }
 
 /// What the carriers brought.
@@ -218,6 +166,42 @@ struct Known {
 }
 
 impl Known {
+    /// What a struct means. `None` if anything is wrong with it; then the faults say what, here or
+    /// where something that it needs is defined.
+    fn model(
+        &mut self,
+        syntax: &MechanismSyntax,
+        is_assembly: bool,
+        facade: &TokenStream,
+        faults: &mut Faults,
+    ) -> Option<model::Model> {
+        let are_parts_sound = syntax.parts.iter().all(|part| part.is_sound);
+        let mut model = None;
+        if syntax.is_plain && are_parts_sound {
+            let definitions = std::mem::take(&mut self.definitions);
+            let pass = if is_assembly {
+                check::mechanism::check_assembly
+            } else {
+                passes::mechanism
+            };
+            model = pass(syntax, &self.types, definitions, facade, faults);
+        }
+        let is_faulty = |definition: &Definition| matches!(definition, Definition::Faulty);
+        let is_told = faults.any()
+            || !are_parts_sound
+            || self
+                .types
+                .iter()
+                .any(|(_, definition)| is_faulty(definition))
+            || check::mechanism::is_ambiguous(syntax);
+        if model.is_none() && !is_told {
+            let name = &syntax.name;
+            let message = format!("holonom's generator failed on `{name}`; please report this");
+            faults.at(name, message);
+        }
+        model
+    }
+
     /// Reads what the field types of a struct turned out to be; their paths.
     fn read(
         &mut self,
@@ -283,11 +267,6 @@ impl Known {
         };
         self.assemblies.push((key.to_owned(), syntax));
         Definition::Assembly
-    }
-
-    fn is_faulty(&self) -> bool {
-        let mut definitions = self.types.iter().map(|(_, definition)| definition);
-        definitions.any(|definition| matches!(definition, Definition::Faulty))
     }
 }
 

@@ -33,14 +33,3 @@ pub fn mechanism(
     let found = rank::judge(&checked.model);
     Some(checked.judged(found, faults))
 }
-
-/// An assembly by itself: what can be read is checked. What numbers tell is asked of mechanisms.
-pub fn assembly(
-    syntax: &MechanismSyntax,
-    types: &Definitions,
-    definitions: Vec<ElementDef>,
-    facade: &TokenStream,
-    faults: &mut Faults,
-) -> Option<Model> {
-    check::mechanism::check_assembly(syntax, types, definitions, facade, faults)
-}

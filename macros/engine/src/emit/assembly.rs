@@ -8,7 +8,7 @@ use super::construction::of_assembly;
 use super::parameters::{lengths, read};
 use crate::model::Model;
 use crate::syntax::array::element_type;
-use crate::syntax::mechanism::carrier_path;
+use crate::syntax::mechanism::{MechanismSyntax, carrier_path};
 use crate::wire::{self, Delivery};
 
 /// What the fields of an assembly are described by.
@@ -17,7 +17,12 @@ const WITH_TYPES: [&str; 4] = ["body", "joint", "force", "part"];
 /// Writes an assembly. A faulty one still has its carrier, so that its users see one error and not
 /// many.
 #[must_use]
-pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> TokenStream {
+pub fn emit(
+    input: &DeriveInput,
+    syntax: &MechanismSyntax,
+    delivery: &Delivery,
+    model: Option<&Model>,
+) -> TokenStream {
     let (name, facade) = (&input.ident, &delivery.facade);
     let fingerprint = wire::fingerprint([&delivery.payload, &delivery.definitions]);
     let carrier = wire::carrier(wire::Carrier {
@@ -29,18 +34,19 @@ pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> 
         word: "assembly",
     });
     let fields = fields(input);
+    let (generics, arguments, clause) = input.generics.split_for_impl();
     let types = fields.iter().enumerate().filter_map(|(number, field)| {
         let is_typed = field.attrs.iter().any(has_type);
         let path = carrier_path(element_type(&field.ty)).filter(|_| is_typed)?;
         Some(quote! {
             #[automatically_derived]
-            impl #facade::__private::FieldOf<#number> for #name {
+            impl #generics #facade::__private::FieldOf<#number> for #name #arguments #clause {
                 type Type = #path;
             }
         })
     });
-    let (generics, arguments, clause) = input.generics.split_for_impl();
     let Some(model) = model else {
+        let construction = super::fallback::construction(syntax, &quote!(Self));
         return quote! {
             #[automatically_derived]
             impl #generics #facade::__private::Element for #name #arguments #clause {}
@@ -54,6 +60,7 @@ pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> 
                     fn default() -> Self { loop {} }
                 }
                 #(#types)*
+                #construction
             };
             #carrier
         };
@@ -74,9 +81,6 @@ pub fn emit(input: &DeriveInput, delivery: &Delivery, model: Option<&Model>) -> 
     });
     let (lengths, construction) = (lengths(model), of_assembly(model));
     quote! {
-        #[allow(
-            clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, missing_docs, unreachable_pub, unused_qualifications
-        )]
         const _: () = {
             use ::core::primitive::{f64, u64, usize};
 

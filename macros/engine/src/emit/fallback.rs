@@ -8,7 +8,6 @@ use syn::ext::IdentExt;
 
 use super::nested::{Fields, Nested, nested};
 use crate::check::definition::{Definition, Definitions, definition};
-use crate::model::Name;
 use crate::syntax::array::array;
 use crate::syntax::mechanism::{Field, MechanismSyntax, PartSyntax, Role};
 
@@ -18,14 +17,7 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     let name = &syntax.name;
     let (declared, arguments, clause) = syntax.generics.split_for_impl();
     let bounds = clause.map(|clause| &clause.predicates);
-    // The compiler itself reports fields of one name.
-    let mut before = HashSet::new();
-    let mut is_first = |name: &Name| before.insert(name.field().unraw());
-    let own: Vec<&Field> = syntax
-        .fields
-        .iter()
-        .filter(|field| field.origin.is_none() && is_first(&field.name))
-        .collect();
+    let own: Vec<&Field> = own_fields(syntax).collect();
     let has_handle = |field: &&&Field| {
         let role = field.role.as_ref().map(|(role, _)| *role);
         role.is_none_or(|role| matches!(role, Role::Body | Role::Joint | Role::Force | Role::Point))
@@ -41,11 +33,11 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
         }
     });
     let (parts, parts_of_handles) = parts(syntax, types, facade);
+    let is_other = |part: &Ident| own.iter().all(|field| field.name.field() != part);
     let of_parts = parts_of_handles.into_iter();
-    let of_parts = of_parts.filter(|(field, _)| is_first(&field.clone().into()));
+    let of_parts = of_parts.filter(|(field, _)| is_other(field));
     let handles = handles.chain(of_parts.map(|(field, handle)| quote!(#field: #handle,)));
     let handles: TokenStream = handles.collect();
-    let parameters = parameters(syntax, &own);
     let inputs: Vec<TokenStream> = own
         .iter()
         .filter(|field| matches!(field.role, Some((Role::Input, _))))
@@ -58,20 +50,11 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
         })
         .collect();
     let (inputs_kind, inputs_type) = inputs_of(&inputs, facade);
-    let construction = (!parameters.is_empty()).then(|| {
-        quote! {
-            impl #declared #name #arguments #clause {
-                #[allow(warnings, missing_docs)]
-                pub fn new(
-                    #(#parameters),*
-                ) -> ::core::result::Result<Self, #facade::ParameterError> {
-                    loop {}
-                }
-            }
-        }
-    });
+    let result = quote!(::core::result::Result<Self, #facade::ParameterError>);
+    let construction = construction(syntax, &result);
     quote! {
         #construction
+        #[allow(warnings, clippy::all, clippy::pedantic)]
         const _: () = {
             #inputs_type
             #parts
@@ -80,11 +63,33 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     }
 }
 
+/// `new`, where there are parameters.
+pub(super) fn construction(syntax: &MechanismSyntax, result: &TokenStream) -> Option<TokenStream> {
+    let (name, parameters) = (&syntax.name, parameters(syntax));
+    let (declared, arguments, clause) = syntax.generics.split_for_impl();
+    (!parameters.is_empty()).then(|| {
+        quote! {
+            impl #declared #name #arguments #clause {
+                #[allow(warnings, missing_docs)]
+                pub fn new(#(#parameters),*) -> #result {
+                    loop {}
+                }
+            }
+        }
+    })
+}
+
+/// The fields that are of no part. The compiler itself reports fields of one name.
+fn own_fields(syntax: &MechanismSyntax) -> impl Iterator<Item = &Field> {
+    let mut before = HashSet::new();
+    let fields = syntax.fields.iter();
+    let own = fields.filter(|field| field.origin.is_none());
+    own.filter(move |field| before.insert(field.name.field().unraw()))
+}
+
 /// The arguments of `new`.
-fn parameters(syntax: &MechanismSyntax, own: &[&Field]) -> Vec<TokenStream> {
-    let own = own
-        .iter()
-        .filter(|field| matches!(field.role, Some((Role::Param, _))));
+fn parameters(syntax: &MechanismSyntax) -> Vec<TokenStream> {
+    let own = own_fields(syntax).filter(|field| matches!(field.role, Some((Role::Param, _))));
     let own = own.map(|field| match array(&field.written) {
         Some(array) => {
             let (name, length) = (&field.name, &array.len);
@@ -172,7 +177,6 @@ fn inputs_of(fields: &[TokenStream], facade: &TokenStream) -> (TokenStream, Toke
         return (quote!(()), TokenStream::new());
     }
     let declared = quote! {
-        #[allow(warnings, missing_docs)]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
         pub struct __Inputs<__S> { #(#fields),* }
 

@@ -52,7 +52,26 @@ struct Pair {
     pin: Spherical,
 }
 
+/// No generic parameters.
+#[derive(Assembly)]
+struct Generic<T> {
+    #[body(mass = 1.0, free)]
+    bob: Particle,
+    #[joint(between = [ground, bob], point = [0.0, 0.0, 0.0])]
+    pin: T,
+}
+
+/// What is wrong with an assembly is no reason to say that it cannot be made.
+#[derive(Assembly)]
+struct Sprung {
+    #[param]
+    stiffness: f64,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], fre)]
+    block: Body,
+}
+
 fn main() {
+    let _ = Sprung::new(1.0);
     let _ = Robot::HANDLES.left.hip;
     let _ = Pair::HANDLES.arm.shoulder;
 }
