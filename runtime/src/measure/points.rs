@@ -9,9 +9,9 @@ use crate::math::vec3::{cross, plus, read};
 use crate::measure::access::MechanismExt;
 use crate::measure::reaction::in_global_axes;
 use crate::measure::view::View;
-use crate::mechanism::handle::BodyHandle;
+use crate::mechanism::handle::{BodyHandle, PointHandle};
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::point::{Located, Place, PointHandle};
+use crate::mechanism::point::{Located, Place};
 use crate::state::vector::{Array, StateParts};
 
 /// What is `at` a place: the centre of mass of a body, or a named point.

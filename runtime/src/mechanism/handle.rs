@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::report::{BodyInfo, BodyKind, ForceInfo, JointInfo, RedundantRow};
+use crate::mechanism::report::{BodyInfo, BodyKind, ForceInfo, JointInfo, PointInfo, RedundantRow};
 
 /// A joint as a type: its equations and the bodies that it connects.
 ///
@@ -70,41 +70,87 @@ pub trait Driven: Joint {
     const ROW: usize;
 }
 
-/// A body of the mechanism `M`.
-pub struct BodyHandle<M> {
-    index: usize,
-    mechanism: PhantomData<fn() -> M>,
+/// A typed place in a list of the report.
+macro_rules! handle {
+    ($(#[$about:meta])* $name:ident<$mechanism:ident $(, $type:ident)?>, $list:ident: $info:ident) => {
+        $(#[$about])*
+        pub struct $name<$mechanism $(, $type)?> {
+            index: usize,
+            types: PhantomData<fn() -> ($mechanism, $($type)?)>,
+        }
+
+        impl<$mechanism $(, $type)?> $name<$mechanism $(, $type)?> {
+            #[doc(hidden)]
+            #[must_use]
+            pub const fn new(index: usize) -> Self {
+                Self { index, types: PhantomData }
+            }
+
+            #[doc = concat!("The place in [`Report::", stringify!($list), "`](crate::Report::", stringify!($list), ").")]
+            #[must_use]
+            pub const fn index(self) -> usize {
+                self.index
+            }
+        }
+
+        impl<$mechanism: Mechanism $(, $type)?> $name<$mechanism $(, $type)?> {
+            /// The name of the field.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                self.info().map_or("", |info| info.name)
+            }
+
+            /// What the report says of it.
+            pub(crate) fn info(self) -> Option<&'static $info> {
+                $mechanism::REPORT.$list.get(self.index)
+            }
+        }
+
+        impl<$mechanism $(, $type)?> Clone for $name<$mechanism $(, $type)?> {
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+
+        impl<$mechanism $(, $type)?> Copy for $name<$mechanism $(, $type)?> {}
+
+        impl<$mechanism $(, $type)?> PartialEq for $name<$mechanism $(, $type)?> {
+            fn eq(&self, other: &Self) -> bool {
+                self.index == other.index
+            }
+        }
+
+        impl<$mechanism $(, $type)?> Eq for $name<$mechanism $(, $type)?> {}
+
+        impl<$mechanism $(, $type)?> fmt::Debug for $name<$mechanism $(, $type)?> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.debug_tuple(stringify!($name)).field(&self.index).finish()
+            }
+        }
+    };
 }
 
-impl<M> BodyHandle<M> {
-    #[doc(hidden)]
-    #[must_use]
-    pub const fn new(index: usize) -> Self {
-        Self {
-            index,
-            mechanism: PhantomData,
-        }
-    }
+handle! {
+    /// A body of the mechanism `M`.
+    BodyHandle<M>, bodies: BodyInfo
+}
 
-    /// The place in [`Report::bodies`](crate::Report::bodies).
-    #[must_use]
-    pub const fn index(self) -> usize {
-        self.index
-    }
+handle! {
+    /// A joint of the mechanism `M`, of the type `J`.
+    JointHandle<M, J>, joints: JointInfo
+}
+
+handle! {
+    /// A force of the mechanism `M`, of the type `F`.
+    ForceHandle<M, F>, forces: ForceInfo
+}
+
+handle! {
+    /// A named point of the mechanism `M`.
+    PointHandle<M>, points: PointInfo
 }
 
 impl<M: Mechanism> BodyHandle<M> {
-    /// The name of the field.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.info().map_or("", |info| info.name)
-    }
-
-    /// Kind and places of the body.
-    pub(crate) fn info(self) -> Option<&'static BodyInfo> {
-        M::REPORT.bodies.get(self.index)
-    }
-
     /// Kind and places of the body, and the place of its Euler parameters; nothing for a particle.
     pub(crate) fn orientation(self) -> Option<(&'static BodyInfo, usize)> {
         let info = self.info()?;
@@ -112,36 +158,7 @@ impl<M: Mechanism> BodyHandle<M> {
     }
 }
 
-/// A joint of the mechanism `M`, of the type `J`.
-pub struct JointHandle<M, J> {
-    index: usize,
-    types: PhantomData<fn() -> (M, J)>,
-}
-
-impl<M, J> JointHandle<M, J> {
-    #[doc(hidden)]
-    #[must_use]
-    pub const fn new(index: usize) -> Self {
-        Self {
-            index,
-            types: PhantomData,
-        }
-    }
-
-    /// The place in [`Report::joints`](crate::Report::joints).
-    #[must_use]
-    pub const fn index(self) -> usize {
-        self.index
-    }
-}
-
 impl<M: Mechanism, J> JointHandle<M, J> {
-    /// The name of the field.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.info().map_or("", |info| info.name)
-    }
-
     /// The row of an equation of the joint's definition; `None` if it was left out.
     pub(crate) fn row(self, equation: usize) -> Option<usize> {
         let of_joint = |row: &&RedundantRow| row.dropped && row.joint == self.index;
@@ -151,47 +168,6 @@ impl<M: Mechanism, J> JointHandle<M, J> {
         }
         let before = dropped().filter(|row| row.row < equation).count();
         self.info().map(|info| info.row + equation - before)
-    }
-
-    /// Rows and bodies of the joint.
-    pub(crate) fn info(self) -> Option<&'static JointInfo> {
-        M::REPORT.joints.get(self.index)
-    }
-}
-
-/// A force of the mechanism `M`, of the type `F`.
-pub struct ForceHandle<M, F> {
-    index: usize,
-    types: PhantomData<fn() -> (M, F)>,
-}
-
-impl<M, F> ForceHandle<M, F> {
-    #[doc(hidden)]
-    #[must_use]
-    pub const fn new(index: usize) -> Self {
-        Self {
-            index,
-            types: PhantomData,
-        }
-    }
-
-    /// The place in [`Report::forces`](crate::Report::forces).
-    #[must_use]
-    pub const fn index(self) -> usize {
-        self.index
-    }
-}
-
-impl<M: Mechanism, F> ForceHandle<M, F> {
-    /// The name of the field.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.info().map_or("", |info| info.name)
-    }
-
-    /// Kind and bodies of the force.
-    pub(crate) fn info(self) -> Option<&'static ForceInfo> {
-        M::REPORT.forces.get(self.index)
     }
 }
 
@@ -233,33 +209,3 @@ impl<M: Mechanism, F> CountsTurns<M> for ForceHandle<M, F> {
         self.info().map_or(0..0, places)
     }
 }
-
-macro_rules! handle {
-    ($name:ident<$($parameter:ident),*>) => {
-        impl<$($parameter),*> Clone for $name<$($parameter),*> {
-            fn clone(&self) -> Self {
-                *self
-            }
-        }
-
-        impl<$($parameter),*> Copy for $name<$($parameter),*> {}
-
-        impl<$($parameter),*> PartialEq for $name<$($parameter),*> {
-            fn eq(&self, other: &Self) -> bool {
-                self.index == other.index
-            }
-        }
-
-        impl<$($parameter),*> Eq for $name<$($parameter),*> {}
-
-        impl<$($parameter),*> fmt::Debug for $name<$($parameter),*> {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.debug_tuple(stringify!($name)).field(&self.index).finish()
-            }
-        }
-    };
-}
-
-handle!(BodyHandle<M>);
-handle!(JointHandle<M, J>);
-handle!(ForceHandle<M, F>);

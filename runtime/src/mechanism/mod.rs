@@ -22,7 +22,7 @@ pub(crate) mod report;
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };
-pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint};
+pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint, PointHandle};
 /// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
 /// [`guide::parts`](crate::guide::parts).
 pub use holonom_macros::Assembly;
@@ -32,7 +32,7 @@ pub use kernels::{
 };
 #[doc(hidden)]
 pub use kernels::{Normalised, Orientation};
-pub use point::{Located, Point, PointHandle};
+pub use point::{Located, Point};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{
     Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
