@@ -31,8 +31,6 @@ pub struct Scene {
     pub title: &'static str,
     /// How long it lasts (s) unless another time is asked for.
     pub seconds: f64,
-    /// The formulation and the integrator, and why they are taken.
-    pub method: &'static str,
     run: fn(&Self, f64) -> Outcome,
 }
 
@@ -41,6 +39,8 @@ pub struct Scene {
 pub struct Recorded {
     /// The page.
     pub html: String,
+    /// The formulation and the integrator, and why they are taken.
+    pub method: &'static str,
     /// The number of frames.
     pub frames: usize,
     /// "no warnings", or those of the run, a line each.
@@ -60,15 +60,6 @@ impl Scene {
     }
 }
 
-/// For mechanisms whose equations are independent.
-const ACCURATE: &str = "standard Lagrange multipliers in joint coordinates, projected; Dormand-Prince 5(4), tolerance 1e-8";
-/// For mechanisms that pass singular configurations.
-const THROUGH_SINGULAR: &str = "penalty in absolute coordinates, projected, because the mechanism passes singular \
-     configurations; Dormand-Prince 5(4), tolerance 1e-8";
-/// For stiff mechanisms.
-#[cfg(feature = "large")]
-const STIFF: &str = "standard Lagrange multipliers in joint coordinates; Radau IIA of order 5, because the springs are stiff, tolerance 1e-8";
-
 /// All runs: two without the feature `large`, whose mechanisms compile quickly.
 #[must_use]
 pub fn scenes() -> Vec<Scene> {
@@ -77,7 +68,6 @@ pub fn scenes() -> Vec<Scene> {
             name: "four-bar",
             title: "Four-bar",
             seconds: 6.0,
-            method: THROUGH_SINGULAR,
             run: |scene, seconds| {
                 let handles = FourBar::HANDLES;
                 let mut film = scene.film();
@@ -91,7 +81,6 @@ pub fn scenes() -> Vec<Scene> {
             name: "pendulum",
             title: "Rod on a hinge",
             seconds: 10.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = RodPendulum::HANDLES;
                 let mut film = scene.film();
@@ -118,7 +107,6 @@ fn large() -> [Scene; 14] {
             name: "double-four-bar",
             title: "Two four-bars in a row",
             seconds: 6.0,
-            method: THROUGH_SINGULAR,
             run: |scene, seconds| {
                 through_singular(&DoubleFourBar::default(), scene.film(), seconds, |_, _| ())
             },
@@ -127,7 +115,6 @@ fn large() -> [Scene; 14] {
             name: "quintuple-four-bar",
             title: "Five four-bars in a row",
             seconds: 6.0,
-            method: THROUGH_SINGULAR,
             run: |scene, seconds| {
                 through_singular(
                     &QuintupleFourBar::default(),
@@ -141,7 +128,6 @@ fn large() -> [Scene; 14] {
             name: "long-pendulum",
             title: "Simple pendulum",
             seconds: 10.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 accurate(&SimplePendulum::default(), scene.film(), seconds, |_, _| ())
             },
@@ -150,7 +136,6 @@ fn large() -> [Scene; 14] {
             name: "squeezer",
             title: "Andrews' squeezing mechanism",
             seconds: 0.03,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = SqueezingMechanism::HANDLES;
                 let mechanism = SqueezingMechanism::default();
@@ -163,7 +148,6 @@ fn large() -> [Scene; 14] {
             name: "bricard",
             title: "Bricard's mechanism",
             seconds: 10.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = Bricard::HANDLES;
                 let mut film = scene.film();
@@ -175,7 +159,6 @@ fn large() -> [Scene; 14] {
             name: "governor",
             title: "Flyball governor",
             seconds: 10.0,
-            method: STIFF,
             run: |scene, seconds| {
                 let handles = FlyballGovernor::HANDLES;
                 stiff(
@@ -196,7 +179,6 @@ fn large() -> [Scene; 14] {
             name: "heavy-top",
             title: "Heavy top",
             seconds: 2.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = HeavyTop::HANDLES;
                 let mut film = scene.film();
@@ -208,7 +190,6 @@ fn large() -> [Scene; 14] {
             name: "variable-length",
             title: "Pendulum of variable length",
             seconds: 5.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = VariableLengthPendulum::HANDLES;
                 let mut film = scene.film();
@@ -223,7 +204,6 @@ fn large() -> [Scene; 14] {
             name: "slider-crank",
             title: "Slider-crank",
             seconds: 0.2,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = SliderCrank::HANDLES;
                 let mut film = scene.film();
@@ -237,7 +217,6 @@ fn large() -> [Scene; 14] {
             name: "heavy-chain",
             title: "A bob of 1000 kg on a chain of grams",
             seconds: 1.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 accurate(&HeavyChain::default(), scene.film(), seconds, |_, _| ())
             },
@@ -246,7 +225,6 @@ fn large() -> [Scene; 14] {
             name: "door",
             title: "Door on two hinges",
             seconds: 10.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = Door::HANDLES;
                 accurate(&Door::default(), scene.film(), seconds, |film, sample| {
@@ -258,7 +236,6 @@ fn large() -> [Scene; 14] {
             name: "cart-pole",
             title: "Cart and pole",
             seconds: 5.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = CartPole::HANDLES;
                 accurate(
@@ -275,7 +252,6 @@ fn large() -> [Scene; 14] {
             name: "ur5",
             title: "UR5 without motors",
             seconds: 2.0,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = Ur5::HANDLES;
                 let mut film = scene.film();
@@ -290,7 +266,6 @@ fn large() -> [Scene; 14] {
             name: "panda",
             title: "Panda without motors",
             seconds: 1.5,
-            method: ACCURATE,
             run: |scene, seconds| {
                 let handles = Panda::HANDLES;
                 let mut film = scene.film();
@@ -331,7 +306,7 @@ impl Scene {
     }
 }
 
-/// See [`ACCURATE`].
+/// For mechanisms whose equations are independent.
 fn accurate<M>(
     mechanism: &M,
     film: Film<M>,
@@ -342,17 +317,15 @@ where
     M: JointCoordinates,
     DormandPrince<f64>: Runs<f64, M, StandardLagrange, Relative>,
 {
+    let method = "standard Lagrange multipliers in joint coordinates, projected; \
+         Dormand-Prince 5(4), tolerance 1e-8";
     let integrator = DormandPrince::new(Tolerance::of(mechanism, TOLERANCE)?);
     let simulation = Simulation::new(mechanism, StandardLagrange, integrator).joint_coordinates();
-    recorded(
-        &simulation.projection(Projection::default()),
-        film,
-        seconds,
-        read,
-    )
+    let simulation = simulation.projection(Projection::default());
+    recorded(method, &simulation, film, seconds, read)
 }
 
-/// See [`STIFF`].
+/// For stiff mechanisms.
 #[cfg(feature = "large")]
 fn stiff<M>(
     mechanism: &M,
@@ -364,12 +337,14 @@ where
     M: JointCoordinates,
     RadauIIA<f64>: Runs<f64, M, StandardLagrange, Relative>,
 {
+    let method = "standard Lagrange multipliers in joint coordinates; \
+         Radau IIA of order 5, because the springs are stiff, tolerance 1e-8";
     let integrator = RadauIIA::new(Tolerance::of(mechanism, TOLERANCE)?);
     let simulation = Simulation::new(mechanism, StandardLagrange, integrator).joint_coordinates();
-    recorded(&simulation, film, seconds, read)
+    recorded(method, &simulation, film, seconds, read)
 }
 
-/// See [`THROUGH_SINGULAR`].
+/// For mechanisms that pass singular configurations.
 fn through_singular<M>(
     mechanism: &M,
     film: Film<M>,
@@ -380,18 +355,17 @@ where
     M: Mechanism,
     DormandPrince<f64>: Runs<f64, M, Penalty<f64>, Absolute>,
 {
+    let method = "penalty in absolute coordinates, projected, because the mechanism passes \
+         singular configurations; Dormand-Prince 5(4), tolerance 1e-8";
     let integrator = DormandPrince::new(Tolerance::of(mechanism, TOLERANCE)?);
     let formulation = Penalty::of(mechanism)?;
     let simulation = Simulation::new(mechanism, formulation, integrator).absolute_coordinates();
-    recorded(
-        &simulation.projection(Projection::default()),
-        film,
-        seconds,
-        read,
-    )
+    let simulation = simulation.projection(Projection::default());
+    recorded(method, &simulation, film, seconds, read)
 }
 
 fn recorded<M, F, I, C>(
+    method: &'static str,
     simulation: &Simulation<'_, f64, M, F, I, NoForces, C>,
     mut film: Film<M>,
     seconds: f64,
@@ -416,6 +390,7 @@ where
     film.warnings(&warnings);
     Ok(Recorded {
         html: film.html()?,
+        method,
         frames: film.frames(),
         warnings: warnings.to_string(),
     })

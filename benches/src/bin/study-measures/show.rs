@@ -48,7 +48,7 @@ pub(crate) fn study(arguments: &Show) -> Result<(), Box<dyn Error>> {
             "{}: {seconds} s in {} frames\n{}\n{}\n\n{}\n\n",
             scene.title,
             film.frames,
-            scene.method,
+            film.method,
             film.warnings,
             path.display()
         ))?;
