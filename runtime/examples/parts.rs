@@ -6,8 +6,8 @@
 
 use holonom::prelude::*;
 
-/// Double wishbones, a tie rod, a strut and a tyre of a left wheel: x ahead, y left, z up, the
-/// origin on the ground below the middle of the axle.
+/// Double wishbones, a tie rod, a strut and a tyre of a left wheel: x ahead, y left, z up. The
+/// origin is on the ground below the middle of the axle.
 #[derive(Assembly)]
 struct Suspension {
     #[port]
