@@ -66,8 +66,8 @@ impl Placement {
         local
     }
 
-    /// Moves a body there. Its user's axes lie as in the mirror, but for the one across it, which is
-    /// turned round: `R` becomes `S R S`.
+    /// Moves a body there. Its user's axes lie as in the mirror, but for the one across it, which
+    /// is turned round: `R` becomes `S R S`.
     pub(super) fn body(&self, body: &mut Body, numbers: &mut Numbers<'_>) {
         let name = body.name.clone();
         let at = |numbers: &mut Numbers<'_>, attribute: &str| {
