@@ -13,11 +13,11 @@ use super::definition::{Definition, Definitions, definition};
 use super::joints::JointChecker;
 use super::number::Numbers;
 use super::pairs::Pairs;
-use super::{kinds, parts, points, redundant};
+use super::{asked, kinds, parts, points, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::name::Step;
 use crate::model::{
-    Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
+    Asked, Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
 };
 use crate::syntax::array::{is_constant, is_index};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
@@ -120,6 +120,7 @@ fn described<'a>(
         gravity,
         wish,
         coordinates,
+        asked,
     } = attributes(syntax, &mut numbers, faults);
     numbers.scopes = scopes(syntax, facade);
     let parts = parts::parts(syntax, &mut numbers, faults);
@@ -257,6 +258,7 @@ fn described<'a>(
         symbols,
         independence: Independence::default(),
         coordinates,
+        asked,
         constants,
         lengths: syntax.lengths.clone(),
     };
@@ -305,9 +307,13 @@ fn attributes<'a>(
         // What was meant by something else is unknown: nothing is refused on top.
         choice("redundant", expr, &Redundant::ALL, faults).unwrap_or(Redundant::Keep)
     });
-    let coordinates = pairs
-        .optional("coordinates", faults)
-        .and_then(|expr| choice("coordinates", expr, &Coordinates::ALL, faults));
+    let wanted = pairs.optional("coordinates", faults);
+    let coordinates =
+        wanted.and_then(|expr| choice("coordinates", expr, &Coordinates::ALL, faults));
+    // What was meant by something else is unknown.
+    let known =
+        (wanted.is_none() || coordinates.is_some()).then(|| coordinates.unwrap_or_default());
+    let asked = asked::read(pairs.optional(asked::KEY, faults), known, faults);
     kinds::read(pairs.optional(kinds::KEY, faults), faults);
     // They are read with the arrays.
     for pair in &syntax.list.pairs {
@@ -320,6 +326,7 @@ fn attributes<'a>(
         gravity,
         wish: (wish.unwrap_or_default(), redundant),
         coordinates: coordinates.unwrap_or_default(),
+        asked,
     }
 }
 
@@ -331,6 +338,7 @@ struct Attributes<'a> {
     gravity: Option<[Number; 3]>,
     wish: Wish<'a>,
     coordinates: Coordinates,
+    asked: Vec<Asked>,
 }
 
 /// One of some words in quotes.

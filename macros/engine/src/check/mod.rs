@@ -20,11 +20,13 @@
 //! - `points.rs`: named points.
 //! - `parts.rs`, `placement.rs`, `mirror.rs`: where parts are, and what that makes of what is in
 //!   them. See `docs/decisions/022-assemblies.md`.
+//! - `asked.rs`: kernels that are asked for by `kernels = [..]`.
 //! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
 //!
 //! Bounds. `syntax/depth.rs` limits nesting before anything recurses. `model::Extent` limits what
 //! is differentiated. Both refuse.
 
+mod asked;
 mod between;
 pub mod bodies;
 pub mod definition;

@@ -3,6 +3,7 @@
 use super::candidates::{Strategy, choose};
 use super::freedom::Freedom;
 use super::from_bodies::from_bodies;
+use super::joint_rates::JointRates;
 use super::system::Reduced;
 use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{PivotCheck, Solver, relative};
@@ -92,6 +93,8 @@ pub struct JointKernels {
     /// Pairs, further coordinates, auxiliary variables and velocities, from the state of the
     /// bodies.
     pub joints: Kernel,
+    /// What is asked for in the rates of the joints.
+    pub joint_rates: Option<JointRates>,
 }
 
 impl JointKernels {
@@ -168,6 +171,7 @@ impl JointKernels {
             evaluations: evaluations.collect(),
             solvers: solvers.collect(),
             bodies: bodies(&reduced, model),
+            joint_rates: JointRates::new(model, &reduced),
             joints: {
                 let mut arena = reduced.scene.space.arena.clone();
                 let outputs = from_bodies(&mut arena, model, links);

@@ -1,12 +1,41 @@
 //! How links move: from the ground to the leaves, every link in the axes of its motion.
 
-use super::algebra::{add, apply};
+use super::algebra::{add, apply, scale};
 use super::freedom::Freedom;
 use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::vector::{Triple, ZERO, cross};
 
-/// The motion of the links, without second rates.
+/// Which rates there are.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Moving<'a> {
+    /// None: everything stands still.
+    Not,
+    /// Velocities, and no second rates.
+    Steadily,
+    /// Velocities, and these rates of theirs.
+    Accelerated(&'a [Expr]),
+}
+
+impl Moving<'_> {
+    /// A velocity.
+    fn rate(self, arena: &mut Arena, velocity: usize) -> Expr {
+        match self {
+            Self::Not => Arena::ZERO,
+            Self::Steadily | Self::Accelerated(_) => arena.input(Input::Velocity(velocity as u32)),
+        }
+    }
+
+    /// The rate of a velocity.
+    fn second_rate(self, velocity: usize) -> Expr {
+        match self {
+            Self::Not | Self::Steadily => Arena::ZERO,
+            Self::Accelerated(rates) => rates[velocity],
+        }
+    }
+}
+
+/// The motion of the links, without second rates where these are not given.
 #[derive(Clone, Debug)]
 pub(super) struct Kinematics {
     /// The acceleration of the ground.
@@ -21,11 +50,6 @@ pub(super) struct Kinematics {
     pub(super) bias: Vec<Triple>,
     /// `w' ~ + w~ w~`: what it takes from a fixed vector to its second derivative.
     pub(super) second: Vec<[Triple; 3]>,
-}
-
-/// The rate of a link that has one velocity.
-pub(super) fn rate(arena: &mut Arena, links: &Links, link: usize) -> Expr {
-    arena.input(Input::Velocity(links.links[link].velocity as u32))
 }
 
 /// `w' ~ + w~ w~`.
@@ -50,6 +74,12 @@ impl Kinematics {
     /// be summed.
     #[must_use]
     pub(super) fn new(arena: &mut Arena, links: &Links, ground: Triple) -> Self {
+        Self::of(arena, links, ground, Moving::Steadily)
+    }
+
+    /// The same with other rates.
+    #[must_use]
+    pub(super) fn of(arena: &mut Arena, links: &Links, ground: Triple, moving: Moving<'_>) -> Self {
         let mut motion = Self {
             ground,
             spin: Vec::new(),
@@ -74,20 +104,22 @@ impl Kinematics {
             );
             let (spin, spin_bias) = match link.freedom {
                 Freedom::Turn { axis, .. } | Freedom::Screw { axis, .. } => {
-                    let rate = rate(arena, links, place);
+                    let rate = moving.rate(arena, link.velocity);
                     let unit = links.in_axes(arena, Links::unit(axis), Some(place));
                     let relative = unit.map(|component| arena.mul(component, rate));
                     let gyroscopic = cross(arena, base_spin, relative);
-                    (
-                        add(arena, base_spin, relative),
-                        add(arena, base_bias, gyroscopic),
-                    )
+                    let bias = add(arena, base_bias, gyroscopic);
+                    let own = scale(arena, moving.second_rate(link.velocity), unit);
+                    (add(arena, base_spin, relative), add(arena, bias, own))
                 }
                 Freedom::Slide { .. } => (base_spin, base_bias),
                 Freedom::Ball { .. } => {
-                    let rates =
-                        [0, 1, 2].map(|k| arena.input(Input::Velocity((link.velocity + k) as u32)));
-                    (rates, ZERO)
+                    let velocities = [0, 1, 2].map(|k| link.velocity + k);
+                    let rates = velocities.map(|velocity| moving.rate(arena, velocity));
+                    (
+                        rates,
+                        velocities.map(|velocity| moving.second_rate(velocity)),
+                    )
                 }
             };
             let offset = links.offset(arena, place);
@@ -100,12 +132,14 @@ impl Kinematics {
                 bias = add(arena, bias, bend);
             }
             if let Some(along) = links.origin_rate(arena, place) {
-                let rate = rate(arena, links, place);
+                let rate = moving.rate(arena, link.velocity);
                 let relative = along.map(|component| arena.mul(component, rate));
                 velocity = add(arena, velocity, relative);
                 let coriolis = cross(arena, carrier_spin, relative);
                 let twice = add(arena, coriolis, coriolis);
                 bias = add(arena, bias, twice);
+                let own = scale(arena, moving.second_rate(link.velocity), along);
+                bias = add(arena, bias, own);
             }
             let from = links.axes(link.carrier);
             motion

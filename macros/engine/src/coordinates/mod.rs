@@ -41,6 +41,9 @@
 //! `rank/closing.rs` finds the rest. `angles.rs` knows angles about one axis without rotation
 //! matrices.
 //!
+//! Kernels that are asked for (`joint_rates.rs`): mass matrix, efforts and axes in the rates of the
+//! joints themselves.
+//!
 //! Bodies. `Scene::on` binds what is left of the joints to bodies whose states are expressions of
 //! joint coordinates. `from_bodies.rs` is the way back. Forces of closures and the augmented
 //! Lagrangian use `factor_joints` and `solve_joints`, which contain no velocities and no described
@@ -59,6 +62,7 @@ pub mod frames;
 pub mod freedom;
 pub mod from_bodies;
 mod handover;
+pub mod joint_rates;
 pub mod kernels;
 mod kinematics;
 pub mod links;

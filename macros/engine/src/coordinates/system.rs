@@ -184,7 +184,7 @@ impl Reduced {
     }
 
     /// The wrenches on the links of forces and moments on the bodies.
-    fn wrenches(&mut self, gradient: &Gradient) -> Vec<Wrench> {
+    pub(super) fn wrenches(&mut self, gradient: &Gradient) -> Vec<Wrench> {
         let Self { links, scene, .. } = self;
         let mut wrenches = vec![Wrench::NONE; links.links.len()];
         for (body, standing) in links.bodies.iter().enumerate() {

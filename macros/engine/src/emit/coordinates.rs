@@ -41,6 +41,7 @@ impl Writer<'_, JointKernels> {
         let bodies = self.bodies();
         let joints = self.joints();
         let coordinate_rates = self.coordinate_rates();
+        let joint_rates = self.joint_rates();
         let coefficients = self.store.write_coefficients();
         let taken = taken(model, &mut self.store);
         let prepared = self.store.write_constants(&model.symbols);
@@ -98,6 +99,7 @@ impl Writer<'_, JointKernels> {
                 #coordinate_rates
             }
 
+            #joint_rates
             #evaluations
             #solvers
             #parts

@@ -57,7 +57,8 @@ impl Writer<'_, JointKernels> {
         quote!(#[doc = #text])
     }
 
-    /// Name and cost of each evaluation, and then of each without multipliers, if there are any.
+    /// Name and cost of each evaluation, then of each without multipliers, if there are any, then of
+    /// what is asked for.
     fn counts(&self) -> Vec<(String, Count)> {
         let kernels = self.kernels;
         let rates = kernels.turns + kernels.rest + kernels.velocities;
@@ -74,7 +75,12 @@ impl Writer<'_, JointKernels> {
             let name = format!("rates {}", terms_name(evaluation.terms));
             (name, count(arena, &needed, Stage::State))
         });
-        evaluations.chain(alone).collect()
+        let asked = kernels.joint_rates.iter().flat_map(|of| &of.asked);
+        let asked = asked.map(|(asked, Kernel { arena, outputs })| {
+            let name = asked.word().into();
+            (name, count(arena, outputs, Stage::State))
+        });
+        evaluations.chain(alone).chain(asked).collect()
     }
 
     pub(super) fn report(&self) -> TokenStream {

@@ -27,6 +27,7 @@ pub mod fallback;
 mod handles;
 mod inputs;
 pub mod joint;
+mod joint_rates;
 mod joint_report;
 mod joint_solution;
 mod likes;

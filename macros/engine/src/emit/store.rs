@@ -150,6 +150,7 @@ pub(super) fn load_input(input: Input) -> TokenStream {
     let (array, place) = match input {
         Input::Coordinate(place) => ("coordinates", place),
         Input::Velocity(place) => ("velocities", place),
+        Input::Acceleration(place) => ("accelerations", place),
         Input::Upper(place) => ("upper", place),
         Input::Lower(place) => ("lower", place),
         Input::Time => {

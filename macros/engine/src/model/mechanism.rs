@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 
 use proc_macro2::{Ident, TokenStream};
 
+use super::asked::Asked;
 use super::joint::{ElementDef, Extent, Function, Turn};
 use super::name::Name;
 use super::number::{Number, Symbol, literals};
@@ -234,6 +235,8 @@ pub struct Model {
     pub independence: Independence,
     /// By what the bodies are described.
     pub coordinates: Coordinates,
+    /// Kernels in the rates of joints that are asked for.
+    pub asked: Vec<Asked>,
     /// The constants by path that an assembly has, each once.
     pub constants: Vec<TokenStream>,
     /// Constants by their names that are said to have these values.

@@ -1,6 +1,7 @@
 //! What a description means: bodies, joints and numbers, names bound, shapes known, independent of
 //! how it was written.
 
+mod asked;
 pub mod comparison;
 mod counted;
 pub mod inertia;
@@ -12,6 +13,7 @@ pub mod number;
 pub mod rank;
 pub mod shape;
 
+pub use asked::Asked;
 pub use comparison::Comparison;
 pub use joint::{
     Action, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term, Turn,

@@ -210,6 +210,7 @@ impl Constraints {
             Input::RateGain
             | Input::PositionGain
             | Input::Compliance(_)
+            | Input::Acceleration(_)
             | Input::Upper(_)
             | Input::Lower(_) => Some(0.0),
         });

@@ -184,6 +184,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         definitions: vec![joint.clone()],
         symbols: Vec::new(),
         independence: Independence::default(),
+        asked: Vec::new(),
         coordinates: Coordinates::Bodies,
     }
 }

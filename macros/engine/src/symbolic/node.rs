@@ -74,6 +74,8 @@ pub enum Input {
     Coordinate(u32),
     /// An element of the velocities.
     Velocity(u32),
+    /// A wanted acceleration, of a joint.
+    Acceleration(u32),
     /// An element of the upper right-hand side (forces).
     Upper(u32),
     /// An element of the lower right-hand side (rows).
@@ -124,6 +126,7 @@ impl Input {
             Self::Upper(place) => (7, place),
             Self::Lower(place) => (8, place),
             Self::Varying(place) => (9, place),
+            Self::Acceleration(place) => (10, place),
         }
     }
 
@@ -134,7 +137,9 @@ impl Input {
             Self::Symbol(_) => Stage::Parameter,
             Self::Varying(_) => Stage::Input,
             Self::RateGain | Self::PositionGain | Self::Compliance(_) => Stage::Coefficient,
-            Self::Time | Self::Coordinate(_) | Self::Velocity(_) => Stage::State,
+            Self::Time | Self::Coordinate(_) | Self::Velocity(_) | Self::Acceleration(_) => {
+                Stage::State
+            }
             Self::Upper(_) | Self::Lower(_) => Stage::RightHandSide,
         }
     }

@@ -118,6 +118,7 @@ impl Inputs {
             Input::Time => Some(self.time),
             Input::Coordinate(place) => at(&self.coordinates, place),
             Input::Velocity(place) => at(&self.velocities, place),
+            Input::Acceleration(_) => None,
             Input::Upper(place) => at(&self.upper, place),
             Input::Lower(place) => at(&self.lower, place),
         });

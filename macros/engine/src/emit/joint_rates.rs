@@ -1,0 +1,149 @@
+//! Kernels in the rates of the joints: one trait for each that is asked for.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::straight_line::StraightLine;
+use super::writer::Writer;
+use crate::coordinates::joint_rates::JointRates;
+use crate::coordinates::kernels::JointKernels;
+use crate::model::Asked;
+use crate::symbolic::equations::Kernel;
+use crate::syntax::words::local;
+
+/// The trait of a kernel, its function and its type, if that is no number for each rate.
+fn names(asked: Asked) -> (Ident, Ident, Option<Ident>) {
+    let (implemented, function, kind) = match asked {
+        Asked::Mass => ("HasMassMatrix", "mass_matrix", Some("MassMatrix")),
+        Asked::Gravity => ("HasGravity", "gravity_efforts", None),
+        Asked::Coriolis => ("HasCoriolis", "coriolis_efforts", None),
+        Asked::Inverse => ("HasInverse", "inverse_dynamics", None),
+        Asked::Jacobian => ("HasJacobian", "joint_axes", Some("Axes")),
+    };
+    (
+        format_ident!("{implemented}"),
+        format_ident!("{function}"),
+        kind.map(|kind| format_ident!("{kind}")),
+    )
+}
+
+impl Writer<'_, JointKernels> {
+    /// The traits of what is asked for, and that of the rows.
+    pub(super) fn joint_rates(&mut self) -> TokenStream {
+        let kernels = self.kernels;
+        let Some(of_joints) = &kernels.joint_rates else {
+            return TokenStream::new();
+        };
+        let mut tokens = self.closing_rows(of_joints);
+        for (asked, kernel) in &of_joints.asked {
+            tokens.extend(self.asked(*asked, kernel, of_joints));
+        }
+        tokens
+    }
+
+    fn closing_rows(&mut self, of_joints: &JointRates) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.of_state(
+            "__closing_rows",
+            &of_joints.rows,
+            &TokenStream::new(),
+            &TokenStream::new(),
+        );
+        let rows = self.kernels.rows.len();
+        let entries = rows * self.kernels.velocities;
+        let (jacobian, others) = outputs.split_at(entries);
+        let (gamma, rates) = others.split_at(rows);
+        let unpack = Self::unpack();
+        let arguments = arguments();
+        quote! {
+            #[automatically_derived]
+            impl #facade::__private::JointRates for #name {
+                type ClosingJacobian<__S: #facade::Scalar> = [__S; #entries];
+
+                fn closing_rows<__S: #facade::Scalar>(
+                    #arguments
+                ) -> (Self::ClosingJacobian<__S>, [Self::ClosingMultipliers<__S>; 2]) {
+                    #unpack
+                    #statements
+                    ([#(#jacobian),*], [[#(#gamma),*], [#(#rates),*]])
+                }
+            }
+        }
+    }
+
+    fn asked(&mut self, asked: Asked, kernel: &Kernel, of_joints: &JointRates) -> TokenStream {
+        let (name, facade) = (&self.model.name, self.facade);
+        let (implemented, function, kind) = names(asked);
+        let [.., of_velocities, _] = self.types_outside();
+        let accelerations = local("accelerations");
+        let (declared, own, passed) = match asked {
+            Asked::Inverse | Asked::Coriolis => (
+                quote!(#accelerations: &#of_velocities,),
+                quote!(#accelerations: &Self::JointVelocities<__S>,),
+                quote!(#accelerations,),
+            ),
+            _ => (TokenStream::new(), TokenStream::new(), TokenStream::new()),
+        };
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.of_state(&format!("__{function}"), kernel, &declared, &passed);
+        let length = outputs.len();
+        let (returned, declared) = match kind {
+            Some(kind) => (
+                quote!(Self::#kind<__S>),
+                quote!(type #kind<__S: #facade::Scalar> = [__S; #length];),
+            ),
+            None => (quote!(Self::JointVelocities<__S>), TokenStream::new()),
+        };
+        let moved_by = (asked == Asked::Jacobian).then(|| {
+            let bodies = &of_joints.moved_by;
+            quote!(const MOVED_BY: &'static [&'static [usize]] = &[#(&[#(#bodies),*]),*];)
+        });
+        let unpack = Self::unpack();
+        let arguments = arguments();
+        quote! {
+            #[automatically_derived]
+            impl #facade::__private::#implemented for #name {
+                #declared
+                #moved_by
+
+                fn #function<__S: #facade::Scalar>(#arguments #own) -> #returned {
+                    #unpack
+                    #statements
+                    [#(#outputs),*]
+                }
+            }
+        }
+    }
+
+    /// A kernel that reads constants, time and a state, and what else is declared.
+    fn of_state(
+        &mut self,
+        name: &str,
+        kernel: &Kernel,
+        declared: &TokenStream,
+        passed: &TokenStream,
+    ) -> StraightLine {
+        let [constants, time, state] = ["constants", "time", "state"].map(local);
+        let [of_state, of_constants, ..] = self.types_outside();
+        let frame = self.frame(
+            name.into(),
+            quote!(#constants: &#of_constants, #time: __S, #state: &#of_state, #declared),
+            quote!(#constants, #time, #state, #passed),
+        );
+        self.line_of(kernel, &frame)
+    }
+}
+
+fn arguments() -> TokenStream {
+    let [constants, time, state] = ["constants", "time", "state"].map(local);
+    quote! {
+        #constants: &Self::JointConstants<__S>,
+        #time: __S,
+        #state: &Self::JointState<__S>,
+    }
+}
