@@ -46,6 +46,7 @@ pub mod dynamics;
 pub mod error;
 pub mod formulation;
 mod forward;
+pub mod independent;
 pub mod integrate;
 mod math;
 pub mod measure;
@@ -212,6 +213,7 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::forces::*;
+    pub use crate::independent::{IndependentCoordinates, IndependentExt, Motion};
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
     pub use crate::mechanism::{Assembly, InputsOf, Point, StateOf};

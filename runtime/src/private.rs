@@ -9,9 +9,10 @@ pub use crate::error::ParameterFault;
 pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
-    HasDisplacement, Joint, JointCounter, JointInfo, JointMotion, JointReport, Kernel, Marker,
-    MarkerKind, Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape,
-    ShapeKind, Stabilisation, Terms,
+    HasCoriolis, HasDisplacement, HasGravity, HasInverse, HasJacobian, HasMassMatrix, Joint,
+    JointCounter, JointInfo, JointMotion, JointRates, JointReport, Kernel, Marker, MarkerKind,
+    Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape, ShapeKind,
+    Stabilisation, Terms,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -474,6 +475,100 @@ macro_rules! __stub_mechanism {
             {
                 fn default() -> Self { loop {} }
             }
+            $crate::__stub_joints! { [$($declared)*] [$mechanism] [$($bounds)*] }
         };
+    };
+}
+
+/// The joint coordinates of such a mechanism, with all kernels that can be asked for.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __stub_joints {
+    ([$($declared:tt)*] [$mechanism:ty] [$($bounds:tt)*]) => {
+        impl $($declared)* $crate::JointCoordinates for $mechanism
+        where
+            $mechanism: 'static,
+            $($bounds)*
+        {
+            type JointState<__S: $crate::Scalar> = $crate::state::JointState<__S, 0, 0, 0>;
+            type ClosingMultipliers<__S: $crate::Scalar> = [__S; 0];
+            type JointConstants<__S: $crate::Scalar> = [__S; 0];
+            type JointCoefficients<__S: $crate::Scalar> = [__S; 0];
+            type BodyMotions<__S: $crate::Scalar> = [__S; 0];
+            type JointFactors<__S: $crate::Scalar> = [__S; 0];
+            type JointVelocities<__S: $crate::Scalar> = [__S; 0];
+            const JOINT_REPORT: $crate::mechanism::JointReport = $crate::mechanism::JointReport {
+                motions: &[],
+                closing: &[],
+                rows: &[],
+                kernels: &[],
+                euler_parameters: &[],
+                counters: &[],
+                auxiliaries: 0,
+                rewraps: false,
+                determines: false,
+            };
+            fn prepare_joints<__S: $crate::Scalar>(_: &()) -> [__S; 0] { [] }
+            fn take_joint_inputs<__S: $crate::Scalar>(_: &(), _: &mut [__S; 0]) {}
+            fn joint_coefficients<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::mechanism::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
+            fn evaluate_joints_into<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(
+                _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::JointState<__S>, _: &mut Self::JointState<__S>, _: &mut [__S; 0],
+            ) -> $crate::mechanism::Pivot<__S> { loop {} }
+            fn factor_joints<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(
+                _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::JointState<__S>,
+            ) -> [__S; 0] { [] }
+            fn solve_joints<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(
+                _: &[__S; 0], _: &[__S; 0], _: &[__S; 0], _: &[__S; 0], _: &[__S; 0],
+            ) -> ([__S; 0], [__S; 0]) { ([], []) }
+            fn joint_coordinate_rates<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> Self::JointState<__S> { loop {} }
+            fn body_motions<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::JointState<__S>) -> [__S; 0] { [] }
+            fn joint_state<__S: $crate::Scalar>(_: &[__S; 0], _: &Self::State<__S>) -> Self::JointState<__S> { loop {} }
+        }
+        impl $($declared)* $crate::mechanism::JointRates for $mechanism
+        where
+            $mechanism: 'static,
+            $($bounds)*
+        {
+            type ClosingJacobian<__S: $crate::Scalar> = [__S; 0];
+            fn closing_rows<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> ([__S; 0], [[__S; 0]; 2]) { ([], [[], []]) }
+        }
+        impl $($declared)* $crate::mechanism::HasMassMatrix for $mechanism
+        where
+            $mechanism: 'static,
+            $($bounds)*
+        {
+            type MassMatrix<__S: $crate::Scalar> = [__S; 0];
+            fn mass_matrix<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> [__S; 0] { [] }
+        }
+        impl $($declared)* $crate::mechanism::HasInverse for $mechanism
+        where
+            $mechanism: 'static,
+            $($bounds)*
+        {
+            fn inverse_dynamics<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
+        }
+        impl $($declared)* $crate::mechanism::HasGravity for $mechanism
+        where
+            $mechanism: 'static,
+            $($bounds)*
+        {
+            fn gravity_efforts<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> [__S; 0] { [] }
+        }
+        impl $($declared)* $crate::mechanism::HasCoriolis for $mechanism
+        where
+            $mechanism: 'static,
+            $($bounds)*
+        {
+            fn coriolis_efforts<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
+        }
+        impl $($declared)* $crate::mechanism::HasJacobian for $mechanism
+        where
+            $mechanism: 'static,
+            $($bounds)*
+        {
+            type Axes<__S: $crate::Scalar> = [__S; 0];
+            const MOVED_BY: &'static [&'static [usize]] = &[];
+            fn joint_axes<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> [__S; 0] { [] }
+        }
     };
 }

@@ -24,6 +24,7 @@ const RUNTIME: [&str; 13] = [
     "monitor",
     "assembly",
     "measure",
+    "independent",
     "dynamics",
     "run",
 ];

@@ -272,6 +272,38 @@ pub enum Fault {
         /// The joint's field.
         joint: &'static str,
     },
+    /// More or fewer coordinates were chosen than there are degrees of freedom.
+    ChosenCount {
+        /// How many were chosen.
+        chosen: usize,
+        /// How many there are.
+        degrees_of_freedom: usize,
+    },
+    /// A coordinate was chosen twice.
+    ChosenTwice {
+        /// The joint's field.
+        joint: &'static str,
+    },
+    /// A joint was chosen as a coordinate that has several motions, or fewer than the one that was
+    /// asked for.
+    SeveralMotions {
+        /// The joint's field.
+        joint: &'static str,
+        /// How many rates it has.
+        motions: usize,
+    },
+    /// The chosen coordinates do not determine the motion here: something can move while they stand
+    /// still.
+    NotDetermined {
+        /// The field of a joint, or of a free body, that can move.
+        joint: &'static str,
+    },
+    /// The chosen coordinates are not independent here: the equations that close loops restrict
+    /// them.
+    NotIndependent {
+        /// The field of a chosen joint.
+        joint: &'static str,
+    },
     /// Angles that count turns were set, and their number is not that of the joint or force.
     CountedAngles {
         /// The field of the joint or force.

@@ -358,6 +358,38 @@ impl fmt::Display for Fault {
                 f,
                 "what is to be set of joint `{joint}` is no motion that its equations leave free"
             ),
+            Self::ChosenCount {
+                chosen,
+                degrees_of_freedom,
+            } => {
+                let plural = if degrees_of_freedom == 1 { "" } else { "s" };
+                write!(
+                    f,
+                    "the mechanism has {degrees_of_freedom} degree{plural} of freedom: choose as many coordinates, not {chosen}"
+                )
+            }
+            Self::ChosenTwice { joint } => {
+                write!(f, "the motion of joint `{joint}` was chosen twice")
+            }
+            Self::SeveralMotions { joint, motions } => {
+                let plural = if motions == 1 { "" } else { "s" };
+                write!(
+                    f,
+                    "joint `{joint}` has {motions} motion{plural}: choose one of them by `Motion::of({joint}, 0)`"
+                )?;
+                match motions {
+                    0 | 1 => Ok(()),
+                    _ => write!(f, " to `Motion::of({joint}, {})`", motions - 1),
+                }
+            }
+            Self::NotDetermined { joint } => write!(
+                f,
+                "the chosen coordinates do not determine the motion here: `{joint}` can move while they stand still"
+            ),
+            Self::NotIndependent { joint } => write!(
+                f,
+                "the chosen coordinates are not independent here: closed loops restrict the motion of `{joint}`"
+            ),
             Self::CountedAngles {
                 element,
                 counted,

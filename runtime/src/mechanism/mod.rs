@@ -11,6 +11,7 @@ pub(crate) mod body;
 pub(crate) mod coordinates;
 pub(crate) mod handle;
 pub(crate) mod joint_kernels;
+pub(crate) mod joint_rates;
 pub(crate) mod joint_report;
 pub(crate) mod kernels;
 pub(crate) mod orientations;
@@ -27,6 +28,9 @@ pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint, P
 /// [`guide::parts`](crate::guide::parts).
 pub use holonom_macros::Assembly;
 pub use joint_kernels::{Freedom, JointCounter, JointMotion, JointParts, JointReport};
+pub use joint_rates::{
+    HasCoriolis, HasGravity, HasInverse, HasJacobian, HasMassMatrix, JointRates,
+};
 pub use kernels::{
     Compliant, InputsOf, Pivot, Plain, Rigid, Stabilisation, Stabilised, StateOf, Terms,
 };

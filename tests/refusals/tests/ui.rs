@@ -9,6 +9,7 @@ fn refusals() {
         "definition",
         "force",
         "joint",
+        "kernels",
         "law",
         "mechanism",
         "part",

@@ -1,0 +1,258 @@
+//! Mass matrix, efforts and accelerations.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::partition::{Magnitude, Partition, at, joint_rates};
+use super::{Equations, IndependentCoordinates};
+use crate::error::{Fault, NotFinite};
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::joint_rates::{
+    HasCoriolis, HasGravity, HasInverse, HasMassMatrix, JointRates,
+};
+use crate::mechanism::relative::bodies_of;
+use crate::state::vector::Array;
+
+impl<M: JointRates, const N: usize, S: Scalar> Partition<M, N, S> {
+    /// `B z' + b`.
+    pub(super) fn accelerations(&self, chosen: &[S; N]) -> M::JointVelocities<S> {
+        let mut all = self.bias;
+        for (column, &chosen) in self.columns.iter().zip(chosen) {
+            let places = all.as_mut_slice().iter_mut().zip(column.as_slice());
+            places.for_each(|(place, &entry)| *place = entry.fused(chosen, *place));
+        }
+        all
+    }
+
+    /// `B^T f`.
+    fn efforts(&self, all: &M::JointVelocities<S>) -> [S; N] {
+        self.columns.map(|column| {
+            let products = column.as_slice().iter().zip(all.as_slice());
+            products.fold(S::zero(), |sum, (&entry, &effort)| entry.fused(effort, sum))
+        })
+    }
+}
+
+impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
+    /// `B^T M B`.
+    pub(super) fn mass(&self, state: &M::JointState<S>) -> Result<[[S; N]; N], Fault>
+    where
+        M: HasMassMatrix,
+    {
+        let lower = M::mass_matrix(&self.constants, self.time, state);
+        let lower = lower.as_slice();
+        let entry = |row: usize, column: usize| {
+            let (row, column) = (row.max(column), row.min(column));
+            at(lower, row * (row + 1) / 2 + column)
+        };
+        let mut mass = [[S::zero(); N]; N];
+        if M::JOINT_REPORT.closing.is_empty() {
+            for (row, &place) in mass.iter_mut().zip(&self.places) {
+                *row = self.places.map(|other| entry(place, other));
+            }
+            return Ok(mass);
+        }
+        let partition = self.partition(state)?;
+        for (row, of_row) in mass.iter_mut().zip(&partition.columns) {
+            // `M B`, one column of it.
+            let mut momenta = M::JointVelocities::<S>::zeros();
+            for (place, momentum) in momenta.as_mut_slice().iter_mut().enumerate() {
+                let rates = of_row.as_slice().iter().enumerate();
+                *momentum = rates.fold(S::zero(), |sum, (other, &rate)| {
+                    entry(place, other).fused(rate, sum)
+                });
+            }
+            *row = partition.efforts(&momenta);
+        }
+        Ok(mass)
+    }
+
+    /// The efforts of these accelerations.
+    pub(super) fn inverse(
+        &self,
+        state: &M::JointState<S>,
+        accelerations: &[S; N],
+    ) -> Result<[S; N], Fault>
+    where
+        M: HasInverse,
+    {
+        let partition = self.partition(state)?;
+        let all = partition.accelerations(accelerations);
+        let efforts = M::inverse_dynamics(&self.constants, self.time, state, &all);
+        Ok(partition.efforts(&efforts))
+    }
+
+    /// The accelerations of these efforts, by `L D L^T` of the mass matrix.
+    pub(super) fn forward(
+        &self,
+        state: &M::JointState<S>,
+        efforts: &[S; N],
+    ) -> Result<[S; N], Fault>
+    where
+        M: HasInverse + HasMassMatrix,
+    {
+        let mass = self.mass(state)?;
+        let bias = self.inverse(state, &[S::zero(); N])?;
+        let mut right = *efforts;
+        for (right, bias) in right.iter_mut().zip(bias) {
+            *right = *right - bias;
+        }
+        Ok(solve(mass, right))
+    }
+}
+
+/// Solves a symmetric positive definite system; not finite where it is not.
+pub(super) fn solve<S: Scalar, const N: usize>(mut matrix: [[S; N]; N], right: [S; N]) -> [S; N] {
+    let mut solution = right;
+    let mut inverses = [S::zero(); N];
+    for k in 0..N {
+        let inverse = matrix[k][k].reciprocal();
+        inverses[k] = inverse;
+        for row in k + 1..N {
+            let factor = matrix[row][k] * inverse;
+            for column in k + 1..=row {
+                matrix[row][column] = matrix[row][column] - factor * matrix[column][k];
+            }
+            solution[row] = solution[row] - factor * solution[k];
+        }
+        // The column of `L`, once nobody needs that of the matrix.
+        for row in matrix.iter_mut().skip(k + 1) {
+            row[k] = row[k] * inverse;
+        }
+    }
+    for k in (0..N).rev() {
+        let mut value = solution[k] * inverses[k];
+        for row in k + 1..N {
+            value = value - matrix[row][k] * solution[row];
+        }
+        solution[k] = value;
+    }
+    solution
+}
+
+impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<M, N, S> {
+    /// The mass matrix `M(q)`, symmetric and positive definite: kg m^2 between angles, kg between
+    /// displacements, kg m between the two.
+    ///
+    /// # Errors
+    /// [`Fault::NotDetermined`], [`Fault::NotIndependent`]: the choice fails here.
+    pub fn mass(&self, state: &M::JointState<S>) -> Result<SMatrix<S, N, N>, Fault>
+    where
+        M: HasMassMatrix,
+    {
+        let rows = self.equations.mass(state)?;
+        Ok(SMatrix::from_fn(|row, column| rows[row][column]))
+    }
+
+    /// Inverse dynamics: the efforts that have to act along the coordinates, beside the described
+    /// forces, for these accelerations (rad/s^2, m/s^2). `M(q) a + h(q, v)`.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn inverse(
+        &self,
+        state: &M::JointState<S>,
+        accelerations: impl Into<SVector<S, N>>,
+    ) -> Result<SVector<S, N>, Fault>
+    where
+        M: HasInverse,
+    {
+        let accelerations: [S; N] = accelerations.into().into();
+        let efforts = self.equations.inverse(state, &accelerations)?;
+        finite(efforts)
+    }
+
+    /// `h(q, v)`: [`IndependentCoordinates::inverse`] without accelerations. What velocities and
+    /// weights take, less the described forces.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn bias(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault>
+    where
+        M: HasInverse,
+    {
+        self.inverse(state, [S::zero(); N])
+    }
+
+    /// The efforts that hold the weights: the gradient of the potential of gravity.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn gravity(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault>
+    where
+        M: HasGravity,
+    {
+        let Equations {
+            constants, time, ..
+        } = &self.equations;
+        let partition = self.equations.partition(state)?;
+        let efforts = M::gravity_efforts(constants, *time, state);
+        finite(partition.efforts(&efforts))
+    }
+
+    /// The efforts that velocities take without accelerations of the coordinates: centrifugal,
+    /// Coriolis and gyroscopic terms, quadratic in the rates. `C(q, v) v`.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn coriolis(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault>
+    where
+        M: HasCoriolis,
+    {
+        let Equations {
+            constants, time, ..
+        } = &self.equations;
+        let partition = self.equations.partition(state)?;
+        let efforts = M::coriolis_efforts(constants, *time, state, &partition.bias);
+        finite(partition.efforts(&efforts))
+    }
+
+    /// Forward dynamics: the accelerations (rad/s^2, m/s^2) under these efforts along the
+    /// coordinates and the described forces. `M(q)^-1 (f - h(q, v))`.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn forward(
+        &self,
+        state: &M::JointState<S>,
+        efforts: impl Into<SVector<S, N>>,
+    ) -> Result<SVector<S, N>, Fault>
+    where
+        M: HasInverse + HasMassMatrix,
+    {
+        let efforts: [S; N] = efforts.into().into();
+        finite(self.equations.forward(state, &efforts)?)
+    }
+
+    /// The rates of the coordinates (rad/s, m/s) at a state.
+    #[must_use]
+    pub fn rates(&self, state: &M::JointState<S>) -> SVector<S, N> {
+        let rates = joint_rates::<M, S>(state);
+        let places = &self.equations.places;
+        SVector::from(places.map(|place| at(rates.as_slice(), place)))
+    }
+
+    /// Kinetic energy (J).
+    #[must_use]
+    pub fn kinetic_energy(&self, state: &M::JointState<S>) -> S {
+        let bodies = bodies_of::<S, M>(&self.equations.constants, state);
+        M::kinetic_energy(&self.constants, &bodies)
+    }
+
+    /// Potential energy (J) of gravity and of described forces that have one.
+    #[must_use]
+    pub fn potential_energy(&self, state: &M::JointState<S>) -> S {
+        let bodies = bodies_of::<S, M>(&self.equations.constants, state);
+        M::potential_energy(&self.constants, self.equations.time, &bodies)
+    }
+}
+
+/// Numbers that may go on.
+pub(super) fn finite<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Fault> {
+    if numbers.iter().all(|number| number.is_finite()) {
+        Ok(SVector::from(numbers))
+    } else {
+        Err(Fault::RatesNotFinite {
+            origin: NotFinite::Unknown,
+        })
+    }
+}

@@ -1,0 +1,174 @@
+//! The equations of motion in coordinates that are chosen by handle: as many joints as there are
+//! degrees of freedom, and everything else follows.
+//!
+//! `choice.rs` says what can be chosen. `partition.rs` finds the other rates from the equations
+//! that close loops (Wehage and Haug 1982: coordinate partitioning; Flores, chapter 15, calls them
+//! dependent coordinates). `equations.rs` has mass matrix and efforts, `points.rs` Jacobians,
+//! `states.rs` the way to states and back. All of it is generic over [`Scalar`] where it can be, so
+//! that derivatives go through it.
+//!
+//! Chosen rates `z` give those of all joints: `w = B z + d`, with `D B = 0` and `D d = -dPhi/dt`.
+//! Accelerations are `w' = B z' + b`, with `D b = gamma`. Efforts `f` of all joints do the work of
+//! `B^T f` on `z` (Jourdain's principle).
+
+mod choice;
+mod equations;
+mod partition;
+mod points;
+mod states;
+
+use core::fmt;
+
+pub use choice::{Chosen, Coordinate, Motion};
+
+use crate::error::Fault;
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::joint_rates::JointRates;
+use crate::mechanism::kernels::Mechanism;
+
+/// The equations of motion of a mechanism in chosen coordinates, by
+/// [`IndependentExt::coordinates`].
+///
+/// States are those of joint coordinates. Rates are read as [`View`](crate::View) reads them: rad/s
+/// for an angle, m/s for a displacement, with the sign of the joint; efforts are N m and N, positive
+/// where they push the coordinate upwards.
+///
+/// In a mechanism with loops the coordinates that are not chosen follow. Where they do not, because
+/// the chosen ones stand at a dead point, [`Fault::NotDetermined`] names a joint that can still
+/// move. States have to satisfy the constraints.
+///
+/// What it holds is prepared once; [`IndependentCoordinates::set_inputs`] and
+/// [`IndependentCoordinates::set_time`] change it without preparing again.
+pub struct IndependentCoordinates<M: JointRates, const N: usize, S: Scalar = f64> {
+    parameters: M::Parameters<S>,
+    /// In absolute coordinates.
+    constants: M::Constants<S>,
+    equations: Equations<M, N, S>,
+}
+
+/// What the kernels take beside a state, in any scalar.
+struct Equations<M: JointRates, const N: usize, S: Scalar> {
+    constants: M::JointConstants<S>,
+    /// The places of the chosen rates.
+    places: [usize; N],
+    time: S,
+}
+
+/// Coordinates by handle, by a method of the mechanism.
+pub trait IndependentExt: JointRates {
+    /// The equations of motion in the coordinates of these joints, at time zero.
+    ///
+    /// A handle stands for the angle or the displacement of a joint with one motion;
+    /// [`Motion::of`] chooses among several. Joints of one type stand in brackets, of different
+    /// ones in a tuple: `arm.coordinates((h.slide, h.hinge))?`.
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    ///
+    /// /// Two rods on hinges.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass, inverse])]
+    /// struct Arm {
+    ///     #[body(shape = rod(from = [0.0, 0.0, 0.0], to = [0.0, 0.0, -1.0]), mass = 3.0)]
+    ///     upper: Body,
+    ///     #[body(shape = rod(from = [0.0, 0.0, -1.0], to = [0.0, 0.0, -2.0]), mass = 3.0)]
+    ///     lower: Body,
+    ///     #[joint(between = [ground, upper], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    ///     shoulder: Revolute,
+    ///     #[joint(between = [upper, lower], point = [0.0, 0.0, -1.0], axis = [1.0, 0.0, 0.0])]
+    ///     elbow: Revolute,
+    /// }
+    ///
+    /// let (arm, h) = (Arm::default(), Arm::HANDLES);
+    /// let space = arm.coordinates([h.shoulder, h.elbow])?;
+    /// let hanging = space.state([0.0, 0.0], [0.0, 0.0])?;
+    /// let m = space.mass(&hanging)?;
+    /// assert!((m[(0, 0)] - 8.0).abs() < 1e-14 && (m[(1, 1)] - 1.0).abs() < 1e-14);
+    /// // The torques that hold it stretched out to the side.
+    /// let aside = space.state([core::f64::consts::FRAC_PI_2, 0.0], [0.0, 0.0])?;
+    /// let torques = space.inverse(&aside, [0.0, 0.0])?;
+    /// assert!((torques[0] - 6.0 * 9.81).abs() < 1e-13);
+    /// # Ok::<(), Fault>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Fault::ChosenCount`] for more or fewer than there are degrees of freedom;
+    /// [`Fault::SeveralMotions`] for a joint that has more than one; [`Fault::CarriesNothing`] for
+    /// one that closes a loop or drives; [`Fault::ChosenTwice`]; a parameter that is not
+    /// acceptable.
+    fn coordinates<S: Real, const N: usize>(
+        &self,
+        chosen: impl Chosen<Self, N>,
+    ) -> Result<IndependentCoordinates<Self, N, S>, Fault> {
+        let places = choice::places::<Self, N>(chosen)?;
+        let parameters = self.parameters()?;
+        Ok(IndependentCoordinates {
+            constants: Self::prepare(&parameters),
+            equations: Equations {
+                constants: Self::prepare_joints(&parameters),
+                places,
+                time: S::zero(),
+            },
+            parameters,
+        })
+    }
+}
+
+impl<M: JointRates> IndependentExt for M {}
+
+impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
+    /// The time (s) that drivers and laws are taken at.
+    #[must_use]
+    pub const fn time(&self) -> S {
+        self.equations.time
+    }
+
+    /// Takes drivers and laws at another time (s).
+    pub const fn set_time(&mut self, time: S) {
+        self.equations.time = time;
+    }
+
+    /// Sets the inputs of the mechanism, with which its described forces act.
+    ///
+    /// # Errors
+    /// An input that is not finite; the former ones then stay.
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault>
+    where
+        S: Real,
+    {
+        M::put_inputs(inputs, &mut self.parameters)?;
+        M::take_inputs(&self.parameters, &mut self.constants);
+        M::take_joint_inputs(&self.parameters, &mut self.equations.constants);
+        Ok(())
+    }
+}
+
+impl<M: JointRates, const N: usize, S: Scalar> Clone for IndependentCoordinates<M, N, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: JointRates, const N: usize, S: Scalar> Copy for IndependentCoordinates<M, N, S> {}
+
+impl<M: JointRates, const N: usize, S: Scalar> Clone for Equations<M, N, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: JointRates, const N: usize, S: Scalar> Copy for Equations<M, N, S> {}
+
+impl<M: JointRates, const N: usize, S: Scalar> fmt::Debug for IndependentCoordinates<M, N, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("IndependentCoordinates")
+            .field("rates", &self.equations.places)
+            .field("time", &self.equations.time)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The number of degrees of freedom, as the equations have it.
+fn degrees_of_freedom<M: Mechanism>() -> usize {
+    usize::try_from(M::REPORT.degrees_of_freedom).unwrap_or(0)
+}

@@ -1,0 +1,253 @@
+//! The rates of all joints by the chosen ones.
+
+use super::Equations;
+use crate::error::Fault;
+use crate::forward::Forward;
+use crate::math::scalar::Scalar;
+use crate::mechanism::joint_kernels::JointMotion;
+use crate::mechanism::joint_rates::JointRates;
+use crate::state::vector::Array;
+
+/// A scalar by whose value pivots are chosen, whatever derivatives it carries.
+pub trait Magnitude: Scalar {
+    #[doc(hidden)]
+    const ROUND_OFF: f64;
+
+    #[doc(hidden)]
+    fn magnitude(self) -> f64;
+}
+
+impl Magnitude for f64 {
+    const ROUND_OFF: f64 = Self::EPSILON;
+
+    fn magnitude(self) -> f64 {
+        self.abs()
+    }
+}
+
+impl Magnitude for f32 {
+    const ROUND_OFF: f64 = Self::EPSILON as f64;
+
+    fn magnitude(self) -> f64 {
+        f64::from(self.abs())
+    }
+}
+
+impl<S: Magnitude, const K: usize> Magnitude for Forward<S, K> {
+    const ROUND_OFF: f64 = S::ROUND_OFF;
+
+    fn magnitude(self) -> f64 {
+        self.value().magnitude()
+    }
+}
+
+/// `w = B z + d` and `w' = B z' + b`.
+pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
+    /// `B`, column by column.
+    pub(super) columns: [M::JointVelocities<S>; N],
+    /// `b`: the accelerations without those that are chosen.
+    pub(super) bias: M::JointVelocities<S>,
+    /// `d`: the rates without those that are chosen, where drivers move.
+    pub(super) drift: M::JointVelocities<S>,
+}
+
+impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
+    /// Eliminates the dependent rates from the equations that close loops (Gauss and Jordan, with
+    /// the largest pivots first).
+    pub(super) fn partition(&self, state: &M::JointState<S>) -> Result<Partition<M, N, S>, Fault> {
+        let mut partition = Partition {
+            columns: [M::JointVelocities::zeros(); N],
+            bias: M::JointVelocities::zeros(),
+            drift: M::JointVelocities::zeros(),
+        };
+        for (column, &place) in partition.columns.iter_mut().zip(&self.places) {
+            set(column, place, S::one());
+        }
+        if M::JOINT_REPORT.closing.is_empty() {
+            return Ok(partition);
+        }
+        let (mut jacobian, [mut gamma, rates]) = M::closing_rows(&self.constants, self.time, state);
+        let width = partition.bias.as_slice().len();
+        let height = gamma.as_slice().len();
+        // `-dPhi/dt = D w - Phi'`.
+        let mut explicit = rates;
+        let joint_rates = joint_rates::<M, S>(state);
+        let rows = explicit.as_mut_slice().iter_mut();
+        for (right, row) in rows.zip(jacobian.as_slice().chunks(width.max(1))) {
+            let products = row.iter().zip(joint_rates.as_slice());
+            let moving = products.fold(S::zero(), |sum, (&d, &w)| d.fused(w, sum));
+            *right = moving - *right;
+        }
+        let mut sizes = M::ClosingMultipliers::<S>::zeros();
+        let of_rows = sizes.as_mut_slice().iter_mut();
+        for (size, row) in of_rows.zip(jacobian.as_slice().chunks(width.max(1))) {
+            *size = row.iter().fold(S::zero(), |most: S, &entry| {
+                if entry.magnitude() > most.magnitude() {
+                    entry
+                } else {
+                    most
+                }
+            });
+        }
+        // Of a pivoted rate its row, one higher; zero of another.
+        let mut row_of = M::JointVelocities::<S>::zeros();
+        let mut is_taken = M::ClosingMultipliers::<S>::zeros();
+        let is_zero = |numbers: &[S], place: usize| {
+            numbers
+                .get(place)
+                .is_some_and(|number| number.magnitude() == 0.0)
+        };
+        let entries = jacobian.as_mut_slice();
+        loop {
+            let mut best = (0.0, 0, 0);
+            for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {
+                let size = at(sizes.as_slice(), row).magnitude();
+                let free = (0..width).filter(|column| !self.places.contains(column));
+                for column in free.filter(|&column| is_zero(row_of.as_slice(), column)) {
+                    let pivot = at(entries, row * width + column).magnitude() / size;
+                    if pivot > best.0 {
+                        best = (pivot, row, column);
+                    }
+                }
+            }
+            let (pivot, row, column) = best;
+            // Below, more than half of the digits would be lost.
+            if !(pivot > S::ROUND_OFF.sqrt()) {
+                break;
+            }
+            set(&mut is_taken, row, S::one());
+            set(&mut row_of, column, S::constant(row as f64 + 1.0));
+            let inverse = at(entries, row * width + column).reciprocal();
+            for other in (0..height).filter(|&other| other != row) {
+                let factor = at(entries, other * width + column) * inverse;
+                if factor.magnitude() == 0.0 {
+                    continue;
+                }
+                for place in 0..width {
+                    let subtracted = factor * at(entries, row * width + place);
+                    subtract(entries, other * width + place, subtracted);
+                }
+                for right in [gamma.as_mut_slice(), explicit.as_mut_slice()] {
+                    let subtracted = factor * at(right, row);
+                    subtract(right, other, subtracted);
+                }
+                // Exactly, so that it is not taken again.
+                if let Some(entry) = entries.get_mut(other * width + column) {
+                    *entry = S::zero();
+                }
+            }
+        }
+        for column in (0..width).filter(|column| !self.places.contains(column)) {
+            let row = at(row_of.as_slice(), column).magnitude() as usize;
+            let Some(row) = row.checked_sub(1) else {
+                return Err(Fault::NotDetermined {
+                    joint: joint_of_rate(M::JOINT_REPORT.motions, column),
+                });
+            };
+            let inverse = at(entries, row * width + column).reciprocal();
+            for (of_chosen, &place) in partition.columns.iter_mut().zip(&self.places) {
+                set(
+                    of_chosen,
+                    column,
+                    -at(entries, row * width + place) * inverse,
+                );
+            }
+            set(
+                &mut partition.bias,
+                column,
+                at(gamma.as_slice(), row) * inverse,
+            );
+            let drift = at(explicit.as_slice(), row) * inverse;
+            set(&mut partition.drift, column, drift);
+        }
+        // What is left of other rows restricts the chosen rates themselves.
+        for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {
+            let size = at(sizes.as_slice(), row).magnitude();
+            for &place in &self.places {
+                let left = at(entries, row * width + place).magnitude();
+                if left > S::ROUND_OFF.sqrt() * size {
+                    return Err(Fault::NotIndependent {
+                        joint: joint_of_rate(M::JOINT_REPORT.motions, place),
+                    });
+                }
+            }
+        }
+        Ok(partition)
+    }
+}
+
+/// The rates of the joints at a state.
+pub(super) fn joint_rates<M: JointRates, S: Scalar>(
+    state: &M::JointState<S>,
+) -> M::JointVelocities<S> {
+    use crate::state::vector::MovingState as _;
+    let velocities = state.rates_slice();
+    let mut rates = M::JointVelocities::<S>::zeros();
+    for (place, rate) in rates.as_mut_slice().iter_mut().enumerate() {
+        *rate = at(velocities, place);
+    }
+    for motion in M::JOINT_REPORT.motions {
+        let own = at(velocities, motion.velocity);
+        let against = motion
+            .against
+            .and_then(|of| M::JOINT_REPORT.motions.get(of));
+        let rate = against.map_or(own, |against| own - at(velocities, against.velocity));
+        if motion.is_reversed() {
+            set(&mut rates, motion.velocity, -rate);
+        } else {
+            set(&mut rates, motion.velocity, rate);
+        }
+    }
+    rates
+}
+
+/// The velocities of a state whose joints have these rates.
+pub(super) fn velocities<M: JointRates, S: Scalar>(
+    rates: &M::JointVelocities<S>,
+) -> M::JointVelocities<S> {
+    let mut velocities = *rates;
+    // What carries a motion stands before it.
+    for motion in M::JOINT_REPORT.motions {
+        let own = at(rates.as_slice(), motion.velocity);
+        let own = if motion.is_reversed() { -own } else { own };
+        let against = motion
+            .against
+            .and_then(|of| M::JOINT_REPORT.motions.get(of));
+        if let Some(against) = against {
+            let carried = at(velocities.as_slice(), against.velocity);
+            set(&mut velocities, motion.velocity, own + carried);
+        } else if motion.is_reversed() {
+            set(&mut velocities, motion.velocity, own);
+        }
+    }
+    velocities
+}
+
+/// The joint, or the body that moves freely, of a rate.
+fn joint_of_rate(motions: &'static [JointMotion], rate: usize) -> &'static str {
+    let before = motions.iter().rev().find(|motion| motion.velocity <= rate);
+    before.map_or("", |motion| {
+        if motion.joint.is_empty() {
+            motion.body
+        } else {
+            motion.joint
+        }
+    })
+}
+
+/// An element; zero where there is none.
+pub(super) fn at<S: Scalar>(numbers: &[S], place: usize) -> S {
+    numbers.get(place).copied().unwrap_or(S::zero())
+}
+
+pub(super) fn set<S: Scalar, A: Array<S>>(numbers: &mut A, place: usize, value: S) {
+    if let Some(number) = numbers.as_mut_slice().get_mut(place) {
+        *number = value;
+    }
+}
+
+fn subtract<S: Scalar>(numbers: &mut [S], place: usize, value: S) {
+    if let Some(number) = numbers.get_mut(place) {
+        *number = *number - value;
+    }
+}

@@ -1,0 +1,198 @@
+//! Jacobians of points.
+
+use nalgebra::{SMatrix, Vector3};
+
+use super::equations::solve;
+use super::partition::{Magnitude, at};
+use super::{Equations, IndependentCoordinates};
+use crate::error::Fault;
+use crate::forward::Forward;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::{cross, minus, plus, read, times};
+use crate::mechanism::joint_rates::{HasJacobian, HasMassMatrix, JointRates};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::point::{Located, Place};
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, MovingState, Vector};
+
+/// A point that is fixed on a body, from its centre of mass in principal axes.
+#[derive(Clone, Copy)]
+pub(super) struct Fixed<S> {
+    body: Option<usize>,
+    arm: [S; 3],
+}
+
+impl<S: Scalar> Fixed<S> {
+    fn of<M: Mechanism>(constants: &M::Constants<S>, at: impl Located<M>) -> Self {
+        match at.located() {
+            Place::Body(body) => Self {
+                body: Some(body.index()),
+                arm: [S::zero(); 3],
+            },
+            Place::Point(point) => Self {
+                body: point.info().and_then(|info| info.body),
+                arm: M::named_point(constants, point.index()),
+            },
+        }
+    }
+
+    fn lifted<const K: usize>(&self) -> Fixed<Forward<S, K>> {
+        Fixed {
+            body: self.body,
+            arm: self.arm.map(Forward::fixed),
+        }
+    }
+}
+
+/// Where a point of a body is (m, global), by the motions of the bodies.
+fn position<S: Scalar, M: Mechanism>(motions: &[S], body: usize, arm: &[S; 3]) -> [S; 3] {
+    let before = M::REPORT.bodies.iter().take(body);
+    let place = before.fold(0, |place, info| place + motions_of(info.kind));
+    let centre: [S; 3] = read(motions, place);
+    match M::REPORT.bodies.get(body).map(|info| info.kind) {
+        Some(BodyKind::Rigid) => {
+            let rows = [6, 9, 12].map(|row| read::<S, 3>(motions, place + row));
+            let turned = rows.map(|[x, y, z]| {
+                let [a, b, c] = *arm;
+                x.fused(a, y.fused(b, z * c))
+            });
+            plus(&centre, &turned)
+        }
+        _ => plus(&centre, arm),
+    }
+}
+
+/// How many numbers tell the motion of a body.
+const fn motions_of(kind: BodyKind) -> usize {
+    match kind {
+        BodyKind::Rigid => 18,
+        BodyKind::Particle => 6,
+    }
+}
+
+impl<M: HasJacobian, const N: usize, S: Magnitude> Equations<M, N, S> {
+    /// Column by column velocity and angular velocity.
+    pub(super) fn jacobian(
+        &self,
+        state: &M::JointState<S>,
+        point: &Fixed<S>,
+    ) -> Result<[[S; 6]; N], Fault> {
+        let partition = self.partition(state)?;
+        let mut columns = [[S::zero(); 6]; N];
+        let Some(body) = point.body else {
+            return Ok(columns);
+        };
+        let motions = M::body_motions(&self.constants, state);
+        let p = position::<S, M>(motions.as_slice(), body, &point.arm);
+        let axes = M::joint_axes(&self.constants, self.time, state);
+        for &rate in M::MOVED_BY.get(body).copied().unwrap_or(&[]) {
+            let [axis, origin, along] =
+                [0, 3, 6].map(|part| read::<S, 3>(axes.as_slice(), 9 * rate + part));
+            let velocity = plus(&cross(&axis, &minus(&p, &origin)), &along);
+            for (column, of_chosen) in columns.iter_mut().zip(&partition.columns) {
+                let share = at(of_chosen.as_slice(), rate);
+                let [vx, vy, vz] = times(&velocity, share);
+                let [wx, wy, wz] = times(&axis, share);
+                for (entry, part) in column.iter_mut().zip([vx, vy, vz, wx, wy, wz]) {
+                    *entry = *entry + part;
+                }
+            }
+        }
+        Ok(columns)
+    }
+}
+
+impl<M: JointRates, const N: usize, S: Scalar> Equations<M, N, S> {
+    /// The same over numbers that carry derivatives.
+    pub(super) fn lifted<const K: usize>(&self) -> Equations<M, N, Forward<S, K>> {
+        Equations {
+            constants: crate::forward::lifted(&self.constants),
+            places: self.places,
+            time: Forward::fixed(self.time),
+        }
+    }
+}
+
+/// A state that moves along slopes, one for each derivative.
+pub(super) fn moved<M: JointRates, S: Scalar, const K: usize>(
+    state: &M::JointState<S>,
+    slopes: &[M::JointState<S>; K],
+) -> M::JointState<Forward<S, K>> {
+    let mut here = M::JointState::<Forward<S, K>>::zeros();
+    let mut direction = here;
+    for place in 0..state.length() {
+        here.set_element(place, Forward::fixed(state.element(place)));
+        let slopes = slopes.map(|slope| slope.element(place));
+        direction.set_element(place, Forward::new(S::zero(), slopes));
+    }
+    here.plus([(Forward::one(), &direction)])
+}
+
+impl<M: HasJacobian, const N: usize, S: Real + Magnitude> IndependentCoordinates<M, N, S> {
+    /// The Jacobian of a body's centre of mass or of a named point: its velocity (m/s, global) in
+    /// rows 0 to 2, the angular velocity of its body (rad/s, global) in rows 3 to 5, for unit rates
+    /// of the coordinates.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn jacobian(
+        &self,
+        state: &M::JointState<S>,
+        at: impl Located<M>,
+    ) -> Result<SMatrix<S, 6, N>, Fault> {
+        let point = Fixed::of::<M>(&self.constants, at);
+        let columns = self.equations.jacobian(state, &point)?;
+        Ok(SMatrix::from_fn(|row, column| columns[column][row]))
+    }
+
+    /// The rate of the Jacobian in the motion of the state: the point's acceleration (m/s^2) and
+    /// angular acceleration (rad/s^2) are `J a + J' v`, where no driver moves.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn jacobian_rate(
+        &self,
+        state: &M::JointState<S>,
+        at: impl Located<M>,
+    ) -> Result<SMatrix<S, 6, N>, Fault> {
+        let Equations {
+            constants, time, ..
+        } = &self.equations;
+        let slope = M::joint_coordinate_rates(constants, *time, state);
+        let moved = moved::<M, S, 1>(state, &[slope]);
+        let mut equations = self.equations.lifted::<1>();
+        equations.time = Forward::new(*time, [S::one()]);
+        let point = Fixed::of::<M>(&self.constants, at).lifted();
+        let columns = equations.jacobian(&moved, &point)?;
+        Ok(SMatrix::from_fn(|row, column| {
+            let [rate] = columns[column][row].derivatives();
+            rate
+        }))
+    }
+
+    /// The effective mass (kg) of a point along a direction (global, of any length): a force along
+    /// it accelerates the point as it would a free particle of this mass. `1 / (n J M^-1 J^T n)`.
+    /// Infinite where nothing can move along it.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`].
+    pub fn effective_mass(
+        &self,
+        state: &M::JointState<S>,
+        at: impl Located<M>,
+        direction: Vector3<S>,
+    ) -> Result<S, Fault>
+    where
+        M: HasMassMatrix,
+    {
+        let point = Fixed::of::<M>(&self.constants, at);
+        let columns = self.equations.jacobian(state, &point)?;
+        let [x, y, z]: [S; 3] = direction.into();
+        let square = x * x + y * y + z * z;
+        let along = columns.map(|[vx, vy, vz, ..]| vx * x + vy * y + vz * z);
+        let accelerations = solve(self.equations.mass(state)?, along);
+        let products = along.iter().zip(accelerations);
+        let mobility = products.fold(S::zero(), |sum, (&a, b)| a.fused(b, sum));
+        Ok(square.quotient(mobility))
+    }
+}
