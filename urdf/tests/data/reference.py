@@ -98,6 +98,42 @@ def accelerations(model, damping, chain, q, rates, efforts):
     return np.linalg.solve(chain.T @ mass @ chain, efforts - chain.T @ bias)
 
 
+def point_jacobian(model, data, body, q, rates):
+    """Of the centre of mass of a joint's body, in global axes, and its rate: rows of the velocity,
+    then of the angular velocity."""
+    pin.computeJointJacobiansTimeVariation(model, data, q, rates)
+    pin.forwardKinematics(model, data, q, rates)
+    aligned = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+    jacobian = pin.getJointJacobian(model, data, body, aligned)
+    rate = pin.getJointJacobianTimeVariation(model, data, body, aligned)
+    arm = data.oMi[body].rotation @ model.inertias[body].lever
+    turning = np.cross(jacobian[3:] @ rates, arm)
+    jacobian[:3] -= pin.skew(arm) @ jacobian[3:]
+    rate[:3] -= pin.skew(arm) @ rate[3:] + pin.skew(turning) @ jacobian[3:]
+    return jacobian, rate
+
+
+def equations(model, damping, chain, q, rates):
+    """In the coordinates of the joints that follow none."""
+    data, still = model.createData(), np.zeros(model.nv)
+    mass = pin.crba(model, data, q)
+    mass = np.triu(mass) + np.triu(mass, 1).T
+    gravity = pin.computeGeneralizedGravity(model, data, q)
+    coriolis = pin.rnea(model, data, q, rates, still) - gravity
+    damped = np.zeros(model.nv)
+    for name, v in singles(model).items():
+        damped[v] = damping.get(name, 0.0) * rates[v]
+    jacobian, rate = point_jacobian(model, data, model.njoints - 1, q, rates)
+    return {
+        "mass": (chain.T @ mass @ chain).tolist(),
+        "gravity": (chain.T @ gravity).tolist(),
+        "coriolis": (chain.T @ coriolis).tolist(),
+        "bias": (chain.T @ (coriolis + gravity + damped)).tolist(),
+        "jacobian": (jacobian @ chain).tolist(),
+        "jacobian_rate": (rate @ chain).tolist(),
+    }
+
+
 def states(model, damping, mimics, random):
     names, chain = leaders(model, mimics)
     found = []
@@ -115,6 +151,7 @@ def states(model, damping, mimics, random):
                 "accelerations": (
                     chain @ accelerations(model, damping, chain, q, chain @ rates, efforts)
                 )[list(singles(model).values())].tolist(),
+                "equations": equations(model, damping, chain, q, chain @ rates),
             }
         )
     return {"joints": list(singles(model)), "leaders": names, "states": found}

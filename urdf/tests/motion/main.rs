@@ -3,6 +3,7 @@
 
 #![forbid(unsafe_code)]
 
+mod equations;
 mod in_place;
 mod robots;
 
@@ -32,6 +33,7 @@ struct State {
     rates: Vec<f64>,
     efforts: Vec<f64>,
     accelerations: Vec<f64>,
+    equations: Option<equations::Reference>,
 }
 
 #[derive(Deserialize)]
