@@ -28,7 +28,7 @@ use holonom::prelude::*;
 /// space with one angle, `cos(A) + cos(B) + cos(A) cos(B) = 0`, `A` that of the hinges 1, 3 and 5
 /// and `B` that of the others.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct Bricard {
     #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, 0.0, 0.0])]
     first: Body,

@@ -22,7 +22,7 @@ use holonom::prelude::*;
 /// Good for: control; the equations of motion in closed form (Florian, *Correct equations for the
 /// dynamics of the cart-pole system*, 2007).
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct CartPole {
     /// The force on the cart along x (N).
     #[input]

@@ -27,7 +27,7 @@ use holonom::prelude::*;
 /// `I phi'' = -m g sin(10 deg) d sin(phi)` with `I = 4.269333` kg m^2, `d = 0.4` m. The angle of
 /// either hinge is zero at the start: `angle = phi - pi/2`, `phi` from the position at rest.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop", coordinates = "both")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], redundant = "drop", coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct Door {
     #[body(
         mass = 20.0,

@@ -34,7 +34,7 @@ use holonom::prelude::*;
 /// `alpha = pi/6 + angle` below the horizontal. The displacement of `guide` is the height of the
 /// slider less 0.5 m.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct FlyballGovernor {
     #[body(
         mass = 0.3,

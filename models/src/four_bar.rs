@@ -29,7 +29,7 @@ use holonom::prelude::*;
 /// It has a closed form, `(N + 1 + 3 N) / 3 theta'' = (N + 1 + 2 N) / 2 g sin(theta)` with `theta`
 /// of the upright links clockwise from the upward vertical.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct FourBar {
     #[body(
         mass = 1.0,

@@ -24,7 +24,7 @@ use holonom::prelude::*;
 /// an integrator. The energy, 5435.696790865547 J, the angular momentum about z, -70.3124296875 kg
 /// m^2/s, and the spin of 150 rad/s about the axis stay.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct HeavyTop {
     #[body(
         mass = 15.0,

@@ -24,7 +24,7 @@ use holonom::prelude::*;
 /// The angle of `pivot` is zero at the start and falls: `angle = phi - pi/2` with `phi` the angle
 /// of the chapter's closed form, from the downward vertical.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct RodPendulum {
     #[body(mass = 7.02, inertia = [0.5855265, 0.0010530, 0.5855265], position = [0.0, 0.5, 0.0])]
     rod: Body,

@@ -22,7 +22,7 @@ use holonom::prelude::*;
 /// `sin(phi0/2)` with `w0 = sqrt(9.81)` 1/s and `phi` from the downward vertical; the smallest
 /// mechanism with a constraint that is not linear.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct SimplePendulum {
     #[body(mass = 1.0, position = [-1.0, 0.0, 0.0])]
     bob: Particle,

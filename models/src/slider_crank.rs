@@ -27,7 +27,7 @@ use holonom::prelude::*;
 ///
 /// Good for: a loop at high speed; conservation of energy (7.49554875 J from the crank's axis).
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct SliderCrank {
     #[body(
         mass = 0.038,

@@ -58,7 +58,7 @@ use holonom::prelude::*;
 /// Good for: small times, small masses, a crank that turns many times while the rest swings;
 /// accuracy against a published state.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(coordinates = "both")]
+#[mechanism(coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct SqueezingMechanism {
     #[body(
         mass = 0.04325,

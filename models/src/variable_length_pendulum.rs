@@ -33,7 +33,7 @@ use holonom::prelude::*;
 /// The angle of `pin` is zero at the start: `angle = phi - pi/3` with `phi` from the downward
 /// vertical.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct VariableLengthPendulum {
     #[body(
         mass = 2.0,

@@ -12,7 +12,7 @@ pub use crate::mechanism::{
     HasCoriolis, HasDisplacement, HasGravity, HasInverse, HasJacobian, HasMassMatrix, Joint,
     JointCounter, JointInfo, JointMotion, JointRates, JointReport, Kernel, Marker, MarkerKind,
     Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape, ShapeKind,
-    Stabilisation, Terms,
+    Stabilisation, Terms, ValueHandle, ValueInfo,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -375,6 +375,8 @@ macro_rules! __stub_mechanism {
     (@handle joint $path:ty) => { $crate::JointHandle<__M, $path> };
     (@handle part $part:ty) => { $part };
     (@value part $part:ty) => { <$part>::VALUE };
+    (@handle value) => { $crate::__private::ValueHandle<__M> };
+    (@value value) => { $crate::__private::ValueHandle::new(0) };
     (@handle point) => { $crate::__private::PointHandle<__M> };
     (@value point) => { $crate::__private::PointHandle::new(0) };
     (@value body) => { $crate::BodyHandle::new(0) };
@@ -409,7 +411,7 @@ macro_rules! __stub_mechanism {
                 type Velocities<__S: $crate::Scalar> = [__S; 0];
                 type Multipliers<__S: $crate::Scalar> = [__S; 0];
                 type Jacobian<__S: $crate::Scalar> = [__S; 0];
-                type Parameters<__S: $crate::Scalar> = ();
+                type Parameters<__S: $crate::Scalar> = [__S; 0];
                 type Inputs<__S: $crate::Scalar> = $inputs;
                 type Constants<__S: $crate::Scalar> = [__S; 0];
                 type Coefficients<__S: $crate::Scalar> = [__S; 0];
@@ -427,6 +429,7 @@ macro_rules! __stub_mechanism {
                     forces: &[],
                     markers: &[],
                     points: &[],
+                    values: &[],
                     shapes: &[],
                     carriers: &[],
                     blocks: &[],
@@ -442,9 +445,9 @@ macro_rules! __stub_mechanism {
                     kernels: &[],
                     plan: "",
                 };
-                fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<(), $crate::ParameterError> { loop {} }
+                fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<[__S; 0], $crate::ParameterError> { loop {} }
                 fn inputs<__S: $crate::Scalar>(&self) -> Self::Inputs<__S> { loop {} }
-                fn prepare<__S: $crate::Scalar>(_: &()) -> [__S; 0] { [] }
+                fn prepare<__S: $crate::Scalar>(_: &[__S; 0]) -> [__S; 0] { [] }
                 fn coefficients_by_row<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::mechanism::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
                 fn initial_state<__S: $crate::Scalar>(_: &[__S; 0]) -> Self::State<__S> { loop {} }
                 fn constraints<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::State<__S>) -> [__S; 0] { [] }
@@ -508,8 +511,8 @@ macro_rules! __stub_joints {
                 rewraps: false,
                 determines: false,
             };
-            fn prepare_joints<__S: $crate::Scalar>(_: &()) -> [__S; 0] { [] }
-            fn take_joint_inputs<__S: $crate::Scalar>(_: &(), _: &mut [__S; 0]) {}
+            fn prepare_joints<__S: $crate::Scalar>(_: &[__S; 0]) -> [__S; 0] { [] }
+            fn take_joint_inputs<__S: $crate::Scalar>(_: &[__S; 0], _: &mut [__S; 0]) {}
             fn joint_coefficients<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::mechanism::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
             fn evaluate_joints_into<__S: $crate::Scalar, __T: $crate::mechanism::Terms>(
                 _: &[__S; 0], _: &[__S; 0], _: __S, _: &Self::JointState<__S>, _: &mut Self::JointState<__S>, _: &mut [__S; 0],
@@ -530,7 +533,7 @@ macro_rules! __stub_joints {
             $($bounds)*
         {
             type ClosingJacobian<__S: $crate::Scalar> = [__S; 0];
-            fn closing_rows<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> ([__S; 0], [[__S; 0]; 2]) { ([], [[], []]) }
+            fn closing_rows<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> ([__S; 0], [[__S; 0]; 3]) { ([], [[], [], []]) }
         }
         impl $($declared)* $crate::mechanism::HasMassMatrix for $mechanism
         where

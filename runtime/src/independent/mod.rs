@@ -4,7 +4,8 @@
 //! `choice.rs` says what can be chosen. `partition.rs` finds the other rates from the equations
 //! that close loops (Wehage and Haug 1982: coordinate partitioning; Flores, chapter 15, calls them
 //! dependent coordinates). `equations.rs` has mass matrix and efforts, `points.rs` Jacobians,
-//! `states.rs` the way to states and back. All of it is generic over [`Scalar`] where it can be, so
+//! `states.rs` the way to states and back, `linear.rs` linearisation, whose result is in
+//! `linearised.rs`. All of it is generic over [`Scalar`] where it can be, so
 //! that derivatives go through it.
 //!
 //! Chosen rates `z` give those of all joints: `w = B z + d`, with `D B = 0` and `D d = -dPhi/dt`.
@@ -13,6 +14,8 @@
 
 mod choice;
 mod equations;
+mod linear;
+mod linearised;
 mod partition;
 mod points;
 mod states;
@@ -20,6 +23,8 @@ mod states;
 use core::fmt;
 
 pub use choice::{Chosen, Coordinate, Motion};
+pub use linearised::{Linearised, to_discrete};
+pub use partition::Magnitude;
 
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
@@ -96,7 +101,19 @@ pub trait IndependentExt: JointRates {
     /// [`Fault::SeveralMotions`] for a joint that has more than one; [`Fault::CarriesNothing`] for
     /// one that closes a loop or drives; [`Fault::ChosenTwice`]; a parameter that is not
     /// acceptable.
-    fn coordinates<S: Real, const N: usize>(
+    fn coordinates<const N: usize>(
+        &self,
+        chosen: impl Chosen<Self, N>,
+    ) -> Result<IndependentCoordinates<Self, N>, Fault> {
+        self.coordinates_in(chosen)
+    }
+
+    /// [`IndependentExt::coordinates`] in numbers of another type:
+    /// `arm.coordinates_in::<f32, 2>([h.shoulder, h.elbow])?`.
+    ///
+    /// # Errors
+    /// As [`IndependentExt::coordinates`].
+    fn coordinates_in<S: Real, const N: usize>(
         &self,
         chosen: impl Chosen<Self, N>,
     ) -> Result<IndependentCoordinates<Self, N, S>, Fault> {

@@ -49,6 +49,8 @@ pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
     pub(super) bias: M::JointVelocities<S>,
     /// `d`: the rates without those that are chosen, where drivers move.
     pub(super) drift: M::JointVelocities<S>,
+    /// The motion without the chosen one that takes `Phi` to zero.
+    pub(super) closing: M::JointVelocities<S>,
 }
 
 impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
@@ -59,6 +61,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             columns: [M::JointVelocities::zeros(); N],
             bias: M::JointVelocities::zeros(),
             drift: M::JointVelocities::zeros(),
+            closing: M::JointVelocities::zeros(),
         };
         for (column, &place) in partition.columns.iter_mut().zip(&self.places) {
             set(column, place, S::one());
@@ -66,7 +69,8 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
         if M::JOINT_REPORT.closing.is_empty() {
             return Ok(partition);
         }
-        let (mut jacobian, [mut gamma, rates]) = M::closing_rows(&self.constants, self.time, state);
+        let (mut jacobian, [mut gamma, rates, mut values]) =
+            M::closing_rows(&self.constants, self.time, state);
         let width = partition.bias.as_slice().len();
         let height = gamma.as_slice().len();
         // `-dPhi/dt = D w - Phi'`.
@@ -78,6 +82,10 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             let moving = products.fold(S::zero(), |sum, (&d, &w)| d.fused(w, sum));
             *right = moving - *right;
         }
+        values
+            .as_mut_slice()
+            .iter_mut()
+            .for_each(|value| *value = -*value);
         let mut sizes = M::ClosingMultipliers::<S>::zeros();
         let of_rows = sizes.as_mut_slice().iter_mut();
         for (size, row) in of_rows.zip(jacobian.as_slice().chunks(width.max(1))) {
@@ -127,7 +135,8 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
                     let subtracted = factor * at(entries, row * width + place);
                     subtract(entries, other * width + place, subtracted);
                 }
-                for right in [gamma.as_mut_slice(), explicit.as_mut_slice()] {
+                for right in [&mut gamma, &mut explicit, &mut values] {
+                    let right = right.as_mut_slice();
                     let subtracted = factor * at(right, row);
                     subtract(right, other, subtracted);
                 }
@@ -159,6 +168,8 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             );
             let drift = at(explicit.as_slice(), row) * inverse;
             set(&mut partition.drift, column, drift);
+            let closing = at(values.as_slice(), row) * inverse;
+            set(&mut partition.closing, column, closing);
         }
         // What is left of other rows restricts the chosen rates themselves.
         for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {

@@ -63,7 +63,7 @@ fn position<S: Scalar, M: Mechanism>(motions: &[S], body: usize, arm: &[S; 3]) -
 }
 
 /// How many numbers tell the motion of a body.
-const fn motions_of(kind: BodyKind) -> usize {
+pub(super) const fn motions_of(kind: BodyKind) -> usize {
     match kind {
         BodyKind::Rigid => 18,
         BodyKind::Particle => 6,

@@ -179,7 +179,15 @@ pub(super) fn write_rates<M: JointRates, const N: usize, S: Scalar>(
         let places = all.as_mut_slice().iter_mut().zip(column.as_slice());
         places.for_each(|(place, &entry)| *place = entry.fused(rate, *place));
     }
-    let velocities = velocities::<M, S>(&all);
+    put_velocities::<M, S>(&all, state);
+}
+
+/// Writes the velocities of a state whose joints have these rates.
+pub(super) fn put_velocities<M: JointRates, S: Scalar>(
+    rates: &M::JointVelocities<S>,
+    state: &mut M::JointState<S>,
+) {
+    let velocities = velocities::<M, S>(rates);
     for (place, velocity) in state.rates_slice_mut().iter_mut().enumerate() {
         *velocity = at(velocities.as_slice(), place);
     }

@@ -5,7 +5,9 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::report::{BodyInfo, BodyKind, ForceInfo, JointInfo, PointInfo, RedundantRow};
+use crate::mechanism::report::{
+    BodyInfo, BodyKind, ForceInfo, JointInfo, PointInfo, RedundantRow, ValueInfo,
+};
 
 /// A joint as a type: its equations and the bodies that it connects.
 ///
@@ -148,6 +150,11 @@ handle! {
 handle! {
     /// A named point of the mechanism `M`.
     PointHandle<M>, points: PointInfo
+}
+
+handle! {
+    /// A parameter or an input of the mechanism `M`.
+    ValueHandle<M>, values: ValueInfo
 }
 
 impl<M: Mechanism> BodyHandle<M> {

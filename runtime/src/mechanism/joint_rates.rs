@@ -21,12 +21,13 @@ pub trait JointRates: JointCoordinates {
     type ClosingJacobian<S: Scalar>: Array<S>;
 
     /// `D` of the equations that remain, with `D w = Phi' - dPhi/dt` for rates `w`; beside it
-    /// `gamma`, with `D w' = gamma`, and `Phi'` at the rates of the state.
+    /// `gamma`, with `D w' = gamma`, `Phi'` at the rates of the
+    /// state, and `Phi`.
     fn closing_rows<S: Scalar>(
         constants: &Self::JointConstants<S>,
         time: S,
         state: &Self::JointState<S>,
-    ) -> (Self::ClosingJacobian<S>, [Self::ClosingMultipliers<S>; 2]);
+    ) -> (Self::ClosingJacobian<S>, [Self::ClosingMultipliers<S>; 3]);
 }
 
 /// A mechanism with `kernels = [mass]`: the mass matrix of its tree.

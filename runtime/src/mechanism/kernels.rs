@@ -55,7 +55,7 @@ pub trait Mechanism: Sized + 'static {
     /// The blocks of the Jacobian one after the other, see [`Report::blocks`].
     type Jacobian<S: Scalar>: Array<S>;
     /// Values that are set once per mechanism, and inputs.
-    type Parameters<S: Scalar>: Copy + Debug;
+    type Parameters<S: Scalar>: Array<S>;
     /// A struct with the fields that are inputs (`#[input]`), under their names; `()` without any.
     /// Zero by default.
     type Inputs<S: Scalar>: Copy + Debug + Default + PartialEq;

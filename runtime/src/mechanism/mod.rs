@@ -23,7 +23,9 @@ pub(crate) mod report;
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };
-pub use handle::{CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint, PointHandle};
+pub use handle::{
+    CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint, PointHandle, ValueHandle,
+};
 /// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
 /// [`guide::parts`](crate::guide::parts).
 pub use holonom_macros::Assembly;
@@ -40,5 +42,5 @@ pub use point::{Located, Point};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{
     Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
-    Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind,
+    Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind, ValueInfo,
 };

@@ -17,6 +17,8 @@ pub struct Report {
     pub markers: &'static [Marker],
     /// The named points in the order of the fields.
     pub points: &'static [PointInfo],
+    /// Parameters and inputs in the order of the fields.
+    pub values: &'static [ValueInfo],
     /// What bodies look like that are described by shapes, body by body: see
     /// [`crate::Mechanism::shape`].
     pub shapes: &'static [Shape],
@@ -273,6 +275,16 @@ pub struct PointInfo {
     pub name: &'static str,
     /// The body that it is fixed on; `None` for the ground.
     pub body: Option<usize>,
+}
+
+/// A parameter or an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ValueInfo {
+    /// The name of the field.
+    pub name: &'static str,
+    /// Whether it may change at every step.
+    pub is_input: bool,
 }
 
 /// A joint or a force by its place in a [`Report`].

@@ -67,7 +67,7 @@ impl Mechanism for Rod {
     type Velocities<S: Scalar> = [S; 6];
     type Multipliers<S: Scalar> = [S; 5];
     type Jacobian<S: Scalar> = [S; 30];
-    type Parameters<S: Scalar> = S;
+    type Parameters<S: Scalar> = [S; 1];
     type Inputs<S: Scalar> = ();
     type Constants<S: Scalar> = [S; 6];
     /// The two gains, and a compliance for each row.
@@ -100,6 +100,7 @@ impl Mechanism for Rod {
         forces: &[],
         markers: &[],
         points: &[],
+        values: &[],
         shapes: &[],
         carriers: &[Carrier {
             body: None,
@@ -132,13 +133,13 @@ impl Mechanism for Rod {
 
     fn inputs<S: Scalar>(&self) {}
 
-    fn parameters<S: Scalar>(&self) -> Result<S, ParameterError> {
+    fn parameters<S: Scalar>(&self) -> Result<[S; 1], ParameterError> {
         let fault = if !self.mass.is_finite() {
             ParameterFault::NotFinite
         } else if self.mass <= 0.0 {
             ParameterFault::NotPositive
         } else {
-            return Ok(S::constant(self.mass));
+            return Ok([S::constant(self.mass)]);
         };
         Err(ParameterError {
             field: "rod",
@@ -147,7 +148,7 @@ impl Mechanism for Rod {
         })
     }
 
-    fn prepare<S: Scalar>(mass: &S) -> [S; 6] {
+    fn prepare<S: Scalar>([mass]: &[S; 1]) -> [S; 6] {
         let [j1, j2, j3] = vector(INERTIA);
         [*mass, *mass, *mass, j1, j2, j3]
     }

@@ -30,7 +30,7 @@ pub struct JointRates {
     /// What is asked for: of the mass matrix the lower triangle row by row; efforts, one for each
     /// rate; of each rate axis, a point on it and direction of translation.
     pub asked: Vec<(Asked, Kernel)>,
-    /// The rows that remain: `D`, row by row; `gamma`; `Phi'`.
+    /// The rows that remain: `D`, row by row; `gamma`; `Phi'`; `Phi`.
     pub rows: Kernel,
     /// Body by body the rates that move it.
     pub moved_by: Vec<Vec<usize>>,
@@ -211,7 +211,7 @@ impl Reduced {
         lower.map(|(row, column)| columns[column][row]).collect()
     }
 
-    /// `D` of the rows that remain, row by row, `gamma` and `Phi'`.
+    /// `D` of the rows that remain, row by row, `gamma`, `Phi'` and `Phi`.
     fn rows_of_joints(&mut self, sums: &Sums) -> Vec<Expr> {
         let (rows, gamma) = self.rows(Terms::Plain);
         let arena = &mut self.scene.space.arena;
@@ -220,8 +220,11 @@ impl Reduced {
             outputs.extend(sums.efforts(arena, row));
         }
         outputs.extend(gamma);
-        let rates = [Arena::ZERO, Arena::ONE, Arena::ZERO];
-        outputs.extend(combinations(&mut self.scene, rates));
+        for place in [1, 0] {
+            let mut factors = [Arena::ZERO; 3];
+            factors[place] = Arena::ONE;
+            outputs.extend(combinations(&mut self.scene, factors));
+        }
         outputs
     }
 

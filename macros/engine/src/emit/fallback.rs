@@ -18,11 +18,11 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
     let (declared, arguments, clause) = syntax.generics.split_for_impl();
     let bounds = clause.map(|clause| &clause.predicates);
     let own: Vec<&Field> = own_fields(syntax).collect();
-    let has_handle = |field: &&&Field| {
+    let is_handled = |field: &&&Field| {
         let role = field.role.as_ref().map(|(role, _)| *role);
-        role.is_none_or(|role| matches!(role, Role::Body | Role::Joint | Role::Force | Role::Point))
+        role.is_none_or(has_handle)
     };
-    let handles = own.iter().filter(has_handle).map(|field| {
+    let handles = own.iter().filter(is_handled).map(|field| {
         let (name, handle) = (&field.name, handle(syntax, field, types, facade));
         match array(&field.written) {
             Some(array) => {
@@ -60,6 +60,14 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
             #parts
             #facade::__stub_mechanism! { [#declared] [#name #arguments] [#bounds] [#inputs_kind] #handles }
         };
+    }
+}
+
+/// Whether a field of a role has a handle.
+const fn has_handle(role: Role) -> bool {
+    match role {
+        Role::Body | Role::Joint | Role::Force | Role::Point | Role::Param | Role::Input => true,
+        Role::Part | Role::Port => false,
     }
 }
 
@@ -121,7 +129,6 @@ fn parts(
 ) -> (TokenStream, Vec<(Ident, TokenStream)>) {
     let fields = syntax.fields.iter().filter(|field| {
         let role = field.role.as_ref().map(|(role, _)| *role);
-        let has_handle = |role: Role| role.has_carrier() || role == Role::Point;
         field.origin.is_some() && role.is_some_and(has_handle)
     });
     let all = fields.map(|field| (&field.name, handle(syntax, field, types, facade)));
@@ -198,6 +205,7 @@ fn handle(
 ) -> TokenStream {
     match (definition(field, types), &field.role) {
         (_, Some((Role::Point, _))) => quote!(point),
+        (_, Some((Role::Param | Role::Input, _))) => quote!(value),
         (Some(Definition::Body(_)), _) | (None, Some((Role::Body, _))) => quote!(body),
         (Some(Definition::Element(_) | Definition::Faulty | Definition::Assembly), role) => {
             let path = syntax.type_path(&field.ty, field.origin, facade);

@@ -32,12 +32,18 @@ impl Writer<'_> {
             let value = quote!(#facade::__private::PointHandle::new(#place));
             (&point.name, (kind, value))
         });
+        let values = self.model.values.iter().enumerate().map(|(place, value)| {
+            let kind = quote!(#facade::__private::ValueHandle<#name>);
+            let handle = quote!(#facade::__private::ValueHandle::new(#place));
+            (&value.name, (kind, handle))
+        });
         let documentation = format!("The handles of [`{name}`], one per field.");
         let head = quote! {
             #[doc = #documentation]
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         };
         let structs = Structs::new("__Handles", head, TokenStream::new());
-        structs.written(&nested(bodies.chain(joints).chain(forces).chain(points)))
+        let elements = bodies.chain(joints).chain(forces).chain(points);
+        structs.written(&nested(elements.chain(values)))
     }
 }

@@ -55,7 +55,8 @@ impl Writer<'_, JointKernels> {
         let rows = self.kernels.rows.len();
         let entries = rows * self.kernels.velocities;
         let (jacobian, others) = outputs.split_at(entries);
-        let (gamma, rates) = others.split_at(rows);
+        let (gamma, others) = others.split_at(rows);
+        let (rates, values) = others.split_at(rows);
         let unpack = Self::unpack();
         let arguments = arguments();
         quote! {
@@ -65,10 +66,10 @@ impl Writer<'_, JointKernels> {
 
                 fn closing_rows<__S: #facade::Scalar>(
                     #arguments
-                ) -> (Self::ClosingJacobian<__S>, [Self::ClosingMultipliers<__S>; 2]) {
+                ) -> (Self::ClosingJacobian<__S>, [Self::ClosingMultipliers<__S>; 3]) {
                     #unpack
                     #statements
-                    ([#(#jacobian),*], [[#(#gamma),*], [#(#rates),*]])
+                    ([#(#jacobian),*], [[#(#gamma),*], [#(#rates),*], [#(#values),*]])
                 }
             }
         }

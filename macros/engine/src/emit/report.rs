@@ -217,6 +217,10 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (name, body) = (point.name.to_string(), option(point.body));
         quote!(#facade::__private::PointInfo { name: #name, body: #body })
     });
+    let values = model.values.iter().map(|value| {
+        let (name, is_input) = (value.name.to_string(), value.is_input);
+        quote!(#facade::__private::ValueInfo { name: #name, is_input: #is_input })
+    });
     let bodies_and_shapes = model.bodies.iter().enumerate();
     let shapes = bodies_and_shapes.flat_map(|(place, body)| {
         let shapes = body.shapes.iter();
@@ -271,6 +275,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             forces: &[#(#forces),*],
             markers: &[#(#markers),*],
             points: &[#(#points),*],
+            values: &[#(#values),*],
             shapes: &[#(#shapes),*],
             carriers: &[#(#carriers),*],
             blocks: &[#(#blocks),*],

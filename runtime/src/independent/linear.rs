@@ -1,0 +1,344 @@
+//! Linearisation about a state, by numbers that carry derivatives: exact to round-off.
+
+use nalgebra::SMatrix;
+
+use super::equations::solve;
+use super::linearised::Linearised;
+use super::partition::{Magnitude, Partition, at, joint_rates, set};
+use super::points::{motions_of, moved};
+use super::states::{put_velocities, write_rates};
+use super::{Equations, IndependentCoordinates};
+use crate::error::{Fault, NotFinite};
+use crate::forward::{Forward, Lifted, lifted};
+use crate::math::quaternion::product;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::{cross, read, write};
+use crate::measure::view::View;
+use crate::mechanism::handle::ValueHandle;
+use crate::mechanism::joint_kernels::Freedom;
+use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
+use crate::mechanism::relative::bodies_of;
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, StateParts};
+
+/// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
+const LANES: usize = 4;
+
+/// What changes in one direction.
+#[derive(Clone, Copy)]
+enum Direction {
+    Position(usize),
+    Rate(usize),
+    Value(usize),
+}
+
+impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
+where
+    M: HasInverse + HasMassMatrix,
+    S: Real + Magnitude,
+{
+    /// The equations of motion and some readings, linear about a state, which may move: how
+    /// accelerations and readings change with coordinates, rates and the `values`, parameters or
+    /// inputs by handle. No efforts act but the described forces.
+    ///
+    /// `read` takes what is wanted from a view, over numbers that carry derivatives; `|_| []` where
+    /// nothing is. Where a parameter changes a closed loop, the coordinates that are not chosen
+    /// follow.
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// use holonom::nalgebra::Matrix4;
+    ///
+    /// /// A pendulum on a cart that a force pushes.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass, inverse])]
+    /// struct Crane {
+    ///     #[input]
+    ///     push: f64,
+    ///     #[body(mass = 2.0, inertia = [1.0, 1.0, 1.0], position = [0.0, 0.0, 0.0])]
+    ///     cart: Body,
+    ///     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, -0.5])]
+    ///     load: Body,
+    ///     #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    ///     rail: Prismatic,
+    ///     #[joint(between = [cart, load], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    ///     hinge: Revolute,
+    ///     #[force(between = [ground, cart], point = [0.0, 0.0, 0.0], force = [push, 0.0, 0.0])]
+    ///     motor: PointForce,
+    /// }
+    ///
+    /// let (crane, h) = (Crane::default(), Crane::HANDLES);
+    /// let space = crane.coordinates((h.rail, h.hinge))?;
+    /// let rest = space.state([0.0, 0.0], [0.0, 0.0])?;
+    /// let linear = space.linearise(&rest, [h.push], |view| [view.position(h.load).x])?;
+    /// let a: Matrix4<f64> = linear.a(); // of [displacement, angle, their rates]
+    /// // The load swings: (m_c + m) (J + m l^2) - (m l)^2 over what gravity does.
+    /// assert!((a[(3, 1)] + 3.0 * 0.5 * 9.81 / (3.0 * 0.35 - 0.25)).abs() < 1e-12);
+    /// // It is on the other side of its hinge.
+    /// assert!((linear.c::<4>()[(0, 1)] + 0.5).abs() < 1e-12);
+    /// # Ok::<(), Fault>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::mass`]; [`Fault::RatesNotFinite`] where there is no derivative.
+    pub fn linearise<const K: usize, const P: usize>(
+        &self,
+        state: &M::JointState<S>,
+        values: [ValueHandle<M>; K],
+        read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> Result<Linearised<N, K, P, S>, Fault> {
+        let mut linear = Linearised::zeros();
+        let partition = self.equations.partition(state)?;
+        let rates = joint_rates::<M, S>(state);
+        linear.rates = SMatrix::from_fn(|row, column| {
+            let place = self.equations.places.get(row).copied().unwrap_or(0);
+            let column = partition.columns.get(column);
+            column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
+        });
+        let positions = (0..N).map(Direction::Position);
+        let directions = positions.chain((0..N).map(Direction::Rate));
+        let mut directions = directions.chain((0..K).map(Direction::Value));
+        loop {
+            let lanes: [Option<Direction>; LANES] = core::array::from_fn(|_| directions.next());
+            let [Some(_), ..] = lanes else { break };
+            let (accelerations, readings) =
+                self.along(state, &partition, &lanes, &values, &read)?;
+            for (lane, direction) in lanes.into_iter().flatten().enumerate() {
+                let slope = |number: &Lifted<S>| {
+                    number.derivatives().get(lane).copied().unwrap_or(S::zero())
+                };
+                let (of_accelerations, of_readings, column) = match direction {
+                    Direction::Position(column) => (
+                        &mut linear.by_positions,
+                        &mut linear.readings_by_positions,
+                        column,
+                    ),
+                    Direction::Rate(column) => {
+                        (&mut linear.by_rates, &mut linear.readings_by_rates, column)
+                    }
+                    Direction::Value(column) => {
+                        for (row, number) in accelerations.iter().enumerate() {
+                            put(&mut linear.by_values, row, column, slope(number));
+                        }
+                        for (row, number) in readings.iter().enumerate() {
+                            put(&mut linear.readings_by_values, row, column, slope(number));
+                        }
+                        continue;
+                    }
+                };
+                for (row, number) in accelerations.iter().enumerate() {
+                    put(of_accelerations, row, column, slope(number));
+                }
+                for (row, number) in readings.iter().enumerate() {
+                    put(of_readings, row, column, slope(number));
+                }
+            }
+        }
+        let mass = self.equations.mass(state)?;
+        for column in 0..N {
+            let unit = core::array::from_fn(|row| S::constant(f64::from(u8::from(row == column))));
+            for (row, acceleration) in solve(mass, unit).into_iter().enumerate() {
+                put(&mut linear.by_efforts, row, column, acceleration);
+            }
+        }
+        if linear.is_finite() {
+            Ok(linear)
+        } else {
+            Err(Fault::RatesNotFinite {
+                origin: NotFinite::Unknown,
+            })
+        }
+    }
+
+    /// Accelerations and readings along some directions.
+    fn along<const K: usize, const P: usize>(
+        &self,
+        state: &M::JointState<S>,
+        partition: &Partition<M, N, S>,
+        lanes: &[Option<Direction>; LANES],
+        values: &[ValueHandle<M>; K],
+        read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> Result<([Lifted<S>; N], [Lifted<S>; P]), Fault> {
+        let mut equations = self.equations.lifted::<LANES>();
+        let mut constants: M::Constants<Lifted<S>> = lifted(&self.constants);
+        let mut parameters: M::Parameters<Lifted<S>> = lifted(&self.parameters);
+        let mut ways = [M::JointVelocities::<S>::zeros(); LANES];
+        let rates: [S; N] = self.rates(state).into();
+        let mut rates_along = rates.map(Forward::fixed);
+        let mut is_varied = false;
+        for (lane, direction) in lanes.iter().enumerate() {
+            match *direction {
+                Some(Direction::Position(column)) => {
+                    let way = partition.columns.get(column);
+                    if let (Some(place), Some(way)) = (ways.get_mut(lane), way) {
+                        *place = *way;
+                    }
+                }
+                Some(Direction::Rate(column)) => vary(rates_along.get_mut(column), lane),
+                Some(Direction::Value(number)) => {
+                    is_varied = true;
+                    let place = values.get(number).map_or(usize::MAX, |value| value.index());
+                    vary(parameters.as_mut_slice().get_mut(place), lane);
+                }
+                None => {}
+            }
+        }
+        let here = |ways: &[M::JointVelocities<S>; LANES]| {
+            let slopes = ways.map(|way| {
+                let mut turned = *state;
+                put_velocities::<M, S>(&way, &mut turned);
+                M::joint_coordinate_rates(&self.equations.constants, self.equations.time, &turned)
+            });
+            moved::<M, S, LANES>(state, &slopes)
+        };
+        if is_varied {
+            constants = M::prepare(&parameters);
+            equations.constants = M::prepare_joints(&parameters);
+            // What closes a loop again that a parameter opens.
+            let closing = equations.partition(&here(&ways))?.closing;
+            for (place, number) in closing.as_slice().iter().enumerate() {
+                for (way, slope) in ways.iter_mut().zip(number.derivatives()) {
+                    let known = at(way.as_slice(), place);
+                    set(way, place, known + slope);
+                }
+            }
+        }
+        let mut there = here(&ways);
+        let dependent = equations.partition(&there)?;
+        write_rates::<M, N, Lifted<S>>(&dependent, &rates_along, true, &mut there);
+        let accelerations = equations.forward(&there, &[Forward::zero(); N])?;
+        let bodies = self.bodies_along(&equations, state, &there);
+        let view = View::new(&constants, equations.time, &bodies);
+        Ok((accelerations, read(&view)))
+    }
+
+    /// The bodies of a state along directions.
+    fn bodies_along(
+        &self,
+        equations: &Equations<M, N, Lifted<S>>,
+        here: &M::JointState<S>,
+        there: &M::JointState<Lifted<S>>,
+    ) -> M::State<Lifted<S>> {
+        let known = bodies_of::<S, M>(&self.equations.constants, here);
+        let motions = M::body_motions(&equations.constants, there);
+        let motions = motions.as_slice();
+        let mut bodies = <M::State<Lifted<S>> as StateParts<Lifted<S>>>::from_parts(
+            Array::zeros(),
+            Array::zeros(),
+        );
+        let mut place = 0;
+        for body in M::REPORT.bodies {
+            let linear = [0, 3].map(|part| read_3(motions, place + part));
+            let [position, velocity] = linear;
+            write(
+                bodies.coordinates_mut().as_mut_slice(),
+                body.coordinate,
+                position,
+            );
+            write(
+                bodies.velocities_mut().as_mut_slice(),
+                body.velocity,
+                velocity,
+            );
+            if body.kind == BodyKind::Rigid {
+                let rows = [6, 9, 12].map(|row| read_3(motions, place + row));
+                let p: [S; 4] = read(known.coordinates().as_slice(), body.coordinate + 3);
+                let p = orientation_along(&p, &rows);
+                write(
+                    bodies.coordinates_mut().as_mut_slice(),
+                    body.coordinate + 3,
+                    p,
+                );
+                let spin = read_3(motions, place + 15);
+                write(
+                    bodies.velocities_mut().as_mut_slice(),
+                    body.velocity + 3,
+                    spin,
+                );
+            }
+            place += motions_of(body.kind);
+        }
+        for auxiliary in 0..M::REPORT.auxiliaries {
+            let [value] = read::<Lifted<S>, 1>(motions, place + auxiliary);
+            let coordinates = bodies.coordinates_mut().as_mut_slice();
+            write(coordinates, M::REPORT.coordinates + auxiliary, [value]);
+        }
+        bodies
+    }
+}
+
+/// Lets a number vary along a direction, beside those along which it does.
+fn vary<S: Scalar>(number: Option<&mut Lifted<S>>, lane: usize) {
+    let Some(number) = number else { return };
+    let mut slopes = number.derivatives();
+    if let Some(slope) = slopes.get_mut(lane) {
+        *slope = *slope + S::one();
+    }
+    *number = Forward::new(number.value(), slopes);
+}
+
+fn read_3<S: Scalar>(numbers: &[S], place: usize) -> [S; 3] {
+    read(numbers, place)
+}
+
+fn put<S, const R: usize, const C: usize>(
+    matrix: &mut SMatrix<S, R, C>,
+    row: usize,
+    column: usize,
+    value: S,
+) {
+    if let Some(entry) = matrix.get_mut((row, column)) {
+        *entry = value;
+    }
+}
+
+/// Euler parameters along directions, by those and the rotation matrix: with `R' = R w~` the rate of
+/// `p` is `p (0, w) / 2`.
+fn orientation_along<S: Scalar>(p: &[S; 4], rows: &[[Lifted<S>; 3]; 3]) -> [Lifted<S>; 4] {
+    let mut slopes = [[S::zero(); LANES]; 4];
+    for lane in 0..LANES {
+        let slope = |number: &Lifted<S>| number.derivatives().get(lane).copied();
+        // `(R^T R')` of row `k` and column `l`.
+        let entry = |k: usize, l: usize| {
+            rows.iter().fold(S::zero(), |sum, row| {
+                let (value, slope) = (row.get(k).map(Forward::value), row.get(l).and_then(slope));
+                value.zip(slope).map_or(sum, |(a, b)| a.fused(b, sum))
+            })
+        };
+        let half = S::constant(0.5);
+        let w = [(2, 1), (0, 2), (1, 0)].map(|(k, l)| half * entry(k, l));
+        let [x, y, z] = w;
+        let rate = product(p, &[S::zero(), x, y, z]);
+        for (slopes, rate) in slopes.iter_mut().zip(rate) {
+            if let Some(place) = slopes.get_mut(lane) {
+                *place = rate;
+            }
+        }
+    }
+    let mut found = p.map(Forward::fixed);
+    for (number, slopes) in found.iter_mut().zip(slopes) {
+        *number = Forward::new(number.value(), slopes);
+    }
+    found
+}
+
+/// What a rotation at these rates does to the rate of a turn along a ball's axes, which is that of
+/// no coordinate: `-w x` the turn. Zero of other rates.
+fn turned<M: JointRates, S: Scalar>(
+    place: usize,
+    rates: &M::JointVelocities<S>,
+    turn: &M::JointVelocities<S>,
+) -> S {
+    let motions = M::JOINT_REPORT.motions.iter();
+    let mut balls = motions.filter(|motion| motion.freedom == Freedom::Ball);
+    let ball = balls.find(|motion| (motion.velocity..motion.velocity + 3).contains(&place));
+    let Some(ball) = ball else { return S::zero() };
+    let w = read_3(rates.as_slice(), ball.velocity);
+    let turn = read_3(turn.as_slice(), ball.velocity);
+    let [x, y, z] = cross(&turn, &w);
+    match place - ball.velocity {
+        0 => x,
+        1 => y,
+        _ => z,
+    }
+}

@@ -1,0 +1,8 @@
+//! The equations of motion in chosen coordinates. Arms are in `urdf/tests/motion/equations.rs`.
+
+#![forbid(unsafe_code)]
+
+mod choice;
+mod linear;
+mod loops;
+mod reference;
