@@ -304,6 +304,12 @@ pub enum Fault {
         /// The field of a chosen joint.
         joint: &'static str,
     },
+    /// An equilibrium was asked for while a coordinate moves on whose position something depends:
+    /// the motion is not steady.
+    NotSteady {
+        /// The joint's field.
+        joint: &'static str,
+    },
     /// Angles that count turns were set, and their number is not that of the joint or force.
     CountedAngles {
         /// The field of the joint or force.

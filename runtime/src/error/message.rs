@@ -390,6 +390,10 @@ impl fmt::Display for Fault {
                 f,
                 "the chosen coordinates are not independent here: closed loops restrict the motion of `{joint}`"
             ),
+            Self::NotSteady { joint } => write!(
+                f,
+                "no steady motion: `{joint}` moves, and accelerations depend on where it is"
+            ),
             Self::CountedAngles {
                 element,
                 counted,

@@ -100,31 +100,34 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
     }
 }
 
-/// Solves a symmetric positive definite system; not finite where it is not.
+/// Solves a symmetric positive definite system by `L D L^T`; not finite where it is not.
 pub(super) fn solve<S: Scalar, const N: usize>(mut matrix: [[S; N]; N], right: [S; N]) -> [S; N] {
     let mut solution = right;
     let mut inverses = [S::zero(); N];
     for k in 0..N {
-        let inverse = matrix[k][k].reciprocal();
+        let (done, below) = matrix.split_at_mut(k + 1);
+        let Some(pivot_row) = done.last() else { break };
+        let inverse = pivot_row[k].reciprocal();
         inverses[k] = inverse;
-        for row in k + 1..N {
-            let factor = matrix[row][k] * inverse;
-            for column in k + 1..=row {
-                matrix[row][column] = matrix[row][column] - factor * matrix[column][k];
-            }
-            solution[row] = solution[row] - factor * solution[k];
+        // The column under the pivot, before it becomes one of `L`.
+        let mut column = [S::zero(); N];
+        for (entry, row) in column.iter_mut().skip(k + 1).zip(below.iter()) {
+            *entry = row[k];
         }
-        // The column of `L`, once nobody needs that of the matrix.
-        for row in matrix.iter_mut().skip(k + 1) {
-            row[k] = row[k] * inverse;
+        let known = solution[k];
+        let rights = solution.iter_mut().skip(k + 1);
+        for (row, right) in below.iter_mut().zip(rights) {
+            let factor = row[k] * inverse;
+            let entries = row.iter_mut().zip(&column).skip(k + 1);
+            entries.for_each(|(entry, &under)| *entry = *entry - factor * under);
+            *right = *right - factor * known;
+            row[k] = factor;
         }
     }
     for k in (0..N).rev() {
-        let mut value = solution[k] * inverses[k];
-        for row in k + 1..N {
-            value = value - matrix[row][k] * solution[row];
-        }
-        solution[k] = value;
+        let value = solution[k] * inverses[k];
+        let rows = matrix.iter().zip(&solution).skip(k + 1);
+        solution[k] = rows.fold(value, |value, (row, &above)| value - row[k] * above);
     }
     solution
 }

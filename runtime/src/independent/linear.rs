@@ -24,6 +24,9 @@ use crate::state::vector::{Array, StateParts};
 /// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
 const LANES: usize = 4;
 
+/// Accelerations and readings along directions.
+type Along<S, const N: usize, const P: usize> = ([Lifted<S>; N], [Lifted<S>; P]);
+
 /// What changes in one direction.
 #[derive(Clone, Copy)]
 enum Direction {
@@ -158,7 +161,7 @@ where
         lanes: &[Option<Direction>; LANES],
         values: &[ValueHandle<M>; K],
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
-    ) -> Result<([Lifted<S>; N], [Lifted<S>; P]), Fault> {
+    ) -> Result<Along<S, N, P>, Fault> {
         let mut equations = self.equations.lifted::<LANES>();
         let mut constants: M::Constants<Lifted<S>> = lifted(&self.constants);
         let mut parameters: M::Parameters<Lifted<S>> = lifted(&self.parameters);

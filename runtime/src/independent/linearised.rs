@@ -64,13 +64,18 @@ impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P
     #[must_use]
     pub fn a<const X: usize>(&self) -> SMatrix<S, X, X> {
         const { assert!(X == 2 * N, "a state has two numbers for every coordinate") };
-        SMatrix::from_fn(|row, column| match (row < N, column < N) {
+        SMatrix::from_fn(|row, column| self.of_a(row, column))
+    }
+
+    /// An entry of `A`.
+    pub(super) fn of_a(&self, row: usize, column: usize) -> S {
+        match (row < N, column < N) {
             (true, true) => self.rates[(row, column)],
             (true, false) if column == row + N => S::one(),
             (true, false) => S::zero(),
             (false, true) => self.by_positions[(row - N, column)],
             (false, false) => self.by_rates[(row - N, column - N)],
-        })
+        }
     }
 
     /// `B` of the values.

@@ -5,7 +5,7 @@
 //! that close loops (Wehage and Haug 1982: coordinate partitioning; Flores, chapter 15, calls them
 //! dependent coordinates). `equations.rs` has mass matrix and efforts, `points.rs` Jacobians,
 //! `states.rs` the way to states and back, `linear.rs` linearisation, whose result is in
-//! `linearised.rs`. All of it is generic over [`Scalar`] where it can be, so
+//! `linearised.rs`, `modes.rs` its natural motions, `equilibrium.rs` states without accelerations. All of it is generic over [`Scalar`] where it can be, so
 //! that derivatives go through it.
 //!
 //! Chosen rates `z` give those of all joints: `w = B z + d`, with `D B = 0` and `D d = -dPhi/dt`.
@@ -14,8 +14,11 @@
 
 mod choice;
 mod equations;
+mod equilibrium;
 mod linear;
 mod linearised;
+#[cfg(feature = "std")]
+mod modes;
 mod partition;
 mod points;
 mod states;
@@ -24,6 +27,8 @@ use core::fmt;
 
 pub use choice::{Chosen, Coordinate, Motion};
 pub use linearised::{Linearised, to_discrete};
+#[cfg(feature = "std")]
+pub use modes::Mode;
 pub use partition::Magnitude;
 
 use crate::error::Fault;
@@ -74,9 +79,9 @@ pub trait IndependentExt: JointRates {
     /// #[derive(Mechanism)]
     /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass, inverse])]
     /// struct Arm {
-    ///     #[body(shape = rod(from = [0.0, 0.0, 0.0], to = [0.0, 0.0, -1.0]), mass = 3.0)]
+    ///     #[body(mass = 3.0, inertia = [0.25, 0.25, 0.001], position = [0.0, 0.0, -0.5])]
     ///     upper: Body,
-    ///     #[body(shape = rod(from = [0.0, 0.0, -1.0], to = [0.0, 0.0, -2.0]), mass = 3.0)]
+    ///     #[body(mass = 3.0, inertia = [0.25, 0.25, 0.001], position = [0.0, 0.0, -1.5])]
     ///     lower: Body,
     ///     #[joint(between = [ground, upper], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     ///     shoulder: Revolute,
@@ -143,6 +148,18 @@ impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
     /// Takes drivers and laws at another time (s).
     pub const fn set_time(&mut self, time: S) {
         self.equations.time = time;
+    }
+
+    /// The joint, or the free body, of a chosen coordinate.
+    fn joint(&self, number: usize) -> &'static str {
+        let place = self.equations.places.get(number).copied();
+        partition::joint_of_rate(M::JOINT_REPORT.motions, place.unwrap_or(0))
+    }
+
+    /// The joints of the coordinates, in their order.
+    #[must_use]
+    pub fn names(&self) -> [&'static str; N] {
+        core::array::from_fn(|number| self.joint(number))
     }
 
     /// Sets the inputs of the mechanism, with which its described forces act.

@@ -120,7 +120,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             }
             let (pivot, row, column) = best;
             // Below, more than half of the digits would be lost.
-            if !(pivot > S::ROUND_OFF.sqrt()) {
+            if pivot <= S::ROUND_OFF.sqrt() {
                 break;
             }
             set(&mut is_taken, row, S::one());
@@ -235,7 +235,7 @@ pub(super) fn velocities<M: JointRates, S: Scalar>(
 }
 
 /// The joint, or the body that moves freely, of a rate.
-fn joint_of_rate(motions: &'static [JointMotion], rate: usize) -> &'static str {
+pub(super) fn joint_of_rate(motions: &'static [JointMotion], rate: usize) -> &'static str {
     let before = motions.iter().rev().find(|motion| motion.velocity <= rate);
     before.map_or("", |motion| {
         if motion.joint.is_empty() {

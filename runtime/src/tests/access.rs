@@ -60,7 +60,7 @@ fn the_velocity_of_a_point_is_the_rate_of_the_point() {
     let (mut before, mut after) = (state(), state());
     let place = Vector3::new(0.3, -0.4, 0.5);
     let step = 1e-6;
-    let constants = Rod::prepare(&7.02);
+    let constants = Rod::prepare(&[7.02]);
     for (state, half) in [(&mut before, -0.5 * step), (&mut after, 0.5 * step)] {
         let rates = Rod::coordinate_rates(&constants, &*state);
         for (q, rate) in state.coordinates_mut().iter_mut().zip(rates) {

@@ -29,7 +29,7 @@ fn a_state_on_the_constraints_stays() {
 #[test]
 fn the_correction_is_the_least_movement_in_the_metric_of_the_mass() {
     let described: State<f64, 7, 6> = rod().described_state().unwrap();
-    let constants = Rod::prepare(&7.02);
+    let constants = Rod::prepare(&[7.02]);
     let mut state = described;
     Rod::set_velocity(&mut state, ROD, nalgebra::Vector3::new(0.0, 0.0, 1.0));
     let given = *state.velocities();
@@ -59,7 +59,7 @@ fn what_does_not_converge_leaves_the_state() {
         tolerance: 1e-12,
         max_iterations: 1,
     };
-    let constants = Rod::prepare(&7.02);
+    let constants = Rod::prepare(&[7.02]);
     let mut state = State::from_parts([0.05, 0.4, -0.2, 1.1, 0.3, 0.1, -0.2], [0.0; 6]);
     let before = state;
     let error = hasty

@@ -123,7 +123,7 @@ impl Mechanism for Crank {
     }
 
     fn prepare<S: Scalar>(law: &[S; 3]) -> Constants<S> {
-        let rod = Rod::prepare(&S::constant(7.02));
+        let rod = Rod::prepare(&[S::constant(7.02)]);
         from_fn(|k| rod.get(k).copied().unwrap_or_else(|| law[k - 6]))
     }
 

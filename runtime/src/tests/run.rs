@@ -232,7 +232,7 @@ fn a_fixed_step_runs_and_single_precision_too() {
 }
 
 fn angle(state: &State<f64, 7, 6>) -> f64 {
-    let constants = Rod::prepare(&1.0);
+    let constants = Rod::prepare(&[1.0]);
     View::<f64, Rod>::new(&constants, 0.0, state).angle(PIVOT)
 }
 

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod choice;
+mod equilibrium;
 mod linear;
 mod loops;
 mod reference;
