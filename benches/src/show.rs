@@ -71,7 +71,7 @@ pub fn scenes() -> Vec<Scene> {
             run: |scene, seconds| {
                 let handles = FourBar::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.coupler, "middle of the coupler", [0.0; 3]);
+                film.trace_point(handles.coupler, "middle of the coupler", [0.0; 3]);
                 through_singular(&FourBar::default(), film, seconds, |film, sample| {
                     film.reading("left foot", "rad", sample.angle(handles.left_foot));
                 })
@@ -84,7 +84,7 @@ pub fn scenes() -> Vec<Scene> {
             run: |scene, seconds| {
                 let handles = RodPendulum::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.rod, "centre of mass", [0.0; 3]);
+                film.trace_point(handles.rod, "centre of mass", [0.0; 3]);
                 accurate(&RodPendulum::default(), film, seconds, |film, sample| {
                     film.reading("pivot", "rad", sample.angle(handles.pivot));
                 })
@@ -151,7 +151,7 @@ fn large() -> [Scene; 14] {
             run: |scene, seconds| {
                 let handles = Bricard::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.second, "a corner", Bricard::P3);
+                film.trace_point(handles.second, "a corner", Bricard::P3);
                 accurate(&Bricard::default(), film, seconds, |_, _| ())
             },
         },
@@ -182,7 +182,7 @@ fn large() -> [Scene; 14] {
             run: |scene, seconds| {
                 let handles = HeavyTop::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.top, "centre of mass", [0.0; 3]);
+                film.trace_point(handles.top, "centre of mass", [0.0; 3]);
                 accurate(&HeavyTop::default(), film, seconds, |_, _| ())
             },
         },
@@ -193,7 +193,7 @@ fn large() -> [Scene; 14] {
             run: |scene, seconds| {
                 let handles = VariableLengthPendulum::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.slider, "slider", [0.0; 3]);
+                film.trace(handles.slider);
                 let mechanism = VariableLengthPendulum::default();
                 accurate(&mechanism, film, seconds, |film, sample| {
                     film.reading("pin", "rad", sample.angle(handles.pin));
@@ -207,7 +207,7 @@ fn large() -> [Scene; 14] {
             run: |scene, seconds| {
                 let handles = SliderCrank::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.rod, "middle of the rod", [0.0; 3]);
+                film.trace_point(handles.rod, "middle of the rod", [0.0; 3]);
                 accurate(&SliderCrank::default(), film, seconds, |film, sample| {
                     film.reading("slider", "m", sample.displacement(handles.guide));
                 })
@@ -255,7 +255,7 @@ fn large() -> [Scene; 14] {
             run: |scene, seconds| {
                 let handles = Ur5::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.third_wrist, "third wrist", [0.0; 3]);
+                film.trace_point(handles.third_wrist, "third wrist", [0.0; 3]);
                 accurate(&Ur5::default(), film, seconds, |film, sample| {
                     let height = sample.pose(handles.third_wrist).position.z;
                     film.reading("height of the wrist", "m", height);
@@ -269,7 +269,7 @@ fn large() -> [Scene; 14] {
             run: |scene, seconds| {
                 let handles = Panda::HANDLES;
                 let mut film = scene.film();
-                film.trace(handles.hand, "hand", [0.0; 3]);
+                film.trace(handles.hand);
                 accurate(&Panda::default(), film, seconds, |film, sample| {
                     let height = sample.pose(handles.hand).position.z;
                     film.reading("height of the hand", "m", height);

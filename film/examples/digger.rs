@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let digger = Digger::default();
     let integrator = DormandPrince::new(Tolerance::of(&digger, 1e-8)?);
     let mut film = Film::new().with_reactions();
-    film.trace(Digger::HANDLES.weight, "weight", [0.0; 3]);
+    film.trace(Digger::HANDLES.weight);
     let report = digger
         .simulation(StandardLagrange, integrator)
         .projection(Projection::default())

@@ -25,12 +25,14 @@ struct DoublePendulum {
     shoulder: Revolute,
     #[joint(between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
     elbow: Revolute,
+    #[point(on = lower, at = [0.0, 2.0, 0.0])]
+    tip: Point,
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (pendulum, handles) = (DoublePendulum::default(), DoublePendulum::HANDLES);
     let mut film = Film::new().titled("Double pendulum").with_reactions();
-    film.trace(handles.lower, "tip", [0.5, 0.0, 0.0]); // from its centre of mass, along the bar
+    film.trace(handles.tip);
     let report = pendulum
         .simulation(StandardLagrange, DormandPrince::default())
         .run(0.0..=5.0, every(1.0 / 60.0), |sample| {

@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(env::args().nth(1).unwrap_or("target".into()));
     let handles = CrankRocker::HANDLES;
     let mut film = Film::new().titled("Crank and rocker").with_reactions();
-    film.trace(handles.coupler, "tip of the coupler", [-0.1, 0.35, 0.0]);
+    film.trace_point(handles.coupler, "tip of the coupler", [-0.1, 0.35, 0.0]);
     let mechanism = CrankRocker::default();
     let report = KinematicAnalysis::new(&mechanism, StandardLagrange).run(
         0.0..=TURN,

@@ -1,10 +1,11 @@
 //! What of a mechanism does not change in a run: bodies, joints and forces, markers, shapes.
 
+use holonom::mechanism::PointHandle;
 use holonom::mechanism::{BodyKind, ElementPlace, MarkerKind, ShapeKind};
 use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use holonom::{BodyHandle, Mechanism, Real, View};
 
-use crate::page::{Arrow, Body, Element, Marker, Shape};
+use crate::page::{Arrow, Body, Element, Marker, Point, Shape};
 
 /// Position and orientation of a body in double precision.
 pub(crate) fn placement<S: Real, M: Mechanism>(
@@ -21,14 +22,8 @@ pub(crate) fn placement<S: Real, M: Mechanism>(
 pub(crate) fn markers<S: Real, M: Mechanism>(view: &View<'_, S, M>) -> Vec<Marker> {
     let markers = M::REPORT.markers.iter().enumerate();
     let on_bodies = markers.map(|(index, marker)| {
-        let mut at = view.marker(index).map(Real::to_f64);
-        if let Some(body) = marker.body {
-            let (position, orientation) = placement(view, body);
-            if marker.kind == MarkerKind::Point {
-                at -= position;
-            }
-            at = UnitQuaternion::new_normalize(orientation).inverse() * at;
-        }
+        let at = view.marker(index).map(Real::to_f64);
+        let at = on_body(view, marker.body, at, marker.kind == MarkerKind::Point);
         Marker {
             element: match marker.of {
                 ElementPlace::Joint(joint) => joint,
@@ -46,6 +41,34 @@ pub(crate) fn markers<S: Real, M: Mechanism>(view: &View<'_, S, M>) -> Vec<Marke
         }
     });
     on_bodies.collect()
+}
+
+/// A point or direction (global) in the axes of a body, a point from the centre of mass.
+fn on_body<S: Real, M: Mechanism>(
+    view: &View<'_, S, M>,
+    body: Option<usize>,
+    at: Vector3<f64>,
+    is_point: bool,
+) -> Vector3<f64> {
+    let Some(body) = body else { return at };
+    let (position, orientation) = placement(view, body);
+    let origin = if is_point { position } else { Vector3::zeros() };
+    UnitQuaternion::new_normalize(orientation).inverse() * (at - origin)
+}
+
+/// Named points of the description.
+pub(crate) fn points<S: Real, M: Mechanism>(view: &View<'_, S, M>) -> Vec<Point> {
+    let points = M::REPORT.points.iter().enumerate();
+    let named = points.map(|(index, point)| {
+        let at = view.position(PointHandle::<M>::new(index));
+        let at = on_body(view, point.body, at.map(Real::to_f64), true);
+        Point {
+            name: point.name.into(),
+            body: point.body,
+            at: at.into(),
+        }
+    });
+    named.collect()
 }
 
 /// Shapes but holes.
@@ -74,9 +97,14 @@ pub(crate) fn arrows<M: Mechanism>() -> Vec<Arrow> {
     let with_point = joints.filter(|(_, joint)| joint.has_point && joint.rows > 0);
     let arrows = with_point.filter_map(|(index, joint)| {
         let place = joint.bodies.iter().rposition(Option::is_some)?;
+        let marker = M::REPORT.markers.iter().position(|marker| {
+            marker.of == ElementPlace::Joint(index)
+                && (marker.place, marker.kind) == (place, MarkerKind::Point)
+        });
         Some(Arrow {
             joint: index,
             place,
+            marker,
         })
     });
     arrows.collect()

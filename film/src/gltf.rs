@@ -1,7 +1,8 @@
 //! A film as glTF, for Blender, three.js, game engines and slides.
 //!
 //! One node a body, moved by an animation. Bodies look like their shapes, or like bars between the
-//! points of their joints. glTF has y up: the scene is turned so that gravity points down there.
+//! points of their joints. A named point is an empty node of its body, or of the scene. glTF has y
+//! up: the scene is turned so that gravity points down there.
 
 use std::collections::BTreeMap;
 
@@ -42,7 +43,12 @@ pub(crate) fn gltf(
             })
         })
         .collect();
+    for (body, node) in bodies.iter().enumerate() {
+        let points = file.points(subject, Some(body));
+        file.root.nodes[node.value()].children = points;
+    }
     file.animate(subject, &bodies);
+    let ground = file.points(subject, None).unwrap_or_default();
     let up = Vector3::from(subject.gravity)
         .try_normalize(0.0)
         .map_or(Vector3::z(), |down| -down);
@@ -51,7 +57,7 @@ pub(crate) fn gltf(
         UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
     });
     let whole = file.root.push(Node {
-        children: Some(bodies),
+        children: Some([bodies, ground].concat()),
         name: Some(subject.title.into()),
         rotation: Some(Turn(turn.coords.map(|e| e as f32).into())),
         ..Node::default()
@@ -113,6 +119,20 @@ struct File {
 }
 
 impl File {
+    /// Empty nodes for the named points of a body; none where it has none.
+    fn points(&mut self, subject: &Subject<'_>, body: Option<usize>) -> Option<Vec<Index<Node>>> {
+        let own = subject.points.iter().filter(|point| point.body == body);
+        let nodes = own.map(|point| {
+            self.root.push(Node {
+                name: Some(point.name.clone()),
+                translation: Some(point.at.map(|x| x as f32)),
+                ..Node::default()
+            })
+        });
+        let nodes: Vec<_> = nodes.collect();
+        (!nodes.is_empty()).then_some(nodes)
+    }
+
     /// Numbers, `width` of them a row.
     fn accessor(&mut self, rows: &[f32], width: usize, bounded: bool) -> Index<Accessor> {
         let start = self.numbers.len();

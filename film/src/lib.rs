@@ -12,13 +12,15 @@
 //!     rod: Body,
 //!     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
 //!     hinge: Revolute,
+//!     #[point(on = rod, at = [0.0, 1.0, 0.0])]
+//!     tip: Point,
 //! }
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let pendulum = Pendulum::default();
 //! let handles = Pendulum::HANDLES;
 //! let mut film = Film::new();
-//! film.trace(handles.rod, "tip", [0.0, 0.5, 0.0]);
+//! film.trace(handles.tip);
 //! let report = Simulation::new(&pendulum, StandardLagrange, DormandPrince::default()).run(
 //!     0.0..=5.0,
 //!     every(1.0 / 60.0),
@@ -38,12 +40,12 @@
 //! ([`Report::markers`](holonom::Report::markers)). A body is made of bars between these points and
 //! its centre of mass, and of a plate where three or more span one. One that is described by
 //! [shapes](holonom::Report::shapes) looks like these. A joint looks like its kind, a spring is a
-//! coil. So a wrong point is seen.
+//! coil. A named point is a small mark with its name. So a wrong point is seen.
 //!
 //! The page plays, loops and seeks, and is turned by mouse or touch. It shows traces, the readings
 //! over time, the warnings of the run, and reactions as arrows where they were recorded
 //! ([`Film::with_reactions`]). Keys: space, arrows, `F` fit, `I`
-//! `X` `Y` `Z` views, `O` orthographic, `R` reactions, `T` traces, `H` parts, `D` dark.
+//! `X` `Y` `Z` views, `O` orthographic, `R` reactions, `T` traces, `P` points, `H` parts, `D` dark.
 //!
 //! [`Film::save_gltf`] writes the same motion for Blender, game engines and slides.
 //! [`Sketch`] draws the reference configuration, before anything runs.
@@ -54,6 +56,7 @@
 
 mod anchors;
 mod description;
+mod fault;
 mod gears;
 mod gltf;
 mod page;
@@ -64,5 +67,6 @@ mod sketch;
 mod solid;
 mod subject;
 
-pub use record::{Film, FilmError};
+pub use fault::FilmError;
+pub use record::Film;
 pub use reference::Sketch;

@@ -12,6 +12,7 @@ pub(crate) struct Page<'a> {
     pub(crate) bodies: &'a [Body],
     pub(crate) elements: &'a [Element],
     pub(crate) markers: &'a [Marker],
+    pub(crate) points: &'a [Point],
     pub(crate) shapes: &'a [Shape],
     pub(crate) wheels: &'a [Wheel],
     pub(crate) racks: &'a [Rack],
@@ -24,7 +25,7 @@ pub(crate) struct Page<'a> {
     pub(crate) loads: Floats<'a>,
     pub(crate) arrows: &'a [Arrow],
     pub(crate) show_arrows: bool,
-    pub(crate) traces: &'a [Trace],
+    pub(crate) traces: &'a [Point],
     pub(crate) readings: Vec<Reading<'a>>,
     pub(crate) warnings: &'a [Remark],
 }
@@ -110,13 +111,18 @@ pub(crate) struct Marker {
 pub(crate) struct Arrow {
     pub(crate) joint: usize,
     pub(crate) place: usize,
+    /// Its point of this body in the report: a link between two points acts at each end.
+    #[serde(skip)]
+    pub(crate) marker: Option<usize>,
 }
 
-/// A point of a body whose way is drawn.
+/// A point of a body (`None` is the ground) that has a name: a point of the description, or one
+/// whose way is drawn.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Trace {
+pub(crate) struct Point {
     pub(crate) name: String,
-    pub(crate) body: usize,
+    pub(crate) body: Option<usize>,
+    /// From the centre of mass along the user's body axes, on the ground from the origin (m).
     pub(crate) at: [f64; 3],
 }
 

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use holonom::nalgebra::{Rotation3, Vector3};
 
 use crate::page::{Element, Marker};
-use crate::subject::{Subject, colour};
+use crate::subject::{Subject, colour, colour_of};
 
 /// Width of a picture, and what stays free on each side.
 const WIDTH: f64 = 640.0;
@@ -39,8 +39,8 @@ impl Subject<'_> {
         for trace in self.traces {
             // In more frames than what moves: a line does not bend between them.
             let way = (0..self.times.len()).step_by(1 + self.times.len() / WAY);
-            let way = way.map(|frame| self.place(frame, Some(trace.body), trace.at));
-            pen.trace(&way.collect::<Vec<_>>(), colour(trace.body));
+            let way = way.map(|frame| self.place(frame, trace.body, trace.at));
+            pen.trace(&way.collect::<Vec<_>>(), colour_of(trace));
         }
         for (marker, element) in self.feet() {
             let at = self.place(first, None, marker.at);
@@ -65,8 +65,8 @@ impl Subject<'_> {
         for trace in self.traces {
             let way = frames
                 .iter()
-                .map(|&frame| self.place(frame, Some(trace.body), trace.at));
-            pen.dot(&way.collect::<Vec<_>>(), colour(trace.body));
+                .map(|&frame| self.place(frame, trace.body, trace.at));
+            pen.dot(&way.collect::<Vec<_>>(), colour_of(trace));
         }
         let (width, height) = (WIDTH, sheet.height);
         let title = self.title.replace('&', "&amp;").replace('<', "&lt;");

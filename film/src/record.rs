@@ -1,16 +1,18 @@
 //! What is recorded of a run.
 
+use std::fs;
 use std::marker::PhantomData;
 use std::path::Path;
-use std::{error, fmt, fs, io};
 
+use holonom::mechanism::{Located, Place};
 use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, View, Warnings};
 
 use crate::anchors::anchors;
-use crate::description::{arrows, bodies, elements, markers, placement, shapes};
+use crate::description::{arrows, bodies, elements, markers, placement, points, shapes};
+use crate::fault::FilmError;
 use crate::gears::{Gearing, Proportion, proportions};
 use crate::gltf::gltf;
-use crate::page::{Arrow, Element, Floats, Marker, Page, Reading, Remark, Shape, Trace};
+use crate::page::{Arrow, Element, Floats, Marker, Page, Point, Reading, Remark, Shape};
 use crate::sketch::sketch;
 use crate::subject::Subject;
 
@@ -24,6 +26,7 @@ const PLACE: &str = "/*FILM*/";
 pub struct Film<M> {
     title: String,
     markers: Vec<Marker>,
+    points: Vec<Point>,
     shapes: Vec<Shape>,
     proportions: Vec<Proportion>,
     gravity: [f64; 3],
@@ -45,6 +48,14 @@ struct Values {
     values: Vec<f32>,
 }
 
+/// A point whose way is drawn.
+#[derive(Clone, Debug)]
+enum Trace {
+    Given(Point),
+    /// A named point, by its place in the report: numbers are there from the first frame on.
+    Named(usize),
+}
+
 impl<M: Mechanism> Default for Film<M> {
     fn default() -> Self {
         Self::new()
@@ -58,6 +69,7 @@ impl<M: Mechanism> Film<M> {
         Self {
             title: M::REPORT.name.into(),
             markers: Vec::new(),
+            points: Vec::new(),
             shapes: Vec::new(),
             proportions: Vec::new(),
             gravity: [0.0; 3],
@@ -89,14 +101,33 @@ impl<M: Mechanism> Film<M> {
         self
     }
 
+    /// Draws the way of a named point, or of the centre of mass of a body, under its name. A point
+    /// on the ground stays where it is, and has a mark only.
+    pub fn trace(&mut self, at: impl Located<M>) {
+        match at.located() {
+            Place::Body(body) => self.trace_point(body, body.name(), [0.0; 3]),
+            Place::Point(point) => self.traces.push(Trace::Named(point.index())),
+        }
+    }
+
     /// Draws the way of a point of a body, given from the centre of mass along the user's body axes
     /// (m).
-    pub fn trace(&mut self, body: BodyHandle<M>, name: impl Into<String>, point: [f64; 3]) {
-        self.traces.push(Trace {
+    pub fn trace_point(&mut self, body: BodyHandle<M>, name: impl Into<String>, point: [f64; 3]) {
+        self.traces.push(Trace::Given(Point {
             name: name.into(),
-            body: body.index(),
+            body: Some(body.index()),
             at: point,
+        }));
+    }
+
+    /// The traces as points of bodies, once there is a frame.
+    fn traced(&self) -> Vec<Point> {
+        let traces = self.traces.iter().filter_map(|trace| match trace {
+            Trace::Given(point) => Some(point),
+            Trace::Named(index) => self.points.get(*index),
         });
+        let moving = traces.filter(|point| point.body.is_some());
+        moving.cloned().collect()
     }
 
     /// Records a frame: an observer may be this alone, `|sample| film.record(sample)`.
@@ -109,7 +140,10 @@ impl<M: Mechanism> Film<M> {
             let joint = JointHandle::<M, ()>::new(arrow.joint);
             let wrench = sample.reaction_on_place(joint, arrow.place);
             let load = wrench.map_or([f32::NAN; 6], |wrench| {
-                let [x, y, z] = wrench.point.map(Real::to_f64).into();
+                let point = arrow
+                    .marker
+                    .map_or(wrench.point, |marker| sample.marker(marker));
+                let [x, y, z] = point.map(Real::to_f64).into();
                 let [fx, fy, fz] = wrench.force.map(Real::to_f64).into();
                 [x, y, z, fx, fy, fz].map(|number: f64| number as f32)
             });
@@ -136,19 +170,20 @@ impl<M: Mechanism> Film<M> {
         film.frame(view);
         let names: Vec<&str> = M::REPORT.bodies.iter().map(|body| body.name).collect();
         let elements = elements::<M>();
-        let subject = film.subject(&elements);
+        let subject = film.subject(&elements, &[]);
         let gearing = Gearing::new(&subject, &film.proportions);
         let anchors = [anchors(&subject), gearing.anchors.clone()].concat();
         sketch(&subject, &gearing, &anchors, &names)
     }
 
     /// What pictures are drawn of.
-    fn subject<'a>(&'a self, elements: &'a [Element]) -> Subject<'a> {
+    fn subject<'a>(&'a self, elements: &'a [Element], traces: &'a [Point]) -> Subject<'a> {
         Subject {
             title: &self.title,
             elements,
             markers: &self.markers,
-            traces: &self.traces,
+            points: &self.points,
+            traces,
             gravity: self.gravity,
             bodies: M::REPORT.bodies.len(),
             times: &self.times,
@@ -201,7 +236,8 @@ impl<M: Mechanism> Film<M> {
     pub fn html(&self) -> Result<String, FilmError> {
         self.check()?;
         let (bodies, elements) = (bodies::<M>(), elements::<M>());
-        let subject = self.subject(&elements);
+        let traces = self.traced();
+        let subject = self.subject(&elements, &traces);
         let gearing = Gearing::new(&subject, &self.proportions);
         let markers = [&self.markers[..], &anchors(&subject), &gearing.anchors].concat();
         let full: Vec<Vec<f32>> = self
@@ -219,6 +255,7 @@ impl<M: Mechanism> Film<M> {
             bodies: &bodies,
             elements: &elements,
             markers: &markers,
+            points: &self.points,
             shapes: &self.shapes,
             wheels: &gearing.wheels,
             racks: &gearing.racks,
@@ -228,7 +265,7 @@ impl<M: Mechanism> Film<M> {
             loads: Floats(&self.loads),
             arrows: &self.arrows,
             show_arrows: self.shows_arrows,
-            traces: &self.traces,
+            traces: &traces,
             readings: readings
                 .map(|(reading, values)| Reading {
                     name: &reading.name,
@@ -251,7 +288,7 @@ impl<M: Mechanism> Film<M> {
     /// As [`Film::html`].
     pub fn svg(&self) -> Result<String, FilmError> {
         self.check()?;
-        Ok(self.subject(&elements::<M>()).svg())
+        Ok(self.subject(&elements::<M>(), &self.traced()).svg())
     }
 
     /// The film as a glTF file of one piece, for Blender, three.js, game engines and slides: a node
@@ -262,7 +299,11 @@ impl<M: Mechanism> Film<M> {
     pub fn gltf(&self) -> Result<String, FilmError> {
         self.check()?;
         let names: Vec<&str> = M::REPORT.bodies.iter().map(|body| body.name).collect();
-        let text = gltf(&self.subject(&elements::<M>()), &self.shapes, &names);
+        let text = gltf(
+            &self.subject(&elements::<M>(), &self.traced()),
+            &self.shapes,
+            &names,
+        );
         text.map_err(|error| FilmError::Write(error.into()))
     }
 
@@ -308,47 +349,11 @@ impl<M: Mechanism> Film<M> {
     fn begin<S: Real>(&mut self, view: &View<'_, S, M>) {
         self.gravity = view.gravity().map(Real::to_f64).into();
         self.markers = markers(view);
+        self.points = points(view);
         self.shapes = shapes(view);
         self.proportions = proportions(view);
         if self.shows_arrows {
             self.arrows = arrows::<M>();
-        }
-    }
-}
-
-/// Why there is no page.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum FilmError {
-    /// No frame was recorded.
-    Empty,
-    /// A position is not a number.
-    NotFinite {
-        /// The time of the frame (s).
-        time: f64,
-    },
-    /// The file could not be written.
-    Write(io::Error),
-}
-
-impl fmt::Display for FilmError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty => write!(
-                f,
-                "the film has no frame: call `film.record(sample)` in the observer of a run"
-            ),
-            Self::NotFinite { time } => write!(f, "a position at {time} s is not a number"),
-            Self::Write(_) => write!(f, "the film could not be written"),
-        }
-    }
-}
-
-impl error::Error for FilmError {
-    fn source(&self) -> Option<&(dyn error::Error + 'static)> {
-        match self {
-            Self::Write(error) => Some(error),
-            _ => None,
         }
     }
 }

@@ -1,5 +1,5 @@
 //! A drawing of the reference configuration: views along the axes and from a corner, joints by
-//! number, and a table of them.
+//! number, named points, and a table of them.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use holonom::nalgebra::{Rotation3, Vector3};
 
 use crate::gears::Gearing;
 use crate::page::{Element, Marker, Wheel};
-use crate::subject::{Subject, colour};
+use crate::subject::{GROUND, Subject, colour, colour_of};
 
 /// Width of the drawing, of which a view takes a half, or all.
 const WIDTH: f64 = 720.0;
@@ -226,7 +226,7 @@ fn panel(
     for (body, circle) in circles {
         let places = circle.iter().map(|place| at(*place));
         let places: Vec<String> = places.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
-        let (places, colour) = (places.join(" "), body.map_or("#8a93a3", colour));
+        let (places, colour) = (places.join(" "), body.map_or(GROUND, colour));
         let _ = write!(
             text,
             "<polygon points=\"{places}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"3\" stroke-dasharray=\"3 2\"/>"
@@ -246,6 +246,15 @@ fn panel(
                 "<line class=\"force\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
             );
         }
+    }
+    for point in subject.points {
+        let [x, y] = at(subject.place(0, point.body, point.at));
+        let (name, colour) = (escaped(&point.name), colour_of(point));
+        let _ = write!(
+            text,
+            "<path class=\"point\" d=\"{}\" fill=\"{colour}\" stroke=\"#fff\"><title>{name}</title></path>",
+            diamond([x, y])
+        );
     }
     let joints: Vec<&Element> = subject
         .elements
@@ -307,7 +316,7 @@ fn circle(subject: &Subject<'_>, wheel: &Wheel) -> Circle {
     (wheel.body, around.collect())
 }
 
-/// Bodies by colour, joints and forces by number; returns where it ends.
+/// Bodies by colour, joints and forces by number, named points; returns where it ends.
 fn table(text: &mut String, subject: &Subject<'_>, names: &[&str], top: f64) -> f64 {
     let mut y = top;
     let mut x = 12.0;
@@ -349,7 +358,23 @@ fn table(text: &mut String, subject: &Subject<'_>, names: &[&str], top: f64) -> 
         }
         y += LINE;
     }
+    for point in subject.points {
+        let (mark, base, colour) = (diamond([18.0, y + 8.0]), y + 12.0, colour_of(point));
+        let (place, on) = (escaped(&point.name), escaped(name(&point.body)));
+        let _ = write!(
+            text,
+            "<path class=\"point\" d=\"{mark}\" fill=\"{colour}\" stroke=\"#fff\"/>\
+             <text x=\"64\" y=\"{base:.1}\">{place}</text><text x=\"250\" y=\"{base:.1}\">Point</text>\
+             <text x=\"430\" y=\"{base:.1}\">{on}</text>"
+        );
+        y += LINE;
+    }
     y + 8.0
+}
+
+/// The mark of a named point.
+fn diamond([x, y]: [f64; 2]) -> String {
+    format!("M{:.1},{y:.1}l6,-6l6,6l-6,6Z", x - 6.0)
 }
 
 /// Of HTML, and of Markdown, in which it may stand.

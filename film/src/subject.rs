@@ -2,12 +2,14 @@
 
 use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::page::{Element, Marker, Trace};
+use crate::page::{Element, Marker, Point};
 
 /// Colours of bodies, those of the viewer.
 const COLOURS: [&str; 8] = [
     "#4c8eda", "#e8853d", "#4fae6a", "#c85f8e", "#8e77d6", "#c9a227", "#3aa6a6", "#a8734b",
 ];
+/// Of what stands still.
+pub(crate) const GROUND: &str = "#8a93a3";
 /// Directions whose cosine is beyond this are one.
 const PARALLEL: f64 = 0.999;
 
@@ -16,7 +18,9 @@ pub(crate) struct Subject<'a> {
     pub(crate) title: &'a str,
     pub(crate) elements: &'a [Element],
     pub(crate) markers: &'a [Marker],
-    pub(crate) traces: &'a [Trace],
+    /// Those of the description.
+    pub(crate) points: &'a [Point],
+    pub(crate) traces: &'a [Point],
     pub(crate) gravity: [f64; 3],
     pub(crate) bodies: usize,
     pub(crate) times: &'a [f64],
@@ -24,15 +28,20 @@ pub(crate) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// All points that are drawn, in a frame: those of joints and forces, traces, centres of mass.
+    /// All points that are drawn, in a frame: those of joints and forces, named ones, traces,
+    /// centres of mass.
     pub(crate) fn all_places(&self, frame: usize) -> Vec<Vector3<f64>> {
         let points = self.markers.iter().filter(|marker| marker.kind == "point");
         let points = points.map(|marker| (marker.body, marker.at));
-        let traced = self.traces.iter();
-        let traced = traced.map(|trace| (Some(trace.body), trace.at));
+        let named = self.named().map(|point| (point.body, point.at));
         let centres = (0..self.bodies).map(|body| (Some(body), [0.0; 3]));
-        let all = points.chain(traced).chain(centres);
+        let all = points.chain(named).chain(centres);
         all.map(|(body, at)| self.place(frame, body, at)).collect()
+    }
+
+    /// Named points and traces.
+    fn named(&self) -> impl Iterator<Item = &Point> {
+        self.points.iter().chain(self.traces)
     }
 
     /// The largest extent of the mechanism in the first frame (m); 1 where it is a point.
@@ -142,12 +151,12 @@ impl Subject<'_> {
     /// The shortest lines that join the points of a body and its centre of mass (Prim).
     pub(crate) fn bars(&self, body: usize) -> Vec<[Vector3<f64>; 2]> {
         let mut places: Vec<Vector3<f64>> = Vec::new();
-        let named = self.markers.iter();
-        let named = named.filter(|marker| marker.body == Some(body) && marker.kind == "point");
-        let named = named.map(|marker| marker.at);
-        let traced = self.traces.iter().filter(|trace| trace.body == body);
-        let traced = traced.map(|trace| trace.at);
-        for place in named.chain(traced).chain([[0.0; 3]]).map(Vector3::from) {
+        let markers = self.markers.iter();
+        let markers = markers.filter(|marker| marker.body == Some(body) && marker.kind == "point");
+        let markers = markers.map(|marker| marker.at);
+        let named = self.named().filter(|point| point.body == Some(body));
+        let named = named.map(|point| point.at);
+        for place in markers.chain(named).chain([[0.0; 3]]).map(Vector3::from) {
             if places.iter().all(|known| (known - place).norm() > 1e-9) {
                 places.push(place);
             }
@@ -171,6 +180,11 @@ impl Subject<'_> {
 
 pub(crate) fn colour(body: usize) -> &'static str {
     COLOURS[body % COLOURS.len()]
+}
+
+/// The colour of a point's body.
+pub(crate) fn colour_of(point: &Point) -> &'static str {
+    point.body.map_or(GROUND, colour)
 }
 
 /// The first point of an element that is fixed on a body.

@@ -222,12 +222,44 @@ fn what_cannot_be_written_says_why() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// The force of a massless rod is at the end of the body that is drawn, along the rod.
+#[test]
+fn the_arrow_of_a_rod_begins_at_its_end() -> Result<(), Box<dyn Error>> {
+    #[derive(Mechanism)]
+    #[mechanism(gravity = [0.0, 0.0, -9.81])]
+    struct Bob {
+        #[body(mass = 1.0, position = [1.0, 0.0, 0.0])]
+        bob: Particle,
+        #[joint(between = [ground, bob], head = [0.0, 0.0, 0.0], tail = [1.0, 0.0, 0.0])]
+        rod: Distance,
+    }
+    let (mut film, mut places) = (Film::new().with_reactions(), Vec::new());
+    Simulation::new(&Bob::default(), StandardLagrange, DormandPrince::default()).run(
+        0.0..=0.5,
+        every(0.1),
+        |sample| {
+            film.record(sample);
+            places.push(sample.position(Bob::HANDLES.bob));
+        },
+    )?;
+    let page = data(&film.html()?);
+    let loads = floats(&page["loads"]);
+    assert_eq!(loads.len(), 6 * places.len());
+    for (load, place) in loads.chunks(6).zip(&places) {
+        let [x, y, z, fx, fy, fz] = std::array::from_fn(|k| f64::from(load[k]));
+        let (at, force) = (Vector3::new(x, y, z), Vector3::new(fx, fy, fz));
+        assert!((at - place).norm() < 1e-6, "{at} {place}");
+        assert!(force.cross(place).norm() < 1e-4, "{force}");
+    }
+    Ok(())
+}
+
 /// The picture is well formed, and everything in it moves through the same number of frames.
 #[test]
 fn a_picture_is_an_animated_drawing() -> Result<(), Box<dyn Error>> {
     let handles = SqueezingMechanism::HANDLES;
     let mut film = Film::new().titled("a < b & c");
-    film.trace(handles.triangle, "corner", [0.0, 0.01, 0.0]);
+    film.trace_point(handles.triangle, "corner", [0.0, 0.01, 0.0]);
     Simulation::new(
         &SqueezingMechanism::default(),
         StandardLagrange,
@@ -260,7 +292,6 @@ fn a_picture_is_an_animated_drawing() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What a page weighs beside its data.
 /// Read by a parser that nobody here wrote.
 #[test]
 fn a_gltf_file_moves_as_the_run_does() -> Result<(), Box<dyn Error>> {
@@ -381,6 +412,7 @@ struct Slanted {
     wheel: Revolute,
 }
 
+/// What a page weighs beside its data.
 #[test]
 fn the_page_is_below_700_kilobytes_and_asks_no_network() {
     let page = include_str!("../src/page.html");

@@ -1,71 +1,29 @@
 //! Symbols of joints: where they are, and that gears mesh.
 
+mod reading;
+
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
-use holonom::nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use holonom::nalgebra::Vector3;
 use holonom::prelude::*;
 use holonom_film::Film;
 use holonom_models::SqueezingMechanism;
 use serde_json::Value;
 
-/// The data of a page, and the poses in it.
-struct Page {
-    data: Value,
-    poses: Vec<f64>,
-}
+use crate::reading::{Page, vector};
 
-impl Page {
-    fn new(page: &str) -> Self {
-        let (_, behind) = page
-            .split_once("<script type=\"application/json\" id=\"film\">")
-            .expect("a place for data");
-        let (data, _) = behind.split_once("</script>").expect("it ends");
-        let data: Value = serde_json::from_str(data).expect("JSON");
-        let bytes = STANDARD.decode(data["poses"].as_str().expect("text"));
-        let bytes = bytes.expect("base 64");
-        let numbers = bytes.chunks_exact(4);
-        let numbers = numbers.map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four")));
-        Self {
-            poses: numbers.map(f64::from).collect(),
-            data,
-        }
-    }
-
-    fn frames(&self) -> usize {
-        self.data["times"].as_array().expect("times").len()
-    }
-
-    fn list(&self, name: &str) -> &[Value] {
-        self.data[name].as_array().expect(name)
-    }
-
-    /// A vector of a wheel or marker, as far as directions go and as a point, in global axes.
-    fn global(&self, frame: usize, of: &Value, key: &str) -> (Vector3<f64>, Vector3<f64>) {
-        let at = vector(&of[key]);
-        let Some(body) = of["body"].as_u64() else {
-            return (at, at);
-        };
-        let bodies = self.list("bodies").len();
-        let pose = &self.poses[(frame * bodies + body as usize) * 7..];
-        let turn = Quaternion::new(pose[3], pose[4], pose[5], pose[6]);
-        let along = UnitQuaternion::new_normalize(turn) * at;
-        (along, Vector3::new(pose[0], pose[1], pose[2]) + along)
-    }
-
-    /// How far a direction is beyond a tooth of a wheel, in teeth, about an axis.
-    fn phase(&self, frame: usize, wheel: &Value, towards: Vector3<f64>, axis: Vector3<f64>) -> f64 {
-        let (tooth, _) = self.global(frame, wheel, "tooth");
-        let sine = tooth.cross(&towards).dot(&axis);
-        sine.atan2(tooth.dot(&towards)) * wheel["teeth"].as_f64().expect("a number") / TAU
-    }
-}
-
-fn vector(value: &Value) -> Vector3<f64> {
-    let number = |k: usize| value[k].as_f64().expect("a number");
-    Vector3::new(number(0), number(1), number(2))
+/// How far a direction is beyond a tooth of a wheel, in teeth, about an axis.
+fn phase(
+    page: &Page,
+    frame: usize,
+    wheel: &Value,
+    towards: Vector3<f64>,
+    axis: Vector3<f64>,
+) -> f64 {
+    let (tooth, _) = page.global(frame, wheel, "tooth");
+    let sine = tooth.cross(&towards).dot(&axis);
+    sine.atan2(tooth.dot(&towards)) * wheel["teeth"].as_f64().expect("a number") / TAU
 }
 
 fn number(value: &Value) -> f64 {
@@ -235,12 +193,12 @@ fn gears_mesh_in_every_frame() -> Result<(), Box<dyn Error>> {
         let centre = |wheel| page.global(frame, wheel, "centre").1;
         let axis = Vector3::z();
         let out = (centre(planet) - centre(sun)).normalize();
-        let meshes = page.phase(frame, sun, out, axis) + page.phase(frame, planet, -out, axis);
+        let meshes = phase(&page, frame, sun, out, axis) + phase(&page, frame, planet, -out, axis);
         assert!(
             off(meshes - 0.5) < 1e-3,
             "sun and planet, {frame}: {meshes}"
         );
-        let meshes = page.phase(frame, ring, out, axis) - page.phase(frame, planet, out, axis);
+        let meshes = phase(&page, frame, ring, out, axis) - phase(&page, frame, planet, out, axis);
         assert!(
             off(meshes - 0.5) < 1e-3,
             "planet and ring, {frame}: {meshes}"
@@ -297,7 +255,7 @@ fn a_rack_is_met_by_its_pinion_and_cones_have_one_apex() -> Result<(), Box<dyn E
         // Where they meet, teeth of one are gaps of the other, which go the same way.
         let on_rack = (hub - from).dot(&along) / pitch;
         let axis = -tips.cross(&along).normalize();
-        let on_pinion = page.phase(frame, pinion, -tips, axis);
+        let on_pinion = phase(&page, frame, pinion, -tips, axis);
         let meshes = on_rack - on_pinion;
         assert!(off(meshes - 0.5) < 1e-3, "{frame}: {on_rack} {on_pinion}");
         let [low, high] = [0, 1].map(|end| number(&rack["teeth"][end]));

@@ -30,15 +30,40 @@ use holonom::prelude::*;
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both", kernels = [mass, inverse, jacobian])]
 pub struct Bricard {
-    #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, 0.0, 0.0])]
+    #[body(
+        mass = 1.0,
+        inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0],
+        position = [0.5, 0.0, 0.0],
+        shape = bar(width = 0.1, height = 0.1, from = [0.0, 0.0, 0.0], to = [1.0, 0.0, 0.0])
+    )]
     first: Body,
-    #[body(mass = 1.0, inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0], position = [1.0, -0.5, 0.0])]
+    #[body(
+        mass = 1.0,
+        inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0],
+        position = [1.0, -0.5, 0.0],
+        shape = bar(width = 0.1, height = 0.1, from = [1.0, 0.0, 0.0], to = [1.0, -1.0, 0.0])
+    )]
     second: Body,
-    #[body(mass = 1.0, inertia = [1.01 / 12.0, 1.01 / 12.0, 0.02 / 12.0], position = [1.0, -1.0, 0.5])]
+    #[body(
+        mass = 1.0,
+        inertia = [1.01 / 12.0, 1.01 / 12.0, 0.02 / 12.0],
+        position = [1.0, -1.0, 0.5],
+        shape = bar(width = 0.1, height = 0.1, from = [1.0, -1.0, 0.0], to = [1.0, -1.0, 1.0])
+    )]
     third: Body,
-    #[body(mass = 1.0, inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0], position = [0.5, -1.0, 1.0])]
+    #[body(
+        mass = 1.0,
+        inertia = [0.02 / 12.0, 1.01 / 12.0, 1.01 / 12.0],
+        position = [0.5, -1.0, 1.0],
+        shape = bar(width = 0.1, height = 0.1, from = [1.0, -1.0, 1.0], to = [0.0, -1.0, 1.0])
+    )]
     fourth: Body,
-    #[body(mass = 1.0, inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0], position = [0.0, -0.5, 1.0])]
+    #[body(
+        mass = 1.0,
+        inertia = [1.01 / 12.0, 0.02 / 12.0, 1.01 / 12.0],
+        position = [0.0, -0.5, 1.0],
+        shape = bar(width = 0.1, height = 0.1, from = [0.0, -1.0, 1.0], to = [0.0, 0.0, 1.0])
+    )]
     fifth: Body,
     #[joint(between = [ground, first], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
     p1: Revolute,

@@ -37,7 +37,8 @@ pub struct Door {
             20.0 * (0.8 * 0.8 + 0.04 * 0.04) / 12.0
         ],
         position = [sin(deg(10.0)), 0.4, cos(deg(10.0))],
-        orientation = rotation([0.0, 1.0, 0.0], deg(10.0))
+        orientation = rotation([0.0, 1.0, 0.0], deg(10.0)),
+        shape = block(size = [0.04, 0.8, 2.0], at = [sin(deg(10.0)), 0.4, cos(deg(10.0))])
     )]
     leaf: Body,
     #[joint(

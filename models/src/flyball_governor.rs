@@ -25,7 +25,8 @@ use holonom::prelude::*;
 /// 0.5) m on the slider and the middles of the rods. Everything turns about z at 2 pi rad/s.
 ///
 /// Rod and ball are one body here, `arm`: 5.3 kg, the centre of mass `(0.15 + 5) / 5.3` m from the
-/// hinge, x along the rod, moments of inertia after Steiner.
+/// hinge, x along the rod, moments of inertia after Steiner. The point mass is drawn as a ball of
+/// 0.0736 m, which has 5 kg at that density.
 ///
 /// Good for: stiffness. The fastest motion about the start decays with 8117 1/s (steps of classical
 /// Runge-Kutta must be below 3.4e-4 s), the slowest oscillates with 7.3 rad/s.
@@ -40,14 +41,16 @@ pub struct FlyballGovernor {
         mass = 0.3,
         inertia = [0.3 * 1.0001 / 12.0, 0.3 * 1.0001 / 12.0, 0.3 * 2e-4 / 12.0],
         position = [0.0, 0.0, 0.5],
-        angular_velocity = [0.0, 0.0, TAU]
+        angular_velocity = [0.0, 0.0, TAU],
+        shape = block(size = [0.01, 0.01, 1.0], at = [0.0, 0.0, 0.5])
     )]
     shaft: Body,
     #[body(
         mass = 3.0,
         inertia = [0.005, 0.005, 0.005],
         position = [0.0, 0.0, 0.5],
-        angular_velocity = [0.0, 0.0, TAU]
+        angular_velocity = [0.0, 0.0, TAU],
+        shape = block(size = [0.1, 0.1, 0.1], at = [0.0, 0.0, 0.5])
     )]
     slider: Body,
     #[body(
@@ -56,7 +59,11 @@ pub struct FlyballGovernor {
         position = [(0.05 + 5.15 / 5.3 * cos(deg(30.0))), 0.0, 1.0 - 5.15 / 5.3 * sin(deg(30.0))],
         orientation = rotation([0.0, 1.0, 0.0], deg(30.0)),
         velocity = [0.0, TAU * (0.05 + 5.15 / 5.3 * cos(deg(30.0))), 0.0],
-        angular_velocity = [-TAU * sin(deg(30.0)), 0.0, TAU * cos(deg(30.0))]
+        angular_velocity = [-TAU * sin(deg(30.0)), 0.0, TAU * cos(deg(30.0))],
+        shapes = [
+            bar(width = 0.01, height = 0.01, from = [0.05, 0.0, 1.0], to = [(0.05 + cos(deg(30.0))), 0.0, 0.5]),
+            ball(radius = 0.0736, at = [(0.05 + cos(deg(30.0))), 0.0, 0.5]),
+        ]
     )]
     right_arm: Body,
     #[body(
@@ -65,7 +72,11 @@ pub struct FlyballGovernor {
         position = [-(0.05 + 5.15 / 5.3 * cos(deg(30.0))), 0.0, 1.0 - 5.15 / 5.3 * sin(deg(30.0))],
         orientation = rotation([0.0, 1.0, 0.0], deg(150.0)),
         velocity = [0.0, -TAU * (0.05 + 5.15 / 5.3 * cos(deg(30.0))), 0.0],
-        angular_velocity = [-TAU * sin(deg(150.0)), 0.0, TAU * cos(deg(150.0))]
+        angular_velocity = [-TAU * sin(deg(150.0)), 0.0, TAU * cos(deg(150.0))],
+        shapes = [
+            bar(width = 0.01, height = 0.01, from = [-0.05, 0.0, 1.0], to = [-(0.05 + cos(deg(30.0))), 0.0, 0.5]),
+            ball(radius = 0.0736, at = [-(0.05 + cos(deg(30.0))), 0.0, 0.5]),
+        ]
     )]
     left_arm: Body,
     #[joint(between = [ground, shaft], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]

@@ -20,6 +20,8 @@ use holonom::prelude::*;
 /// `J = (0.234375, 0.46875, 0.234375)` kg m^2 about the centre of mass, which is 1 m from the fixed
 /// point; the top spins at 150 rad/s about its axis, which starts at -4.61538 rad/s about z.
 ///
+/// It is drawn as the thin disc of 0.25 m that has these moments, on a rod.
+///
 /// Good for: large rotations and Euler parameters, 24 turns a second; the order of convergence of
 /// an integrator. The energy, 5435.696790865547 J, the angular momentum about z, -70.3124296875 kg
 /// m^2/s, and the spin of 150 rad/s about the axis stay.
@@ -31,7 +33,11 @@ pub struct HeavyTop {
         inertia = [0.234375, 0.46875, 0.234375],
         position = [0.0, 1.0, 0.0],
         velocity = [4.61538, 0.0, 0.0],
-        angular_velocity = [0.0, 150.0, -4.61538]
+        angular_velocity = [0.0, 150.0, -4.61538],
+        shapes = [
+            disc(radius = 0.25, thickness = 0.02, at = [0.0, 1.0, 0.0], axis = [0.0, 1.0, 0.0]),
+            rod(radius = 0.01, from = [0.0, 0.0, 0.0], to = [0.0, 1.0, 0.0]),
+        ]
     )]
     top: Body,
     #[joint(between = [ground, top], point = [0.0, 0.0, 0.0])]

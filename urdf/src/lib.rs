@@ -11,6 +11,7 @@
 //!
 //! assert_eq!(Arm::REPORT.degrees_of_freedom, 2);
 //! assert_eq!(Arm::TIP_ORIGIN, [0.0, 0.0, 0.15]);
+//! assert_eq!(Arm::HANDLES.tip.name(), "tip");
 //! ```
 //!
 //! ```
@@ -50,6 +51,7 @@
 //! | link that a joint moves | `Body` with the axes of the link's frame; inertia turned by the `rpy` of its inertial frame |
 //! | root link | the ground; with [`Options::floating`] a free body |
 //! | `fixed` joint | its links are one body, by the parallel axis theorem; a comment names them |
+//! | link that is fixed to a moving one | a named point at the origin of its frame: `tip: Point` |
 //! | `revolute`, `continuous` | `Revolute` |
 //! | `prismatic`, `planar` | `Prismatic`, `Planar` |
 //! | `floating` | no joint: the body is free |

@@ -86,6 +86,7 @@ pub(crate) fn type_name(name: &str) -> String {
         "Body",
         "Mechanism",
         "Particle",
+        "Point",
         "Self",
         "Revolute",
         "Prismatic",

@@ -14,6 +14,9 @@ export const digits = (value) => {
   return value.toFixed(size >= 100 ? 1 : size >= 10 ? 2 : 3);
 };
 
+/** Whether an angle begins anew between two frames. */
+const wraps = (unit, from, to) => unit === "rad" && Math.abs(to - from) > 1.5 * Math.PI;
+
 /** Round marks on an axis. */
 function marks(low, high, count) {
   const raw = (high - low) / count || 1;
@@ -63,7 +66,7 @@ export function charts(place, seek) {
     canvas.addEventListener("pointermove", go);
   }
 
-  function draw({ lines, canvas }, time) {
+  function draw({ lines, canvas, unit }, time) {
     const ratio = devicePixelRatio;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (canvas.width !== width * ratio || canvas.height !== height * ratio) {
@@ -112,7 +115,8 @@ export function charts(place, seek) {
       let on = false;
       values.forEach((value, frame) => {
         if (!Number.isFinite(value)) return void (on = false);
-        pen[on ? "lineTo" : "moveTo"](x(times[frame]), y(value));
+        const goesOn = on && !wraps(unit, values[frame - 1], value);
+        pen[goesOn ? "lineTo" : "moveTo"](x(times[frame]), y(value));
         on = true;
       });
       pen.stroke();
@@ -131,7 +135,8 @@ export function charts(place, seek) {
     for (const chart of drawn) {
       draw(chart, time);
       chart.lines.forEach(({ values }, k) => {
-        const value = values[low] + (part ? part * (values[next] - values[low]) : 0);
+        const between = values[low] + (part ? part * (values[next] - values[low]) : 0);
+        const value = wraps(chart.unit, values[low], values[next]) ? values[part < 0.5 ? low : next] : between;
         chart.values[k].textContent = digits(value);
       });
     }

@@ -30,11 +30,15 @@ export function frameAt(time) {
   return { low, next, part: step > 0 ? Math.min(1, Math.max(0, (time - times[low]) / step)) : 0 };
 }
 
-/** Points of a body (`null` is the ground): markers, and what is traced. */
-export const points = (body) => [
+/** Points of joints and forces on a body (`null` is the ground), and what is traced: a plate is
+ * drawn between these. */
+export const spanning = (body) => [
   ...film.markers.filter((m) => m.body === body && m.kind === "point"),
   ...film.traces.filter((trace) => trace.body === body),
 ];
+
+/** All points of a body, named ones too. */
+export const points = (body) => [...spanning(body), ...film.points.filter((point) => point.body === body)];
 
 /** The markers of an element by the place of its body. */
 export const markersOf = (element, place) =>

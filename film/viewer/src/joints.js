@@ -27,7 +27,7 @@ export const LINES = /^(Prismatic|Translational|Slide|Sleeve|Cylindrical|Screw|P
 export const PLANES = /^(Planar|PointOnPlane)/;
 
 /** The parts of a joint or force: a list of groups, each with the place of its body. `way` says how
- * far the second point goes. */
+ * far the second point goes; `null` where another joint draws it. */
 export function symbol(element, size, way) {
   const { kind, name, type, bodies } = film.elements[element];
   const said = `${name}: ${kind}`;
@@ -95,9 +95,10 @@ export function symbol(element, size, way) {
   } else if (PLANES.test(kind) && axis(0)) {
     const wide = 2 * Math.max(3, (way ?? [0, 0])[1] / radius + 2);
     const plate = box(wide, 0.16, wide, light());
-    Object.assign(plate.material, { transparent: true, opacity: 0.45, depthWrite: false });
-    plate.castShadow = false;
-    put(point(0), along(plate, axis(0)));
+    Object.assign(plate.material, { transparent: true, opacity: wide * radius < 0.8 * size ? 0.4 : 0.13, depthWrite: false });
+    plate.castShadow = plate.receiveShadow = false;
+    // Without a way it is drawn by another joint.
+    if (way !== null) put(point(0), along(plate, axis(0)));
     put(point(1), /^Planar/.test(kind) ? along(round(1.3, 0.6), axis(1)) : ball(0.8));
   } else if (/^Universal/.test(kind) && axis(0, "axis_i") && axis(1, "axis_j")) {
     // An arm of the cross on each body.

@@ -4,6 +4,8 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { charts, digits } from "./charts.js";
 import { film } from "./data.js";
+import { floor } from "./floor.js";
+import { icon } from "./icons.js";
 import { colourOf } from "./shapes.js";
 import { stage } from "./stage.js";
 
@@ -23,7 +25,7 @@ const set = stage(scene);
 const middle = set.box.getCenter(new THREE.Vector3());
 const radius = Math.max(0.5 * set.box.getSize(new THREE.Vector3()).length(), 0.5 * set.size);
 
-scene.add(new THREE.HemisphereLight(0xffffff, 0x9096a8, 1.6));
+scene.add(new THREE.HemisphereLight(0xffffff, 0xaab0c0, 2.1));
 const sun = new THREE.DirectionalLight(0xffffff, 2.2);
 const side = Math.abs(set.up.x) < 0.9 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 1, 0);
 const right = side.clone().cross(set.up).normalize();
@@ -36,21 +38,11 @@ sun.shadow.radius = 3;
 sun.shadow.normalBias = 0.01 * set.size;
 scene.add(sun, sun.target);
 
-// The floor: a grid in round units below everything, that takes the shadow.
-const unit = 10 ** Math.floor(Math.log10(radius));
-const cell = radius / unit < 2 ? unit / 5 : radius / unit < 5 ? unit / 2 : unit;
 const lowest = Math.min(...corners(set.box).map((corner) => corner.dot(set.up))) - 0.16 * set.size;
-const floor = new THREE.Group();
-const cells = 2 * Math.ceil((2.2 * radius) / cell);
-const grid = new THREE.GridHelper(cells * cell, cells);
-grid.material.transparent = true;
-grid.material.vertexColors = false;
-const shade = new THREE.Mesh(new THREE.PlaneGeometry(cells * cell, cells * cell).rotateX(-Math.PI / 2), new THREE.ShadowMaterial({ opacity: 0.18 }));
-shade.receiveShadow = true;
-floor.add(grid, shade);
-floor.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), set.up);
-floor.position.copy(middle).addScaledVector(set.up, lowest - middle.dot(set.up));
-scene.add(floor);
+const { group: ground, grid, shade } = floor(radius);
+ground.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), set.up);
+ground.position.copy(middle).addScaledVector(set.up, lowest - middle.dot(set.up));
+scene.add(ground);
 
 function corners(box) {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new THREE.Vector3(
@@ -81,6 +73,13 @@ function useCamera(next) {
   resize();
 }
 const isotropic = () => set.up.clone().multiplyScalar(0.55).addScaledVector(side, 0.55).addScaledVector(right, 1);
+/** The part of the stage's height, about its middle, that no controls are over. */
+function freeHeight() {
+  const box = canvas.getBoundingClientRect();
+  const above = document.querySelector(".views").getBoundingClientRect().bottom - box.top;
+  const below = box.bottom - document.querySelector(".layers").getBoundingClientRect().top;
+  return Math.min(0.9, Math.max(0.5, 1 - (2 * Math.max(above, below)) / box.height));
+}
 /** Looks from a direction, as near as everything that moves stays in the picture. */
 function fit(direction) {
   const way = (direction ?? camera.position.clone().sub(controls.target)).normalize();
@@ -99,11 +98,12 @@ function fit(direction) {
   const centre = across.clone().multiplyScalar((x[0] + x[1]) / 2)
     .addScaledVector(upward, (y[0] + y[1]) / 2).addScaledVector(way, middle.dot(way));
   let distance = 0;
-  const margin = 0.1 * set.size;
+  const margin = 0.07 * set.size;
+  const free = freeHeight();
   for (const place of set.places) {
     const off = place.clone().sub(centre);
-    const wide = (Math.abs(off.dot(across)) + margin) / (0.86 * half * aspect);
-    const high = (Math.abs(off.dot(upward)) + margin) / (0.72 * half);
+    const wide = (Math.abs(off.dot(across)) + margin) / (0.9 * half * aspect);
+    const high = (Math.abs(off.dot(upward)) + margin) / (free * half);
     distance = Math.max(distance, Math.max(wide, high) + off.dot(way));
   }
   fitted = way.clone();
@@ -145,12 +145,13 @@ const seek = (to) => {
 function play(on) {
   if (on && time >= end) time = start;
   playing = on;
-  id("play").textContent = on ? "⏸" : "▶";
+  id("play").innerHTML = icon(on ? "pause" : "play");
   id("play").setAttribute("aria-label", on ? "Pause" : "Play");
 }
 const drawCharts = charts(id("charts"), seek);
 
 // Controls.
+for (const name of ["loop", "theme", "list"]) id(name).insertAdjacentHTML("afterbegin", icon(name));
 const speeds = [...new Set([0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10, speed])].sort((a, b) => a - b);
 for (const each of speeds) id("speed").add(new Option(`${+each.toPrecision(3)}×`, each, each === speed, each === speed));
 id("speed").onchange = (event) => (speed = +event.target.value);
@@ -166,7 +167,7 @@ const views = {
   },
 };
 for (const [name, act] of Object.entries(views)) id(name).onclick = act;
-const shown = { reactions: film.arrows.length > 0 && film.showArrows, centres: true, traces: true, joints: true, forces: true };
+const shown = { reactions: film.arrows.length > 0 && film.showArrows, centres: true, points: true, traces: true, joints: true, forces: true };
 for (const name of Object.keys(shown)) {
   const button = id(`show-${name}`);
   const apply = () => {
@@ -181,6 +182,7 @@ for (const name of Object.keys(shown)) {
   apply();
 }
 id("show-reactions").hidden = film.arrows.length === 0;
+id("show-points").hidden = film.points.length === 0;
 id("show-traces").hidden = film.traces.length === 0;
 id("show-forces").hidden = !film.elements.some((element) => element.type === "force");
 id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
@@ -252,7 +254,9 @@ canvas.addEventListener("pointermove", (event) => {
   const box = canvas.getBoundingClientRect();
   const at = new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
   ray.setFromCamera(at, camera);
-  const hit = ray.intersectObjects(scene.children, true).find(({ object }) => object.userData.name && seen(object));
+  // What is drawn over everything is named before what it lies in.
+  const hits = ray.intersectObjects(scene.children, true).filter(({ object }) => object.userData.name && seen(object));
+  const hit = hits.sort((a, b) => b.object.renderOrder - a.object.renderOrder || a.distance - b.distance)[0];
   label.hidden = !hit;
   if (!hit) return;
   label.textContent = hit.object.userData.name;
@@ -267,7 +271,7 @@ const keys = {
   " ": () => play(!playing), ArrowLeft: () => seek(time - frame()), ArrowRight: () => seek(time + frame()),
   Home: () => seek(start), End: () => seek(end), l: () => id("loop").click(), f: views.fit, i: views.iso,
   x: views.x, y: views.y, z: views.z, o: views.flat, r: () => id("show-reactions").click(),
-  t: () => id("show-traces").click(), h: () => id("list").click(), d: () => id("theme").click(),
+  t: () => id("show-traces").click(), p: () => id("show-points").click(), h: () => id("list").click(), d: () => id("theme").click(),
 };
 addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
@@ -308,7 +312,8 @@ function drawn() {
 }
 
 function draw(now) {
-  const passed = Math.min(0.1, (now - previous) / 1000);
+  // The first picture may be of a time before the script's.
+  const passed = Math.min(0.1, Math.max(0, (now - previous) / 1000));
   previous = now;
   if (playing) {
     time += passed * speed;

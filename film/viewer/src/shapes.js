@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
-import { film, points } from "./data.js";
+import { film, points, spanning } from "./data.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
 const vector = (at) => new THREE.Vector3(...at);
@@ -75,7 +75,9 @@ export function body(index, size) {
   // Small enough for its joint to be seen.
   if (all.length === 1) group.add(mesh(new THREE.SphereGeometry(1.4 * radius, 32, 20), material, name));
   // The centre of mass of a leaf on two hinges is far from both.
-  const corners = inLine(all, 0.25) ? named : all;
+  const spanned = distinct(spanning(index).map((m) => vector(m.at)), size);
+  const whole = distinct([...spanned, new THREE.Vector3()], size);
+  const corners = inLine(whole, 0.25) ? spanned : whole;
   if (corners.length > 2 && !inLine(corners)) {
     const hull = new ConvexGeometry(corners.flatMap((corner) => ball(corner, 0.55 * radius)));
     const plate = material.clone();
@@ -176,6 +178,29 @@ export function centreOfMass(size, name) {
     group.add(part);
   }
   return group;
+}
+
+/** A named point: a diamond that faces the reader, in the colour of its body, seen through what it
+ * is in. */
+export function mark(at, size, body, said) {
+  const paper = document.createElement("canvas");
+  paper.width = paper.height = 64;
+  const pen = paper.getContext("2d");
+  const fill = body === null ? inGroundColour : colourOf(body);
+  for (const [far, colour] of [[31, "#1c1f26"], [25, "#fff"], [16, `#${fill.toString(16).padStart(6, "0")}`]]) {
+    pen.fillStyle = colour;
+    pen.beginPath();
+    for (const [x, y] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) pen.lineTo(32 + far * x, 32 + far * y);
+    pen.fill();
+  }
+  const map = new THREE.CanvasTexture(paper);
+  map.colorSpace = THREE.SRGBColorSpace;
+  const made = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false, transparent: true }));
+  made.scale.setScalar(0.042 * size);
+  made.renderOrder = 6;
+  made.userData.name = said;
+  made.position.set(...at);
+  return made;
 }
 
 /** What stands on the ground at a point: a foot that points down. */

@@ -1,6 +1,9 @@
 // The mechanism on a stage: bodies, joints, forces and traces, moved to a time.
 
 import * as THREE from "three";
+import { Line2 } from "three/addons/lines/Line2.js";
+import { LineGeometry } from "three/addons/lines/LineGeometry.js";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { film, frameAt, LOAD, markersOf, points, POSE } from "./data.js";
 import { LINES, PLANES, rack, symbol, wheel } from "./joints.js";
 import * as shapes from "./shapes.js";
@@ -78,6 +81,23 @@ function wayOf(index) {
   return [low, high];
 }
 
+/** Of planes of one body that are one plane, leaves the first, as wide as all. */
+function joinPlanes(ways, size) {
+  const kept = [];
+  film.elements.forEach((element, index) => {
+    if (!PLANES.test(element.kind) || !ways[index]) return;
+    const [at, normal] = ["point", "axis"].map((kind) => vector(markersOf(index, 0).find((m) => m.kind === kind).at));
+    const far = (other) => at.clone().sub(other.at);
+    const same = kept.find((other) => other.body === element.bodies[0]
+      && normal.clone().cross(other.normal).length() < 1e-3 * normal.length() * other.normal.length()
+      && Math.abs(far(other).dot(normal)) < 1e-3 * size * normal.length());
+    if (!same) return void kept.push({ index, body: element.bodies[0], at, normal });
+    const widest = ways[same.index];
+    widest[1] = Math.max(widest[1], far(same).length() + ways[index][1]);
+    ways[index] = null;
+  });
+}
+
 /** The size of the mechanism as it stands at the start: what pins and rods are measured by. */
 function sizeAtStart() {
   const box = new THREE.Box3();
@@ -103,6 +123,7 @@ export function stage(scene) {
   const layers = {
     bodies: new THREE.Group(), joints: new THREE.Group(), forces: new THREE.Group(),
     reactions: new THREE.Group(), traces: new THREE.Group(), centres: new THREE.Group(),
+    points: new THREE.Group(),
   };
   scene.add(ground, ...Object.values(layers));
   bodies.forEach((body) => layers.bodies.add(body));
@@ -120,6 +141,14 @@ export function stage(scene) {
   film.bodies.forEach((body, index) => {
     if (!body.particle) ride(layers.centres, index, shapes.centreOfMass(size, body.name));
   });
+  for (const { name, body, at } of film.points) {
+    const holder = new THREE.Group();
+    holder.add(shapes.mark(at, size, body, `${name}: point on ${body === null ? "ground" : film.bodies[body].name}`));
+    if (body === null) layers.points.add(holder);
+    else ride(layers.points, body, holder);
+  }
+  const ways = film.elements.map((_, index) => wayOf(index));
+  joinPlanes(ways, size);
   const elements = film.elements.map((element, index) => {
     const parts = [];
     const layer = element.type === "joint" ? layers.joints : layers.forces;
@@ -131,7 +160,7 @@ export function stage(scene) {
       if (body === null) layer.add(holder);
       else ride(layer, body, holder);
     };
-    for (const { place, group } of symbol(index, size, wayOf(index))) add(element.bodies[place], group);
+    for (const { place, group } of symbol(index, size, ways[index])) add(element.bodies[place], group);
     for (const made of film.wheels.filter((wheel) => wheel.elements[0] === index)) add(made.body, wheel(made, size));
     for (const made of film.racks.filter((rack) => rack.element === index)) add(made.body, rack(made, size));
     element.bodies.forEach((body, place) => {
@@ -161,6 +190,16 @@ export function stage(scene) {
     if (Number.isFinite(force)) largest = Math.max(largest, force);
   }
   const perMetre = largest > 0 ? rounded(largest / (0.35 * size)) : 1;
+  if (film.showArrows) {
+    const tip = new THREE.Vector3();
+    for (let k = 0; k < film.loads.length; k += LOAD * Math.max(1, film.arrows.length)) {
+      for (let arrow = 0; arrow < film.arrows.length; arrow++) {
+        const [x, y, z, fx, fy, fz] = film.loads.subarray(k + arrow * LOAD);
+        tip.set(x + fx / perMetre, y + fy / perMetre, z + fz / perMetre);
+        if (Number.isFinite(tip.lengthSq())) places.push(tip.clone());
+      }
+    }
+  }
   const arrows = film.arrows.map(() => shapes.arrow(0xd6455d, size));
   arrows.forEach((arrow) => layers.reactions.add(arrow));
 
@@ -172,11 +211,8 @@ export function stage(scene) {
       const [origin, turn] = poseIn(frame, trace.body);
       at.set(...trace.at).applyQuaternion(turn).add(origin).toArray(way, 3 * frame);
     });
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(way, 3));
     const colour = shapes.colourOf(trace.body);
-    const all = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity: 0.25 }));
-    const passed = new THREE.Line(geometry.clone(), new THREE.LineBasicMaterial({ color: colour }));
+    const [all, passed] = [[1.5, 0.3], [2.5, 1]].map(([width, opacity]) => line(way, colour, width, opacity));
     const dot = new THREE.Mesh(new THREE.SphereGeometry(0.012 * size, 16, 12), new THREE.MeshBasicMaterial({ color: colour }));
     dot.userData.name = trace.name;
     layers.traces.add(all, passed, dot);
@@ -232,7 +268,7 @@ export function stage(scene) {
       arrow.setArrow(new THREE.Vector3(x, y, z), new THREE.Vector3(fx, fy, fz).divideScalar(perMetre));
     });
     for (const { way, passed, dot } of traces) {
-      passed.geometry.setDrawRange(0, frame.low + 1);
+      passed.geometry.instanceCount = frame.low;
       const [from, to] = [3 * frame.low, 3 * frame.next];
       dot.position.set(...[0, 1, 2].map((k) => way[from + k] + frame.part * (way[to + k] - way[from + k])));
     }
@@ -246,6 +282,17 @@ export function stage(scene) {
     }
   };
   return { box, places, size, up, layers, show, hide, perMetre };
+}
+
+/** A line through places, so many pixels wide; nothing to hover over. */
+function line(places, color, linewidth, opacity) {
+  const geometry = new LineGeometry().setPositions(places);
+  const material = new LineMaterial({ color, linewidth, opacity, transparent: true, depthWrite: opacity === 1 });
+  const made = new Line2(geometry, material);
+  // What is strong goes over what is faint.
+  made.renderOrder = opacity;
+  made.raycast = () => {};
+  return made;
 }
 
 /** The two points that a line goes between: on different bodies, named differently where it can be. */

@@ -38,6 +38,8 @@ pub use kernels::{
 };
 #[doc(hidden)]
 pub use kernels::{Normalised, Orientation};
+#[doc(hidden)]
+pub use point::Place;
 pub use point::{Located, Point};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{

@@ -37,9 +37,7 @@ pub(crate) fn describe(page: &mut Page, mechanism: &Mechanism, couplings: &[Opti
     page.line(0, &format!("pub struct {} {{", mechanism.name));
     for (place, one) in mechanism.bodies.iter().enumerate() {
         body(page, one);
-        if points::ARE_FIELDS {
-            points::on_body(page, mechanism, place);
-        }
+        points::on_body(page, mechanism, place);
         let carried = |(joint, _): &(&Joint, &Option<Coupling>)| joint.between[1] == Some(place);
         let mut joints = mechanism.joints.iter().zip(couplings);
         if let Some((carrier, coupling)) = joints.find(carried) {

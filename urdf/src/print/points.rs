@@ -3,9 +3,6 @@
 use super::page::{Page, name, vector};
 use crate::mechanism::Mechanism;
 
-/// Whether the points are printed: once the derive has fields of the type `Point`.
-pub(super) const ARE_FIELDS: bool = false;
-
 /// The origins of links that are fixed to the first link of a body, in the order of the file.
 pub(super) fn on_body(page: &mut Page, mechanism: &Mechanism, body: usize) {
     for frame in &mechanism.frames {

@@ -225,6 +225,36 @@ fn crane() {
     );
 }
 
+/// A link that is fixed to another one is a named point, and has its frame as a constant: both are
+/// the same place, wherever the body is.
+#[test]
+fn links_that_are_fixed_are_points() -> Result<(), Fault> {
+    type Panda = in_place::Panda;
+    let (panda, h) = (Panda::default(), Panda::HANDLES);
+    let mut state = panda.described_state::<f64>()?;
+    let joints = [
+        h.panda_joint1,
+        h.panda_joint2,
+        h.panda_joint6,
+        h.panda_joint7,
+    ];
+    for (joint, angle) in joints.into_iter().zip([0.4, -0.3, 0.5, 1.1]) {
+        panda.set_angle(&mut state, joint, angle)?;
+    }
+    let view = panda.view(0.0, &state)?;
+    for (point, origin) in [
+        (h.panda_link8, Panda::PANDA_LINK8_ORIGIN),
+        (h.panda_hand_tcp, Panda::PANDA_HAND_TCP_ORIGIN),
+    ] {
+        let off = view.position(point) - view.point(h.panda_link7, origin.into());
+        assert!(off.norm() < 1e-14, "{}: {off}", point.name());
+    }
+    // From the flange to between the fingers, as the file says.
+    let hand = view.position(h.panda_hand_tcp) - view.position(h.panda_hand);
+    assert!((hand.norm() - 0.1034).abs() < 1e-14, "{hand}");
+    Ok(())
+}
+
 /// With an offset the reference configuration, with all joints at zero, violates the equation.
 #[test]
 fn a_gripper_is_assembled() -> Result<(), Fault> {

@@ -67,6 +67,9 @@ pub struct Crane {
         orientation = [0.9800665778412416, 0.0, 0.0, 0.19866933079506124]
     )]
     cart: Body,
+    /// Origin of link `cab`.
+    #[point(on = cart, at = [0.08317449730740487, 0.1763182982008655, 0.7])]
+    cab: Point,
     /// Joint `drive`, planar.
     #[joint(between = [ground, cart], point = [0.2, -0.1, 0.3], normal = [0.0, 0.0, 1.0])]
     drive: Planar,

@@ -227,6 +227,15 @@ pub struct Panda {
         orientation = [0.0, 1.0, 0.0, 0.0]
     )]
     panda_link7: Body,
+    /// Origin of link `panda_link8`.
+    #[point(on = panda_link7, at = [0.088, 0.0, 0.9259999999999999])]
+    panda_link8: Point,
+    /// Origin of link `panda_hand`.
+    #[point(on = panda_link7, at = [0.088, 0.0, 0.9259999999999999])]
+    panda_hand: Point,
+    /// Origin of link `panda_hand_tcp`.
+    #[point(on = panda_link7, at = [0.088, 0.0, 0.8225999999999999])]
+    panda_hand_tcp: Point,
     /// Joint `panda_joint7`, revolute: from -2.8973 to 2.8973 rad, at most 2.61 rad/s, at most 12 N
     /// m.
     #[joint(

@@ -151,6 +151,12 @@ pub struct Ur5 {
         orientation = [4.8965888601467475e-12, 0.0, 1.0, 0.0]
     )]
     wrist_3_link: Body,
+    /// Origin of link `ee_link`.
+    #[point(on = wrist_3_link, at = [0.817250000000927, 0.19145, -0.005490999995998266])]
+    ee_link: Point,
+    /// Origin of link `tool0`.
+    #[point(on = wrist_3_link, at = [0.817250000000927, 0.19145, -0.005490999995998266])]
+    tool0: Point,
     /// Joint `wrist_3_joint`, revolute: from -6.28318530718 to 6.28318530718 rad, at most 3.2
     /// rad/s, at most 28 N m.
     #[joint(

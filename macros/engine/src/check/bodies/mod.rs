@@ -3,11 +3,13 @@
 //! - `inertia.rs`: moments and tensors; `rotation.rs`: orientations, as they are written;
 //!   `leading.rs`: those that lead an axis to a direction.
 //! - `shape.rs`: shapes as they are written; `volume.rs`: their formulas, which `formula.rs` puts
-//!   together as expressions; `solid.rs`: what follows for a body, of several by `lumps.rs`.
+//!   together as expressions; `solid.rs`: what follows for a body, of several by `lumps.rs`;
+//!   `looks.rs`: where nothing follows, because mass and inertia are given.
 
 mod formula;
 mod inertia;
 mod leading;
+mod looks;
 mod lumps;
 mod reader;
 mod rotation;
@@ -43,9 +45,7 @@ pub fn check(
         faults,
     };
     let solid = match kind {
-        BodyKind::Rigid if pairs.has("shape") || pairs.has("shapes") => {
-            reader.solid(&mut pairs, owner)
-        }
+        BodyKind::Rigid if is_shaped(&pairs) => reader.solid(&mut pairs, owner),
         BodyKind::Rigid => reader.measured(&mut pairs),
         BodyKind::Particle => reader.particle(&mut pairs),
     };
@@ -71,6 +71,12 @@ pub fn check(
         free,
         shapes: solid.shapes,
     })
+}
+
+/// Whether the body follows from shapes. Beside a mass and an inertia they are only drawn.
+fn is_shaped(pairs: &Pairs<'_>) -> bool {
+    let has_shapes = pairs.has("shape") || pairs.has("shapes");
+    has_shapes && !(pairs.has("mass") && pairs.has("inertia"))
 }
 
 /// Euler parameters of a rotation that the macro can see, in the attribute of a field.
@@ -122,16 +128,14 @@ impl Reader<'_, '_> {
             }
             None => Some(IDENTITY),
         };
-        for key in ["shape", "shapes"] {
-            // Known, and not given.
-            pairs.optional(key, self.faults);
-        }
+        let written = ["shape", "shapes"].map(|key| pairs.optional(key, self.faults));
         pairs.refuse("density", "it belongs to a `shape`", self.faults);
         let position = self.optional_vector(pairs, "position");
         let orientation = match pairs.optional("orientation", self.faults) {
             Some(orientation) => self.orientation("orientation", orientation),
             None => Some(IDENTITY.map(Number::Literal)),
         };
+        let shapes = self.looks(written, position, orientation);
         let ((inertia, principal_axes), [e0, e1, e2, e3]) = (inertia?, axes?);
         Some(Solid {
             mass: mass?,
@@ -139,7 +143,7 @@ impl Reader<'_, '_> {
             user_axes: compose(principal_axes, [e0, -e1, -e2, -e3]),
             position: position?,
             orientation: orientation?,
-            shapes: Vec::new(),
+            shapes: shapes?,
         })
     }
 

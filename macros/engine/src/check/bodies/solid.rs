@@ -29,6 +29,23 @@ pub(super) struct Solid {
     pub(super) shapes: Vec<Shape>,
 }
 
+/// Where a shape or a body is: its centre of mass (m, global), and Euler parameters from its axes
+/// to global axes.
+#[derive(Clone, Copy)]
+pub(super) struct Frame {
+    pub(super) centre: [f64; 3],
+    pub(super) axes: [f64; 4],
+}
+
+impl Frame {
+    /// With Euler parameters of length 1.
+    pub(super) fn unit(self) -> Self {
+        let norm = self.axes.iter().map(|e| e * e).sum::<f64>().sqrt();
+        let axes = self.axes.map(|e| e / norm);
+        Self { axes, ..self }
+    }
+}
+
 /// Why a key is refused beside a shape.
 const FOLLOWS: &str = "it follows from the shape";
 
@@ -52,17 +69,7 @@ impl Reader<'_, '_> {
         for key in ["inertia", "inertia_axes", "position"] {
             pairs.refuse(key, FOLLOWS, self.faults);
         }
-        let shapes = match (single, several) {
-            (Some(single), None) => vec![self.shape(single, false)?],
-            (None, Some(several)) => self.shapes(several)?,
-            (Some(_), Some(several)) => {
-                let message = "a body has one `shape`, or several `shapes`; give either";
-                self.faults.at(several, message);
-                return None;
-            }
-            // Something that was reported.
-            (None, None) => return None,
-        };
+        let shapes = self.written(single, several, true)?;
         let weight = self.weight(&shapes, mass, density, owner)?;
         match &shapes[..] {
             [shape] if orientation.is_none() || matches!(shape.axes, Axes::Body) => {
@@ -72,7 +79,27 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn shapes<'e>(&mut self, expr: &'e Expr) -> Option<Vec<Formulas<'e>>> {
+    /// Either `shape` or `shapes`; nothing without a fault.
+    pub(super) fn written<'e>(
+        &mut self,
+        single: Option<&'e Expr>,
+        several: Option<&'e Expr>,
+        own_densities: bool,
+    ) -> Option<Vec<Formulas<'e>>> {
+        match (single, several) {
+            (Some(single), None) => Some(vec![self.shape(single, false)?]),
+            (None, Some(several)) => self.shapes(several, own_densities),
+            (Some(_), Some(several)) => {
+                let message = "a body has one `shape`, or several `shapes`; give either";
+                self.faults.at(several, message);
+                None
+            }
+            // Something that was reported.
+            (None, None) => None,
+        }
+    }
+
+    fn shapes<'e>(&mut self, expr: &'e Expr, own_densities: bool) -> Option<Vec<Formulas<'e>>> {
         let several = elements(expr).unwrap_or_default();
         if several.is_empty() {
             let message = "expected shapes in brackets, as in `[ball(..), cylinder(..)]`";
@@ -81,7 +108,7 @@ impl Reader<'_, '_> {
         }
         let shapes: Vec<_> = several
             .into_iter()
-            .map(|shape| self.shape(shape, true))
+            .map(|shape| self.shape(shape, own_densities))
             .collect();
         shapes.into_iter().collect()
     }
@@ -197,8 +224,23 @@ impl Reader<'_, '_> {
         })
     }
 
+    /// A shape on a body, both in global axes.
+    pub(super) fn on_body(
+        &mut self,
+        shape: &Formulas<'_>,
+        own: Frame,
+        body: Frame,
+        is_hole: bool,
+    ) -> Option<Shape> {
+        let (a, [e0, e1, e2, e3]) = (rotation(body.axes), body.axes);
+        let s = [0, 1, 2].map(|k| own.centre[k] - body.centre[k]);
+        let s = [0, 1, 2].map(|l| (0..3).map(|k| a[k][l] * s[k]).sum());
+        let turned = compose([e0, -e1, -e2, -e3], own.axes);
+        self.drawn(shape, s, turned, is_hole)
+    }
+
     /// Euler parameters of a shape's axes.
-    fn own_axes(&mut self, shape: &Formulas<'_>) -> Option<[Number; 4]> {
+    pub(super) fn own_axes(&mut self, shape: &Formulas<'_>) -> Option<[Number; 4]> {
         self.at("orientation");
         match &shape.axes {
             Axes::Body => Some(IDENTITY.map(Number::Literal)),
@@ -302,12 +344,15 @@ impl Reader<'_, '_> {
         let (moments, user_axes) = principal(tensor);
         let moments = moments.map(Number::Literal);
         self.moments(&Expr::Call(call.clone()), moments)?;
-        let (a, [e0, e1, e2, e3]) = (rotation(axes), axes);
         let drawn = shapes.iter().zip(&lumps).map(|(shape, lump)| {
-            let s = [0, 1, 2].map(|k| lump.centre[k] - centre[k]);
-            let s = [0, 1, 2].map(|l| (0..3).map(|k| a[k][l] * s[k]).sum());
-            let turned = compose([e0, -e1, -e2, -e3], lump.axes);
-            self.drawn(shape, s, turned, lump.mass < 0.0)
+            let (own, body) = (
+                Frame {
+                    centre: lump.centre,
+                    axes: lump.axes,
+                },
+                Frame { centre, axes },
+            );
+            self.on_body(shape, own, body, lump.mass < 0.0)
         });
         let drawn: Vec<_> = drawn.collect();
         Some(Solid {

@@ -58,6 +58,8 @@ struct Masses {
     unseen: Body,
     #[body(shapes = [ball(radius = 0.1, at = [0.0, 0.0, 0.0], density = 1.0), ball(radius = 0.1, at = [1.0, 0.0, 0.0])], mass = 1.0, free)]
     sum: Body,
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], shape = ball(radius = 0.1, at = [length, 0.0, 0.0]), free)]
+    floating: Body,
 }
 
 #[derive(Mechanism)]
