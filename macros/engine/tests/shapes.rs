@@ -138,7 +138,7 @@ fn assert_same(found: &Spread, wanted: &Spread, what: &str) {
     }
 }
 
-fn combined(at: Vector, parts: [(f64, Vector); 3]) -> Vector {
+fn combined<const N: usize>(at: Vector, parts: [(f64, Vector); N]) -> Vector {
     [0, 1, 2].map(|k| at[k] + parts.iter().map(|(factor, v)| factor * v[k]).sum::<f64>())
 }
 
@@ -318,6 +318,17 @@ fn a_block_stands_in_the_axes_of_its_body() {
         (combined(FROM, parts), 0.3 * 0.2 * 0.1)
     }));
     assert_same(&spread(&model), &block, &written);
+    // The same of its halves.
+    let half = |side: f64| {
+        let at = combined(FROM, [(side * 0.075, column(0))]);
+        format!("block(size = [0.15, 0.2, 0.1], at = {at:?})")
+    };
+    let halves = format!(
+        "shapes = [{}, {}], density = 700.0, orientation = {turn}",
+        half(-1.0),
+        half(1.0)
+    );
+    assert_same(&spread(&one(&halves)), &block, &halves);
 }
 
 #[test]

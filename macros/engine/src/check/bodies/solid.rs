@@ -309,7 +309,7 @@ impl Reader<'_, '_> {
         };
         let lumps: Vec<_> = shapes
             .iter()
-            .map(|shape| self.lump(shape, weight))
+            .map(|shape| self.lump(shape, weight, axes))
             .collect();
         let mut lumps: Vec<Lump> = lumps.into_iter().collect::<Option<_>>()?;
         let volume: f64 = lumps.iter().map(|lump| lump.mass).sum();
@@ -365,7 +365,12 @@ impl Reader<'_, '_> {
         })
     }
 
-    fn lump(&mut self, shape: &Formulas<'_>, weight: Weight<'_>) -> Option<Lump> {
+    fn lump(
+        &mut self,
+        shape: &Formulas<'_>,
+        weight: Weight<'_>,
+        of_body: [f64; 4],
+    ) -> Option<Lump> {
         let density = match (shape.density, weight) {
             (Some(own), _) => own.clone(),
             (None, Weight::Density(density)) => density.clone(),
@@ -375,7 +380,10 @@ impl Reader<'_, '_> {
         let mass = self.seen_one(shape, &mass)?;
         let centre = self.seen(shape, &shape.centre)?;
         let moments = self.seen(shape, &shape.volume.moments)?;
-        let p = literals(&self.own_axes(shape)?)?;
+        let p = match &shape.axes {
+            Axes::Body => of_body,
+            Axes::Along(..) => literals(&self.own_axes(shape)?)?,
+        };
         let a = rotation(p);
         let entry = |k: usize, l: usize| -> f64 {
             (0..3).map(|m| mass * a[k][m] * moments[m] * a[l][m]).sum()
