@@ -21,6 +21,7 @@
 //! | [`embedded`] | fixed steps without a heap or the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
 //! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
+//! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes, equilibria |
 //! | [`coordinates`] | absolute or joint coordinates: costs and properties of each |
 //!
 //! # A first program
@@ -140,6 +141,12 @@ pub mod choosing {}
 
 #[doc = include_str!("accuracy.md")]
 pub mod accuracy {}
+
+#[doc = "The equations of motion in chosen coordinates: mass matrix, inverse dynamics, Jacobians,"]
+#[doc = "linear models, equilibria."]
+#[doc = ""]
+#[doc = include_str!("equations.md")]
+pub mod equations {}
 
 #[doc = include_str!("coordinates.md")]
 pub mod coordinates {}

@@ -7,3 +7,4 @@ mod equilibrium;
 mod linear;
 mod loops;
 mod reference;
+mod regulator;
