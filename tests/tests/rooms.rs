@@ -12,7 +12,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 type Module = Vec<String>;
 
 /// The rooms of the run time, each behind those that it may use.
-const RUNTIME: [&str; 13] = [
+const RUNTIME: [&str; 14] = [
     "math",
     "error",
     "state",

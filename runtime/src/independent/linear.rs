@@ -295,8 +295,8 @@ fn put<S, const R: usize, const C: usize>(
     }
 }
 
-/// Euler parameters along directions, by those and the rotation matrix: with `R' = R w~` the rate of
-/// `p` is `p (0, w) / 2`.
+/// Euler parameters along directions, by those and the rotation matrix: with `R' = R w~` the rate
+/// of `p` is `p (0, w) / 2`.
 fn orientation_along<S: Scalar>(p: &[S; 4], rows: &[[Lifted<S>; 3]; 3]) -> [Lifted<S>; 4] {
     let mut slopes = [[S::zero(); LANES]; 4];
     for lane in 0..LANES {

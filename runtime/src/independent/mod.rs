@@ -5,8 +5,8 @@
 //! that close loops (Wehage and Haug 1982: coordinate partitioning; Flores, chapter 15, calls them
 //! dependent coordinates). `equations.rs` has mass matrix and efforts, `points.rs` Jacobians,
 //! `states.rs` the way to states and back, `linear.rs` linearisation, whose result is in
-//! `linearised.rs`, `modes.rs` its natural motions, `equilibrium.rs` states without accelerations. All of it is generic over [`Scalar`] where it can be, so
-//! that derivatives go through it.
+//! `linearised.rs`, `modes.rs` its natural motions, `equilibrium.rs` states without accelerations.
+//! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
 //! Chosen rates `z` give those of all joints: `w = B z + d`, with `D B = 0` and `D d = -dPhi/dt`.
 //! Accelerations are `w' = B z' + b`, with `D b = gamma`. Efforts `f` of all joints do the work of
@@ -40,8 +40,8 @@ use crate::mechanism::kernels::Mechanism;
 /// [`IndependentExt::coordinates`].
 ///
 /// States are those of joint coordinates. Rates are read as [`View`](crate::View) reads them: rad/s
-/// for an angle, m/s for a displacement, with the sign of the joint; efforts are N m and N, positive
-/// where they push the coordinate upwards.
+/// for an angle, m/s for a displacement, with the sign of the joint; efforts are N m and N,
+/// positive where they push the coordinate upwards.
 ///
 /// In a mechanism with loops the coordinates that are not chosen follow. Where they do not, because
 /// the chosen ones stand at a dead point, [`Fault::NotDetermined`] names a joint that can still

@@ -104,8 +104,8 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         self.with_rates(&state, rates)
     }
 
-    /// A state that is nearly there, moved along the constraints so that the chosen coordinates have
-    /// these values to round-off: assembly closes loops by moving all of them a little.
+    /// A state that is nearly there, moved along the constraints so that the chosen coordinates
+    /// have these values to round-off: assembly closes loops by moving all of them a little.
     fn moved_to(
         &self,
         state: &M::JointState<S>,

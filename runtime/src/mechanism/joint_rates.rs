@@ -1,8 +1,8 @@
 //! Kernels in the rates of the joints, for mechanisms that ask for them.
 //!
 //! One rate stands for every motion of a joint that carries a body, in the order of
-//! [`JointReport::motions`](crate::mechanism::JointReport::motions), as handles read it: in rad/s or
-//! m/s, with the sign of the joint. A ball has three, its angular velocity in principal axes. An
+//! [`JointReport::motions`](crate::mechanism::JointReport::motions), as handles read it: in rad/s
+//! or m/s, with the sign of the joint. A ball has three, its angular velocity in principal axes. An
 //! effort does work on such a rate: N m on an angle, N on a displacement.
 
 use crate::math::scalar::Scalar;
@@ -55,8 +55,8 @@ pub trait HasMassMatrix: JointRates {
     note = "write `#[mechanism(coordinates = \"joints\", kernels = [inverse])]` above the struct, beside the kernels that are there"
 )]
 pub trait HasInverse: JointRates {
-    /// The efforts that have to act beside the described forces for these accelerations: `M(q) w' + h`,
-    /// without the equations that close loops.
+    /// The efforts that have to act beside the described forces for these accelerations: `M(q) w' +
+    /// h`, without the equations that close loops.
     fn inverse_dynamics<S: Scalar>(
         constants: &Self::JointConstants<S>,
         time: S,
@@ -110,8 +110,9 @@ pub trait HasJacobian: JointRates {
     /// The rates that move each body.
     const MOVED_BY: &'static [&'static [usize]];
 
-    /// The axes. A body that a rate moves gets from it an angular velocity along the axis `a`, and at a
-    /// point `p` the velocity `a x (p - o) + s` for a point `o` on the axis and the translation `s`.
+    /// The axes. A body that a rate moves gets from it an angular velocity along the axis `a`, and
+    /// at a point `p` the velocity `a x (p - o) + s` for a point `o` on the axis and the
+    /// translation `s`.
     fn joint_axes<S: Scalar>(
         constants: &Self::JointConstants<S>,
         time: S,

@@ -57,8 +57,8 @@ impl Writer<'_, JointKernels> {
         quote!(#[doc = #text])
     }
 
-    /// Name and cost of each evaluation, then of each without multipliers, if there are any, then of
-    /// what is asked for.
+    /// Name and cost of each evaluation, then of each without multipliers, if there are any, then
+    /// of what is asked for.
     fn counts(&self) -> Vec<(String, Count)> {
         let kernels = self.kernels;
         let rates = kernels.turns + kernels.rest + kernels.velocities;
