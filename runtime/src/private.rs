@@ -570,7 +570,7 @@ macro_rules! __stub_joints {
             $($bounds)*
         {
             type Axes<__S: $crate::Scalar> = [__S; 0];
-            const MOVED_BY: &'static [&'static [usize]] = &[];
+            const MOVED_BY: &'static [&'static [(usize, ::core::option::Option<usize>)]] = &[];
             fn joint_axes<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> [__S; 0] { [] }
         }
     };

@@ -292,6 +292,13 @@ pub enum Fault {
         /// How many rates it has.
         motions: usize,
     },
+    /// The free motion of a body was chosen that a joint carries in the spanning tree.
+    Carried {
+        /// The body's field.
+        body: &'static str,
+        /// The joint's field.
+        joint: &'static str,
+    },
     /// The chosen coordinates do not determine the motion here: something can move while they stand
     /// still.
     NotDetermined {
@@ -302,6 +309,12 @@ pub enum Fault {
     /// them.
     NotIndependent {
         /// The field of a chosen joint.
+        joint: &'static str,
+    },
+    /// A position was asked for of a rate that belongs to no coordinate: an angular velocity of a
+    /// rotation in all directions.
+    NoPosition {
+        /// The field of the joint, or of the free body.
         joint: &'static str,
     },
     /// An equilibrium was asked for while a coordinate moves on whose position something depends:

@@ -375,13 +375,17 @@ impl fmt::Display for Fault {
                 let plural = if motions == 1 { "" } else { "s" };
                 write!(
                     f,
-                    "joint `{joint}` has {motions} motion{plural}: choose one of them by `Motion::of({joint}, 0)`"
+                    "`{joint}` has {motions} motion{plural}: choose one of them by `Motion::of({joint}, 0)`"
                 )?;
                 match motions {
                     0 | 1 => Ok(()),
                     _ => write!(f, " to `Motion::of({joint}, {})`", motions - 1),
                 }
             }
+            Self::Carried { body, joint } => write!(
+                f,
+                "`{body}` does not move freely: joint `{joint}` carries it in the spanning tree, and its motion can be chosen"
+            ),
             Self::NotDetermined { joint } => write!(
                 f,
                 "the chosen coordinates do not determine the motion here: `{joint}` can move while they stand still"
@@ -389,6 +393,10 @@ impl fmt::Display for Fault {
             Self::NotIndependent { joint } => write!(
                 f,
                 "the chosen coordinates are not independent here: closed loops restrict the motion of `{joint}`"
+            ),
+            Self::NoPosition { joint } => write!(
+                f,
+                "the angular velocities of `{joint}` are rates of no coordinates: an orientation is set and read by its body"
             ),
             Self::NotSteady { joint } => write!(
                 f,

@@ -1,10 +1,11 @@
 //! What can be chosen: motions of joints that carry bodies.
 
+use core::marker::PhantomData;
+
 use super::degrees_of_freedom;
 use crate::error::Fault;
-use crate::mechanism::handle::JointHandle;
-use crate::mechanism::joint_kernels::{Freedom, JointCoordinates};
-use crate::mechanism::report::Carrier;
+use crate::mechanism::handle::{BodyHandle, JointHandle};
+use crate::mechanism::joint_kernels::{Freedom, JointCoordinates, JointMotion};
 
 /// Something with one rate: a joint that has one motion, or one motion of a joint.
 pub trait Coordinate<M>: Copy + sealed::Sealed {
@@ -12,37 +13,66 @@ pub trait Coordinate<M>: Copy + sealed::Sealed {
     fn place(self) -> Result<(usize, &'static str), Fault>;
 }
 
-/// One motion of a joint that has several, in the order of its definition: of a cylindrical joint
-/// the angle and then the displacement, of a universal joint the angles of its axes.
+/// One motion of a joint, or of a body that moves freely.
 ///
-/// Of a spherical joint, and of the rotation of a free body, the three angular velocities (rad/s)
-/// along the principal axes of the body that it carries: they are rates of no coordinates, and
-/// [`IndependentCoordinates::positions`](super::IndependentCoordinates::positions) refuses them.
-pub struct Motion<M, J> {
-    joint: JointHandle<M, J>,
+/// Motions of a joint count in the order of its definition: of a cylindrical joint the angle and
+/// then the displacement, of a universal joint the angles of its axes. A free body has three
+/// displacements along the global axes, then its rotation; a free particle has the displacements.
+///
+/// A rotation in all directions, of a spherical joint or a free body, has three rates: the angular
+/// velocity (rad/s) **of the body that it carries against the ground**, along principal axes. An
+/// effort on such a rate is a moment on that body, and not one between two. They are rates of no
+/// coordinates, so that [`IndependentCoordinates::positions`] refuses them.
+///
+/// [`IndependentCoordinates::positions`]: super::IndependentCoordinates::positions
+pub struct Motion<M> {
+    mover: Mover,
     number: usize,
+    mechanism: PhantomData<fn() -> M>,
 }
 
-impl<M, J> Motion<M, J> {
+/// What moves: a joint or a free body, by its index.
+#[derive(Clone, Copy, Debug)]
+enum Mover {
+    Joint(usize),
+    Body(usize),
+}
+
+impl<M> Motion<M> {
     /// The motion of a joint by its number, from 0.
     #[must_use]
-    pub const fn of(joint: JointHandle<M, J>, number: usize) -> Self {
-        Self { joint, number }
+    pub const fn of<J>(joint: JointHandle<M, J>, number: usize) -> Self {
+        Self {
+            mover: Mover::Joint(joint.index()),
+            number,
+            mechanism: PhantomData,
+        }
+    }
+
+    /// The motion of a body that no joint carries, by its number: displacements along x, y and z,
+    /// then angular velocities along its principal axes.
+    #[must_use]
+    pub const fn free(body: BodyHandle<M>, number: usize) -> Self {
+        Self {
+            mover: Mover::Body(body.index()),
+            number,
+            mechanism: PhantomData,
+        }
     }
 }
 
-impl<M, J> Clone for Motion<M, J> {
+impl<M> Clone for Motion<M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M, J> Copy for Motion<M, J> {}
+impl<M> Copy for Motion<M> {}
 
-impl<M, J> core::fmt::Debug for Motion<M, J> {
+impl<M> core::fmt::Debug for Motion<M> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_tuple("Motion")
-            .field(&self.joint)
+            .field(&self.mover)
             .field(&self.number)
             .finish()
     }
@@ -50,52 +80,110 @@ impl<M, J> core::fmt::Debug for Motion<M, J> {
 
 impl<M: JointCoordinates, J> Coordinate<M> for JointHandle<M, J> {
     fn place(self) -> Result<(usize, &'static str), Fault> {
-        let joint = self.name();
-        match rates_of::<M>(joint).count() {
-            0 => Err(carries_nothing::<M>(self.index(), joint)),
-            1 => Motion::of(self, 0).place(),
+        let (joint, motions) = (self.name(), Mover::Joint(self.index()).rates::<M>());
+        match motions {
+            0 | 1 => Motion::of(self, 0).place(),
             motions => Err(Fault::SeveralMotions { joint, motions }),
         }
     }
 }
 
-impl<M: JointCoordinates, J> Coordinate<M> for Motion<M, J> {
+impl<M: JointCoordinates> Coordinate<M> for Motion<M> {
     fn place(self) -> Result<(usize, &'static str), Fault> {
-        let joint = self.joint.name();
-        let motions = rates_of::<M>(joint).count();
-        let rate = rates_of::<M>(joint).nth(self.number);
-        rate.map(|rate| (rate, joint)).ok_or_else(|| match motions {
-            0 => carries_nothing::<M>(self.joint.index(), joint),
-            _ => Fault::SeveralMotions { joint, motions },
+        let joint = self.mover.name::<M>();
+        if let Some(rate) = self.mover.rate::<M>(self.number) {
+            return Ok((rate, joint));
+        }
+        Err(match (self.mover, self.mover.rates::<M>()) {
+            (Mover::Joint(index), 0) => carries_nothing::<M>(index, joint),
+            (Mover::Body(index), 0) => Fault::Carried {
+                body: joint,
+                joint: carrier::<M>(index).unwrap_or(""),
+            },
+            (_, motions) => Fault::SeveralMotions { joint, motions },
         })
     }
 }
 
-/// The places of the rates of a joint.
-fn rates_of<M: JointCoordinates>(joint: &'static str) -> impl Iterator<Item = usize> {
-    let motions = M::JOINT_REPORT.motions.iter();
-    let own = motions.filter(move |motion| motion.joint == joint);
-    own.flat_map(|motion| {
-        let rates = match motion.freedom {
-            Freedom::Ball => 3,
-            Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. } => 1,
+impl Mover {
+    fn name<M: JointCoordinates>(self) -> &'static str {
+        match self {
+            Self::Joint(index) => M::REPORT.joints.get(index).map_or("", |info| info.name),
+            Self::Body(index) => M::REPORT.bodies.get(index).map_or("", |info| info.name),
+        }
+    }
+
+    /// Its motions, as they stand in the tree, from the carrier outwards.
+    fn motions<M: JointCoordinates>(self) -> impl DoubleEndedIterator<Item = &'static JointMotion> {
+        let name = self.name::<M>();
+        let motions = M::JOINT_REPORT.motions.iter();
+        motions.filter(move |motion| match self {
+            Self::Joint(_) => motion.joint == name,
+            Self::Body(_) => motion.joint.is_empty() && motion.body == name,
+        })
+    }
+
+    /// How many rates it has.
+    fn rates<M: JointCoordinates>(self) -> usize {
+        self.motions::<M>().map(rates_of).sum()
+    }
+
+    /// The place of a rate, by its number in the order of the definition: that of the tree, or the
+    /// opposite where the joint carries the first of its bodies.
+    fn rate<M: JointCoordinates>(self, number: usize) -> Option<usize> {
+        let mut left = number;
+        let mut found = |motion: &'static JointMotion| {
+            let rates = rates_of(motion);
+            if left < rates {
+                return Some(motion.velocity + left);
+            }
+            left -= rates;
+            None
         };
-        motion.velocity..motion.velocity + rates
-    })
+        if self.is_reversed::<M>() {
+            self.motions::<M>().rev().find_map(&mut found)
+        } else {
+            self.motions::<M>().find_map(&mut found)
+        }
+    }
+
+    fn is_reversed<M: JointCoordinates>(self) -> bool {
+        let Self::Joint(index) = self else {
+            return false;
+        };
+        let mut carriers = M::REPORT.carriers.iter();
+        let carried = carriers.position(|carrier| carrier.joint == Some(index));
+        let bodies = M::REPORT.joints.get(index).map(|info| info.bodies);
+        let first = bodies.and_then(|bodies| bodies.first().copied());
+        carried.is_some() && first == Some(carried)
+    }
+}
+
+/// The rates of a motion.
+const fn rates_of(motion: &JointMotion) -> usize {
+    match motion.freedom {
+        Freedom::Ball => 3,
+        Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. } => 1,
+    }
+}
+
+/// The joint that carries a body.
+fn carrier<M: JointCoordinates>(body: usize) -> Option<&'static str> {
+    let joint = M::REPORT.carriers.get(body)?.joint?;
+    M::REPORT.joints.get(joint).map(|info| info.name)
 }
 
 /// The refusal of a joint that carries no body, with one that carries one of its bodies.
 fn carries_nothing<M: JointCoordinates>(index: usize, joint: &'static str) -> Fault {
-    let bodies = M::REPORT
-        .joints
-        .get(index)
-        .map_or(&[][..], |info| info.bodies);
-    let carrier = |body: &Option<usize>| -> Option<&Carrier> { M::REPORT.carriers.get((*body)?) };
-    let carriers = bodies.iter().rev().filter_map(carrier);
-    let mut joints = carriers.filter_map(|carrier| M::REPORT.joints.get(carrier.joint?));
+    let info = M::REPORT.joints.get(index);
+    let bodies = info.map_or(&[][..], |info| info.bodies);
+    let mut carriers = bodies
+        .iter()
+        .rev()
+        .filter_map(|body| carrier::<M>((*body)?));
     Fault::CarriesNothing {
         joint,
-        instead: joints.next().map(|info| info.name),
+        instead: carriers.next(),
     }
 }
 
@@ -167,6 +255,6 @@ mod sealed {
     pub trait Sealed {}
 
     impl<M, J> Sealed for JointHandle<M, J> {}
-    impl<M, J> Sealed for super::Motion<M, J> {}
+    impl<M> Sealed for super::Motion<M> {}
     impl<C: Sealed, const N: usize> Sealed for [C; N] {}
 }

@@ -193,7 +193,8 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
     }
 
     /// The efforts that velocities take without accelerations of the coordinates: centrifugal,
-    /// Coriolis and gyroscopic terms, quadratic in the rates. `C(q, v) v`.
+    /// Coriolis and gyroscopic terms, quadratic in the rates. `C(q, v) v`. Of drivers also what
+    /// their laws accelerate.
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`].

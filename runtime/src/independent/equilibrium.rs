@@ -2,7 +2,6 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::equations::solve;
 use super::partition::Magnitude;
 use super::states::write_rates;
 use super::{Equations, IndependentCoordinates};
@@ -13,8 +12,12 @@ use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
 use crate::mechanism::relative::bodies_of;
 use crate::state::vector::Vector as _;
 
-/// Steps that may be tried.
-const TRIALS: usize = 200;
+/// Steps that may be taken.
+const STEPS: usize = 200;
+/// Halvings of a step.
+const HALVINGS: usize = 12;
+/// Steps along the accelerations, where Newton's lead nowhere.
+const FALLS: usize = 25;
 
 impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
 where
@@ -26,9 +29,11 @@ where
     /// mechanism at rest. A coordinate on whose position nothing depends, the angle of a shaft, may
     /// have one: then the motion is steady.
     ///
-    /// By Levenberg's and Marquardt's method on exact derivatives, to round-off. Which equilibrium
-    /// is found, where there are several, depends on the guess. Whether it is stable is told by
-    /// [`Linearised::modes`](super::Linearised::modes) there.
+    /// By Newton's method on exact derivatives, in steps of at most a radian or a length of the
+    /// mechanism; where that does not lead on, a step down along the accelerations. Which
+    /// equilibrium is found, where there are several, depends on the guess: near one it is that,
+    /// from afar rather one below. Whether it is stable is told by
+    /// [`Linearised::modes`](super::Linearised::modes).
     ///
     /// ```
     /// # use holonom::prelude::*;
@@ -58,60 +63,126 @@ where
     /// [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2); what
     /// [`IndependentCoordinates::linearise`] refuses.
     pub fn equilibrium(&self, guess: &M::JointState<S>) -> Result<M::JointState<S>, Fault> {
-        /// What is left, in lengths and angles of a linear mechanism.
-        const CONVERGED: f64 = 1e3;
+        /// The length of such a step (rad, lengths of the mechanism).
+        const FALL: f64 = 0.2;
         let rates = self.rates(guess);
+        let scales = self.scales();
+        let tolerance = S::EPSILON.powf(0.75);
         let mut state = *guess;
+        let mut falls = 0;
         let mut left = self.accelerations(&state)?;
-        let mut damping = S::constant(1e-3);
-        let mut slopes = self.linearise(&state, [], |_| [])?.by_positions;
-        for trial in 0..TRIALS {
-            let size = slopes
+        for taken in 0..STEPS {
+            let linear = self.linearise(&state, [], |_| [])?;
+            let slopes = linear.by_positions;
+            let (way, unexplained) = newton(&slopes, &left, &scales);
+            let widest = longest(&way, &scales);
+            let floor = self.floor(&state, &slopes, &linear.by_efforts, &scales)?;
+            let is_explained = unexplained
                 .iter()
-                .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
-            let most = left
-                .iter()
-                .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
-            let way = step(&slopes, &left, damping);
-            let longest = way
-                .iter()
-                .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
-            let next = self.displaced(&state, &way, &rates);
-            let next = next.and_then(|next| Ok((next, self.accelerations(&next)?)));
-            let is_less = |there: &SVector<S, N>| square(there) < square(&left);
-            match next {
-                Ok((next, there)) if is_less(&there) => {
-                    (state, left) = (next, there);
-                    slopes = self.linearise(&state, [], |_| [])?.by_positions;
-                    damping = damping * S::constant(0.1);
+                .zip(floor)
+                .all(|(off, floor)| off.abs() <= floor);
+            if widest <= tolerance && is_explained {
+                // As near as the numbers go.
+                if let Ok(next) = self.displaced(&state, &way, &rates) {
+                    state = next;
                 }
-                _ if most <= size * S::EPSILON * S::constant(CONVERGED) => {
-                    return self.steady(&state, &slopes, &rates);
-                }
-                _ if longest <= S::EPSILON || !damping.is_finite() => {
-                    return Err(Fault::NotConverged {
-                        iterations: trial,
-                        residual: most.to_f64(),
-                        joint: None,
-                        alpha: None,
-                    });
-                }
-                _ => damping = damping * S::constant(10.0),
+                return self.steady(&state, &slopes, &rates);
             }
+            let rows = row_sizes(&slopes, &scales);
+            let before = square(&left, &rows);
+            let mut share = S::one();
+            if widest > S::one() {
+                share = widest.reciprocal();
+            }
+            // From afar rather down than up.
+            let is_up = widest > S::one() && self.power(&state, &left, &way)? < S::zero();
+            let mut found = None;
+            for _ in 0..if is_up && falls < FALLS { 0 } else { HALVINGS } {
+                let step = way.map(|way| way * share);
+                if let Ok(next) = self.displaced(&state, &step, &rates)
+                    && let Ok(there) = self.accelerations(&next)
+                    && square(&there, &rows) < before * (S::one() - share * S::constant(1e-4))
+                {
+                    found = Some((next, there));
+                    break;
+                }
+                share = share * S::constant(0.5);
+            }
+            if found.is_none() && falls < FALLS {
+                falls += 1;
+                let mut down: [S; N] = left.into();
+                for (down, scale) in down.iter_mut().zip(&scales) {
+                    *down = *down * *scale;
+                }
+                let longest = longest(&down, &scales);
+                let step = down.map(|down| (down * S::constant(FALL)).quotient(longest));
+                if longest > S::zero()
+                    && let Ok(next) = self.displaced(&state, &step, &rates)
+                    && let Ok(there) = self.accelerations(&next)
+                {
+                    found = Some((next, there));
+                }
+            }
+            let Some(next) = found else {
+                return Err(not_converged(taken, &left));
+            };
+            (state, left) = next;
         }
-        let most = left
-            .iter()
-            .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
-        Err(Fault::NotConverged {
-            iterations: TRIALS,
-            residual: most.to_f64(),
-            joint: None,
-            alpha: None,
-        })
+        Err(not_converged(STEPS, &left))
     }
 
     fn accelerations(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault> {
         self.forward(state, [S::zero(); N])
+    }
+
+    /// The work that the forces of these accelerations would do on a way.
+    fn power(
+        &self,
+        state: &M::JointState<S>,
+        left: &SVector<S, N>,
+        way: &[S; N],
+    ) -> Result<S, Fault> {
+        let mass = self.mass(state)?;
+        let entries = (0..N).flat_map(|row| (0..N).map(move |column| (row, column)));
+        Ok(entries.fold(S::zero(), |sum, (row, column)| {
+            (mass[(row, column)] * left[column]).fused(way[row], sum)
+        }))
+    }
+
+    /// What coordinates compare by: a radian, or a length of the mechanism.
+    fn scales(&self) -> [S; N] {
+        self.equations
+            .places
+            .map(|place| self.equations.scale(place))
+    }
+
+    /// What round-off leaves of accelerations: that of efforts which balance each other.
+    fn floor(
+        &self,
+        state: &M::JointState<S>,
+        slopes: &SMatrix<S, N, N>,
+        by_efforts: &SMatrix<S, N, N>,
+        scales: &[S; N],
+    ) -> Result<[S; N], Fault> {
+        let mass = self.mass(state)?;
+        let mut efforts = [S::zero(); N];
+        for (row, effort) in efforts.iter_mut().enumerate() {
+            for (column, &scale) in scales.iter().enumerate() {
+                let stiffness = (0..N).fold(S::zero(), |sum, k| {
+                    mass[(row, k)].fused(slopes[(k, column)], sum)
+                });
+                *effort = *effort + stiffness.abs() * scale;
+            }
+        }
+        let mut floor = [S::zero(); N];
+        for (row, floor) in floor.iter_mut().enumerate() {
+            let parts = efforts.iter().enumerate();
+            let sum = parts.fold(S::zero(), |sum, (column, &effort)| {
+                by_efforts[(row, column)].abs().fused(effort, sum)
+            });
+            *floor = sum * S::EPSILON * S::constant(100.0);
+        }
+        Ok(floor)
     }
 
     /// A state in which coordinates that move have no part in the accelerations.
@@ -121,17 +192,15 @@ where
         slopes: &SMatrix<S, N, N>,
         rates: &SVector<S, N>,
     ) -> Result<M::JointState<S>, Fault> {
-        let size = slopes
-            .iter()
-            .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
-        for (column, rate) in slopes.column_iter().zip(rates.iter()) {
+        let rows = row_sizes(slopes, &self.scales());
+        for (number, (&rate, scale)) in rates.iter().zip(self.scales()).enumerate() {
+            let column = (0..N).map(|row| (slopes[(row, number)] * scale).abs());
             let depends = column
-                .iter()
-                .any(|entry| entry.abs() > size * S::EPSILON.sqrt());
-            if *rate != S::zero() && depends {
-                let moving = rates.iter().position(|other| other == rate).unwrap_or(0);
+                .zip(rows)
+                .any(|(entry, size)| entry > size * S::EPSILON.sqrt());
+            if rate != S::zero() && depends {
                 return Err(Fault::NotSteady {
-                    joint: self.joint(moving),
+                    joint: self.joint(number),
                 });
             }
         }
@@ -162,34 +231,94 @@ where
     }
 }
 
-fn square<S: Real, const N: usize>(numbers: &SVector<S, N>) -> S {
-    numbers.iter().fold(S::zero(), |sum, &x| x.fused(x, sum))
+/// The largest acceleration that is left.
+fn not_converged<S: Real, const N: usize>(iterations: usize, left: &SVector<S, N>) -> Fault {
+    let most = left
+        .iter()
+        .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
+    Fault::NotConverged {
+        iterations,
+        residual: most.to_f64(),
+        joint: None,
+        alpha: None,
+    }
 }
 
-/// Levenberg's and Marquardt's step: `(J^T J + m diag(J^T J)) s = -J^T r`.
-fn step<S: Real, const N: usize>(
+/// The longest of some ways, in radians or lengths of the mechanism.
+fn longest<S: Real, const N: usize>(way: &[S; N], scales: &[S; N]) -> S {
+    let ways = way.iter().zip(scales);
+    ways.fold(S::zero(), |most: S, (way, &scale)| {
+        most.max(way.abs().quotient(scale))
+    })
+}
+
+/// How much each acceleration changes over a radian, or over a length of the mechanism.
+fn row_sizes<S: Real, const N: usize>(slopes: &SMatrix<S, N, N>, scales: &[S; N]) -> [S; N] {
+    let mut sizes = [S::zero(); N];
+    for (size, row) in sizes.iter_mut().zip(slopes.row_iter()) {
+        let entries = row.iter().zip(scales);
+        *size = entries.fold(S::zero(), |sum, (entry, &scale)| sum + entry.abs() * scale);
+    }
+    sizes
+}
+
+/// The sum of the squares of accelerations, each by how much it can change; of those that do not
+/// change, as they are.
+fn square<S: Real, const N: usize>(left: &SVector<S, N>, sizes: &[S; N]) -> S {
+    let entries = left.iter().zip(sizes);
+    entries.fold(S::zero(), |sum, (&left, &size)| {
+        let size = if size > S::zero() { size } else { S::one() };
+        let part = left.quotient(size);
+        part.fused(part, sum)
+    })
+}
+
+/// Newton's step `J s = -a`, by elimination with the largest pivots first, and what of `a` no step
+/// explains. Coordinates on which nothing depends stay.
+fn newton<S: Real, const N: usize>(
     slopes: &SMatrix<S, N, N>,
     left: &SVector<S, N>,
-    damping: S,
-) -> [S; N] {
-    let dot = |a: usize, b: usize| {
-        let rows = slopes.row_iter();
-        rows.fold(S::zero(), |sum, row| row[a].fused(row[b], sum))
-    };
-    let mut matrix: [[S; N]; N] =
-        core::array::from_fn(|row| core::array::from_fn(|column| dot(row, column)));
-    let diagonal = (0..N).map(|k| dot(k, k));
-    let most = diagonal.fold(S::zero(), |most: S, entry| most.max(entry));
-    // What nothing depends on stays where it is.
-    let floor = most * S::EPSILON + S::smallest();
-    for (k, row) in matrix.iter_mut().enumerate() {
-        if let Some(entry) = row.get_mut(k) {
-            *entry = *entry + damping * *entry + floor;
+    scales: &[S; N],
+) -> ([S; N], [S; N]) {
+    let mut matrix = *slopes;
+    let mut right: [S; N] = (*left).into();
+    right.iter_mut().for_each(|right| *right = -*right);
+    let sizes = row_sizes(slopes, scales);
+    let mut row_of = [None; N];
+    let mut is_taken = [false; N];
+    for _ in 0..N {
+        let mut best = (S::EPSILON * S::constant(16.0 * N as f64), None);
+        for row in (0..N).filter(|&row| !is_taken[row] && sizes[row] > S::zero()) {
+            for column in (0..N).filter(|&column| row_of[column].is_none()) {
+                let size = (matrix[(row, column)] * scales[column])
+                    .abs()
+                    .quotient(sizes[row]);
+                if size > best.0 {
+                    best = (size, Some((row, column)));
+                }
+            }
+        }
+        let Some((row, column)) = best.1 else { break };
+        (is_taken[row], row_of[column]) = (true, Some(row));
+        for other in (0..N).filter(|&other| other != row) {
+            let factor = matrix[(other, column)].quotient(matrix[(row, column)]);
+            for place in 0..N {
+                matrix[(other, place)] = matrix[(other, place)] - factor * matrix[(row, place)];
+            }
+            right[other] = right[other] - factor * right[row];
+            matrix[(other, column)] = S::zero();
         }
     }
-    let right = core::array::from_fn(|column| {
-        let rows = slopes.row_iter().zip(left.iter());
-        -rows.fold(S::zero(), |sum, (row, &left)| row[column].fused(left, sum))
-    });
-    solve(matrix, right)
+    let mut way = [S::zero(); N];
+    for (column, way) in way.iter_mut().enumerate() {
+        if let Some(row) = row_of[column] {
+            *way = right[row].quotient(matrix[(row, column)]);
+        }
+    }
+    for (right, is_taken) in right.iter_mut().zip(is_taken) {
+        if is_taken {
+            *right = S::zero();
+        }
+    }
+    (way, right)
 }

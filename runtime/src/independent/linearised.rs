@@ -159,14 +159,14 @@ pub fn to_discrete<S: Real, const X: usize, const K: usize>(
         series = identity.zip_map(&product, |one, more| more.fused(factor, one));
     }
     let mut integral = series.map(|entry| entry * step);
+    let power = times(&scaled, &series);
+    let mut transition = identity.zip_map(&power, |one, more| one + more);
     for _ in 0..doublings {
-        // Over twice the time: `F + exp(A h) F = 2 F + A F F`.
-        let square = times(&integral, &integral);
-        let more = times(a, &square);
-        integral = integral.zip_map(&more, |own, more| own + own + more);
+        // Over twice the time: what has come in goes on, and as much comes in again.
+        let more = times(&transition, &integral);
+        integral = integral.zip_map(&more, |own, more| own + more);
+        transition = times(&transition, &transition);
     }
-    let power = times(a, &integral);
-    let transition = identity.zip_map(&power, |one, more| one + more);
     let input = SMatrix::<S, X, K>::from_fn(|row, column| {
         (0..X).fold(S::zero(), |sum, k| {
             integral[(row, k)].fused(b[(k, column)], sum)

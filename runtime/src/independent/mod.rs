@@ -31,6 +31,7 @@ pub use linearised::{Linearised, to_discrete};
 pub use modes::Mode;
 pub use partition::Magnitude;
 
+use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_rates::JointRates;
@@ -62,6 +63,8 @@ struct Equations<M: JointRates, const N: usize, S: Scalar> {
     /// The places of the chosen rates.
     places: [usize; N],
     time: S,
+    /// A length of the mechanism (m), by which displacements compare with angles.
+    length: S,
 }
 
 /// Coordinates by handle, by a method of the mechanism.
@@ -124,9 +127,12 @@ pub trait IndependentExt: JointRates {
     ) -> Result<IndependentCoordinates<Self, N, S>, Fault> {
         let places = choice::places::<Self, N>(chosen)?;
         let parameters = self.parameters()?;
+        let constants = Self::prepare(&parameters);
+        let described = Self::initial_state(&constants);
         Ok(IndependentCoordinates {
-            constants: Self::prepare(&parameters),
+            constants,
             equations: Equations {
+                length: characteristic_length::<S, Self>(&constants, &described),
                 constants: Self::prepare_joints(&parameters),
                 places,
                 time: S::zero(),

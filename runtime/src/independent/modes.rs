@@ -71,6 +71,9 @@ impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P
     pub fn modes(&self) -> std::vec::Vec<Mode<N>> {
         /// Far more than an eigenvalue takes.
         const ITERATIONS: usize = 10_000;
+        if N == 0 {
+            return std::vec::Vec::new();
+        }
         let a = DMatrix::from_fn(2 * N, 2 * N, |row, column| self.of_a(row, column).to_f64());
         let Some(schur) = Schur::try_new(a.clone(), f64::EPSILON, ITERATIONS) else {
             return std::vec::Vec::new();

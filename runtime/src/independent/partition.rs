@@ -4,7 +4,7 @@ use super::Equations;
 use crate::error::Fault;
 use crate::forward::Forward;
 use crate::math::scalar::Scalar;
-use crate::mechanism::joint_kernels::JointMotion;
+use crate::mechanism::joint_kernels::{Freedom, JointMotion};
 use crate::mechanism::joint_rates::JointRates;
 use crate::state::vector::Array;
 
@@ -54,6 +54,15 @@ pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
 }
 
 impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
+    /// What a rate compares by with others: one, or a length of the mechanism.
+    pub(super) fn scale(&self, rate: usize) -> S {
+        if is_displacement::<M>(rate) {
+            self.length
+        } else {
+            S::one()
+        }
+    }
+
     /// Eliminates the dependent rates from the equations that close loops (Gauss and Jordan, with
     /// the largest pivots first).
     pub(super) fn partition(&self, state: &M::JointState<S>) -> Result<Partition<M, N, S>, Fault> {
@@ -86,10 +95,13 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             .as_mut_slice()
             .iter_mut()
             .for_each(|value| *value = -*value);
+        let scale = |place: usize| self.scale(place);
         let mut sizes = M::ClosingMultipliers::<S>::zeros();
         let of_rows = sizes.as_mut_slice().iter_mut();
         for (size, row) in of_rows.zip(jacobian.as_slice().chunks(width.max(1))) {
-            *size = row.iter().fold(S::zero(), |most: S, &entry| {
+            let entries = row.iter().enumerate();
+            *size = entries.fold(S::zero(), |most: S, (place, &entry)| {
+                let entry = entry * scale(place);
                 if entry.magnitude() > most.magnitude() {
                     entry
                 } else {
@@ -112,7 +124,8 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
                 let size = at(sizes.as_slice(), row).magnitude();
                 let free = (0..width).filter(|column| !self.places.contains(column));
                 for column in free.filter(|&column| is_zero(row_of.as_slice(), column)) {
-                    let pivot = at(entries, row * width + column).magnitude() / size;
+                    let entry = at(entries, row * width + column) * scale(column);
+                    let pivot = entry.magnitude() / size;
                     if pivot > best.0 {
                         best = (pivot, row, column);
                     }
@@ -175,7 +188,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
         for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {
             let size = at(sizes.as_slice(), row).magnitude();
             for &place in &self.places {
-                let left = at(entries, row * width + place).magnitude();
+                let left = (at(entries, row * width + place) * scale(place)).magnitude();
                 if left > S::ROUND_OFF.sqrt() * size {
                     return Err(Fault::NotIndependent {
                         joint: joint_of_rate(M::JOINT_REPORT.motions, place),
@@ -232,6 +245,13 @@ pub(super) fn velocities<M: JointRates, S: Scalar>(
         }
     }
     velocities
+}
+
+/// Whether a rate is that of a displacement.
+fn is_displacement<M: JointRates>(rate: usize) -> bool {
+    let mut motions = M::JOINT_REPORT.motions.iter();
+    let own = motions.find(|motion| motion.velocity == rate);
+    own.is_some_and(|motion| motion.freedom == Freedom::Slide)
 }
 
 /// The joint, or the body that moves freely, of a rate.

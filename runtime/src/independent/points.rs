@@ -85,10 +85,19 @@ impl<M: HasJacobian, const N: usize, S: Magnitude> Equations<M, N, S> {
         let motions = M::body_motions(&self.constants, state);
         let p = position::<S, M>(motions.as_slice(), body, &point.arm);
         let axes = M::joint_axes(&self.constants, self.time, state);
-        for &rate in M::MOVED_BY.get(body).copied().unwrap_or(&[]) {
-            let [axis, origin, along] =
-                [0, 3, 6].map(|part| read::<S, 3>(axes.as_slice(), 9 * rate + part));
-            let velocity = plus(&cross(&axis, &minus(&p, &origin)), &along);
+        let axes = axes.as_slice();
+        let is_particle = M::REPORT
+            .bodies
+            .get(body)
+            .is_none_or(|info| info.kind == BodyKind::Particle);
+        for &(rate, ball) in M::MOVED_BY.get(body).copied().unwrap_or(&[]) {
+            let [mut axis, origin, along] =
+                [0, 3, 6].map(|part| read::<S, 3>(axes, 9 * rate + part));
+            let moved = ball.map_or(p, |ball| read(axes, 9 * ball + 3));
+            let velocity = plus(&cross(&axis, &minus(&moved, &origin)), &along);
+            if ball.is_some() || is_particle {
+                axis = [S::zero(); 3];
+            }
             for (column, of_chosen) in columns.iter_mut().zip(&partition.columns) {
                 let share = at(of_chosen.as_slice(), rate);
                 let [vx, vy, vz] = times(&velocity, share);
@@ -109,6 +118,7 @@ impl<M: JointRates, const N: usize, S: Scalar> Equations<M, N, S> {
             constants: crate::forward::lifted(&self.constants),
             places: self.places,
             time: Forward::fixed(self.time),
+            length: Forward::fixed(self.length),
         }
     }
 }
@@ -175,7 +185,7 @@ impl<M: HasJacobian, const N: usize, S: Real + Magnitude> IndependentCoordinates
     /// Infinite where nothing can move along it.
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::mass`].
+    /// As [`IndependentCoordinates::mass`]; [`Fault::Setting`] for a direction of length zero.
     pub fn effective_mass(
         &self,
         state: &M::JointState<S>,
@@ -187,7 +197,16 @@ impl<M: HasJacobian, const N: usize, S: Real + Magnitude> IndependentCoordinates
     {
         let point = Fixed::of::<M>(&self.constants, at);
         let columns = self.equations.jacobian(state, &point)?;
-        let [x, y, z]: [S; 3] = direction.into();
+        let size = direction
+            .iter()
+            .fold(S::zero(), |most: S, part| most.max(part.abs()));
+        if !(size > S::zero() && size.is_finite()) {
+            return Err(Fault::Setting {
+                name: "direction",
+                value: size.to_f64(),
+            });
+        }
+        let [x, y, z]: [S; 3] = direction.map(|part| part.quotient(size)).into();
         let square = x * x + y * y + z * z;
         let along = columns.map(|[vx, vy, vz, ..]| vx * x + vy * y + vz * z);
         let accelerations = solve(self.equations.mass(state)?, along);

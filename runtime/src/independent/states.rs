@@ -5,10 +5,9 @@ use core::f64::consts::TAU;
 use nalgebra::SVector;
 
 use super::equations::finite;
-use super::partition::{Magnitude, Partition, at, velocities};
+use super::partition::{Magnitude, Partition, at, set, velocities};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
-use crate::assembly::subtree::Subtree;
 use crate::constraints::projection::Projection;
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
@@ -17,42 +16,56 @@ use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::relative::bodies_of;
 use crate::state::vector::{Array, MovingState, Vector as _};
 
+/// What an angle is turned at once while loops are closed (rad).
+const STRIDE: f64 = 1.0;
+/// As many strides as anybody waits for.
+const MANY: f64 = 1e5;
+
 impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<M, N, S> {
     /// The coordinates (rad, m) at a state, zero in the reference configuration: an angle is from
     /// `-pi` to `pi`, that of a screw counts turns.
     ///
     /// # Errors
-    /// [`Fault::NotFree`] for a chosen component of an angular velocity, which is the rate of no
+    /// [`Fault::NoPosition`] for a chosen component of an angular velocity, which is the rate of no
     /// coordinate.
     pub fn positions(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault> {
         let mut positions = [S::zero(); N];
         for (position, &place) in positions.iter_mut().zip(&self.equations.places) {
             let (number, motion) = motion_at::<M>(place)?;
-            let joint = motion.joint;
+            let joint = name_of(motion);
             *position = M::JOINT_REPORT
                 .coordinate(number, state)
-                .ok_or(Fault::NotFree { joint })?;
+                .ok_or(Fault::NoPosition { joint })?;
         }
         Ok(SVector::from(positions))
     }
 
     /// The state with these coordinates (rad, m) and rates (rad/s, m/s). Loops are closed on the
     /// branch of the described state, see
-    /// [`MechanismExt::assemble`](crate::MechanismExt::assemble).
+    /// [`MechanismExt::assemble`](crate::MechanismExt::assemble), in strides of one radian, so that
+    /// what is geared to a coordinate turns as often as it has to.
     ///
     /// # Errors
-    /// What [`MechanismExt::set_angle`](crate::MechanismExt::set_angle) and
-    /// [`MechanismExt::assemble`](crate::MechanismExt::assemble) refuse; a choice that fails there.
+    /// [`Fault::NoPosition`] for a chosen component of an angular velocity; what
+    /// [`MechanismExt::assemble`](crate::MechanismExt::assemble) refuses; a choice that fails on
+    /// the way.
     pub fn state(
         &self,
         positions: impl Into<SVector<S, N>>,
         rates: impl Into<SVector<S, N>>,
     ) -> Result<M::JointState<S>, Fault> {
-        let from = M::initial_state(&self.constants);
-        self.state_from(&from, positions.into().into(), rates.into().into())
+        let described = M::initial_state(&self.constants);
+        let mut from = self.of_bodies(&described);
+        if !M::JOINT_REPORT.closing.is_empty() {
+            let mut bodies = described;
+            let (projection, time) = (Projection::default(), self.equations.time);
+            assembled::<S, M>(&projection, &self.constants, time, &mut bodies, &described)?;
+            from = self.of_bodies(&bodies);
+        }
+        self.state_from(&from, false, positions.into().into(), rates.into().into())
     }
 
-    /// The same on the branch of another state.
+    /// The same on the branch of another state, by the nearest turns.
     ///
     /// # Errors
     /// As [`IndependentCoordinates::state`].
@@ -62,76 +75,122 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         positions: impl Into<SVector<S, N>>,
         rates: impl Into<SVector<S, N>>,
     ) -> Result<M::JointState<S>, Fault> {
-        let from = self.bodies(near);
-        self.state_from(&from, positions.into().into(), rates.into().into())
+        self.state_from(near, true, positions.into().into(), rates.into().into())
     }
 
     fn state_from(
         &self,
-        from: &M::State<S>,
+        from: &M::JointState<S>,
+        is_nearest: bool,
         positions: [S; N],
         rates: [S; N],
     ) -> Result<M::JointState<S>, Fault> {
-        let Equations {
-            constants,
-            places,
-            time,
-        } = &self.equations;
-        let mut bodies = *from;
-        for (position, &place) in positions.into_iter().zip(places) {
-            let (_, motion) = motion_at::<M>(place)?;
-            let refused = Fault::NotFree {
-                joint: motion.joint,
-            };
-            let mut joints = M::REPORT.joints.iter();
-            let joint = joints.position(|info| info.name == motion.joint);
-            let joint = joint.ok_or(refused)?;
-            let subtree = Subtree::<S, M>::of(&self.constants, &bodies, joint)?;
-            bodies = match motion.freedom {
-                Freedom::Turn { .. } | Freedom::Screw { .. } => subtree.set_angle(position)?,
-                Freedom::Slide => subtree.set_displacement(position)?,
-                Freedom::Ball => return Err(refused),
-            };
+        let [positions, rates]: [SVector<S, N>; 2] = [finite(positions)?, finite(rates)?];
+        let mut state = *from;
+        let begin = self.positions(&state)?;
+        let way = if is_nearest {
+            self.left(&state, &positions)?.into()
+        } else {
+            positions.zip_map(&begin, |wanted, present| wanted - present)
+        };
+        if M::JOINT_REPORT.closing.is_empty() {
+            state = self.turned(&state, &way.into());
+            if M::JOINT_REPORT.rewraps {
+                let mut bodies = self.bodies(&state);
+                M::rewrap(&self.constants, &mut bodies);
+                state = self.of_bodies(&bodies);
+            }
+            return self.with_rates(&state, rates);
         }
-        if !M::JOINT_REPORT.closing.is_empty() {
-            let projection = Projection::default();
-            assembled::<S, M>(&projection, &self.constants, *time, &mut bodies, from)?;
+        // In steps, so that what is geared to a coordinate is taken along over any number of turns.
+        let widest = self.angles(&way).into_iter().fold(S::zero(), S::max);
+        let steps = (widest * S::constant(1.0 / STRIDE)).to_f64();
+        if steps > MANY {
+            return Err(Fault::WayEnds {
+                joint: Some(self.joint(0)),
+                share: MANY / steps,
+            });
         }
-        let mut state = M::joint_state(constants, &bodies);
-        if !M::JOINT_REPORT.closing.is_empty() {
-            state = self.moved_to(&state, &positions)?;
+        let steps = 1 + steps as u32;
+        for step in 1..=steps {
+            let share = S::constant(f64::from(step) / f64::from(steps));
+            let wanted = SVector::from_fn(|row, _| way[row].fused(share, begin[row]));
+            let wanted = if step == steps { positions } else { wanted };
+            state = self.stepped(&state, &wanted)?;
         }
         self.with_rates(&state, rates)
     }
 
-    /// A state that is nearly there, moved along the constraints so that the chosen coordinates
-    /// have these values to round-off: assembly closes loops by moving all of them a little.
-    fn moved_to(
-        &self,
-        state: &M::JointState<S>,
-        positions: &[S; N],
-    ) -> Result<M::JointState<S>, Fault> {
+    /// How far angles turn (rad), of a way.
+    fn angles(&self, way: &SVector<S, N>) -> [S; N] {
+        let mut angles = [S::zero(); N];
+        let places = angles
+            .iter_mut()
+            .zip(way.iter())
+            .zip(&self.equations.places);
+        for ((angle, &way), &place) in places {
+            let freedom = motion_at::<M>(place).map(|(_, motion)| motion.freedom);
+            if !matches!(freedom, Ok(Freedom::Slide)) {
+                *angle = way.abs();
+            }
+        }
+        angles
+    }
+
+    /// A state whose chosen joints are moved by a way while the others of the tree stay.
+    fn turned(&self, state: &M::JointState<S>, way: &[S; N]) -> M::JointState<S> {
         let Equations {
             constants,
             places,
             time,
+            ..
         } = &self.equations;
-        let mut left = [S::zero(); N];
+        let mut rates = M::JointVelocities::<S>::zeros();
+        for (&place, &way) in places.iter().zip(way) {
+            set(&mut rates, place, way);
+        }
+        let mut moving = *state;
+        put_velocities::<M, S>(&rates, &mut moving);
+        let slope = M::joint_coordinate_rates(constants, *time, &moving);
+        state.plus([(S::one(), &slope)])
+    }
+
+    /// A state near another one, with loops closed and these coordinates.
+    fn stepped(
+        &self,
+        from: &M::JointState<S>,
+        wanted: &SVector<S, N>,
+    ) -> Result<M::JointState<S>, Fault> {
+        let left = self.left(from, wanted)?;
+        let before = self.bodies(from);
+        let mut bodies = self.bodies(&self.turned(from, &left));
+        let projection = Projection::default();
+        let time = self.equations.time;
+        assembled::<S, M>(&projection, &self.constants, time, &mut bodies, &before)?;
+        let state = self.of_bodies(&bodies);
+        // Assembly closes loops by moving everything a little: back to the coordinates, along the
+        // constraints.
+        let left = self.left(&state, wanted)?;
+        let partition = self.equations.partition(&state)?;
+        let mut way = state;
+        write_rates::<M, N, S>(&partition, &left, false, &mut way);
+        let way = M::joint_coordinate_rates(&self.equations.constants, time, &way);
+        Ok(state.plus([(S::one(), &way)]))
+    }
+
+    /// What is left of the way to coordinates, by the nearest turn.
+    fn left(&self, state: &M::JointState<S>, wanted: &SVector<S, N>) -> Result<[S; N], Fault> {
         let present = self.positions(state)?;
-        let pairs = positions.iter().zip(present.iter()).zip(places);
-        for (left, ((&wanted, &present), &place)) in left.iter_mut().zip(pairs) {
+        let left = wanted.zip_map(&present, |wanted, present| wanted - present);
+        let mut left: [S; N] = left.into();
+        for (left, &place) in left.iter_mut().zip(&self.equations.places) {
             let (_, motion) = motion_at::<M>(place)?;
-            *left = wanted - present;
             if matches!(motion.freedom, Freedom::Turn { .. }) {
                 let turns = (*left * S::constant(TAU.recip())).round();
                 *left = *left - turns * S::constant(TAU);
             }
         }
-        let partition = self.equations.partition(state)?;
-        let mut way = *state;
-        write_rates::<M, N, S>(&partition, &left, false, &mut way);
-        let way = M::joint_coordinate_rates(constants, *time, &way);
-        Ok(state.plus([(S::one(), &way)]))
+        Ok(left)
     }
 
     /// The same configuration with these rates (rad/s, m/s).
@@ -197,5 +256,14 @@ pub(super) fn put_velocities<M: JointRates, S: Scalar>(
 fn motion_at<M: JointRates>(rate: usize) -> Result<(usize, &'static JointMotion), Fault> {
     let motions = M::JOINT_REPORT.motions.iter().enumerate();
     let before = motions.rev().find(|(_, motion)| motion.velocity <= rate);
-    before.ok_or(Fault::NotFree { joint: "" })
+    before.ok_or(Fault::NoPosition { joint: "" })
+}
+
+/// The joint of a motion, or the body that moves freely.
+const fn name_of(motion: &JointMotion) -> &'static str {
+    if motion.joint.is_empty() {
+        motion.body
+    } else {
+        motion.joint
+    }
 }

@@ -107,8 +107,10 @@ pub trait HasJacobian: JointRates {
     /// Nine numbers for each rate: the axis of the turn, a point on it and the direction of the
     /// translation, all in global axes; zeros where there is none.
     type Axes<S: Scalar>: Array<S>;
-    /// The rates that move each body.
-    const MOVED_BY: &'static [&'static [usize]];
+    /// The rates that move each body. Beside one that only carries a ball along, the place of the
+    /// ball's first rate: it moves the ball's centre and does not turn it, because the rates of a
+    /// ball are those of its body against the ground.
+    const MOVED_BY: &'static [&'static [(usize, Option<usize>)]];
 
     /// The axes. A body that a rate moves gets from it an angular velocity along the axis `a`, and
     /// at a point `p` the velocity `a x (p - o) + s` for a point `o` on the axis and the

@@ -29,7 +29,7 @@ fn choices_are_refused_by_name() {
     let ball = refused::<HeavyTop, 3>([HeavyTop::HANDLES.tip; 3]);
     assert_eq!(
         ball.to_string(),
-        "joint `tip` has 3 motions: choose one of them by `Motion::of(tip, 0)` to `Motion::of(tip, 2)`"
+        "`tip` has 3 motions: choose one of them by `Motion::of(tip, 0)` to `Motion::of(tip, 2)`"
     );
     let h = SliderCrank::HANDLES;
     let closing = refused::<SliderCrank, 1>([h.slider_pin]);
@@ -91,7 +91,7 @@ fn a_ball_has_rates_and_no_positions() -> Result<(), Fault> {
     let state = space.of_bodies(&top.described_state()?);
     assert_eq!(
         space.positions(&state),
-        Err(Fault::NotFree { joint: "tip" })
+        Err(Fault::NoPosition { joint: "tip" })
     );
     assert!((space.rates(&state) - nalgebra::Vector3::new(0.0, 150.0, -4.61538)).norm() < 1e-12);
     let mass = space.mass(&state)?;

@@ -4,6 +4,7 @@
 
 mod choice;
 mod equilibrium;
+mod found;
 mod linear;
 mod loops;
 mod reference;

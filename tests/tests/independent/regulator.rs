@@ -8,7 +8,7 @@ mod lqr;
 
 #[test]
 fn the_gain_is_that_of_scipy() -> Result<(), holonom::Fault> {
-    let (a, b, k) = lqr::regulator()?;
+    let ((a, b), k) = (lqr::model()?, lqr::regulator()?);
     let wanted = Matrix4::new(
         1.0,
         7.007159223841821e-7,

@@ -32,8 +32,9 @@ pub struct JointRates {
     pub asked: Vec<(Asked, Kernel)>,
     /// The rows that remain: `D`, row by row; `gamma`; `Phi'`; `Phi`.
     pub rows: Kernel,
-    /// Body by body the rates that move it.
-    pub moved_by: Vec<Vec<usize>>,
+    /// Body by body the rates that move it. Beside one that only carries a ball along, whose
+    /// rotation it leaves alone, the place of that ball's first rate.
+    pub moved_by: Vec<Vec<(usize, Option<usize>)>>,
 }
 
 /// How velocities are made of the rates of joints: each of its own, and of another velocity.
@@ -271,14 +272,20 @@ impl Reduced {
     }
 }
 
-/// Body by body the rates that move it.
-fn moved_by(links: &Links) -> Vec<Vec<usize>> {
+/// Body by body the rates that move it. The rates of a ball are those of its body against the
+/// ground: what carries it moves its centre and does not turn it.
+fn moved_by(links: &Links) -> Vec<Vec<(usize, Option<usize>)>> {
     let bodies = links.bodies.iter().map(|standing| {
         let mut rates = Vec::new();
         let mut link = standing.link;
+        let mut ball = None;
         while let Some(place) = link {
             let own = &links.links[place];
-            rates.extend(own.velocity..own.velocity + own.freedom.velocities());
+            let places = own.velocity..own.velocity + own.freedom.velocities();
+            rates.extend(places.map(|place| (place, ball)));
+            if let Freedom::Ball { .. } = own.freedom {
+                ball = Some(own.velocity);
+            }
             link = own.carrier;
         }
         rates.sort_unstable();

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::joint_report::option;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
 use crate::coordinates::joint_rates::JointRates;
@@ -101,8 +102,17 @@ impl Writer<'_, JointKernels> {
             None => (quote!(Self::JointVelocities<__S>), TokenStream::new()),
         };
         let moved_by = (asked == Asked::Jacobian).then(|| {
-            let bodies = &of_joints.moved_by;
-            quote!(const MOVED_BY: &'static [&'static [usize]] = &[#(&[#(#bodies),*]),*];)
+            let bodies = of_joints.moved_by.iter().map(|rates| {
+                let rates = rates.iter().map(|&(rate, ball)| {
+                    let ball = option(ball);
+                    quote!((#rate, #ball))
+                });
+                quote!(&[#(#rates),*])
+            });
+            quote! {
+                const MOVED_BY: &'static [&'static [(usize, ::core::option::Option<usize>)]] =
+                    &[#(#bodies),*];
+            }
         });
         let unpack = Self::unpack();
         let arguments = arguments();

@@ -12,7 +12,7 @@ use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
 
 /// An index that may not be.
-fn option(index: Option<usize>) -> TokenStream {
+pub(super) fn option(index: Option<usize>) -> TokenStream {
     match index {
         Some(index) => quote!(::core::option::Option::Some(#index)),
         None => quote!(::core::option::Option::None),

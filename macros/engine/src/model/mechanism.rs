@@ -271,7 +271,8 @@ impl Model {
         &self.definitions[joint.definition]
     }
 
-    /// The body with the most joints of some bodies; names decide among equals.
+    /// The body with the most joints of some bodies. Among equals it is one that is said to be free;
+    /// then names decide.
     pub fn most_jointed(&self, bodies: impl Iterator<Item = usize>) -> Option<usize> {
         let joints = |body: usize| {
             let joints = self.joints.iter();
@@ -279,7 +280,10 @@ impl Model {
                 .filter(|joint| joint.bodies.contains(&Some(body)))
                 .count()
         };
-        bodies.min_by_key(|&body| (Reverse(joints(body)), &self.bodies[body].name))
+        bodies.min_by_key(|&place| {
+            let body = &self.bodies[place];
+            (Reverse(joints(place)), !body.free, &body.name)
+        })
     }
 
     /// Joints, then forces.
