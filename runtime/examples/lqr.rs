@@ -56,22 +56,26 @@ pub fn gain<const X: usize, const U: usize>(
     Some((r + b.transpose() * p * b).try_inverse()? * b.transpose() * p * a)
 }
 
-/// `A_d`, `B_d` of the pole upright, and the gain.
-pub fn regulator() -> Result<(Matrix4<f64>, Vector4<f64>, RowVector4<f64>), Fault> {
+/// `A_d` and `B_d` of the pole upright.
+pub fn model() -> Result<(Matrix4<f64>, Vector4<f64>), Fault> {
     let (cart_pole, h) = (CartPole::default(), CartPole::HANDLES);
     let space = cart_pole.coordinates((h.rail, h.pin))?;
     let upright = space.state([0.0, 0.0], [0.0, 0.0])?;
     let linear = space.linearise(&upright, [h.push], |_| [])?;
-    let (a, b) = to_discrete(&linear.a(), &linear.b(), PERIOD);
+    Ok(to_discrete(&linear.a(), &linear.b(), PERIOD))
+}
+
+/// The gain on displacement, angle and their rates.
+pub fn regulator() -> Result<RowVector4<f64>, Fault> {
+    let (a, b) = model()?;
     let q = Matrix4::from_diagonal(&Vector4::new(10.0, 100.0, 1.0, 1.0));
-    let k = gain(&a, &b, &q, &Matrix1::new(0.1)).expect("the cart moves the pole");
-    Ok((a, b, k))
+    Ok(gain(&a, &b, &q, &Matrix1::new(0.1)).expect("the cart moves the pole"))
 }
 
 fn main() -> Result<(), Fault> {
     let (cart_pole, h) = (CartPole::default(), CartPole::HANDLES);
     let space = cart_pole.coordinates((h.rail, h.pin))?;
-    let (.., k) = regulator()?;
+    let k = regulator()?;
     println!("gain of {:?} and their rates: {k:.3}", space.names());
     let mut state = space.state([0.0, 0.3], [0.0, 0.0])?;
     let mut stepper = Stepper::new(&cart_pole, StandardLagrange, Rk4)?;

@@ -8,6 +8,7 @@
 #[cfg_attr(target_arch = "riscv32", path = "board/riscv.rs")]
 mod board;
 pub mod reference;
+pub mod regulator;
 pub mod trials;
 
 use core::fmt::Display;
