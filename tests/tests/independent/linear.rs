@@ -243,7 +243,7 @@ fn parameters_of_a_loop() -> Result<(), Fault> {
             let x = other.view(0.0, &space.bodies(&state))?.position(h.rocker).x;
             Ok([space.forward(&state, [0.0])?[0], x])
         });
-        let [before, after] = [found[0].clone()?, found[1].clone()?];
+        let [before, after] = [found[0]?, found[1]?];
         let wanted = [0, 1].map(|k| (after[k] - before[k]) / (2.0 * step));
         let found = [linear.by_values[(0, value)], linear.d()[(0, value)]];
         for (found, wanted) in found.into_iter().zip(wanted) {

@@ -158,7 +158,7 @@ def main():
         for angle in angles:
             q, rate = mpf(angle), mpf("1.5")
             bias = diff(mass, q) * rate**2 / 2 + diff(potential, q)
-            numbers = [mp.nstr(number, 17) for number in (q, mass(q), bias)]
+            numbers = [repr(float(number)) for number in (q, mass(q), bias)]
             print(f"    [{', '.join(numbers)}],")
         print("];")
 
