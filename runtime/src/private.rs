@@ -505,6 +505,7 @@ macro_rules! __stub_joints {
                 closing: &[],
                 rows: &[],
                 kernels: &[],
+                asked: &[],
                 euler_parameters: &[],
                 counters: &[],
                 auxiliaries: 0,

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::partition::{Magnitude, Partition, at, joint_rates};
+use super::partition::{Magnitude, Partition, at, joint_rates, set};
 use super::{Equations, IndependentCoordinates};
 use crate::error::{Fault, NotFinite};
 use crate::math::scalar::{Real, Scalar};
@@ -75,6 +75,14 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
     where
         M: HasInverse,
     {
+        if M::JOINT_REPORT.closing.is_empty() {
+            let mut all = M::JointVelocities::zeros();
+            for (&place, &acceleration) in self.places.iter().zip(accelerations) {
+                set(&mut all, place, acceleration);
+            }
+            let efforts = M::inverse_dynamics(&self.constants, self.time, state, &all);
+            return Ok(self.places.map(|place| at(efforts.as_slice(), place)));
+        }
         let partition = self.partition(state)?;
         let all = partition.accelerations(accelerations);
         let efforts = M::inverse_dynamics(&self.constants, self.time, state, &all);

@@ -207,6 +207,8 @@ pub struct JointReport {
     /// What the evaluations cost, and `rates ..` without the multipliers, which is what a step
     /// takes; one alone where no equation remains.
     pub kernels: &'static [Kernel],
+    /// What the kernels cost that were asked for by `kernels = [..]`, by their words.
+    pub asked: &'static [Kernel],
     /// The places of Euler parameters among the further coordinates.
     pub euler_parameters: &'static [usize],
     /// What the auxiliary variables count, one after the other.

@@ -10,9 +10,9 @@ use nalgebra::SVector;
 struct Watt {
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
     shaft: Body,
-    #[body(mass = 2.0, inertia = [1e-9, 1e-9, 1e-9], position = [0.4, 0.0, -0.3])]
+    #[body(mass = 2.0, inertia = [1e-3, 1e-3, 1e-3], position = [0.4, 0.0, -0.3])]
     right: Body,
-    #[body(mass = 2.0, inertia = [1e-9, 1e-9, 1e-9], position = [-0.4, 0.0, -0.3])]
+    #[body(mass = 2.0, inertia = [1e-3, 1e-3, 1e-3], position = [-0.4, 0.0, -0.3])]
     left: Body,
     #[joint(between = [ground, shaft], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
     bearing: Revolute,
@@ -42,9 +42,10 @@ fn a_governor_stands_as_high_as_its_speed_says() -> Result<(), Fault> {
             );
         }
         assert!((space.rates(&steady)[0] - speed).abs() < 1e-13);
-        // Against each other, at the speed of the shaft, arms swing with `w sin(angle)`.
+        // Against each other, at the speed of the shaft, arms swing with `w sin(angle)`, but for
+        // their own inertia.
         let cosine = 9.81 / (speed * speed * 0.5);
-        let wanted = speed * (1.0 - cosine * cosine).sqrt();
+        let wanted = speed * ((1.0 - cosine * cosine) * 0.5 / 0.501).sqrt();
         let modes = space.linearise(&steady, [], |_| [])?.modes();
         let near = modes
             .iter()

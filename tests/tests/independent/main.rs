@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod choice;
+mod counts;
 mod equilibrium;
 mod found;
 mod linear;

@@ -51,14 +51,13 @@ impl Writer<'_, JointKernels> {
             text += &format!("\nEquations that remain: {rows}, of {names}.\n");
         }
         text += "\n| kernel | operations | longest chain |\n|---|---|---|\n";
-        for (name, count) in self.counts() {
+        for (name, count) in self.counts().into_iter().chain(self.asked_counts()) {
             text += &format!("| {name} | {} | {} |\n", count.total(), count.depth);
         }
         quote!(#[doc = #text])
     }
 
-    /// Name and cost of each evaluation, then of each without multipliers, if there are any, then
-    /// of what is asked for.
+    /// Name and cost of each evaluation, and then of each without multipliers, if there are any.
     fn counts(&self) -> Vec<(String, Count)> {
         let kernels = self.kernels;
         let rates = kernels.turns + kernels.rest + kernels.velocities;
@@ -75,12 +74,17 @@ impl Writer<'_, JointKernels> {
             let name = format!("rates {}", terms_name(evaluation.terms));
             (name, count(arena, &needed, Stage::State))
         });
-        let asked = kernels.joint_rates.iter().flat_map(|of| &of.asked);
+        evaluations.chain(alone).collect()
+    }
+
+    /// Word and cost of what is asked for.
+    fn asked_counts(&self) -> Vec<(String, Count)> {
+        let asked = self.kernels.joint_rates.iter().flat_map(|of| &of.asked);
         let asked = asked.map(|(asked, Kernel { arena, outputs })| {
             let name = asked.word().into();
             (name, count(arena, outputs, Stage::State))
         });
-        evaluations.chain(alone).chain(asked).collect()
+        asked.collect()
     }
 
     pub(super) fn report(&self) -> TokenStream {
@@ -120,6 +124,8 @@ impl Writer<'_, JointKernels> {
         });
         let counts = self.counts().into_iter();
         let counts = counts.map(|(name, count)| kernel(&name, count, facade));
+        let asked = self.asked_counts().into_iter();
+        let asked = asked.map(|(name, count)| kernel(&name, count, facade));
         let balls = &kernels.balls;
         let (auxiliaries, rewraps) = (kernels.auxiliaries, kernels.rewraps);
         let determines = kernels.determines;
@@ -129,6 +135,7 @@ impl Writer<'_, JointKernels> {
                 closing: &[#(#closing),*],
                 rows: &[#(#rows),*],
                 kernels: &[#(#counts),*],
+                asked: &[#(#asked),*],
                 euler_parameters: &[#(#balls),*],
                 counters: &[#(#counters),*],
                 auxiliaries: #auxiliaries,
