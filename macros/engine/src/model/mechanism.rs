@@ -271,8 +271,8 @@ impl Model {
         &self.definitions[joint.definition]
     }
 
-    /// The body with the most joints of some bodies. Among equals it is one that is said to be free;
-    /// then names decide.
+    /// The body with the most joints of some bodies. Among equals it is one that is said to be
+    /// free; then names decide.
     pub fn most_jointed(&self, bodies: impl Iterator<Item = usize>) -> Option<usize> {
         let joints = |body: usize| {
             let joints = self.joints.iter();
