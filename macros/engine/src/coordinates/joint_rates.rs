@@ -10,6 +10,7 @@
 //! the leaves, forces back. The ground accelerates against gravity, so that weights need no terms.
 //! Described forces act meanwhile: an effort is what has to be added to them.
 
+use super::algebra::scale;
 use super::frames::Frames;
 use super::freedom::Freedom;
 use super::kinematics::{Kinematics, Moving};
@@ -22,13 +23,11 @@ use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::equations::{Kernel, combinations};
 use crate::symbolic::vector::{Triple, ZERO};
 
-use super::algebra::{add, scale};
-
 /// The kernels that are asked for, and the rows.
 #[derive(Clone, Debug)]
 pub struct JointRates {
-    /// What is asked for: of the mass matrix the lower triangle row by row; efforts, one for each
-    /// rate; of each rate axis, a point on it and direction of translation.
+    /// What is asked for. Of the mass matrix it is the lower triangle row by row, of efforts one
+    /// for each rate, of Jacobians axis, a point on it and direction of translation for each rate.
     pub asked: Vec<(Asked, Kernel)>,
     /// The rows that remain: `D`, row by row; `gamma`; `Phi'`; `Phi`.
     pub rows: Kernel,
@@ -235,14 +234,8 @@ impl Reduced {
         let Self { links, scene, .. } = self;
         let arena = &mut scene.space.arena;
         let mut axes = vec![[ZERO; 3]; links.velocities];
-        let mut origins: Vec<Triple> = Vec::new();
-        for (place, link) in links.links.iter().enumerate() {
-            let offset = links.offset(arena, place);
-            let from = links.axes(link.carrier);
-            let offset = links.frames.turn(arena, offset, from, Frames::GROUND);
-            let carrier = link.carrier.map_or(ZERO, |carrier| origins[carrier]);
-            let origin = add(arena, carrier, offset);
-            origins.push(origin);
+        let origins = links.origins_in_global_axes(arena);
+        for (link, &origin) in links.links.iter().zip(&origins) {
             let global = |arena: &mut Arena, v: Triple| {
                 links.frames.turn(arena, v, link.frame, Frames::GROUND)
             };

@@ -1,6 +1,7 @@
 //! Where origins of links are against those of their carriers, and how they move.
 
 use super::algebra::{add, scale};
+use super::frames::Frames;
 use super::freedom::Freedom;
 use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr, Input};
@@ -57,6 +58,20 @@ impl Links {
             }
             Freedom::Turn { .. } | Freedom::Ball { .. } => None,
         }
+    }
+
+    /// The origins of all links, in global axes.
+    pub(super) fn origins_in_global_axes(&self, arena: &mut Arena) -> Vec<Triple> {
+        let mut origins: Vec<Triple> = Vec::new();
+        for link in 0..self.links.len() {
+            let carrier = self.links[link].carrier;
+            let offset = self.offset(arena, link);
+            let from = self.axes(carrier);
+            let offset = self.frames.turn(arena, offset, from, Frames::GROUND);
+            let carrier = carrier.map_or(ZERO, |carrier| origins[carrier]);
+            origins.push(add(arena, carrier, offset));
+        }
+        origins
     }
 
     /// The direction of a slide in the axes of a link's motion.

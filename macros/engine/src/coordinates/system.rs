@@ -18,7 +18,7 @@ use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::{clean, size, transpose};
 use crate::symbolic::motion::Gradient;
 use crate::symbolic::scene::{Chart, Scene};
-use crate::symbolic::vector::{Frame, Triple, ZERO, cross, dot};
+use crate::symbolic::vector::{Frame, ZERO, cross, dot};
 
 /// A mechanism in joint coordinates, in symbols.
 #[derive(Clone, Debug)]
@@ -506,16 +506,7 @@ impl Elimination {
 
 /// The bodies as functions of joint coordinates.
 fn charts(arena: &mut Arena, model: &Model, links: &Links, motion: &Kinematics) -> Vec<Chart> {
-    let mut origins: Vec<Triple> = Vec::new();
-    for link in 0..links.links.len() {
-        let carrier = links.links[link].carrier;
-        let offset = links.offset(arena, link);
-        let offset = links
-            .frames
-            .turn(arena, offset, links.axes(carrier), Frames::GROUND);
-        let from = carrier.map_or(ZERO, |carrier| origins[carrier]);
-        origins.push(add(arena, from, offset));
-    }
+    let origins = links.origins_in_global_axes(arena);
     let bodies = model.bodies.iter().zip(&links.bodies);
     bodies
         .map(|(body, standing)| {
