@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::degrees_of_freedom;
 use crate::error::Fault;
 use crate::mechanism::handle::{BodyHandle, JointHandle};
-use crate::mechanism::joint_kernels::{Freedom, JointCoordinates, JointMotion};
+use crate::mechanism::joint_kernels::{JointCoordinates, JointMotion};
 
 /// Something with one rate: a joint that has one motion, or one motion of a joint.
 pub trait Coordinate<M>: Copy + sealed::Sealed {
@@ -19,10 +19,10 @@ pub trait Coordinate<M>: Copy + sealed::Sealed {
 /// then the displacement, of a universal joint the angles of its axes. A free body has three
 /// displacements along the global axes, then its rotation; a free particle has the displacements.
 ///
-/// A rotation in all directions, of a spherical joint or a free body, has three rates: the angular
-/// velocity (rad/s) **of the body that it carries against the ground**, along principal axes. An
-/// effort on such a rate is a moment on that body, and not one between two. They are rates of no
-/// coordinates, so that [`IndependentCoordinates::positions`] refuses them.
+/// A rotation in all directions, of a spherical joint or a free body, has three rates. They are the
+/// angular velocity (rad/s) **of the body that it carries against the ground**, along principal
+/// axes. An effort on such a rate is a moment on that body, and not one between two. They are rates
+/// of no coordinates, so that [`IndependentCoordinates::positions`] refuses them.
 ///
 /// [`IndependentCoordinates::positions`]: super::IndependentCoordinates::positions
 pub struct Motion<M> {
@@ -125,7 +125,7 @@ impl Mover {
 
     /// How many rates it has.
     fn rates<M: JointCoordinates>(self) -> usize {
-        self.motions::<M>().map(rates_of).sum()
+        self.motions::<M>().map(|motion| motion.rates().len()).sum()
     }
 
     /// The place of a rate, by its number in the order of the definition: that of the tree, or the
@@ -133,12 +133,9 @@ impl Mover {
     fn rate<M: JointCoordinates>(self, number: usize) -> Option<usize> {
         let mut left = number;
         let mut found = |motion: &'static JointMotion| {
-            let rates = rates_of(motion);
-            if left < rates {
-                return Some(motion.velocity + left);
-            }
-            left -= rates;
-            None
+            let rate = motion.rates().nth(left);
+            left = left.saturating_sub(motion.rates().len());
+            rate
         };
         if self.is_reversed::<M>() {
             self.motions::<M>().rev().find_map(&mut found)
@@ -156,14 +153,6 @@ impl Mover {
         let bodies = M::REPORT.joints.get(index).map(|info| info.bodies);
         let first = bodies.and_then(|bodies| bodies.first().copied());
         carried.is_some() && first == Some(carried)
-    }
-}
-
-/// The rates of a motion.
-const fn rates_of(motion: &JointMotion) -> usize {
-    match motion.freedom {
-        Freedom::Ball => 3,
-        Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. } => 1,
     }
 }
 

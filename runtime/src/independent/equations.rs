@@ -12,29 +12,57 @@ use crate::mechanism::joint_rates::{
 use crate::mechanism::relative::bodies_of;
 use crate::state::vector::Array;
 
-impl<M: JointRates, const N: usize, S: Scalar> Partition<M, N, S> {
-    /// `B z' + b`.
-    pub(super) fn accelerations(&self, chosen: &[S; N]) -> M::JointVelocities<S> {
-        let mut all = self.bias;
-        for (column, &chosen) in self.columns.iter().zip(chosen) {
+impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
+    /// How what is not chosen follows; `None` in a tree, where everything is chosen.
+    fn following(&self, state: &M::JointState<S>) -> Result<Option<Partition<M, N, S>>, Fault> {
+        if M::JOINT_REPORT.closing.is_empty() {
+            return Ok(None);
+        }
+        self.partition(state).map(Some)
+    }
+
+    /// The accelerations of all joints, `B z' + b`.
+    fn accelerations(
+        &self,
+        following: Option<&Partition<M, N, S>>,
+        chosen: &[S; N],
+    ) -> M::JointVelocities<S> {
+        let Some(partition) = following else {
+            let mut all = M::JointVelocities::zeros();
+            for (&place, &acceleration) in self.places.iter().zip(chosen) {
+                set(&mut all, place, acceleration);
+            }
+            return all;
+        };
+        let mut all = partition.bias;
+        for (column, &chosen) in partition.columns.iter().zip(chosen) {
             let places = all.as_mut_slice().iter_mut().zip(column.as_slice());
             places.for_each(|(place, &entry)| *place = entry.fused(chosen, *place));
         }
         all
     }
 
-    /// `B^T f`.
-    fn efforts(&self, all: &M::JointVelocities<S>) -> [S; N] {
-        self.columns.map(|column| {
+    /// The efforts along the chosen coordinates, `B^T f`.
+    fn efforts(
+        &self,
+        following: Option<&Partition<M, N, S>>,
+        all: &M::JointVelocities<S>,
+    ) -> [S; N] {
+        let Some(partition) = following else {
+            return self.places.map(|place| at(all.as_slice(), place));
+        };
+        partition.columns.map(|column| {
             let products = column.as_slice().iter().zip(all.as_slice());
             products.fold(S::zero(), |sum, (&entry, &effort)| entry.fused(effort, sum))
         })
     }
-}
 
-impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
     /// `B^T M B`.
-    pub(super) fn mass(&self, state: &M::JointState<S>) -> Result<[[S; N]; N], Fault>
+    fn mass_with(
+        &self,
+        following: Option<&Partition<M, N, S>>,
+        state: &M::JointState<S>,
+    ) -> [[S; N]; N]
     where
         M: HasMassMatrix,
     {
@@ -44,49 +72,46 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             let (row, column) = (row.max(column), row.min(column));
             at(lower, row * (row + 1) / 2 + column)
         };
-        let mut mass = [[S::zero(); N]; N];
-        if M::JOINT_REPORT.closing.is_empty() {
-            for (row, &place) in mass.iter_mut().zip(&self.places) {
-                *row = self.places.map(|other| entry(place, other));
-            }
-            return Ok(mass);
-        }
-        let partition = self.partition(state)?;
-        for (row, of_row) in mass.iter_mut().zip(&partition.columns) {
-            // `M B`, one column of it.
+        let Some(partition) = following else {
+            return self
+                .places
+                .map(|place| self.places.map(|other| entry(place, other)));
+        };
+        partition.columns.map(|rates| {
+            // The momenta of unit rates.
             let mut momenta = M::JointVelocities::<S>::zeros();
             for (place, momentum) in momenta.as_mut_slice().iter_mut().enumerate() {
-                let rates = of_row.as_slice().iter().enumerate();
+                let rates = rates.as_slice().iter().enumerate();
                 *momentum = rates.fold(S::zero(), |sum, (other, &rate)| {
                     entry(place, other).fused(rate, sum)
                 });
             }
-            *row = partition.efforts(&momenta);
-        }
-        Ok(mass)
+            self.efforts(following, &momenta)
+        })
     }
 
     /// The efforts of these accelerations.
-    pub(super) fn inverse(
+    fn inverse_with(
         &self,
+        following: Option<&Partition<M, N, S>>,
         state: &M::JointState<S>,
         accelerations: &[S; N],
-    ) -> Result<[S; N], Fault>
+    ) -> [S; N]
     where
         M: HasInverse,
     {
-        if M::JOINT_REPORT.closing.is_empty() {
-            let mut all = M::JointVelocities::zeros();
-            for (&place, &acceleration) in self.places.iter().zip(accelerations) {
-                set(&mut all, place, acceleration);
-            }
-            let efforts = M::inverse_dynamics(&self.constants, self.time, state, &all);
-            return Ok(self.places.map(|place| at(efforts.as_slice(), place)));
-        }
-        let partition = self.partition(state)?;
-        let all = partition.accelerations(accelerations);
+        let all = self.accelerations(following, accelerations);
         let efforts = M::inverse_dynamics(&self.constants, self.time, state, &all);
-        Ok(partition.efforts(&efforts))
+        self.efforts(following, &efforts)
+    }
+
+    /// The mass matrix.
+    pub(super) fn mass(&self, state: &M::JointState<S>) -> Result<[[S; N]; N], Fault>
+    where
+        M: HasMassMatrix,
+    {
+        let following = self.following(state)?;
+        Ok(self.mass_with(following.as_ref(), state))
     }
 
     /// The accelerations of these efforts, by `L D L^T` of the mass matrix.
@@ -98,8 +123,9 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
     where
         M: HasInverse + HasMassMatrix,
     {
-        let mass = self.mass(state)?;
-        let bias = self.inverse(state, &[S::zero(); N])?;
+        let following = self.following(state)?;
+        let mass = self.mass_with(following.as_ref(), state);
+        let bias = self.inverse_with(following.as_ref(), state, &[S::zero(); N]);
         let mut right = *efforts;
         for (right, bias) in right.iter_mut().zip(bias) {
             *right = *right - bias;
@@ -140,7 +166,7 @@ pub(super) fn solve<S: Scalar, const N: usize>(mut matrix: [[S; N]; N], right: [
     solution
 }
 
-impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<M, N, S> {
+impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The mass matrix `M(q)`, symmetric and positive definite: kg m^2 between angles, kg between
     /// displacements, kg m between the two.
     ///
@@ -151,7 +177,7 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         M: HasMassMatrix,
     {
         let rows = self.equations.mass(state)?;
-        Ok(SMatrix::from_fn(|row, column| rows[row][column]))
+        finite_matrix(SMatrix::from_fn(|row, column| rows[row][column]))
     }
 
     /// Inverse dynamics: the efforts that have to act along the coordinates, beside the described
@@ -168,8 +194,9 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         M: HasInverse,
     {
         let accelerations: [S; N] = accelerations.into().into();
-        let efforts = self.equations.inverse(state, &accelerations)?;
-        finite(efforts)
+        let equations = &self.equations;
+        let following = equations.following(state)?;
+        finite(equations.inverse_with(following.as_ref(), state, &accelerations))
     }
 
     /// `h(q, v)`: [`IndependentCoordinates::inverse`] without accelerations. What velocities and
@@ -192,12 +219,10 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
     where
         M: HasGravity,
     {
-        let Equations {
-            constants, time, ..
-        } = &self.equations;
-        let partition = self.equations.partition(state)?;
-        let efforts = M::gravity_efforts(constants, *time, state);
-        finite(partition.efforts(&efforts))
+        let equations = &self.equations;
+        let following = equations.following(state)?;
+        let efforts = M::gravity_efforts(&equations.constants, equations.time, state);
+        finite(equations.efforts(following.as_ref(), &efforts))
     }
 
     /// The efforts that velocities take without accelerations of the coordinates: centrifugal,
@@ -210,12 +235,11 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
     where
         M: HasCoriolis,
     {
-        let Equations {
-            constants, time, ..
-        } = &self.equations;
-        let partition = self.equations.partition(state)?;
-        let efforts = M::coriolis_efforts(constants, *time, state, &partition.bias);
-        finite(partition.efforts(&efforts))
+        let equations = &self.equations;
+        let following = equations.following(state)?;
+        let all = equations.accelerations(following.as_ref(), &[S::zero(); N]);
+        let efforts = M::coriolis_efforts(&equations.constants, equations.time, state, &all);
+        finite(equations.efforts(following.as_ref(), &efforts))
     }
 
     /// Forward dynamics: the accelerations (rad/s^2, m/s^2) under these efforts along the
@@ -260,8 +284,15 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
 
 /// Numbers that may go on.
 pub(super) fn finite<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Fault> {
-    if numbers.iter().all(|number| number.is_finite()) {
-        Ok(SVector::from(numbers))
+    finite_matrix(SVector::from(numbers))
+}
+
+/// The same of a matrix.
+pub(super) fn finite_matrix<S: Real, const R: usize, const C: usize>(
+    matrix: SMatrix<S, R, C>,
+) -> Result<SMatrix<S, R, C>, Fault> {
+    if matrix.iter().all(|number| number.is_finite()) {
+        Ok(matrix)
     } else {
         Err(Fault::RatesNotFinite {
             origin: NotFinite::Unknown,

@@ -2,12 +2,12 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::partition::Magnitude;
 use super::states::write_rates;
 use super::{Equations, IndependentCoordinates};
 use crate::constraints::projection::Projection;
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
 use crate::mechanism::relative::bodies_of;
 use crate::state::vector::Vector as _;
@@ -19,10 +19,13 @@ const HALVINGS: usize = 12;
 /// Steps along the accelerations, where Newton's lead nowhere.
 const FALLS: usize = 25;
 
+/// A state, and the accelerations there.
+type Reached<M, const N: usize, S> = (<M as JointCoordinates>::JointState<S>, SVector<S, N>);
+
 impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
 where
     M: HasInverse + HasMassMatrix,
-    S: Real + Magnitude,
+    S: Real,
 {
     /// The equilibrium near a state: the positions in which the coordinates do not accelerate under
     /// the described forces, with the rates that they have in `guess`. These are zero for a
@@ -30,7 +33,7 @@ where
     /// have one: then the motion is steady.
     ///
     /// By Newton's method on exact derivatives, in steps of at most a radian or a length of the
-    /// mechanism; where that does not lead on, a step down along the accelerations. Which
+    /// mechanism. Where that does not lead on, it steps down along the accelerations. Which
     /// equilibrium is found, where there are several, depends on the guess: near one it is that,
     /// from afar rather one below. Whether it is stable is told by
     /// [`Linearised::modes`](super::Linearised::modes).
@@ -63,8 +66,6 @@ where
     /// [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2); what
     /// [`IndependentCoordinates::linearise`] refuses.
     pub fn equilibrium(&self, guess: &M::JointState<S>) -> Result<M::JointState<S>, Fault> {
-        /// The length of such a step (rad, lengths of the mechanism).
-        const FALL: f64 = 0.2;
         let rates = self.rates(guess);
         let scales = self.scales();
         let tolerance = S::EPSILON.powf(0.75);
@@ -95,35 +96,21 @@ where
                 share = widest.reciprocal();
             }
             // From afar rather down than up.
+            let may_fall = falls < FALLS;
             let is_up = widest > S::one() && self.power(&state, &left, &way)? < S::zero();
             let mut found = None;
-            for _ in 0..if is_up && falls < FALLS { 0 } else { HALVINGS } {
-                let step = way.map(|way| way * share);
-                if let Ok(next) = self.displaced(&state, &step, &rates)
-                    && let Ok(there) = self.accelerations(&next)
-                    && square(&there, &rows) < before * (S::one() - share * S::constant(1e-4))
-                {
-                    found = Some((next, there));
-                    break;
-                }
-                share = share * S::constant(0.5);
+            if !(is_up && may_fall) {
+                found = self.halved(&state, (&way, share), &rates, |there, share| {
+                    square(there, &rows) < before * (S::one() - share * S::constant(1e-4))
+                });
             }
-            if found.is_none() && falls < FALLS {
+            if found.is_none() && may_fall {
                 falls += 1;
-                let mut down: [S; N] = left.into();
-                for (down, scale) in down.iter_mut().zip(&scales) {
-                    *down = *down * *scale;
-                }
-                let longest = longest(&down, &scales);
-                let step = down.map(|down| (down * S::constant(FALL)).quotient(longest));
-                if longest > S::zero()
-                    && let Ok(next) = self.displaced(&state, &step, &rates)
-                    && let Ok(there) = self.accelerations(&next)
-                {
-                    found = Some((next, there));
-                }
+                found = self.fallen(&state, &left, &rates);
             }
             let Some(next) = found else {
+                // The cause, where something moves that should not.
+                self.steady(&state, &slopes, &rates)?;
                 return Err(not_converged(taken, &left));
             };
             (state, left) = next;
@@ -133,6 +120,61 @@ where
 
     fn accelerations(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault> {
         self.forward(state, [S::zero(); N])
+    }
+
+    /// A share of a way, halved until what is wanted of the accelerations holds there.
+    fn halved(
+        &self,
+        state: &M::JointState<S>,
+        (way, mut share): (&[S; N], S),
+        rates: &SVector<S, N>,
+        is_wanted: impl Fn(&SVector<S, N>, S) -> bool,
+    ) -> Option<Reached<M, N, S>> {
+        for _ in 0..HALVINGS {
+            let step = way.map(|way| way * share);
+            let next = self.reached(state, &step, rates);
+            if let Some((_, there)) = &next
+                && is_wanted(there, share)
+            {
+                return next;
+            }
+            share = share * S::constant(0.5);
+        }
+        None
+    }
+
+    /// A step along the accelerations.
+    fn fallen(
+        &self,
+        state: &M::JointState<S>,
+        left: &SVector<S, N>,
+        rates: &SVector<S, N>,
+    ) -> Option<Reached<M, N, S>> {
+        /// Its length (rad, lengths of the mechanism).
+        const FALL: f64 = 0.2;
+        let scales = self.scales();
+        let mut down: [S; N] = (*left).into();
+        for (down, &scale) in down.iter_mut().zip(&scales) {
+            *down = *down * scale;
+        }
+        let longest = longest(&down, &scales);
+        if longest <= S::zero() {
+            return None;
+        }
+        let step = down.map(|down| (down * S::constant(FALL)).quotient(longest));
+        self.reached(state, &step, rates)
+    }
+
+    /// The state at the end of a way, and the accelerations there.
+    fn reached(
+        &self,
+        state: &M::JointState<S>,
+        way: &[S; N],
+        rates: &SVector<S, N>,
+    ) -> Option<Reached<M, N, S>> {
+        let next = self.displaced(state, way, rates).ok()?;
+        let there = self.accelerations(&next).ok()?;
+        Some((next, there))
     }
 
     /// The work that the forces of these accelerations would do on a way.

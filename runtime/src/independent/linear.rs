@@ -4,21 +4,20 @@ use nalgebra::SMatrix;
 
 use super::equations::solve;
 use super::linearised::Linearised;
-use super::partition::{Magnitude, Partition, at, joint_rates, set};
-use super::points::{motions_of, moved};
+use super::partition::{Partition, at, joint_rates, set};
+use super::points::moved;
 use super::states::{put_velocities, write_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::error::{Fault, NotFinite};
 use crate::forward::{Forward, Lifted, lifted};
 use crate::math::quaternion::product;
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{cross, read, write};
+use crate::math::vec3::{cross, read};
 use crate::measure::view::View;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
-use crate::mechanism::relative::bodies_of;
-use crate::mechanism::report::BodyKind;
+use crate::mechanism::relative::{bodies_by, bodies_of};
 use crate::state::vector::{Array, StateParts};
 
 /// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
@@ -38,7 +37,7 @@ enum Direction {
 impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
 where
     M: HasInverse + HasMassMatrix,
-    S: Real + Magnitude,
+    S: Real,
 {
     /// The equations of motion and some readings, linear about a state, which may move: how
     /// accelerations and readings change with coordinates, rates and the `values`, parameters or
@@ -90,10 +89,10 @@ where
         values: [ValueHandle<M>; K],
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Linearised<N, K, P, S>, Fault> {
-        let mut linear = Linearised::zeros();
+        let mut linear = Linearised::<N, K, P, S>::zeros();
         let partition = self.equations.partition(state)?;
         let rates = joint_rates::<M, S>(state);
-        linear.rates = SMatrix::from_fn(|row, column| {
+        linear.rates_by_positions = SMatrix::from_fn(|row, column| {
             let place = self.equations.places.get(row).copied().unwrap_or(0);
             let column = partition.columns.get(column);
             column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
@@ -110,39 +109,29 @@ where
                 let slope = |number: &Lifted<S>| {
                     number.derivatives().get(lane).copied().unwrap_or(S::zero())
                 };
-                let (of_accelerations, of_readings, column) = match direction {
-                    Direction::Position(column) => (
-                        &mut linear.by_positions,
-                        &mut linear.readings_by_positions,
-                        column,
-                    ),
+                let accelerations = accelerations.each_ref().map(slope);
+                let readings = readings.each_ref().map(slope);
+                match direction {
+                    Direction::Position(column) => {
+                        put(&mut linear.by_positions, column, accelerations);
+                        put(&mut linear.readings_by_positions, column, readings);
+                    }
                     Direction::Rate(column) => {
-                        (&mut linear.by_rates, &mut linear.readings_by_rates, column)
+                        put(&mut linear.by_rates, column, accelerations);
+                        put(&mut linear.readings_by_rates, column, readings);
                     }
                     Direction::Value(column) => {
-                        for (row, number) in accelerations.iter().enumerate() {
-                            put(&mut linear.by_values, row, column, slope(number));
-                        }
-                        for (row, number) in readings.iter().enumerate() {
-                            put(&mut linear.readings_by_values, row, column, slope(number));
-                        }
-                        continue;
+                        put(&mut linear.by_values, column, accelerations);
+                        put(&mut linear.readings_by_values, column, readings);
                     }
-                };
-                for (row, number) in accelerations.iter().enumerate() {
-                    put(of_accelerations, row, column, slope(number));
-                }
-                for (row, number) in readings.iter().enumerate() {
-                    put(of_readings, row, column, slope(number));
                 }
             }
         }
         let mass = self.equations.mass(state)?;
         for column in 0..N {
             let unit = core::array::from_fn(|row| S::constant(f64::from(u8::from(row == column))));
-            for (row, acceleration) in solve(mass, unit).into_iter().enumerate() {
-                put(&mut linear.by_efforts, row, column, acceleration);
-            }
+            let accelerations = solve(mass, unit);
+            put(&mut linear.by_efforts, column, accelerations);
         }
         if linear.is_finite() {
             Ok(linear)
@@ -224,49 +213,11 @@ where
     ) -> M::State<Lifted<S>> {
         let known = bodies_of::<S, M>(&self.equations.constants, here);
         let motions = M::body_motions(&equations.constants, there);
-        let motions = motions.as_slice();
-        let mut bodies = <M::State<Lifted<S>> as StateParts<Lifted<S>>>::from_parts(
-            Array::zeros(),
-            Array::zeros(),
-        );
-        let mut place = 0;
-        for body in M::REPORT.bodies {
-            let linear = [0, 3].map(|part| read_3(motions, place + part));
-            let [position, velocity] = linear;
-            write(
-                bodies.coordinates_mut().as_mut_slice(),
-                body.coordinate,
-                position,
-            );
-            write(
-                bodies.velocities_mut().as_mut_slice(),
-                body.velocity,
-                velocity,
-            );
-            if body.kind == BodyKind::Rigid {
-                let rows = [6, 9, 12].map(|row| read_3(motions, place + row));
-                let p: [S; 4] = read(known.coordinates().as_slice(), body.coordinate + 3);
-                let p = orientation_along(&p, &rows);
-                write(
-                    bodies.coordinates_mut().as_mut_slice(),
-                    body.coordinate + 3,
-                    p,
-                );
-                let spin = read_3(motions, place + 15);
-                write(
-                    bodies.velocities_mut().as_mut_slice(),
-                    body.velocity + 3,
-                    spin,
-                );
-            }
-            place += motions_of(body.kind);
-        }
-        for auxiliary in 0..M::REPORT.auxiliaries {
-            let [value] = read::<Lifted<S>, 1>(motions, place + auxiliary);
-            let coordinates = bodies.coordinates_mut().as_mut_slice();
-            write(coordinates, M::REPORT.coordinates + auxiliary, [value]);
-        }
-        bodies
+        bodies_by::<Lifted<S>, M>(&motions, |body, rows| {
+            let info = M::REPORT.bodies.get(body);
+            let place = info.map_or(usize::MAX, |info| info.coordinate.saturating_add(3));
+            orientation_along(&read(known.coordinates().as_slice(), place), rows)
+        })
     }
 }
 
@@ -280,18 +231,16 @@ fn vary<S: Scalar>(number: Option<&mut Lifted<S>>, lane: usize) {
     *number = Forward::new(number.value(), slopes);
 }
 
-fn read_3<S: Scalar>(numbers: &[S], place: usize) -> [S; 3] {
-    read(numbers, place)
-}
-
+/// Writes a column, without a place where it could panic.
 fn put<S, const R: usize, const C: usize>(
     matrix: &mut SMatrix<S, R, C>,
-    row: usize,
     column: usize,
-    value: S,
+    values: [S; R],
 ) {
-    if let Some(entry) = matrix.get_mut((row, column)) {
-        *entry = value;
+    for (row, value) in values.into_iter().enumerate() {
+        if let Some(entry) = matrix.get_mut((row, column)) {
+            *entry = value;
+        }
     }
 }
 
@@ -332,12 +281,11 @@ fn turned<M: JointRates, S: Scalar>(
     rates: &M::JointVelocities<S>,
     turn: &M::JointVelocities<S>,
 ) -> S {
-    let motions = M::JOINT_REPORT.motions.iter();
-    let mut balls = motions.filter(|motion| motion.freedom == Freedom::Ball);
-    let ball = balls.find(|motion| (motion.velocity..motion.velocity + 3).contains(&place));
-    let Some(ball) = ball else { return S::zero() };
-    let w = read_3(rates.as_slice(), ball.velocity);
-    let turn = read_3(turn.as_slice(), ball.velocity);
+    let motion = M::JOINT_REPORT.motion_of_rate(place);
+    let Some((_, ball)) = motion.filter(|(_, motion)| motion.freedom == Freedom::Ball) else {
+        return S::zero();
+    };
+    let [w, turn]: [[S; 3]; 2] = [rates, turn].map(|rates| read(rates.as_slice(), ball.velocity));
     let [x, y, z] = cross(&turn, &w);
     match place - ball.velocity {
         0 => x,

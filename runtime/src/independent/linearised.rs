@@ -19,8 +19,9 @@ use crate::math::scalar::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Linearised<const N: usize, const K: usize, const P: usize, S = f64> {
-    /// What the motion does to coordinates by themselves: zero but for balls that turn.
-    pub rates: SMatrix<S, N, N>,
+    /// Rates of coordinates by coordinates: zero but for balls that turn, whose small turns are
+    /// carried round.
+    pub rates_by_positions: SMatrix<S, N, N>,
     /// Accelerations by coordinates.
     pub by_positions: SMatrix<S, N, N>,
     /// Accelerations by rates.
@@ -40,7 +41,7 @@ pub struct Linearised<const N: usize, const K: usize, const P: usize, S = f64> {
 impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P, S> {
     pub(super) fn zeros() -> Self {
         Self {
-            rates: SMatrix::from_element(S::zero()),
+            rates_by_positions: SMatrix::from_element(S::zero()),
             by_positions: SMatrix::from_element(S::zero()),
             by_rates: SMatrix::from_element(S::zero()),
             by_values: SMatrix::from_element(S::zero()),
@@ -52,7 +53,7 @@ impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P
     }
 
     pub(super) fn is_finite(&self) -> bool {
-        let square = self.rates.iter().chain(&self.by_positions);
+        let square = self.rates_by_positions.iter().chain(&self.by_positions);
         let square = square.chain(&self.by_rates).chain(&self.by_efforts);
         let readings = self.readings_by_positions.iter();
         let readings = readings.chain(&self.readings_by_rates);
@@ -70,7 +71,7 @@ impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P
     /// An entry of `A`.
     pub(super) fn of_a(&self, row: usize, column: usize) -> S {
         match (row < N, column < N) {
-            (true, true) => self.rates[(row, column)],
+            (true, true) => self.rates_by_positions[(row, column)],
             (true, false) if column == row + N => S::one(),
             (true, false) => S::zero(),
             (false, true) => self.by_positions[(row - N, column)],

@@ -1,11 +1,14 @@
 //! The equations of motion in coordinates that are chosen by handle: as many joints as there are
 //! degrees of freedom, and everything else follows.
 //!
-//! `choice.rs` says what can be chosen. `partition.rs` finds the other rates from the equations
-//! that close loops (Wehage and Haug 1982: coordinate partitioning; Flores, chapter 15, calls them
-//! dependent coordinates). `equations.rs` has mass matrix and efforts, `points.rs` Jacobians,
-//! `states.rs` the way to states and back, `linear.rs` linearisation, whose result is in
-//! `linearised.rs`, `modes.rs` its natural motions, `equilibrium.rs` states without accelerations.
+//! - `choice.rs`: what can be chosen.
+//! - `partition.rs`: the other rates, from the equations that close loops (coordinate partitioning,
+//!   Wehage and Haug 1982).
+//! - `equations.rs`: mass matrix and efforts. `points.rs`: Jacobians. `states.rs`: the way to
+//!   states and back.
+//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
+//!   `equilibrium.rs`: states without accelerations.
+//!
 //! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
 //! Chosen rates `z` give those of all joints: `w = B z + d`, with `D B = 0` and `D d = -dPhi/dt`.
@@ -29,7 +32,6 @@ pub use choice::{Chosen, Coordinate, Motion};
 pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;
-pub use partition::Magnitude;
 
 use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;
@@ -41,7 +43,7 @@ use crate::mechanism::kernels::Mechanism;
 /// [`IndependentExt::coordinates`].
 ///
 /// States are those of joint coordinates. Rates are read as [`View`](crate::View) reads them: rad/s
-/// for an angle, m/s for a displacement, with the sign of the joint; efforts are N m and N,
+/// for an angle, m/s for a displacement, with the sign of the joint. Efforts are N m and N,
 /// positive where they push the coordinate upwards.
 ///
 /// In a mechanism with loops the coordinates that are not chosen follow. Where they do not, because
@@ -105,10 +107,11 @@ pub trait IndependentExt: JointRates {
     /// ```
     ///
     /// # Errors
-    /// [`Fault::ChosenCount`] for more or fewer than there are degrees of freedom;
-    /// [`Fault::SeveralMotions`] for a joint that has more than one; [`Fault::CarriesNothing`] for
-    /// one that closes a loop or drives; [`Fault::ChosenTwice`]; a parameter that is not
-    /// acceptable.
+    /// - [`Fault::ChosenCount`]: more or fewer than there are degrees of freedom.
+    /// - [`Fault::SeveralMotions`]: a joint that has more than one.
+    /// - [`Fault::CarriesNothing`]: a joint that closes a loop or drives. [`Fault::Carried`]: a
+    ///   body that a joint carries.
+    /// - [`Fault::ChosenTwice`]; a parameter that is not acceptable.
     fn coordinates<const N: usize>(
         &self,
         chosen: impl Chosen<Self, N>,
@@ -158,8 +161,8 @@ impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
 
     /// The joint, or the free body, of a chosen coordinate.
     fn joint(&self, number: usize) -> &'static str {
-        let place = self.equations.places.get(number).copied();
-        partition::joint_of_rate(M::JOINT_REPORT.motions, place.unwrap_or(0))
+        let place = self.equations.places.get(number);
+        place.map_or("", |&place| M::JOINT_REPORT.mover_of_rate(place))
     }
 
     /// The joints of the coordinates, in their order.

@@ -3,38 +3,34 @@
 use super::Equations;
 use crate::error::Fault;
 use crate::forward::Forward;
-use crate::math::scalar::Scalar;
-use crate::mechanism::joint_kernels::{Freedom, JointMotion};
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::JointRates;
 use crate::state::vector::Array;
 
-/// A scalar by whose value pivots are chosen, whatever derivatives it carries.
-pub trait Magnitude: Scalar {
-    #[doc(hidden)]
-    const ROUND_OFF: f64;
+/// A number by whose size pivots are chosen: a real one, or one that carries derivatives.
+pub(super) trait Magnitude: Scalar {
+    /// The distance from 1 to the next larger number.
+    fn round_off() -> f64;
 
-    #[doc(hidden)]
+    /// The absolute value.
     fn magnitude(self) -> f64;
 }
 
-impl Magnitude for f64 {
-    const ROUND_OFF: f64 = Self::EPSILON;
+impl<S: Real> Magnitude for S {
+    fn round_off() -> f64 {
+        S::EPSILON.to_f64()
+    }
 
     fn magnitude(self) -> f64 {
-        self.abs()
+        self.abs().to_f64()
     }
 }
 
-impl Magnitude for f32 {
-    const ROUND_OFF: f64 = Self::EPSILON as f64;
-
-    fn magnitude(self) -> f64 {
-        f64::from(self.abs())
+impl<S: Real, const K: usize> Magnitude for Forward<S, K> {
+    fn round_off() -> f64 {
+        S::round_off()
     }
-}
-
-impl<S: Magnitude, const K: usize> Magnitude for Forward<S, K> {
-    const ROUND_OFF: f64 = S::ROUND_OFF;
 
     fn magnitude(self) -> f64 {
         self.value().magnitude()
@@ -56,10 +52,9 @@ pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
 impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
     /// What a rate compares by with others: one, or a length of the mechanism.
     pub(super) fn scale(&self, rate: usize) -> S {
-        if is_displacement::<M>(rate) {
-            self.length
-        } else {
-            S::one()
+        match M::JOINT_REPORT.motion_of_rate(rate) {
+            Some((_, motion)) if motion.freedom == Freedom::Slide => self.length,
+            _ => S::one(),
         }
     }
 
@@ -133,7 +128,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             }
             let (pivot, row, column) = best;
             // Below, more than half of the digits would be lost.
-            if pivot <= S::ROUND_OFF.sqrt() {
+            if pivot <= S::round_off().sqrt() {
                 break;
             }
             set(&mut is_taken, row, S::one());
@@ -163,7 +158,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             let row = at(row_of.as_slice(), column).magnitude() as usize;
             let Some(row) = row.checked_sub(1) else {
                 return Err(Fault::NotDetermined {
-                    joint: joint_of_rate(M::JOINT_REPORT.motions, column),
+                    joint: M::JOINT_REPORT.mover_of_rate(column),
                 });
             };
             let inverse = at(entries, row * width + column).reciprocal();
@@ -189,9 +184,9 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             let size = at(sizes.as_slice(), row).magnitude();
             for &place in &self.places {
                 let left = (at(entries, row * width + place) * scale(place)).magnitude();
-                if left > S::ROUND_OFF.sqrt() * size {
+                if left > S::round_off().sqrt() * size {
                     return Err(Fault::NotIndependent {
-                        joint: joint_of_rate(M::JOINT_REPORT.motions, place),
+                        joint: M::JOINT_REPORT.mover_of_rate(place),
                     });
                 }
             }
@@ -245,25 +240,6 @@ pub(super) fn velocities<M: JointRates, S: Scalar>(
         }
     }
     velocities
-}
-
-/// Whether a rate is that of a displacement.
-fn is_displacement<M: JointRates>(rate: usize) -> bool {
-    let mut motions = M::JOINT_REPORT.motions.iter();
-    let own = motions.find(|motion| motion.velocity == rate);
-    own.is_some_and(|motion| motion.freedom == Freedom::Slide)
-}
-
-/// The joint, or the body that moves freely, of a rate.
-pub(super) fn joint_of_rate(motions: &'static [JointMotion], rate: usize) -> &'static str {
-    let before = motions.iter().rev().find(|motion| motion.velocity <= rate);
-    before.map_or("", |motion| {
-        if motion.joint.is_empty() {
-            motion.body
-        } else {
-            motion.joint
-        }
-    })
 }
 
 /// An element; zero where there is none.

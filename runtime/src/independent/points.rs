@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, Vector3};
 
-use super::equations::solve;
+use super::equations::{finite_matrix, solve};
 use super::partition::{Magnitude, at};
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
@@ -12,6 +12,7 @@ use crate::math::vec3::{cross, minus, plus, read, times};
 use crate::mechanism::joint_rates::{HasJacobian, HasMassMatrix, JointRates};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::{Located, Place};
+use crate::mechanism::relative::each_body;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, MovingState, Vector};
 
@@ -45,29 +46,20 @@ impl<S: Scalar> Fixed<S> {
 }
 
 /// Where a point of a body is (m, global), by the motions of the bodies.
-fn position<S: Scalar, M: Mechanism>(motions: &[S], body: usize, arm: &[S; 3]) -> [S; 3] {
-    let before = M::REPORT.bodies.iter().take(body);
-    let place = before.fold(0, |place, info| place + motions_of(info.kind));
-    let centre: [S; 3] = read(motions, place);
-    match M::REPORT.bodies.get(body).map(|info| info.kind) {
-        Some(BodyKind::Rigid) => {
-            let rows = [6, 9, 12].map(|row| read::<S, 3>(motions, place + row));
-            let turned = rows.map(|[x, y, z]| {
-                let [a, b, c] = *arm;
-                x.fused(a, y.fused(b, z * c))
+fn position<S: Scalar, M: JointRates>(motions: &[S], body: usize, arm: &[S; 3]) -> [S; 3] {
+    let mut found = [S::zero(); 3];
+    each_body::<S, M>(motions, |number, _, motion| {
+        if number == body {
+            let turned = motion.rotation.map_or(*arm, |(rows, _)| {
+                rows.map(|[x, y, z]| {
+                    let [a, b, c] = *arm;
+                    x.fused(a, y.fused(b, z * c))
+                })
             });
-            plus(&centre, &turned)
+            found = plus(&motion.position, &turned);
         }
-        _ => plus(&centre, arm),
-    }
-}
-
-/// How many numbers tell the motion of a body.
-pub(super) const fn motions_of(kind: BodyKind) -> usize {
-    match kind {
-        BodyKind::Rigid => 18,
-        BodyKind::Particle => 6,
-    }
+    });
+    found
 }
 
 impl<M: HasJacobian, const N: usize, S: Magnitude> Equations<M, N, S> {
@@ -138,10 +130,10 @@ pub(super) fn moved<M: JointRates, S: Scalar, const K: usize>(
     here.plus([(Forward::one(), &direction)])
 }
 
-impl<M: HasJacobian, const N: usize, S: Real + Magnitude> IndependentCoordinates<M, N, S> {
-    /// The Jacobian of a body's centre of mass or of a named point: its velocity (m/s, global) in
-    /// rows 0 to 2, the angular velocity of its body (rad/s, global) in rows 3 to 5, for unit rates
-    /// of the coordinates.
+impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
+    /// The Jacobian of a body's centre of mass or of a named point, for unit rates of the
+    /// coordinates. Rows 0 to 2 are its velocity (m/s, global), rows 3 to 5 the angular velocity of
+    /// its body (rad/s, global).
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`].
@@ -152,7 +144,7 @@ impl<M: HasJacobian, const N: usize, S: Real + Magnitude> IndependentCoordinates
     ) -> Result<SMatrix<S, 6, N>, Fault> {
         let point = Fixed::of::<M>(&self.constants, at);
         let columns = self.equations.jacobian(state, &point)?;
-        Ok(SMatrix::from_fn(|row, column| columns[column][row]))
+        finite_matrix(SMatrix::from_fn(|row, column| columns[column][row]))
     }
 
     /// The rate of the Jacobian in the motion of the state: the point's acceleration (m/s^2) and
@@ -174,15 +166,15 @@ impl<M: HasJacobian, const N: usize, S: Real + Magnitude> IndependentCoordinates
         equations.time = Forward::new(*time, [S::one()]);
         let point = Fixed::of::<M>(&self.constants, at).lifted();
         let columns = equations.jacobian(&moved, &point)?;
-        Ok(SMatrix::from_fn(|row, column| {
+        finite_matrix(SMatrix::from_fn(|row, column| {
             let [rate] = columns[column][row].derivatives();
             rate
         }))
     }
 
-    /// The effective mass (kg) of a point along a direction (global, of any length): a force along
-    /// it accelerates the point as it would a free particle of this mass. `1 / (n J M^-1 J^T n)`.
-    /// Infinite where nothing can move along it.
+    /// The effective mass (kg) of a point along a direction (global, of any length). A force along
+    /// it accelerates the point as it would a free particle of this mass: `1 / (n J M^-1 J^T n)`.
+    /// It is infinite where nothing can move along it.
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`]; [`Fault::Setting`] for a direction of length zero.
@@ -212,6 +204,10 @@ impl<M: HasJacobian, const N: usize, S: Real + Magnitude> IndependentCoordinates
         let accelerations = solve(self.equations.mass(state)?, along);
         let products = along.iter().zip(accelerations);
         let mobility = products.fold(S::zero(), |sum, (&a, b)| a.fused(b, sum));
-        Ok(square.quotient(mobility))
+        if mobility.is_finite() {
+            Ok(square.quotient(mobility))
+        } else {
+            Err(Fault::StateNotFinite)
+        }
     }
 }

@@ -4,8 +4,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::SVector;
 
-use super::equations::finite;
-use super::partition::{Magnitude, Partition, at, set, velocities};
+use super::partition::{Partition, at, set, velocities};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
 use crate::constraints::projection::Projection;
@@ -21,7 +20,7 @@ const STRIDE: f64 = 1.0;
 /// As many strides as anybody waits for.
 const MANY: f64 = 1e5;
 
-impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<M, N, S> {
+impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The coordinates (rad, m) at a state, zero in the reference configuration: an angle is from
     /// `-pi` to `pi`, that of a screw counts turns.
     ///
@@ -32,7 +31,7 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         let mut positions = [S::zero(); N];
         for (position, &place) in positions.iter_mut().zip(&self.equations.places) {
             let (number, motion) = motion_at::<M>(place)?;
-            let joint = name_of(motion);
+            let joint = motion.mover();
             *position = M::JOINT_REPORT
                 .coordinate(number, state)
                 .ok_or(Fault::NoPosition { joint })?;
@@ -40,13 +39,15 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         Ok(SVector::from(positions))
     }
 
-    /// The state with these coordinates (rad, m) and rates (rad/s, m/s). Loops are closed on the
-    /// branch of the described state, see
-    /// [`MechanismExt::assemble`](crate::MechanismExt::assemble), in strides of one radian, so that
-    /// what is geared to a coordinate turns as often as it has to.
+    /// The state with these coordinates (rad, m) and rates (rad/s, m/s).
+    ///
+    /// Loops are closed on the branch of the described state, as by
+    /// [`MechanismExt::assemble`](crate::MechanismExt::assemble). That is done in strides of one
+    /// radian, so that what is geared to a coordinate turns as often as it has to.
     ///
     /// # Errors
-    /// [`Fault::NoPosition`] for a chosen component of an angular velocity; what
+    /// [`Fault::StateNotFinite`]; [`Fault::NoPosition`] for a chosen component of an angular
+    /// velocity; what
     /// [`MechanismExt::assemble`](crate::MechanismExt::assemble) refuses; a choice that fails on
     /// the way.
     pub fn state(
@@ -85,7 +86,7 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         positions: [S; N],
         rates: [S; N],
     ) -> Result<M::JointState<S>, Fault> {
-        let [positions, rates]: [SVector<S, N>; 2] = [finite(positions)?, finite(rates)?];
+        let [positions, rates]: [SVector<S, N>; 2] = [given(positions)?, given(rates)?];
         let mut state = *from;
         let begin = self.positions(&state)?;
         let way = if is_nearest {
@@ -202,10 +203,10 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
         state: &M::JointState<S>,
         rates: impl Into<SVector<S, N>>,
     ) -> Result<M::JointState<S>, Fault> {
-        let rates: SVector<S, N> = finite(rates.into().into())?;
+        let rates: [S; N] = given::<S, N>(rates.into().into())?.into();
         let partition = self.equations.partition(state)?;
         let mut state = *state;
-        write_rates::<M, N, S>(&partition, &rates.into(), true, &mut state);
+        write_rates::<M, N, S>(&partition, &rates, true, &mut state);
         Ok(state)
     }
 
@@ -220,6 +221,15 @@ impl<M: JointRates, const N: usize, S: Real + Magnitude> IndependentCoordinates<
     #[must_use]
     pub fn of_bodies(&self, bodies: &M::State<S>) -> M::JointState<S> {
         M::joint_state(&self.equations.constants, bodies)
+    }
+}
+
+/// Numbers that a state may hold.
+fn given<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Fault> {
+    if numbers.iter().all(|number| number.is_finite()) {
+        Ok(SVector::from(numbers))
+    } else {
+        Err(Fault::StateNotFinite)
     }
 }
 
@@ -254,16 +264,6 @@ pub(super) fn put_velocities<M: JointRates, S: Scalar>(
 
 /// The motion that a rate belongs to, and its number.
 fn motion_at<M: JointRates>(rate: usize) -> Result<(usize, &'static JointMotion), Fault> {
-    let motions = M::JOINT_REPORT.motions.iter().enumerate();
-    let before = motions.rev().find(|(_, motion)| motion.velocity <= rate);
-    before.ok_or(Fault::NoPosition { joint: "" })
-}
-
-/// The joint of a motion, or the body that moves freely.
-const fn name_of(motion: &JointMotion) -> &'static str {
-    if motion.joint.is_empty() {
-        motion.body
-    } else {
-        motion.joint
-    }
+    let motion = M::JOINT_REPORT.motion_of_rate(rate);
+    motion.ok_or(Fault::NoPosition { joint: "" })
 }

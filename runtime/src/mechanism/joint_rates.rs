@@ -1,9 +1,10 @@
 //! Kernels in the rates of the joints, for mechanisms that ask for them.
 //!
 //! One rate stands for every motion of a joint that carries a body, in the order of
-//! [`JointReport::motions`](crate::mechanism::JointReport::motions), as handles read it: in rad/s
-//! or m/s, with the sign of the joint. A ball has three, its angular velocity in principal axes. An
-//! effort does work on such a rate: N m on an angle, N on a displacement.
+//! [`JointReport::motions`](crate::mechanism::JointReport::motions). It is read as handles read it,
+//! in rad/s or m/s, with the sign of the joint. A ball has three: the angular velocity of its body
+//! against the ground, in principal axes. An effort does work on such a rate: N m on an angle, N on
+//! a displacement.
 
 use crate::math::scalar::Scalar;
 use crate::mechanism::joint_kernels::JointCoordinates;
@@ -55,8 +56,8 @@ pub trait HasMassMatrix: JointRates {
     note = "write `#[mechanism(coordinates = \"joints\", kernels = [inverse])]` above the struct, beside the kernels that are there"
 )]
 pub trait HasInverse: JointRates {
-    /// The efforts that have to act beside the described forces for these accelerations: `M(q) w' +
-    /// h`, without the equations that close loops.
+    /// The efforts that have to act beside the described forces for these accelerations, without
+    /// the equations that close loops: `M(q) w' + h`.
     fn inverse_dynamics<S: Scalar>(
         constants: &Self::JointConstants<S>,
         time: S,

@@ -3,6 +3,7 @@
 
 use core::f64::consts::TAU;
 use core::fmt;
+use core::ops::Range;
 
 use crate::error::readable::Given;
 use crate::math::scalar::Real;
@@ -31,6 +32,24 @@ impl JointMotion {
                     ..
                 }
         )
+    }
+
+    /// The places of its velocities.
+    pub(crate) const fn rates(&self) -> Range<usize> {
+        let rates = match self.freedom {
+            Freedom::Ball => 3,
+            Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. } => 1,
+        };
+        self.velocity..self.velocity + rates
+    }
+
+    /// The field of the joint, or of the body if none carries it.
+    pub(crate) const fn mover(&self) -> &'static str {
+        if self.joint.is_empty() {
+            self.body
+        } else {
+            self.joint
+        }
     }
 
     fn signed<S: Real>(&self, value: S) -> S {
@@ -85,6 +104,18 @@ impl JointReport {
     pub fn motions_of<'a>(&'a self, joint: &'a str) -> impl Iterator<Item = usize> + 'a {
         let motions = self.motions.iter().enumerate();
         motions.filter_map(move |(place, motion)| (motion.joint == joint).then_some(place))
+    }
+
+    /// The motion that a rate belongs to, with its number.
+    pub(crate) fn motion_of_rate(&self, rate: usize) -> Option<(usize, &'static JointMotion)> {
+        let mut motions = self.motions.iter().enumerate();
+        motions.find(|(_, motion)| motion.rates().contains(&rate))
+    }
+
+    /// The field of the joint, or of the body that moves freely, that a rate belongs to.
+    pub(crate) fn mover_of_rate(&self, rate: usize) -> &'static str {
+        let motion = self.motion_of_rate(rate);
+        motion.map_or("", |(_, motion)| motion.mover())
     }
 
     /// Whether a body moves by a screw.

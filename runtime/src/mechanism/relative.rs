@@ -8,9 +8,9 @@ use crate::mechanism::absolute::{take_nearer_sign, with_nearer_signs};
 use crate::mechanism::coordinates::{
     AbsoluteEquations, Coordinates, Equations, EquationsIn, First, Prepared, Relative, RightSide,
 };
-use crate::mechanism::joint_kernels::{Freedom, JointCoordinates, JointParts};
+use crate::mechanism::joint_kernels::{JointCoordinates, JointParts};
 use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
-use crate::mechanism::report::BodyKind;
+use crate::mechanism::report::{BodyInfo, BodyKind};
 use crate::state::vector::{Array, MovingState, StateParts, Vector};
 
 impl<M: JointCoordinates> Coordinates<M> for Relative {
@@ -280,18 +280,8 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     }
 
     fn body_of_velocity(place: usize) -> Option<&'static str> {
-        let motions = M::JOINT_REPORT.motions.iter();
-        let mut first = 0;
-        for motion in motions {
-            first += match motion.freedom {
-                Freedom::Ball => 3,
-                Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. } => 1,
-            };
-            if place < first {
-                return Some(motion.body);
-            }
-        }
-        None
+        let motion = M::JOINT_REPORT.motion_of_rate(place);
+        motion.map(|(_, motion)| motion.body)
     }
 
     fn joint_of_row(row: usize) -> Option<&'static str> {
@@ -312,36 +302,79 @@ fn add<S: Scalar>(x: &mut [S], y: &[S]) {
     x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x + y);
 }
 
-/// How the bodies of joint coordinates stand and move.
-pub(crate) fn bodies_of<S: Real, M: JointCoordinates>(
-    constants: &M::JointConstants<S>,
-    state: &M::JointState<S>,
-) -> M::State<S> {
-    let motions = M::body_motions(constants, state);
-    let mut parts = motions.as_slice();
-    let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
+/// How a body stands and moves, as [`JointCoordinates::body_motions`] has it.
+pub(crate) struct BodyMotion<S> {
+    /// The centre of mass (m, global).
+    pub(crate) position: [S; 3],
+    /// Its velocity (m/s, global).
+    pub(crate) velocity: [S; 3],
+    /// Of a rigid body the rotation from principal to global axes, row by row, and the angular
+    /// velocity (rad/s) in principal axes.
+    pub(crate) rotation: Option<([[S; 3]; 3], [S; 3])>,
+}
+
+/// The motions of the bodies one after the other, and behind them the auxiliary variables.
+pub(crate) fn each_body<S: Scalar, M: JointCoordinates>(
+    motions: &[S],
+    mut then: impl FnMut(usize, &'static BodyInfo, BodyMotion<S>),
+) -> &[S] {
+    let mut parts = motions;
     let mut next = |count: usize| {
         let (first, rest) = parts.split_at_checked(count).unwrap_or((parts, &[]));
         parts = rest;
         first
     };
-    for body in M::REPORT.bodies {
+    for (number, body) in M::REPORT.bodies.iter().enumerate() {
         let linear = next(6);
-        let (position, velocity): ([S; 3], [S; 3]) = (read(linear, 0), read(linear, 3));
-        let coordinates = bodies.coordinates_mut().as_mut_slice();
-        write(coordinates, body.coordinate, position);
-        if body.kind == BodyKind::Rigid {
+        let rotation = (body.kind == BodyKind::Rigid).then(|| {
             let angular = next(12);
-            let rows = [0, 3, 6].map(|place| read(angular, place));
-            write(coordinates, body.coordinate + 3, from_matrix(&rows));
-            let spin: [S; 3] = read(angular, 9);
-            let velocities = bodies.velocities_mut().as_mut_slice();
-            write(velocities, body.velocity + 3, spin);
+            (
+                [0, 3, 6].map(|place| read(angular, place)),
+                read(angular, 9),
+            )
+        });
+        let motion = BodyMotion {
+            position: read(linear, 0),
+            velocity: read(linear, 3),
+            rotation,
+        };
+        then(number, body, motion);
+    }
+    next(M::REPORT.auxiliaries)
+}
+
+/// How the bodies of joint coordinates stand and move.
+pub(crate) fn bodies_of<S: Real, M: JointCoordinates>(
+    constants: &M::JointConstants<S>,
+    state: &M::JointState<S>,
+) -> M::State<S> {
+    bodies_by::<S, M>(&M::body_motions(constants, state), |_, rows| {
+        from_matrix(rows)
+    })
+}
+
+/// The same of their motions; Euler parameters are made of a body's number and rotation.
+pub(crate) fn bodies_by<S: Scalar, M: JointCoordinates>(
+    motions: &M::BodyMotions<S>,
+    euler_parameters: impl Fn(usize, &[[S; 3]; 3]) -> [S; 4],
+) -> M::State<S> {
+    let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
+    let auxiliaries = each_body::<S, M>(motions.as_slice(), |number, body, motion| {
+        let coordinates = bodies.coordinates_mut().as_mut_slice();
+        write(coordinates, body.coordinate, motion.position);
+        if let Some((rows, _)) = &motion.rotation {
+            write(
+                coordinates,
+                body.coordinate + 3,
+                euler_parameters(number, rows),
+            );
         }
         let velocities = bodies.velocities_mut().as_mut_slice();
-        write(velocities, body.velocity, velocity);
-    }
-    let auxiliaries = next(M::REPORT.auxiliaries);
+        write(velocities, body.velocity, motion.velocity);
+        if let Some((_, spin)) = motion.rotation {
+            write(velocities, body.velocity + 3, spin);
+        }
+    });
     let coordinates = bodies.coordinates_mut().as_mut_slice();
     for (place, &value) in auxiliaries.iter().enumerate() {
         write(coordinates, M::REPORT.coordinates + place, [value]);

@@ -1,9 +1,9 @@
 //! A pole on a cart, balanced by a linear-quadratic regulator at 1 kHz. The host computes the gain
 //! from this struct (`tests/tests/firmware.rs`).
 
+use holonom::Real;
 use holonom::independent::IndependentCoordinates;
 use holonom::prelude::*;
-use holonom::{Real, independent::Magnitude};
 
 /// A cart of 1 kg on a rail, and a pole of 0.6 m that stands on it.
 #[derive(Mechanism)]
@@ -37,7 +37,7 @@ pub const PERIOD: f64 = 1e-3;
 ///
 /// # Errors
 /// What a step or a reading refuses.
-pub fn balance<S: Real + Magnitude>() -> Result<[S; 2], Fault> {
+pub fn balance<S: Real>() -> Result<[S; 2], Fault> {
     let (cart_pole, h) = (CartPole::default(), CartPole::HANDLES);
     let space: IndependentCoordinates<CartPole, 2, S> =
         cart_pole.coordinates_in((h.rail, h.pin))?;
@@ -59,7 +59,7 @@ pub fn balance<S: Real + Magnitude>() -> Result<[S; 2], Fault> {
 ///
 /// # Errors
 /// What is refused.
-pub fn everything<S: Real + Magnitude>() -> Result<S, Fault> {
+pub fn everything<S: Real>() -> Result<S, Fault> {
     let (cart_pole, h) = (CartPole::default(), CartPole::HANDLES);
     let mut space: IndependentCoordinates<CartPole, 2, S> =
         cart_pole.coordinates_in((h.rail, h.pin))?;

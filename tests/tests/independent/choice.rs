@@ -57,12 +57,8 @@ fn a_choice_that_fails_names_what_can_move() -> Result<(), Fault> {
     for angle in [0.0, 1e-9] {
         let dead = by_crank.state([angle], [3.0])?;
         assert!(by_crank.mass(&dead).is_ok());
-        let fault = by_slider.mass(&dead).err();
-        let wanted = Fault::NotDetermined { joint: "bearing" };
-        assert!(
-            fault == Some(wanted) || fault == Some(Fault::NotDetermined { joint: "crank_pin" }),
-            "{fault:?}"
-        );
+        let wanted = Fault::NotDetermined { joint: "crank_pin" };
+        assert_eq!(by_slider.mass(&dead).err(), Some(wanted));
     }
     Ok(())
 }
@@ -74,8 +70,6 @@ fn a_branch_point_is_refused() -> Result<(), Fault> {
     let space = bar.coordinates([h.left_foot])?;
     let near = space.state([1.5], [1.0])?;
     assert!(space.mass(&near).is_ok());
-    let bodies = space.bodies(&near);
-    let _ = bodies;
     assert!(matches!(
         space.state_near(&near, [core::f64::consts::FRAC_PI_2], [1.0]),
         Err(Fault::NotDetermined { .. } | Fault::WayEnds { .. } | Fault::NotConverged { .. })

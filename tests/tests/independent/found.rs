@@ -416,3 +416,27 @@ fn small_and_large_mechanisms() -> Result<(), Fault> {
     }
     Ok(())
 }
+
+/// A state that holds no number is no state, and gives none.
+#[test]
+fn what_is_not_finite_does_not_travel() -> Result<(), Fault> {
+    let slides = Slides::new(0.0, 100.0)?;
+    let h = Slides::HANDLES;
+    let space = slides.coordinates([h.rail, h.sled])?;
+    let none = [f64::NAN, 0.0];
+    assert_eq!(space.state(none, [0.0; 2]), Err(Fault::StateNotFinite));
+    assert_eq!(space.state([0.0; 2], none), Err(Fault::StateNotFinite));
+    let (balls, h) = (Balls::default(), Balls::HANDLES);
+    let [x, y, z] = [0, 1, 2].map(|k| Motion::of(h.ball, k));
+    let space = balls.coordinates([Motion::of(h.foot, 0), x, y, z, Motion::of(h.hinge, 0)])?;
+    let mut state = space.of_bodies(&balls.described_state()?);
+    for pair in state.pairs_mut() {
+        *pair = [f64::NAN; 2];
+    }
+    let x = Vector3::x();
+    assert!(space.mass(&state).is_err() && space.gravity(&state).is_err());
+    assert!(space.jacobian(&state, h.c).is_err() && space.jacobian_rate(&state, h.c).is_err());
+    assert!(space.effective_mass(&state, h.c, x).is_err());
+    assert!(space.linearise(&state, [], |_| []).is_err() && space.equilibrium(&state).is_err());
+    Ok(())
+}

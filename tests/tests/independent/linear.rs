@@ -58,7 +58,7 @@ fn agrees<M: HasInverse + HasMassMatrix + Default, const N: usize>(
             M::REPORT.name
         );
     }
-    assert_eq!(linear.rates.amax(), 0.0);
+    assert_eq!(linear.rates_by_positions.amax(), 0.0);
     let identity = linear.by_efforts * space.mass(&state)?;
     assert!((identity - SMatrix::identity()).amax() < 1e-12);
     Ok(())
