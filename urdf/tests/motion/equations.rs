@@ -51,13 +51,11 @@ where
 {
     let arm = M::default();
     let space: IndependentCoordinates<M, N> = arm.coordinates(chosen)?;
-    for given in &motion(robot).states {
+    let motion = motion(robot);
+    for given in &motion.states {
         let wanted = given.equations.as_ref().expect("they are there");
         let of_all = |values: &[f64]| {
-            let values = by_name(&motion(robot).joints, values)
-                .into_iter()
-                .map(|(name, value)| (name.to_owned(), value))
-                .collect::<std::collections::HashMap<_, _>>();
+            let values = by_name(&motion.joints, values);
             SVector::from(names.map(|name| values[name]))
         };
         let (positions, rates) = (of_all(&given.positions), of_all(&given.rates));
