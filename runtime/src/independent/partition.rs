@@ -136,7 +136,8 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             let inverse = at(entries, row * width + column).reciprocal();
             for other in (0..height).filter(|&other| other != row) {
                 let factor = at(entries, other * width + column) * inverse;
-                if factor.magnitude() == 0.0 {
+                // With its derivatives, which need not vanish with it.
+                if factor == S::zero() {
                     continue;
                 }
                 for place in 0..width {

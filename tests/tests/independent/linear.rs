@@ -76,6 +76,9 @@ fn derivatives_are_those_of_differences() -> Result<(), Fault> {
     agrees::<FourBar, 1>([FourBar::HANDLES.left_foot], [0.4], [2.0])?;
     agrees::<SliderCrank, 1>([SliderCrank::HANDLES.bearing], [0.7], [20.0])?;
     agrees::<Bricard, 1>([Bricard::HANDLES.p1], [0.2], [1.5])?;
+    // Where entries of the closing rows vanish, and their derivatives do not.
+    agrees::<FourBar, 1>([FourBar::HANDLES.left_foot], [0.0], [2.0])?;
+    agrees::<SliderCrank, 1>([SliderCrank::HANDLES.bearing], [0.0], [20.0])?;
     let h = CartPole::HANDLES;
     agrees::<CartPole, 2>((h.rail, h.hinge), [0.2, 0.9], [1.0, -2.0])?;
     agrees::<RodPendulum, 1>([RodPendulum::HANDLES.pivot], [0.6], [1.0])
