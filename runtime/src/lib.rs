@@ -53,6 +53,7 @@ pub mod measure;
 pub mod mechanism;
 pub mod monitor;
 pub mod run;
+pub mod sensitivity;
 pub mod state;
 
 #[cfg(test)]
@@ -218,6 +219,7 @@ pub mod prelude {
     pub use crate::measure::Viewed;
     pub use crate::mechanism::{Assembly, InputsOf, Point, StateOf};
     pub use crate::run::Simulate;
+    pub use crate::sensitivity::SensitivityExt;
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
         KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,

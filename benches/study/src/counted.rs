@@ -195,6 +195,10 @@ impl Real for Counted {
         value: f64::EPSILON,
         place: 0,
     };
+    const ZERO: Self = Self {
+        value: 0.0,
+        place: 0,
+    };
 
     fn to_f64(self) -> f64 {
         self.value

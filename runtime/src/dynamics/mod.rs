@@ -100,7 +100,9 @@ pub struct Dynamics<
 }
 
 /// The parameters and inputs of a mechanism; inputs are finite in the number type of the run, too.
-fn parameters<S: Real, M: Mechanism>(mechanism: &M) -> Result<M::Parameters<S>, ParameterError> {
+pub(crate) fn parameters<S: Real, M: Mechanism>(
+    mechanism: &M,
+) -> Result<M::Parameters<S>, ParameterError> {
     let mut parameters = mechanism.parameters()?;
     M::put_inputs(&mechanism.inputs(), &mut parameters)?;
     Ok(parameters)
@@ -142,9 +144,17 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F, NoForces, M::Co
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F) -> Result<Self, Fault> {
-        let stabilisation = formulation.stabilisation()?;
         let parameters = parameters(mechanism)?;
         mechanism.check_likes::<S>(None)?;
+        Self::of_parameters(parameters, formulation)
+    }
+
+    /// The same of parameters that are known to be acceptable.
+    pub(crate) fn of_parameters(
+        parameters: M::Parameters<S>,
+        formulation: F,
+    ) -> Result<Self, Fault> {
+        let stabilisation = formulation.stabilisation()?;
         let absolute = equations::<S, M, F>(&parameters, &formulation, &stabilisation)?;
         Ok(Self {
             own: M::Coordinates::own(&parameters, &stabilisation, &absolute),

@@ -186,6 +186,21 @@ pub enum Fault {
         /// state.
         is_final: bool,
     },
+    /// A direction of derivatives is a coordinate that was not chosen.
+    NotChosen {
+        /// The joint's field.
+        joint: &'static str,
+    },
+    /// The derivatives of a start violate those of the constraints: along a direction a parameter
+    /// moves a joint, and the bodies do not go with it.
+    StartOpens {
+        /// The joint's field.
+        joint: &'static str,
+        /// The number of the direction.
+        direction: usize,
+        /// The derivative of its equation.
+        violation: f64,
+    },
     /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer
     /// than velocities.
     NotDriven {

@@ -224,6 +224,20 @@ impl fmt::Display for Fault {
                 "{evaluations} evaluations are used up: a singular configuration or a stiff formulation are the usual causes; \
                  `DormandPrince::budget` allows more"
             ),
+            Self::NotChosen { joint } => write!(
+                f,
+                "the coordinate of joint `{joint}` is none of the chosen ones, and follows them"
+            ),
+            Self::StartOpens {
+                joint,
+                direction,
+                violation,
+            } => write!(
+                f,
+                "along direction {direction} joint `{joint}` opens at the start, at {}: the derivatives of the state are not those of states that satisfy the constraints; \
+                 `IndependentCoordinates::sensitivities` finds them",
+                Measured(violation)
+            ),
             Self::InconsistentStart {
                 joint,
                 quantity,

@@ -5,11 +5,12 @@
 mod columns;
 
 use core::array::from_fn;
+use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 
 pub(crate) use columns::{Lifted, by_forward_numbers, lifted, with_differences};
 
-use crate::math::scalar::Scalar;
+use crate::math::scalar::{Real, Scalar};
 
 /// A number and its derivatives along `N` directions: what is computed with it carries them along,
 /// exact to round-off (forward mode; Griewank and Walther, *Evaluating Derivatives*, chapter 3).
@@ -19,6 +20,9 @@ use crate::math::scalar::Scalar;
 /// [`Scalar::min`] of equal ones that of the second, of [`Scalar::select`] that of the number which
 /// is chosen. [`Scalar::round`] has derivative zero. Where a derivative is infinite, as that of the
 /// root at zero, what comes of it is infinite or NaN.
+///
+/// Numbers are ordered by their values alone, so that whatever branches does so as it would without
+/// derivatives. Equal ones have equal derivatives, too.
 ///
 /// ```
 /// use holonom::{Forward, Scalar};
@@ -51,6 +55,20 @@ impl<S: Scalar, const N: usize> Forward<S, N> {
     #[must_use]
     pub fn fixed(value: S) -> Self {
         Self::new(value, [S::zero(); N])
+    }
+
+    /// A number that varies along one direction, by one for one.
+    ///
+    /// ```
+    /// # use holonom::Forward;
+    /// let second: Forward<f64, 3> = Forward::along(0.7, 1);
+    /// assert_eq!(second.derivatives(), [0.0, 1.0, 0.0]);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn along(value: S, direction: usize) -> Self {
+        let one = |k| if k == direction { S::one() } else { S::zero() };
+        Self::new(value, from_fn(one))
     }
 
     /// The number without its derivatives.
@@ -218,6 +236,50 @@ impl<S: Scalar, const N: usize> Scalar for Forward<S, N> {
                 angles[k].with(versine, sine),
             ]
         })
+    }
+}
+
+impl<S: Scalar + PartialOrd, const N: usize> PartialOrd for Forward<S, N> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.value.partial_cmp(&other.value)
+    }
+}
+
+#[diagnostic::do_not_recommend]
+impl<S: Real, const N: usize> Real for Forward<S, N> {
+    const EPSILON: Self = Self::new(S::EPSILON, [S::ZERO; N]);
+    const ZERO: Self = Self::new(S::ZERO, [S::ZERO; N]);
+
+    fn to_f64(self) -> f64 {
+        self.value.to_f64()
+    }
+
+    fn is_finite(self) -> bool {
+        self.value.is_finite() && self.derivatives.iter().all(|slope| slope.is_finite())
+    }
+
+    fn powf(self, exponent: f64) -> Self {
+        let slope = S::constant(exponent) * self.value.powf(exponent - 1.0);
+        self.with(self.value.powf(exponent), slope)
+    }
+
+    fn smallest() -> Self {
+        Self::fixed(S::smallest())
+    }
+
+    fn ulp(self) -> Self {
+        Self::fixed(self.value.ulp())
+    }
+
+    fn quotient(self, divisor: Self) -> Self {
+        let value = self.value.quotient(divisor.value);
+        let slopes = self.both(divisor, |x, y| (x - value * y).quotient(divisor.value));
+        Self::new(value, slopes)
+    }
+
+    fn plain(self) -> Self {
+        Self::fixed(self.value)
     }
 }
 

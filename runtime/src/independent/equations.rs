@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::partition::{Magnitude, Partition, at, joint_rates, set};
+use super::partition::{Partition, at, joint_rates, set};
 use super::{Equations, IndependentCoordinates};
 use crate::error::{Fault, NotFinite};
 use crate::math::scalar::{Real, Scalar};
@@ -12,7 +12,7 @@ use crate::mechanism::joint_rates::{
 use crate::mechanism::relative::bodies_of;
 use crate::state::vector::Array;
 
-impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
+impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     /// How what is not chosen follows; `None` in a tree, where everything is chosen.
     fn following(&self, state: &M::JointState<S>) -> Result<Option<Partition<M, N, S>>, Fault> {
         if M::JOINT_REPORT.closing.is_empty() {

@@ -1,38 +1,29 @@
 //! Linearisation about a state, by numbers that carry derivatives: exact to round-off.
 
+use core::array::from_fn;
+
 use nalgebra::SMatrix;
 
+use super::IndependentCoordinates;
+use super::directions::Along;
 use super::equations::solve;
 use super::linearised::Linearised;
-use super::partition::{Partition, at, joint_rates, set};
-use super::points::moved;
-use super::states::{put_velocities, write_rates};
-use super::{Equations, IndependentCoordinates};
+use super::partition::{Partition, joint_rates};
 use crate::error::{Fault, NotFinite};
-use crate::forward::{Forward, Lifted, lifted};
-use crate::math::quaternion::product;
+use crate::forward::{Forward, Lifted};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
 use crate::measure::view::View;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
-use crate::mechanism::relative::{bodies_by, bodies_of};
-use crate::state::vector::{Array, StateParts};
+use crate::state::vector::Array;
 
 /// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
 const LANES: usize = 4;
 
 /// Accelerations and readings along directions.
-type Along<S, const N: usize, const P: usize> = ([Lifted<S>; N], [Lifted<S>; P]);
-
-/// What changes in one direction.
-#[derive(Clone, Copy)]
-enum Direction {
-    Position(usize),
-    Rate(usize),
-    Value(usize),
-}
+type Slopes<S, const N: usize, const P: usize> = ([Lifted<S>; N], [Lifted<S>; P]);
 
 impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
 where
@@ -97,30 +88,32 @@ where
             let column = partition.columns.get(column);
             column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
         });
-        let positions = (0..N).map(Direction::Position);
-        let directions = positions.chain((0..N).map(Direction::Rate));
-        let mut directions = directions.chain((0..K).map(Direction::Value));
+        let positions = (0..N).map(|number| (number, Along::Position(number)));
+        let rates = (0..N).map(|number| (number, Along::Rate(number)));
+        let values = values.iter().map(|value| Along::Value(value.index()));
+        let values = values.enumerate();
+        let mut columns = positions.chain(rates).chain(values);
         loop {
-            let lanes: [Option<Direction>; LANES] = core::array::from_fn(|_| directions.next());
-            let [Some(_), ..] = lanes else { break };
-            let (accelerations, readings) =
-                self.along(state, &partition, &lanes, &values, &read)?;
-            for (lane, direction) in lanes.into_iter().flatten().enumerate() {
+            let columns: [_; LANES] = from_fn(|_| columns.next());
+            let [Some(_), ..] = columns else { break };
+            let directions = columns.map(|column| column.map(|(_, direction)| direction));
+            let (accelerations, readings) = self.along(state, &partition, &directions, &read)?;
+            for (lane, (column, direction)) in columns.into_iter().flatten().enumerate() {
                 let slope = |number: &Lifted<S>| {
                     number.derivatives().get(lane).copied().unwrap_or(S::zero())
                 };
                 let accelerations = accelerations.each_ref().map(slope);
                 let readings = readings.each_ref().map(slope);
                 match direction {
-                    Direction::Position(column) => {
+                    Along::Position(_) => {
                         put(&mut linear.by_positions, column, accelerations);
                         put(&mut linear.readings_by_positions, column, readings);
                     }
-                    Direction::Rate(column) => {
+                    Along::Rate(_) => {
                         put(&mut linear.by_rates, column, accelerations);
                         put(&mut linear.readings_by_rates, column, readings);
                     }
-                    Direction::Value(column) => {
+                    Along::Value(_) => {
                         put(&mut linear.by_values, column, accelerations);
                         put(&mut linear.readings_by_values, column, readings);
                     }
@@ -129,7 +122,7 @@ where
         }
         let mass = self.equations.mass(state)?;
         for column in 0..N {
-            let unit = core::array::from_fn(|row| S::constant(f64::from(u8::from(row == column))));
+            let unit = from_fn(|row| S::constant(f64::from(u8::from(row == column))));
             let accelerations = solve(mass, unit);
             put(&mut linear.by_efforts, column, accelerations);
         }
@@ -143,92 +136,21 @@ where
     }
 
     /// Accelerations and readings along some directions.
-    fn along<const K: usize, const P: usize>(
+    fn along<const P: usize>(
         &self,
         state: &M::JointState<S>,
         partition: &Partition<M, N, S>,
-        lanes: &[Option<Direction>; LANES],
-        values: &[ValueHandle<M>; K],
+        directions: &[Option<Along>; LANES],
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
-    ) -> Result<Along<S, N, P>, Fault> {
-        let mut equations = self.equations.lifted::<LANES>();
-        let mut constants: M::Constants<Lifted<S>> = lifted(&self.constants);
-        let mut parameters: M::Parameters<Lifted<S>> = lifted(&self.parameters);
-        let mut ways = [M::JointVelocities::<S>::zeros(); LANES];
-        let rates: [S; N] = self.rates(state).into();
-        let mut rates_along = rates.map(Forward::fixed);
-        let mut is_varied = false;
-        for (lane, direction) in lanes.iter().enumerate() {
-            match *direction {
-                Some(Direction::Position(column)) => {
-                    let way = partition.columns.get(column);
-                    if let (Some(place), Some(way)) = (ways.get_mut(lane), way) {
-                        *place = *way;
-                    }
-                }
-                Some(Direction::Rate(column)) => vary(rates_along.get_mut(column), lane),
-                Some(Direction::Value(number)) => {
-                    is_varied = true;
-                    let place = values.get(number).map_or(usize::MAX, |value| value.index());
-                    vary(parameters.as_mut_slice().get_mut(place), lane);
-                }
-                None => {}
-            }
-        }
-        let here = |ways: &[M::JointVelocities<S>; LANES]| {
-            let slopes = ways.map(|way| {
-                let mut turned = *state;
-                put_velocities::<M, S>(&way, &mut turned);
-                M::joint_coordinate_rates(&self.equations.constants, self.equations.time, &turned)
-            });
-            moved::<M, S, LANES>(state, &slopes)
-        };
-        if is_varied {
-            constants = M::prepare(&parameters);
-            equations.constants = M::prepare_joints(&parameters);
-            // What closes a loop again that a parameter opens.
-            let closing = equations.partition(&here(&ways))?.closing;
-            for (place, number) in closing.as_slice().iter().enumerate() {
-                for (way, slope) in ways.iter_mut().zip(number.derivatives()) {
-                    let known = at(way.as_slice(), place);
-                    set(way, place, known + slope);
-                }
-            }
-        }
-        let mut there = here(&ways);
-        let dependent = equations.partition(&there)?;
-        write_rates::<M, N, Lifted<S>>(&dependent, &rates_along, true, &mut there);
-        let accelerations = equations.forward(&there, &[Forward::zero(); N])?;
-        let bodies = self.bodies_along(&equations, state, &there);
-        let view = View::new(&constants, equations.time, &bodies);
+    ) -> Result<Slopes<S, N, P>, Fault> {
+        let there = self.state_along(state, partition, directions)?;
+        let accelerations = there
+            .equations
+            .forward(&there.state, &[Forward::zero(); N])?;
+        let bodies = self.bodies_along(state, &there);
+        let view = View::new(&there.constants, there.equations.time, &bodies);
         Ok((accelerations, read(&view)))
     }
-
-    /// The bodies of a state along directions.
-    fn bodies_along(
-        &self,
-        equations: &Equations<M, N, Lifted<S>>,
-        here: &M::JointState<S>,
-        there: &M::JointState<Lifted<S>>,
-    ) -> M::State<Lifted<S>> {
-        let known = bodies_of::<S, M>(&self.equations.constants, here);
-        let motions = M::body_motions(&equations.constants, there);
-        bodies_by::<Lifted<S>, M>(&motions, |body, rows| {
-            let info = M::REPORT.bodies.get(body);
-            let place = info.map_or(usize::MAX, |info| info.coordinate.saturating_add(3));
-            orientation_along(&read(known.coordinates().as_slice(), place), rows)
-        })
-    }
-}
-
-/// Lets a number vary along a direction, beside those along which it does.
-fn vary<S: Scalar>(number: Option<&mut Lifted<S>>, lane: usize) {
-    let Some(number) = number else { return };
-    let mut slopes = number.derivatives();
-    if let Some(slope) = slopes.get_mut(lane) {
-        *slope = *slope + S::one();
-    }
-    *number = Forward::new(number.value(), slopes);
 }
 
 /// Writes a column, without a place where it could panic.
@@ -242,36 +164,6 @@ fn put<S, const R: usize, const C: usize>(
             *entry = value;
         }
     }
-}
-
-/// Euler parameters along directions, by those and the rotation matrix: with `R' = R w~` the rate
-/// of `p` is `p (0, w) / 2`.
-fn orientation_along<S: Scalar>(p: &[S; 4], rows: &[[Lifted<S>; 3]; 3]) -> [Lifted<S>; 4] {
-    let mut slopes = [[S::zero(); LANES]; 4];
-    for lane in 0..LANES {
-        let slope = |number: &Lifted<S>| number.derivatives().get(lane).copied();
-        // `(R^T R')` of row `k` and column `l`.
-        let entry = |k: usize, l: usize| {
-            rows.iter().fold(S::zero(), |sum, row| {
-                let (value, slope) = (row.get(k).map(Forward::value), row.get(l).and_then(slope));
-                value.zip(slope).map_or(sum, |(a, b)| a.fused(b, sum))
-            })
-        };
-        let half = S::constant(0.5);
-        let w = [(2, 1), (0, 2), (1, 0)].map(|(k, l)| half * entry(k, l));
-        let [x, y, z] = w;
-        let rate = product(p, &[S::zero(), x, y, z]);
-        for (slopes, rate) in slopes.iter_mut().zip(rate) {
-            if let Some(place) = slopes.get_mut(lane) {
-                *place = rate;
-            }
-        }
-    }
-    let mut found = p.map(Forward::fixed);
-    for (number, slopes) in found.iter_mut().zip(slopes) {
-        *number = Forward::new(number.value(), slopes);
-    }
-    found
 }
 
 /// What a rotation at these rates does to the rate of a turn along a ball's axes, which is that of

@@ -6,6 +6,7 @@
 //!   Wehage and Haug 1982).
 //! - `equations.rs`: mass matrix and efforts. `points.rs`: Jacobians. `states.rs`: the way to
 //!   states and back.
+//! - `directions.rs`: derivatives along coordinates, rates and values.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
 //!   `equilibrium.rs`: states without accelerations.
 //!
@@ -16,6 +17,7 @@
 //! `B^T f` on `z` (Jourdain's principle).
 
 mod choice;
+mod directions;
 mod equations;
 mod equilibrium;
 mod linear;
@@ -29,6 +31,8 @@ mod states;
 use core::fmt;
 
 pub use choice::{Chosen, Coordinate, Motion};
+pub use directions::Direction;
+pub(crate) use directions::vary;
 pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;

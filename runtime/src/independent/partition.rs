@@ -2,40 +2,10 @@
 
 use super::Equations;
 use crate::error::Fault;
-use crate::forward::Forward;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::JointRates;
 use crate::state::vector::Array;
-
-/// A number by whose size pivots are chosen: a real one, or one that carries derivatives.
-pub(super) trait Magnitude: Scalar {
-    /// The distance from 1 to the next larger number.
-    fn round_off() -> f64;
-
-    /// The absolute value.
-    fn magnitude(self) -> f64;
-}
-
-impl<S: Real> Magnitude for S {
-    fn round_off() -> f64 {
-        S::EPSILON.to_f64()
-    }
-
-    fn magnitude(self) -> f64 {
-        self.abs().to_f64()
-    }
-}
-
-impl<S: Real, const K: usize> Magnitude for Forward<S, K> {
-    fn round_off() -> f64 {
-        S::round_off()
-    }
-
-    fn magnitude(self) -> f64 {
-        self.value().magnitude()
-    }
-}
 
 /// `w = B z + d` and `w' = B z' + b`.
 pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
@@ -49,7 +19,7 @@ pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
     pub(super) closing: M::JointVelocities<S>,
 }
 
-impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
+impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     /// What a rate compares by with others: one, or a length of the mechanism.
     pub(super) fn scale(&self, rate: usize) -> S {
         match M::JOINT_REPORT.motion_of_rate(rate) {
@@ -97,7 +67,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             let entries = row.iter().enumerate();
             *size = entries.fold(S::zero(), |most: S, (place, &entry)| {
                 let entry = entry * scale(place);
-                if entry.magnitude() > most.magnitude() {
+                if entry.abs().to_f64() > most.abs().to_f64() {
                     entry
                 } else {
                     most
@@ -110,17 +80,17 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
         let is_zero = |numbers: &[S], place: usize| {
             numbers
                 .get(place)
-                .is_some_and(|number| number.magnitude() == 0.0)
+                .is_some_and(|number| number.abs().to_f64() == 0.0)
         };
         let entries = jacobian.as_mut_slice();
         loop {
             let mut best = (0.0, 0, 0);
             for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {
-                let size = at(sizes.as_slice(), row).magnitude();
+                let size = at(sizes.as_slice(), row).abs().to_f64();
                 let free = (0..width).filter(|column| !self.places.contains(column));
                 for column in free.filter(|&column| is_zero(row_of.as_slice(), column)) {
                     let entry = at(entries, row * width + column) * scale(column);
-                    let pivot = entry.magnitude() / size;
+                    let pivot = entry.abs().to_f64() / size;
                     if pivot > best.0 {
                         best = (pivot, row, column);
                     }
@@ -128,7 +98,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             }
             let (pivot, row, column) = best;
             // Below, more than half of the digits would be lost.
-            if pivot <= S::round_off().sqrt() {
+            if pivot <= S::EPSILON.to_f64().sqrt() {
                 break;
             }
             set(&mut is_taken, row, S::one());
@@ -156,7 +126,7 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
             }
         }
         for column in (0..width).filter(|column| !self.places.contains(column)) {
-            let row = at(row_of.as_slice(), column).magnitude() as usize;
+            let row = at(row_of.as_slice(), column).abs().to_f64() as usize;
             let Some(row) = row.checked_sub(1) else {
                 return Err(Fault::NotDetermined {
                     joint: M::JOINT_REPORT.mover_of_rate(column),
@@ -182,10 +152,12 @@ impl<M: JointRates, const N: usize, S: Magnitude> Equations<M, N, S> {
         }
         // What is left of other rows restricts the chosen rates themselves.
         for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {
-            let size = at(sizes.as_slice(), row).magnitude();
+            let size = at(sizes.as_slice(), row).abs().to_f64();
             for &place in &self.places {
-                let left = (at(entries, row * width + place) * scale(place)).magnitude();
-                if left > S::round_off().sqrt() * size {
+                let left = (at(entries, row * width + place) * scale(place))
+                    .abs()
+                    .to_f64();
+                if left > S::EPSILON.to_f64().sqrt() * size {
                     return Err(Fault::NotIndependent {
                         joint: M::JOINT_REPORT.mover_of_rate(place),
                     });

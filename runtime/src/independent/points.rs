@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, Vector3};
 
 use super::equations::{finite_matrix, solve};
-use super::partition::{Magnitude, at};
+use super::partition::at;
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
 use crate::forward::Forward;
@@ -62,7 +62,7 @@ fn position<S: Scalar, M: JointRates>(motions: &[S], body: usize, arm: &[S; 3]) 
     found
 }
 
-impl<M: HasJacobian, const N: usize, S: Magnitude> Equations<M, N, S> {
+impl<M: HasJacobian, const N: usize, S: Real> Equations<M, N, S> {
     /// Column by column velocity and angular velocity.
     pub(super) fn jacobian(
         &self,

@@ -161,7 +161,7 @@ impl<S: Real> Controller<S> {
         } else {
             step
         };
-        step.max(self.smallest(span.start))
+        step.max(self.smallest(span.start)).plain()
     }
 
     /// A step within its limits.
@@ -199,11 +199,12 @@ impl<S: Real> Controller<S> {
     /// The step after an accepted one that had not been rejected before.
     pub(super) fn grown(&self, step: S, error: S) -> S {
         let factor = S::constant(1.25) * error.quotient(self.relative).powf(self.exponent);
-        if factor > S::constant(0.2) {
+        let grown = if factor > S::constant(0.2) {
             step.quotient(factor)
         } else {
             S::constant(5.0) * step
-        }
+        };
+        grown.plain()
     }
 
     /// The step after a first rejection.
@@ -211,6 +212,7 @@ impl<S: Real> Controller<S> {
         let factor = S::constant(0.8) * self.relative.quotient(error).powf(self.exponent);
         let least = S::constant(0.1);
         // An error of NaN or infinity takes the least factor.
-        step * if factor > least { factor } else { least }
+        let shrunk = step * if factor > least { factor } else { least };
+        shrunk.plain()
     }
 }

@@ -119,6 +119,9 @@ pub trait Real: Scalar + PartialOrd {
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
 
+    /// Zero, as a constant.
+    const ZERO: Self;
+
     /// The value as `f64`; the value part of a dual number.
     fn to_f64(self) -> f64;
 
@@ -145,6 +148,13 @@ pub trait Real: Scalar + PartialOrd {
 
     /// `self / divisor`, rounded once.
     fn quotient(self, divisor: Self) -> Self;
+
+    /// The number without derivatives, where it carries any: what a control has chosen, as a step,
+    /// is no function of what it was chosen by.
+    #[must_use]
+    fn plain(self) -> Self {
+        self
+    }
 }
 
 /// Elementary functions on `f64` and `f32`, from the standard library or from libm.
@@ -338,6 +348,7 @@ macro_rules! real {
         #[diagnostic::do_not_recommend]
         impl Real for $float {
             const EPSILON: Self = <$float>::EPSILON;
+            const ZERO: Self = 0.0;
 
             #[inline]
             fn smallest() -> Self {

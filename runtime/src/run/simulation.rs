@@ -40,7 +40,7 @@ pub struct Simulation<
     A = NoForces,
     C = <M as Mechanism>::Coordinates,
 > {
-    mechanism: &'a M,
+    mechanism: Source<'a, S, M>,
     formulation: F,
     integrator: I,
     forces: A,
@@ -54,6 +54,21 @@ pub struct Simulation<
     is_verified: bool,
     coordinates: PhantomData<C>,
 }
+
+/// Where the numbers of a mechanism come from.
+enum Source<'a, S: Real, M: Mechanism> {
+    Mechanism(&'a M),
+    /// They were accepted before.
+    Parameters(M::Parameters<S>),
+}
+
+impl<S: Real, M: Mechanism> Clone for Source<'_, S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Real, M: Mechanism> Copy for Source<'_, S, M> {}
 
 impl<S: Real, M: Mechanism, F: Clone, I: Clone, A: Clone, C> Clone
     for Simulation<'_, S, M, F, I, A, C>
@@ -90,6 +105,19 @@ where
     /// attribute of the mechanism names, without further forces and without corrections.
     #[must_use]
     pub fn new(mechanism: &'a M, formulation: F, integrator: I) -> Self {
+        Self::of(Source::Mechanism(mechanism), formulation, integrator)
+    }
+
+    /// A simulation with parameters that were accepted before.
+    pub(crate) fn of_parameters(
+        parameters: M::Parameters<S>,
+        formulation: F,
+        integrator: I,
+    ) -> Self {
+        Self::of(Source::Parameters(parameters), formulation, integrator)
+    }
+
+    fn of(mechanism: Source<'a, S, M>, formulation: F, integrator: I) -> Self {
         Self {
             mechanism,
             formulation,
@@ -365,9 +393,11 @@ where
     where
         I: Runs<S, M, F, C, A>,
     {
-        let dynamics = Dynamics::new(self.mechanism, self.formulation)?
-            .with_forces(&self.forces)
-            .coordinates::<C>();
+        let dynamics = match self.mechanism {
+            Source::Mechanism(mechanism) => Dynamics::new(mechanism, self.formulation),
+            Source::Parameters(given) => Dynamics::of_parameters(given, self.formulation),
+        }?;
+        let dynamics = dynamics.with_forces(&self.forces).coordinates::<C>();
         let constants = *dynamics.constants();
         let mut state = self.initial.unwrap_or_else(|| M::initial_state(&constants));
         last_good.1 = state;

@@ -1,0 +1,252 @@
+//! Derivatives along coordinates, rates and values of a mechanism, given by name.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use super::choice::Coordinate;
+use super::partition::{Partition, at, set};
+use super::points::moved;
+use super::states::{put_velocities, write_rates};
+use super::{Equations, IndependentCoordinates};
+use crate::error::Fault;
+use crate::forward::{Forward, lifted};
+use crate::math::quaternion::product;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::read;
+use crate::mechanism::handle::ValueHandle;
+use crate::mechanism::joint_rates::JointRates;
+use crate::mechanism::relative::{bodies_by, bodies_of};
+use crate::state::vector::{Array as _, StateParts};
+
+/// What derivatives are taken by: a parameter or an input, or a chosen coordinate or its rate at
+/// the start.
+pub struct Direction<M> {
+    named: Named,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Named {
+    Value(usize),
+    Position(Place),
+    Rate(Place),
+}
+
+/// The place of a rate and the name of its joint.
+type Place = Result<(usize, &'static str), Fault>;
+
+impl<M> Direction<M> {
+    const fn new(named: Named) -> Self {
+        Self {
+            named,
+            mechanism: PhantomData,
+        }
+    }
+
+    /// By a parameter or an input, in its unit.
+    #[must_use]
+    pub const fn value(value: ValueHandle<M>) -> Self {
+        Self::new(Named::Value(value.index()))
+    }
+
+    /// By a chosen coordinate (rad, m) at the start. Of a ball that is a small turn along the axes
+    /// of its rates.
+    #[must_use]
+    pub fn position(coordinate: impl Coordinate<M>) -> Self {
+        Self::new(Named::Position(coordinate.place()))
+    }
+
+    /// By the rate of a chosen coordinate (rad/s, m/s) at the start.
+    #[must_use]
+    pub fn rate(coordinate: impl Coordinate<M>) -> Self {
+        Self::new(Named::Rate(coordinate.place()))
+    }
+
+    /// The same by numbers, among chosen places.
+    fn among(&self, places: &[usize]) -> Result<Along, Fault> {
+        let column = |place: Place| {
+            let (place, joint) = place?;
+            let column = places.iter().position(|&chosen| chosen == place);
+            column.ok_or(Fault::NotChosen { joint })
+        };
+        Ok(match self.named {
+            Named::Value(place) => Along::Value(place),
+            Named::Position(place) => Along::Position(column(place)?),
+            Named::Rate(place) => Along::Rate(column(place)?),
+        })
+    }
+}
+
+impl<M> Clone for Direction<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Direction<M> {}
+
+impl<M> fmt::Debug for Direction<M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Direction").field(&self.named).finish()
+    }
+}
+
+impl<M> From<ValueHandle<M>> for Direction<M> {
+    fn from(value: ValueHandle<M>) -> Self {
+        Self::value(value)
+    }
+}
+
+/// What changes along a direction, by the number of a chosen coordinate or the place of a value.
+#[derive(Clone, Copy)]
+pub(super) enum Along {
+    Position(usize),
+    Rate(usize),
+    Value(usize),
+}
+
+/// A state along directions, and what the kernels take there.
+pub(super) struct StateAlong<M: JointRates, const N: usize, const K: usize, S: Scalar> {
+    pub(super) parameters: M::Parameters<Forward<S, K>>,
+    /// In absolute coordinates.
+    pub(super) constants: M::Constants<Forward<S, K>>,
+    pub(super) equations: Equations<M, N, Forward<S, K>>,
+    pub(super) state: M::JointState<Forward<S, K>>,
+}
+
+impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
+    /// A state along some directions; what is not chosen follows.
+    pub(super) fn state_along<const K: usize>(
+        &self,
+        state: &M::JointState<S>,
+        partition: &Partition<M, N, S>,
+        directions: &[Option<Along>; K],
+    ) -> Result<StateAlong<M, N, K, S>, Fault> {
+        let mut equations = self.equations.lifted::<K>();
+        let mut constants: M::Constants<Forward<S, K>> = lifted(&self.constants);
+        let mut parameters: M::Parameters<Forward<S, K>> = lifted(&self.parameters);
+        let mut ways = [M::JointVelocities::<S>::zeros(); K];
+        let rates: [S; N] = self.rates(state).into();
+        let mut rates_along = rates.map(Forward::fixed);
+        let mut is_varied = false;
+        for (lane, direction) in directions.iter().enumerate() {
+            match *direction {
+                Some(Along::Position(column)) => {
+                    let way = partition.columns.get(column);
+                    if let (Some(place), Some(way)) = (ways.get_mut(lane), way) {
+                        *place = *way;
+                    }
+                }
+                Some(Along::Rate(column)) => vary(rates_along.get_mut(column), lane),
+                Some(Along::Value(place)) => {
+                    is_varied = true;
+                    vary(parameters.as_mut_slice().get_mut(place), lane);
+                }
+                None => {}
+            }
+        }
+        let here = |ways: &[M::JointVelocities<S>; K]| {
+            let slopes = ways.map(|way| {
+                let mut turned = *state;
+                put_velocities::<M, S>(&way, &mut turned);
+                M::joint_coordinate_rates(&self.equations.constants, self.equations.time, &turned)
+            });
+            moved::<M, S, K>(state, &slopes)
+        };
+        if is_varied {
+            constants = M::prepare(&parameters);
+            equations.constants = M::prepare_joints(&parameters);
+            // What closes a loop again that a parameter opens.
+            let closing = equations.partition(&here(&ways))?.closing;
+            for (place, number) in closing.as_slice().iter().enumerate() {
+                for (way, slope) in ways.iter_mut().zip(number.derivatives()) {
+                    let known = at(way.as_slice(), place);
+                    set(way, place, known + slope);
+                }
+            }
+        }
+        let mut there = here(&ways);
+        let dependent = equations.partition(&there)?;
+        write_rates::<M, N, Forward<S, K>>(&dependent, &rates_along, true, &mut there);
+        Ok(StateAlong {
+            parameters,
+            constants,
+            equations,
+            state: there,
+        })
+    }
+
+    /// Parameters and bodies of a state along some directions.
+    pub(crate) fn start_along<const K: usize>(
+        &self,
+        state: &M::JointState<S>,
+        directions: &[Direction<M>; K],
+    ) -> Result<(M::Parameters<Forward<S, K>>, M::State<Forward<S, K>>), Fault> {
+        let partition = self.equations.partition(state)?;
+        let mut along = [None; K];
+        for (along, direction) in along.iter_mut().zip(directions) {
+            *along = Some(direction.among(&self.equations.places)?);
+        }
+        let there = self.state_along(state, &partition, &along)?;
+        let bodies = self.bodies_along(state, &there);
+        Ok((there.parameters, bodies))
+    }
+
+    /// The bodies of a state along directions.
+    pub(super) fn bodies_along<const K: usize>(
+        &self,
+        here: &M::JointState<S>,
+        there: &StateAlong<M, N, K, S>,
+    ) -> M::State<Forward<S, K>> {
+        let known = bodies_of::<S, M>(&self.equations.constants, here);
+        let motions = M::body_motions(&there.equations.constants, &there.state);
+        bodies_by::<Forward<S, K>, M>(&motions, |body, rows| {
+            let info = M::REPORT.bodies.get(body);
+            let place = info.map_or(usize::MAX, |info| info.coordinate.saturating_add(3));
+            orientation_along(&read(known.coordinates().as_slice(), place), rows)
+        })
+    }
+}
+
+/// Lets a number vary along a direction, beside those along which it does.
+pub(crate) fn vary<S: Scalar, const K: usize>(number: Option<&mut Forward<S, K>>, lane: usize) {
+    let Some(number) = number else { return };
+    let mut slopes = number.derivatives();
+    if let Some(slope) = slopes.get_mut(lane) {
+        *slope = *slope + S::one();
+    }
+    *number = Forward::new(number.value(), slopes);
+}
+
+/// Euler parameters along directions, by those and the rotation matrix: with `R' = R w~` the rate
+/// of `p` is `p (0, w) / 2`.
+fn orientation_along<S: Scalar, const K: usize>(
+    p: &[S; 4],
+    rows: &[[Forward<S, K>; 3]; 3],
+) -> [Forward<S, K>; 4] {
+    let mut slopes = [[S::zero(); K]; 4];
+    for lane in 0..K {
+        let slope = |number: &Forward<S, K>| number.derivatives().get(lane).copied();
+        // `(R^T R')` of row `k` and column `l`.
+        let entry = |k: usize, l: usize| {
+            rows.iter().fold(S::zero(), |sum, row| {
+                let (value, slope) = (row.get(k).map(Forward::value), row.get(l).and_then(slope));
+                value.zip(slope).map_or(sum, |(a, b)| a.fused(b, sum))
+            })
+        };
+        let half = S::constant(0.5);
+        let w = [(2, 1), (0, 2), (1, 0)].map(|(k, l)| half * entry(k, l));
+        let [x, y, z] = w;
+        let rate = product(p, &[S::zero(), x, y, z]);
+        for (slopes, rate) in slopes.iter_mut().zip(rate) {
+            if let Some(place) = slopes.get_mut(lane) {
+                *place = rate;
+            }
+        }
+    }
+    let mut found = p.map(Forward::fixed);
+    for (number, slopes) in found.iter_mut().zip(slopes) {
+        *number = Forward::new(number.value(), slopes);
+    }
+    found
+}

@@ -1,0 +1,7 @@
+//! Derivatives of runs by parameters, inputs and the start.
+
+#![forbid(unsafe_code)]
+
+mod closed_forms;
+mod differences;
+mod refused;
