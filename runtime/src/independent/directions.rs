@@ -166,8 +166,15 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             }
         }
         let mut there = here(&ways);
-        let dependent = equations.partition(&there)?;
-        write_rates::<M, N, Forward<S, K>>(&dependent, &rates_along, true, &mut there);
+        if let Some(dependent) = equations.following(&there)? {
+            write_rates::<M, N, Forward<S, K>>(&dependent, &rates_along, true, &mut there);
+        } else {
+            let mut all = M::JointVelocities::zeros();
+            for (&place, &rate) in equations.places.iter().zip(&rates_along) {
+                set(&mut all, place, rate);
+            }
+            put_velocities::<M, Forward<S, K>>(&all, &mut there);
+        }
         Ok(StateAlong {
             parameters,
             constants,

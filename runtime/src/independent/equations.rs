@@ -14,7 +14,10 @@ use crate::state::vector::Array;
 
 impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     /// How what is not chosen follows; `None` in a tree, where everything is chosen.
-    fn following(&self, state: &M::JointState<S>) -> Result<Option<Partition<M, N, S>>, Fault> {
+    pub(super) fn following(
+        &self,
+        state: &M::JointState<S>,
+    ) -> Result<Option<Partition<M, N, S>>, Fault> {
         if M::JOINT_REPORT.closing.is_empty() {
             return Ok(None);
         }
@@ -91,7 +94,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// The efforts of these accelerations.
-    fn inverse_with(
+    pub(super) fn inverse_with(
         &self,
         following: Option<&Partition<M, N, S>>,
         state: &M::JointState<S>,
@@ -135,35 +138,57 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
 }
 
 /// Solves a symmetric positive definite system by `L D L^T`; not finite where it is not.
-pub(super) fn solve<S: Scalar, const N: usize>(mut matrix: [[S; N]; N], right: [S; N]) -> [S; N] {
-    let mut solution = right;
-    let mut inverses = [S::zero(); N];
-    for k in 0..N {
-        let (done, below) = matrix.split_at_mut(k + 1);
-        let Some(pivot_row) = done.last() else { break };
-        let inverse = pivot_row[k].reciprocal();
-        inverses[k] = inverse;
-        // The column under the pivot, before it becomes one of `L`.
-        let mut column = [S::zero(); N];
-        for (entry, row) in column.iter_mut().skip(k + 1).zip(below.iter()) {
-            *entry = row[k];
+pub(super) fn solve<S: Scalar, const N: usize>(matrix: [[S; N]; N], right: [S; N]) -> [S; N] {
+    Factors::of(matrix).solve(right)
+}
+
+/// `L D L^T` of a symmetric positive definite matrix.
+pub(super) struct Factors<S, const N: usize> {
+    /// `L` below the diagonal.
+    rows: [[S; N]; N],
+    /// Of `D`.
+    inverses: [S; N],
+}
+
+impl<S: Scalar, const N: usize> Factors<S, N> {
+    pub(super) fn of(mut matrix: [[S; N]; N]) -> Self {
+        let mut inverses = [S::zero(); N];
+        for k in 0..N {
+            let (done, below) = matrix.split_at_mut(k + 1);
+            let Some(pivot_row) = done.last() else { break };
+            let inverse = pivot_row[k].reciprocal();
+            inverses[k] = inverse;
+            // The column under the pivot, before it becomes one of `L`.
+            let mut column = [S::zero(); N];
+            for (entry, row) in column.iter_mut().skip(k + 1).zip(below.iter()) {
+                *entry = row[k];
+            }
+            for row in below {
+                let factor = row[k] * inverse;
+                let entries = row.iter_mut().zip(&column).skip(k + 1);
+                entries.for_each(|(entry, &under)| *entry = *entry - factor * under);
+                row[k] = factor;
+            }
         }
-        let known = solution[k];
-        let rights = solution.iter_mut().skip(k + 1);
-        for (row, right) in below.iter_mut().zip(rights) {
-            let factor = row[k] * inverse;
-            let entries = row.iter_mut().zip(&column).skip(k + 1);
-            entries.for_each(|(entry, &under)| *entry = *entry - factor * under);
-            *right = *right - factor * known;
-            row[k] = factor;
+        Self {
+            rows: matrix,
+            inverses,
         }
     }
-    for k in (0..N).rev() {
-        let value = solution[k] * inverses[k];
-        let rows = matrix.iter().zip(&solution).skip(k + 1);
-        solution[k] = rows.fold(value, |value, (row, &above)| value - row[k] * above);
+
+    pub(super) fn solve(&self, right: [S; N]) -> [S; N] {
+        let mut solution = right;
+        for k in 0..N {
+            let row = self.rows[k].iter().zip(&solution).take(k);
+            solution[k] = row.fold(right[k], |value, (&entry, &known)| value - entry * known);
+        }
+        for k in (0..N).rev() {
+            let value = solution[k] * self.inverses[k];
+            let rows = self.rows.iter().zip(&solution).skip(k + 1);
+            solution[k] = rows.fold(value, |value, (row, &above)| value - row[k] * above);
+        }
+        solution
     }
-    solution
 }
 
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {

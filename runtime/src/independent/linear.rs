@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 
 use super::IndependentCoordinates;
 use super::directions::Along;
-use super::equations::solve;
+use super::equations::Factors;
 use super::linearised::Linearised;
 use super::partition::{Partition, joint_rates};
 use crate::error::{Fault, NotFinite};
@@ -22,7 +22,7 @@ use crate::state::vector::Array;
 /// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
 const LANES: usize = 4;
 
-/// Accelerations and readings along directions.
+/// Efforts and readings along directions.
 type Slopes<S, const N: usize, const P: usize> = ([Lifted<S>; N], [Lifted<S>; P]);
 
 impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
@@ -88,6 +88,12 @@ where
             let column = partition.columns.get(column);
             column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
         });
+        // With `M a = -h`, `M da = -(d(M) a + dh)`: what changes the efforts of these accelerations.
+        let equations = &self.equations;
+        let mass = Factors::of(equations.mass(state)?);
+        let following = equations.following(state)?;
+        let bias = equations.inverse_with(following.as_ref(), state, &[S::zero(); N]);
+        let accelerations = mass.solve(bias.map(|bias| -bias));
         let positions = (0..N).map(|number| (number, Along::Position(number)));
         let rates = (0..N).map(|number| (number, Along::Rate(number)));
         let values = values.iter().map(|value| Along::Value(value.index()));
@@ -97,12 +103,13 @@ where
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
             let directions = columns.map(|column| column.map(|(_, direction)| direction));
-            let (accelerations, readings) = self.along(state, &partition, &directions, &read)?;
+            let moving = (state, &accelerations);
+            let (efforts, readings) = self.along(moving, &partition, &directions, &read)?;
             for (lane, (column, direction)) in columns.into_iter().flatten().enumerate() {
                 let slope = |number: &Lifted<S>| {
                     number.derivatives().get(lane).copied().unwrap_or(S::zero())
                 };
-                let accelerations = accelerations.each_ref().map(slope);
+                let accelerations = mass.solve(efforts.each_ref().map(|effort| -slope(effort)));
                 let readings = readings.each_ref().map(slope);
                 match direction {
                     Along::Position(_) => {
@@ -120,11 +127,9 @@ where
                 }
             }
         }
-        let mass = self.equations.mass(state)?;
         for column in 0..N {
             let unit = from_fn(|row| S::constant(f64::from(u8::from(row == column))));
-            let accelerations = solve(mass, unit);
-            put(&mut linear.by_efforts, column, accelerations);
+            put(&mut linear.by_efforts, column, mass.solve(unit));
         }
         if linear.is_finite() {
             Ok(linear)
@@ -135,21 +140,25 @@ where
         }
     }
 
-    /// Accelerations and readings along some directions.
+    /// The efforts of accelerations, and readings, along some directions.
     fn along<const P: usize>(
         &self,
-        state: &M::JointState<S>,
+        (state, accelerations): (&M::JointState<S>, &[S; N]),
         partition: &Partition<M, N, S>,
         directions: &[Option<Along>; LANES],
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Slopes<S, N, P>, Fault> {
         let there = self.state_along(state, partition, directions)?;
-        let accelerations = there
-            .equations
-            .forward(&there.state, &[Forward::zero(); N])?;
+        let following = there.equations.following(&there.state)?;
+        let accelerations = accelerations.map(Forward::fixed);
+        let efforts =
+            (there.equations).inverse_with(following.as_ref(), &there.state, &accelerations);
+        if P == 0 {
+            return Ok((efforts, [Forward::zero(); P]));
+        }
         let bodies = self.bodies_along(state, &there);
         let view = View::new(&there.constants, there.equations.time, &bodies);
-        Ok((accelerations, read(&view)))
+        Ok((efforts, read(&view)))
     }
 }
 
