@@ -22,6 +22,7 @@
 //! | [`choosing`] | formulations and integrators |
 //! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
 //! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes, equilibria |
+//! | [`sensitivities`] | how readings change with parameters, inputs and the start; parameters from measurements |
 //! | [`coordinates`] | absolute or joint coordinates: costs and properties of each |
 //!
 //! # A first program
@@ -147,6 +148,9 @@ pub mod accuracy {}
 #[doc = ""]
 #[doc = include_str!("equations.md")]
 pub mod equations {}
+
+#[doc = include_str!("sensitivities.md")]
+pub mod sensitivities {}
 
 #[doc = include_str!("coordinates.md")]
 pub mod coordinates {}

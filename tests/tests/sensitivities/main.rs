@@ -4,4 +4,5 @@
 
 mod closed_forms;
 mod differences;
+mod estimated;
 mod refused;

@@ -1,0 +1,91 @@
+//! What the equations in chosen coordinates cost, and derivatives: mass matrix, inverse and forward
+//! dynamics, linearisation; a run of 500 steps of [`Rk4`], and the same with eight derivatives.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use holonom::independent::{Chosen, Direction};
+use holonom::mechanism::{HasInverse, HasMassMatrix};
+use holonom::prelude::*;
+use holonom_models::{FourBar, Panda, Ur5};
+
+/// Of the last angle that is chosen, by a start.
+fn equations<M, const N: usize>(
+    criterion: &mut Criterion,
+    name: &str,
+    chosen: impl Chosen<M, N>,
+    directions: [Direction<M>; 8],
+) where
+    M: HasMassMatrix + HasInverse + Default,
+{
+    let mechanism = M::default();
+    let space = mechanism.coordinates(chosen).expect("they are independent");
+    let [positions, rates] = [[0.3; N], [0.7; N]];
+    let state = space.state(positions, rates).expect("it can be assembled");
+    let mut group = criterion.benchmark_group(name);
+    group.bench_function("mass", |bencher| {
+        bencher.iter(|| space.mass(black_box(&state)));
+    });
+    group.bench_function("inverse", |bencher| {
+        bencher.iter(|| space.inverse(black_box(&state), [1.0; N]));
+    });
+    group.bench_function("forward", |bencher| {
+        bencher.iter(|| space.forward(black_box(&state), [0.0; N]));
+    });
+    group.bench_function("linearise", |bencher| {
+        bencher.iter(|| space.linearise(black_box(&state), [], |_| []));
+    });
+    let bodies = space.bodies(&state);
+    group.bench_function("run", |bencher| {
+        let simulation = mechanism
+            .simulation(StandardLagrange, Rk4::every(1e-4))
+            .joint_coordinates()
+            .unmonitored()
+            .initial_state(bodies);
+        bencher.iter(|| simulation.run(0.0..=0.05, every(0.05), |sample| _ = black_box(sample)));
+    });
+    let along = space.sensitivities(&state, directions);
+    let along = along.expect("the coordinates are chosen");
+    group.bench_function("run with eight derivatives", |bencher| {
+        let simulation = along
+            .simulation(StandardLagrange, Rk4::every(1e-4))
+            .joint_coordinates();
+        bencher.iter(|| simulation.run(0.0..=0.05, every(0.05), |sample| _ = black_box(sample)));
+    });
+}
+
+fn robots(criterion: &mut Criterion) {
+    let h = Ur5::HANDLES;
+    let arm = [h.pan, h.lift, h.elbow, h.wrist_1, h.wrist_2, h.wrist_3];
+    let [a, b, c, d, ..] = arm;
+    let directions = [
+        [a, b, c, d].map(Direction::position),
+        [a, b, c, d].map(Direction::rate),
+    ];
+    equations::<Ur5, 6>(criterion, "UR5", arm, flattened(directions));
+    let h = Panda::HANDLES;
+    let [a, b, c, d] = [h.joint_1, h.joint_2, h.joint_3, h.joint_4];
+    let arm = [a, b, c, d, h.joint_5, h.joint_6, h.joint_7];
+    let directions = [
+        [a, b, c, d].map(Direction::position),
+        [a, b, c, d].map(Direction::rate),
+    ];
+    equations::<Panda, 7>(criterion, "Panda", arm, flattened(directions));
+}
+
+/// A loop, by one coordinate again and again.
+fn loops(criterion: &mut Criterion) {
+    let foot = FourBar::HANDLES.left_foot;
+    let directions = [
+        [foot; 4].map(Direction::position),
+        [foot; 4].map(Direction::rate),
+    ];
+    equations::<FourBar, 1>(criterion, "four-bar", [foot], flattened(directions));
+}
+
+fn flattened<M>([[a, b, c, d], [e, f, g, h]]: [[Direction<M>; 4]; 2]) -> [Direction<M>; 8] {
+    [a, b, c, d, e, f, g, h]
+}
+
+criterion_group!(benches, robots, loops);
+criterion_main!(benches);
