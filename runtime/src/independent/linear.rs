@@ -88,7 +88,8 @@ where
             let column = partition.columns.get(column);
             column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
         });
-        // With `M a = -h`, `M da = -(d(M) a + dh)`: what changes the efforts of these accelerations.
+        // With `M a = -h`, `M da = -(d(M) a + dh)`: what changes the efforts of these
+        // accelerations.
         let equations = &self.equations;
         let mass = Factors::of(equations.mass(state)?);
         let following = equations.following(state)?;

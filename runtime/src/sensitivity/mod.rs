@@ -1,10 +1,10 @@
 //! Runs whose numbers carry derivatives: how what is read changes with parameters, inputs and the
 //! start (forward sensitivities).
 //!
-//! A run over [`Forward`] numbers is the run that it would be over plain ones, step by step: numbers
-//! are ordered by their values, and the steps of a control are no functions of what they were
-//! chosen by. `differentiable.rs` says through what derivatives go. Newton's method ends by values,
-//! when derivatives are one iteration behind, so implicit methods are not among that.
+//! A run over [`Forward`] numbers is the run that it would be over plain ones, step by step:
+//! numbers are ordered by their values, and the steps of a control are no functions of what they
+//! were chosen by. `differentiable.rs` says through what derivatives go. Newton's method ends by
+//! values, when derivatives are one iteration behind, so implicit methods are not among that.
 //!
 //! `start.rs` looks whether the derivatives of a start satisfy those of the constraints, which
 //! nothing in a run would notice.
@@ -84,7 +84,7 @@ pub trait SensitivityExt: Mechanism {
     ///         stiffness = 0.0,
     ///         damping = damping,
     ///     )]
-    ///     oil: TorsionalSpring,
+    ///     oil: TorsionalSpringDamper,
     /// }
     ///
     /// let (rod, h) = (Rod::new(1.0, 0.2)?, Rod::HANDLES);

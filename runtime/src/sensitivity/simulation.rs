@@ -122,8 +122,8 @@ where
     /// derivatives.
     ///
     /// # Errors
-    /// As [`Simulation::run`]; [`Fault::StartOpens`](crate::Fault::StartOpens) where the derivatives
-    /// of the start violate those of the constraints.
+    /// As [`Simulation::run`]; [`Fault::StartOpens`](crate::Fault::StartOpens) where the
+    /// derivatives of the start violate those of the constraints.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
