@@ -8,6 +8,7 @@
 //!   states and back.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
 //!   `equilibrium.rs`: states without accelerations.
+//! - `regressor.rs`: inverse dynamics by inertial parameters.
 //!
 //! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
@@ -24,6 +25,7 @@ mod linearised;
 mod modes;
 mod partition;
 mod points;
+mod regressor;
 mod states;
 
 use core::fmt;
@@ -32,6 +34,7 @@ pub use choice::{Chosen, Coordinate, Motion};
 pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;
+pub use regressor::INERTIAL_PARAMETERS;
 
 use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;

@@ -9,4 +9,5 @@ mod found;
 mod linear;
 mod loops;
 mod reference;
+mod regressor;
 mod regulator;
