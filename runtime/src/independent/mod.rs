@@ -8,7 +8,8 @@
 //!   states and back.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
 //!   `equilibrium.rs`: states without accelerations.
-//! - `regressor.rs`: inverse dynamics by inertial parameters.
+//! - `regressor.rs`: inverse dynamics by inertial parameters. `identification.rs`: these from
+//!   measured efforts; `base_parameters.rs`: their combinations that efforts depend on.
 //!
 //! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
@@ -16,9 +17,13 @@
 //! Accelerations are `w' = B z' + b`, with `D b = gamma`. Efforts `f` of all joints do the work of
 //! `B^T f` on `z` (Jourdain's principle).
 
+#[cfg(feature = "std")]
+mod base_parameters;
 mod choice;
 mod equations;
 mod equilibrium;
+#[cfg(feature = "std")]
+mod identification;
 mod linear;
 mod linearised;
 #[cfg(feature = "std")]
@@ -30,7 +35,11 @@ mod states;
 
 use core::fmt;
 
+#[cfg(feature = "std")]
+pub use base_parameters::{BaseParameters, InertialParameter};
 pub use choice::{Chosen, Coordinate, Motion};
+#[cfg(feature = "std")]
+pub use identification::{Identification, Identified};
 pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;

@@ -6,6 +6,7 @@ mod choice;
 mod counts;
 mod equilibrium;
 mod found;
+mod identification;
 mod linear;
 mod loops;
 mod reference;
