@@ -22,6 +22,7 @@
 //! | [`choosing`] | formulations and integrators |
 //! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
 //! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes, equilibria |
+//! | [`identification`] | masses, centres and inertias from measured torques; regressor, base parameters |
 //! | [`coordinates`] | absolute or joint coordinates: costs and properties of each |
 //!
 //! # A first program
@@ -147,6 +148,9 @@ pub mod accuracy {}
 #[doc = ""]
 #[doc = include_str!("equations.md")]
 pub mod equations {}
+
+#[doc = include_str!("identification.md")]
+pub mod identification {}
 
 #[doc = include_str!("coordinates.md")]
 pub mod coordinates {}

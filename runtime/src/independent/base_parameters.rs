@@ -19,7 +19,8 @@ pub struct InertialParameter {
 
 impl fmt::Display for InertialParameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} of {}", self.quantity, self.body)
+        // One text, so that a width is one of the whole.
+        f.pad(&std::format!("{} of {}", self.quantity, self.body))
     }
 }
 

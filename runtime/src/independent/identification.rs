@@ -109,6 +109,12 @@ impl<M: HasJacobian, const N: usize, const B: usize> Identification<M, N, B> {
         Ok(())
     }
 
+    /// The bodies.
+    #[must_use]
+    pub const fn bodies(&self) -> [BodyHandle<M>; B] {
+        self.bodies
+    }
+
     /// The parameters of the bodies as they are described, see
     /// [`IndependentCoordinates::inertial_parameters`].
     #[must_use]
