@@ -69,9 +69,8 @@ impl<const B: usize> BaseParameters<B> {
         self.independent.iter().map(|&place| self.parameter(place))
     }
 
-    /// The parameters in a base parameter with their factors, the independent one among them with 1:
-    /// kg for a mass, kg m for a first moment, kg m^2 for inertia. Nothing for a number out of
-    /// range.
+    /// The parameters in a base parameter, by its number from 0, with their factors: 1 for the
+    /// independent one, whose unit the sum has. Nothing for a number out of range.
     pub fn combination(&self, number: usize) -> impl Iterator<Item = (InertialParameter, f64)> {
         let places = (0..10 * B).filter_map(move |place| {
             let factor = *self.combinations.get((number, place))?;

@@ -42,8 +42,8 @@ pub struct Identified<const B: usize> {
 }
 
 impl<M: HasJacobian, const N: usize> IndependentCoordinates<M, N> {
-    /// An identification of the inertial parameters of these bodies, without observations. Other
-    /// bodies, springs, dampers and motors are taken as they are described. See
+    /// An identification of the inertial parameters of these bodies, each named once, without
+    /// observations. Other bodies, springs, dampers and motors are taken as they are described. See
     /// [`guide::identification`](crate::guide::identification).
     #[must_use]
     pub fn identification<const B: usize>(

@@ -65,9 +65,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
 }
 
 impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
-    /// The block of a body in the regressor `Y(q, v, a)` of inverse dynamics: the efforts (rows; N m
-    /// or N) by its inertial parameters, as [`IndependentCoordinates::inertial_parameters`] has
-    /// them.
+    /// The block of a body in the regressor `Y(q, v, a)` of inverse dynamics: the efforts (N m, N),
+    /// one a row, by its inertial parameters, as [`IndependentCoordinates::inertial_parameters`]
+    /// has them.
     ///
     /// The sum over all bodies of block times parameters is what
     /// [`IndependentCoordinates::inverse`] gives without described forces: inertia and gravity. It

@@ -246,7 +246,7 @@ fn what_cannot_be_identified_is_refused() -> Result<(), Fault> {
         name: "surplus of rows",
         value: 0.0,
     };
-    assert_eq!(run.identify([1.0]), Err(surplus.clone()));
+    assert_eq!(run.identify([1.0]), Err(surplus));
     let state = space.state([0.3], [1.0])?;
     assert!(run.observe(&state, [1.0], [f64::NAN]).is_err());
     assert!(run.observe(&state, [f64::INFINITY], [1.0]).is_err());
