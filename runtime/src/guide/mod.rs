@@ -23,6 +23,7 @@
 //! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
 //! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes, equilibria |
 //! | [`sensitivities`] | how readings change with parameters, inputs and the start; parameters from measurements |
+//! | [`identification`] | masses, centres and inertias from measured torques; regressor, base parameters |
 //! | [`coordinates`] | absolute or joint coordinates: costs and properties of each |
 //!
 //! # A first program
@@ -151,6 +152,9 @@ pub mod equations {}
 
 #[doc = include_str!("sensitivities.md")]
 pub mod sensitivities {}
+
+#[doc = include_str!("identification.md")]
+pub mod identification {}
 
 #[doc = include_str!("coordinates.md")]
 pub mod coordinates {}

@@ -25,7 +25,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// The accelerations of all joints, `B z' + b`.
-    fn accelerations(
+    pub(super) fn accelerations(
         &self,
         following: Option<&Partition<M, N, S>>,
         chosen: &[S; N],
@@ -319,8 +319,13 @@ pub(super) fn finite_matrix<S: Real, const R: usize, const C: usize>(
     if matrix.iter().all(|number| number.is_finite()) {
         Ok(matrix)
     } else {
-        Err(Fault::RatesNotFinite {
-            origin: NotFinite::Unknown,
-        })
+        Err(not_finite())
+    }
+}
+
+/// The fault of numbers that may not.
+pub(super) const fn not_finite() -> Fault {
+    Fault::RatesNotFinite {
+        origin: NotFinite::Unknown,
     }
 }

@@ -9,6 +9,8 @@
 //! - `directions.rs`: derivatives along coordinates, rates and values.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
 //!   `equilibrium.rs`: states without accelerations.
+//! - `regressor.rs`: inverse dynamics by inertial parameters. `identification.rs`: these from
+//!   measured efforts; `base_parameters.rs`: their combinations that efforts depend on.
 //!
 //! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
@@ -16,26 +18,36 @@
 //! Accelerations are `w' = B z' + b`, with `D b = gamma`. Efforts `f` of all joints do the work of
 //! `B^T f` on `z` (Jourdain's principle).
 
+#[cfg(feature = "std")]
+mod base_parameters;
 mod choice;
 mod directions;
 mod equations;
 mod equilibrium;
+#[cfg(feature = "std")]
+mod identification;
 mod linear;
 mod linearised;
 #[cfg(feature = "std")]
 mod modes;
 mod partition;
 mod points;
+mod regressor;
 mod states;
 
 use core::fmt;
 
+#[cfg(feature = "std")]
+pub use base_parameters::{BaseParameters, InertialParameter};
 pub use choice::{Chosen, Coordinate, Motion};
 pub use directions::Direction;
 pub(crate) use directions::vary;
+#[cfg(feature = "std")]
+pub use identification::{Identification, Identified};
 pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;
+pub use regressor::INERTIAL_PARAMETERS;
 
 use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;

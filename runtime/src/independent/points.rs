@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, Vector3};
 
 use super::equations::{finite_matrix, solve};
-use super::partition::at;
+use super::partition::{Partition, at};
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
 use crate::forward::Forward;
@@ -70,37 +70,45 @@ impl<M: HasJacobian, const N: usize, S: Real> Equations<M, N, S> {
         point: &Fixed<S>,
     ) -> Result<[[S; 6]; N], Fault> {
         let partition = self.partition(state)?;
-        let mut columns = [[S::zero(); 6]; N];
         let Some(body) = point.body else {
-            return Ok(columns);
+            return Ok([[S::zero(); 6]; N]);
         };
         let motions = M::body_motions(&self.constants, state);
         let p = position::<S, M>(motions.as_slice(), body, &point.arm);
         let axes = M::joint_axes(&self.constants, self.time, state);
-        let axes = axes.as_slice();
-        let is_particle = M::REPORT
-            .bodies
-            .get(body)
-            .is_none_or(|info| info.kind == BodyKind::Particle);
-        for &(rate, ball) in M::MOVED_BY.get(body).copied().unwrap_or(&[]) {
-            let [mut axis, origin, along] =
-                [0, 3, 6].map(|part| read::<S, 3>(axes, 9 * rate + part));
-            let moved = ball.map_or(p, |ball| read(axes, 9 * ball + 3));
-            let velocity = plus(&cross(&axis, &minus(&moved, &origin)), &along);
-            if ball.is_some() || is_particle {
-                axis = [S::zero(); 3];
-            }
-            for (column, of_chosen) in columns.iter_mut().zip(&partition.columns) {
-                let share = at(of_chosen.as_slice(), rate);
-                let [vx, vy, vz] = times(&velocity, share);
-                let [wx, wy, wz] = times(&axis, share);
-                for (entry, part) in column.iter_mut().zip([vx, vy, vz, wx, wy, wz]) {
-                    *entry = *entry + part;
-                }
+        Ok(columns(&partition, axes.as_slice(), body, &p))
+    }
+}
+
+/// The same of a body at a point (m, global), by the axes of the joints.
+pub(super) fn columns<M: HasJacobian, const N: usize, S: Scalar>(
+    partition: &Partition<M, N, S>,
+    axes: &[S],
+    body: usize,
+    p: &[S; 3],
+) -> [[S; 6]; N] {
+    let mut columns = [[S::zero(); 6]; N];
+    let is_particle = M::REPORT
+        .bodies
+        .get(body)
+        .is_none_or(|info| info.kind == BodyKind::Particle);
+    for &(rate, ball) in M::MOVED_BY.get(body).copied().unwrap_or(&[]) {
+        let [mut axis, origin, along] = [0, 3, 6].map(|part| read::<S, 3>(axes, 9 * rate + part));
+        let moved = ball.map_or(*p, |ball| read(axes, 9 * ball + 3));
+        let velocity = plus(&cross(&axis, &minus(&moved, &origin)), &along);
+        if ball.is_some() || is_particle {
+            axis = [S::zero(); 3];
+        }
+        for (column, of_chosen) in columns.iter_mut().zip(&partition.columns) {
+            let share = at(of_chosen.as_slice(), rate);
+            let [vx, vy, vz] = times(&velocity, share);
+            let [wx, wy, wz] = times(&axis, share);
+            for (entry, part) in column.iter_mut().zip([vx, vy, vz, wx, wy, wz]) {
+                *entry = *entry + part;
             }
         }
-        Ok(columns)
     }
+    columns
 }
 
 impl<M: JointRates, const N: usize, S: Scalar> Equations<M, N, S> {

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use crate::error::Fault;
 use crate::math::scalar::Scalar;
-use crate::math::vec3::square;
+use crate::math::vec3::{minus, read, square, times};
 use crate::measure::access::{MechanismExt, Pose};
 use crate::measure::reaction::{Wrench, wrench};
 use crate::mechanism::handle::{
@@ -173,26 +173,32 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// over its mass. Zero without a body.
     #[must_use]
     pub fn gravity(&self) -> Vector3<S> {
+        let (gravity, _) = self.gravity_by(0);
+        Vector3::from(gravity)
+    }
+
+    /// The same by any body, and what force fields do to it (m/s^2): as many digits are lost as
+    /// that is larger.
+    pub(crate) fn gravity_by(&self, body: usize) -> ([S; 3], S) {
+        let Some(info) = M::REPORT.bodies.get(body) else {
+            return ([S::zero(); 3], S::zero());
+        };
         let state = self.state_of_kernels();
-        let [mut x, mut y, mut z] = [S::zero(); 3];
-        if let [fx, fy, fz, ..] = *M::forces(self.constants(), self.time, &state).as_slice() {
-            [x, y, z] = [fx, fy, fz];
-        }
+        let forces = M::forces(self.constants(), self.time, &state);
+        let mut weight: [S; 3] = read(forces.as_slice(), info.velocity);
+        let mut pushed = S::zero();
         for (index, force) in M::REPORT.forces.iter().enumerate() {
             let places = force.bodies.iter().enumerate();
-            for (place, _) in places.filter(|(_, body)| **body == Some(0)) {
+            for (place, _) in places.filter(|(_, of)| **of == Some(body)) {
                 let load = M::force_load(self.constants(), self.time, &state, index, place);
                 let [fx, fy, fz, ..] = load;
-                [x, y, z] = [x - fx, y - fy, z - fz];
+                weight = minus(&weight, &[fx, fy, fz]);
+                pushed = pushed + fx.abs() + fy.abs() + fz.abs();
             }
         }
-        match M::mass::<S>(self.constants()).as_slice() {
-            [mass, ..] => {
-                let part = mass.reciprocal();
-                Vector3::new(part * x, part * y, part * z)
-            }
-            [] => Vector3::new(x, y, z),
-        }
+        let [mass] = read(M::mass::<S>(self.constants()).as_slice(), info.velocity);
+        let part = mass.reciprocal();
+        (times(&weight, part), pushed * part)
     }
 
     /// The angle of a joint (rad), zero in the configuration that the attributes describe, positive

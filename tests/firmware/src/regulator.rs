@@ -77,8 +77,11 @@ pub fn everything<S: Real>() -> Result<S, Fault> {
     let jacobian = space.jacobian(&state, h.pole)?;
     let rate = space.jacobian_rate(&state, h.pole)?;
     let linear = space.linearise(&state, [h.push], |view| [view.angle(h.pin)])?;
+    let block = space.regressor(&state, wanted, h.pole)?;
+    let inertia = space.inertial_parameters(h.pole);
     let used = parts.iter().flat_map(|part| part.iter()).chain(mass.iter());
     let used = used.chain(jacobian.iter()).chain(rate.iter());
+    let used = used.chain(block.iter()).chain(inertia.iter());
     let used = used
         .chain(linear.a::<4>().iter())
         .fold(S::zero(), |sum, x| sum + x.abs());

@@ -14,7 +14,7 @@ use nalgebra::{Matrix2, SVector, Vector2, Vector3};
     coordinates = "joints",
     kernels = [mass, inverse, gravity, coriolis, jacobian]
 )]
-struct Balls {
+pub(super) struct Balls {
     #[body(mass = 1.0, inertia = [0.1, 0.2, 0.25], position = [0.0, 0.5, 0.0])]
     a: Body,
     #[body(mass = 2.0, inertia = [0.3, 0.2, 0.25], position = [0.2, 1.0, -0.5])]

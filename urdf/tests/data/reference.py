@@ -17,6 +17,7 @@ import pinocchio as pin
 
 HERE = pathlib.Path(__file__).parent
 DYNAMICS = ["ur5", "panda", "so100", "double_pendulum"]
+REGRESSORS = ["ur5", "panda"]
 
 
 def load(path):
@@ -134,7 +135,16 @@ def equations(model, damping, chain, q, rates):
     }
 
 
-def states(model, damping, mimics, random):
+def regressor(model, chain, q, rates, a):
+    """Efforts by the inertial parameters of all joints' bodies, in the order of Pinocchio: mass,
+    first moments, and the tensor about the origin of the joint (xx, xy, yy, xz, yz, zz)."""
+    data = model.createData()
+    rows = chain.T @ pin.computeJointTorqueRegressor(model, data, q, rates, a)
+    levers = [model.inertias[i].lever.tolist() for i in range(1, model.njoints)]
+    return {"levers": levers, "rows": rows.tolist()}
+
+
+def states(model, damping, mimics, random, has_regressor):
     names, chain = leaders(model, mimics)
     found = []
     for _ in range(5):
@@ -143,17 +153,19 @@ def states(model, damping, mimics, random):
         rates = random.uniform(-1.5, 1.5, len(names)) * size
         efforts = random.uniform(-5.0, 5.0, len(names))
         q = pin.integrate(model, pin.neutral(model), chain @ angles)
+        a = chain @ accelerations(model, damping, chain, q, chain @ rates, efforts)
         found.append(
             {
                 "positions": (chain @ angles)[list(singles(model).values())].tolist(),
                 "rates": (chain @ rates)[list(singles(model).values())].tolist(),
                 "efforts": efforts.tolist(),
-                "accelerations": (
-                    chain @ accelerations(model, damping, chain, q, chain @ rates, efforts)
-                )[list(singles(model).values())].tolist(),
+                "accelerations": a[list(singles(model).values())].tolist(),
                 "equations": equations(model, damping, chain, q, chain @ rates),
             }
         )
+        # Large: of the first two states.
+        if has_regressor and len(found) <= 2:
+            found[-1]["equations"]["regressor"] = regressor(model, chain, q, chain @ rates, a)
     return {"joints": list(singles(model)), "leaders": names, "states": found}
 
 
@@ -204,7 +216,9 @@ def main():
         model, damping, mimics = load(path)
         robots[path.stem] = configuration(model)
         if path.stem in DYNAMICS:
-            robots[path.stem]["motion"] = states(model, damping, mimics, random)
+            robots[path.stem]["motion"] = states(
+                model, damping, mimics, random, path.stem in REGRESSORS
+            )
     robots["crane"] = configuration(load(HERE / "crane.urdf")[0])
     robots["crane"]["motion"] = crane(random)
     lines = ",\n".join(f"{json.dumps(name)}: {json.dumps(one)}" for name, one in robots.items())

@@ -19,17 +19,26 @@ pub(crate) struct Reference {
     bias: Vec<f64>,
     jacobian: Vec<Vec<f64>>,
     jacobian_rate: Vec<Vec<f64>>,
+    pub(crate) regressor: Option<Regressor>,
+}
+
+/// Efforts by the inertial parameters of the joints' bodies, ten a body, about the origin of the
+/// joint; beside it the centres of mass (m) from there, in the axes of the link.
+#[derive(Deserialize)]
+pub(crate) struct Regressor {
+    pub(crate) levers: Vec<[f64; 3]>,
+    pub(crate) rows: Vec<Vec<f64>>,
 }
 
 /// Of the largest entry.
 const LIMIT: f64 = 1e-13;
 
-fn matrix<const R: usize, const C: usize>(rows: &[Vec<f64>]) -> SMatrix<f64, R, C> {
+pub(crate) fn matrix<const R: usize, const C: usize>(rows: &[Vec<f64>]) -> SMatrix<f64, R, C> {
     assert_eq!((rows.len(), rows[0].len()), (R, C));
     SMatrix::from_fn(|row, column| rows[row][column])
 }
 
-fn close<const R: usize, const C: usize>(
+pub(crate) fn close<const R: usize, const C: usize>(
     what: &str,
     found: SMatrix<f64, R, C>,
     wanted: SMatrix<f64, R, C>,

@@ -5,6 +5,7 @@
 
 mod equations;
 mod in_place;
+mod regressor;
 mod robots;
 
 use std::collections::{BTreeMap, HashMap};
