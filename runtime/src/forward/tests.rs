@@ -101,6 +101,23 @@ fn numbers_nest() {
     assert_eq!((slope.value(), slope.derivatives()), (12.0, [12.0]));
 }
 
+/// Ordered by values; a control's choice depends on nothing.
+#[test]
+fn numbers_are_real() {
+    let (less, more) = (Two::new(1.0, [5.0, 0.0]), Two::new(2.0, [-5.0, 1.0]));
+    assert!(less < more && less <= Two::along(1.0, 1) && less >= Two::along(1.0, 1));
+    assert!(less != Two::along(1.0, 1));
+    assert_eq!(Real::max(less, more), more);
+    assert_eq!(more.plain(), Two::fixed(2.0));
+    assert_eq!(more.ulp(), Two::fixed(f64::EPSILON * 2.0));
+    assert!(less.is_finite() && !Two::new(1.0, [f64::NAN, 0.0]).is_finite());
+    for at in [0.3, 1.0, 2.5] {
+        agrees(|x| x.powf(1.5), at);
+        agrees(|x| Two::constant(2.0).quotient(x), at);
+        agrees(|x| (x * x).quotient(x + Two::constant(1.0)), at);
+    }
+}
+
 type Joints<S> = JointState<S, 3, 1, 4>;
 
 /// Rates of three angles, of a displacement and of four velocities.
