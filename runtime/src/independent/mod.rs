@@ -6,8 +6,9 @@
 //!   Wehage and Haug 1982).
 //! - `equations.rs`: mass matrix and efforts. `points.rs`: Jacobians. `states.rs`: the way to
 //!   states and back.
-//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
-//!   `equilibrium.rs`: states without accelerations.
+//! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
+//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions.
+//! - `equilibrium.rs`: states without accelerations, over `balance.rs`.
 //!
 //! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
@@ -15,7 +16,9 @@
 //! Accelerations are `w' = B z' + b`, with `D b = gamma`. Efforts `f` of all joints do the work of
 //! `B^T f` on `z` (Jourdain's principle).
 
+mod balance;
 mod choice;
+mod elimination;
 mod equations;
 mod equilibrium;
 mod linear;
