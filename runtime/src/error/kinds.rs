@@ -323,6 +323,17 @@ pub enum Fault {
         /// The joint's field.
         joint: &'static str,
     },
+    /// A joint was named whose motion is none of the chosen coordinates.
+    NotChosen {
+        /// The joint's field.
+        joint: &'static str,
+    },
+    /// A quantity was sought on which no acceleration depends, or none that the other unknowns do
+    /// not change in the same way.
+    NoEffect {
+        /// The field of the parameter, the input or the joint.
+        unknown: &'static str,
+    },
     /// Angles that count turns were set, and their number is not that of the joint or force.
     CountedAngles {
         /// The field of the joint or force.

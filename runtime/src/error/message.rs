@@ -402,6 +402,16 @@ impl fmt::Display for Fault {
                 f,
                 "no steady motion: `{joint}` moves, and accelerations depend on where it is"
             ),
+            Self::NotChosen { joint } => {
+                write!(
+                    f,
+                    "the motion of `{joint}` is none of the chosen coordinates"
+                )
+            }
+            Self::NoEffect { unknown } => write!(
+                f,
+                "`{unknown}` balances nothing here: no acceleration depends on it, or only as on the other unknowns"
+            ),
             Self::CountedAngles {
                 element,
                 counted,

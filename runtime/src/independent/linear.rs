@@ -7,6 +7,7 @@ use super::linearised::Linearised;
 use super::partition::{Partition, at, joint_rates, set};
 use super::points::moved;
 use super::states::{put_velocities, write_rates};
+use super::varied::Adjusted;
 use super::{Equations, IndependentCoordinates};
 use crate::error::{Fault, NotFinite};
 use crate::forward::{Forward, Lifted, lifted};
@@ -89,6 +90,16 @@ where
         values: [ValueHandle<M>; K],
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Linearised<N, K, P, S>, Fault> {
+        self.linearise_by(state, &values.map(|of| Adjusted::Value(of.index())), read)
+    }
+
+    /// The same by parameters, inputs and rates.
+    pub(super) fn linearise_by<const K: usize, const P: usize>(
+        &self,
+        state: &M::JointState<S>,
+        values: &[Adjusted; K],
+        read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> Result<Linearised<N, K, P, S>, Fault> {
         let mut linear = Linearised::<N, K, P, S>::zeros();
         let partition = self.equations.partition(state)?;
         let rates = joint_rates::<M, S>(state);
@@ -103,8 +114,7 @@ where
         loop {
             let lanes: [Option<Direction>; LANES] = core::array::from_fn(|_| directions.next());
             let [Some(_), ..] = lanes else { break };
-            let (accelerations, readings) =
-                self.along(state, &partition, &lanes, &values, &read)?;
+            let (accelerations, readings) = self.along(state, &partition, &lanes, values, &read)?;
             for (lane, direction) in lanes.into_iter().flatten().enumerate() {
                 let slope = |number: &Lifted<S>| {
                     number.derivatives().get(lane).copied().unwrap_or(S::zero())
@@ -148,7 +158,7 @@ where
         state: &M::JointState<S>,
         partition: &Partition<M, N, S>,
         lanes: &[Option<Direction>; LANES],
-        values: &[ValueHandle<M>; K],
+        values: &[Adjusted; K],
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Along<S, N, P>, Fault> {
         let mut equations = self.equations.lifted::<LANES>();
@@ -167,11 +177,14 @@ where
                     }
                 }
                 Some(Direction::Rate(column)) => vary(rates_along.get_mut(column), lane),
-                Some(Direction::Value(number)) => {
-                    is_varied = true;
-                    let place = values.get(number).map_or(usize::MAX, |value| value.index());
-                    vary(parameters.as_mut_slice().get_mut(place), lane);
-                }
+                Some(Direction::Value(number)) => match values.get(number) {
+                    Some(&Adjusted::Value(place)) => {
+                        is_varied = true;
+                        vary(parameters.as_mut_slice().get_mut(place), lane);
+                    }
+                    Some(&Adjusted::Rate(column)) => vary(rates_along.get_mut(column), lane),
+                    None => {}
+                },
                 None => {}
             }
         }

@@ -8,7 +8,8 @@
 //!   states and back.
 //! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions.
-//! - `equilibrium.rs`: states without accelerations, over `balance.rs`.
+//! - `equilibrium.rs`: states without accelerations, over `balance.rs`; `trim.rs`: with inputs and
+//!   parameters as unknowns (`varied.rs`).
 //!
 //! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
@@ -28,6 +29,8 @@ mod modes;
 mod partition;
 mod points;
 mod states;
+mod trim;
+mod varied;
 
 use core::fmt;
 
@@ -35,6 +38,7 @@ pub use choice::{Chosen, Coordinate, Motion};
 pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;
+pub use varied::Varied;
 
 use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;
