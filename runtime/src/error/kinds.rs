@@ -334,6 +334,13 @@ pub enum Fault {
         /// The field of the parameter, the input or the joint.
         unknown: &'static str,
     },
+    /// Equilibria were followed to where they end, or bend too sharply.
+    BranchEnds {
+        /// The field of the parameter, the input or the joint.
+        along: &'static str,
+        /// The last value at which there is one.
+        value: f64,
+    },
     /// Angles that count turns were set, and their number is not that of the joint or force.
     CountedAngles {
         /// The field of the joint or force.

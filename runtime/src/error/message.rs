@@ -412,6 +412,11 @@ impl fmt::Display for Fault {
                 f,
                 "`{unknown}` balances nothing here: no acceleration depends on it, or only as on the other unknowns"
             ),
+            Self::BranchEnds { along, value } => write!(
+                f,
+                "no equilibrium leads on from `{along} = {}`: the branch ends there, or bends more sharply than steps can follow",
+                Measured(value)
+            ),
             Self::CountedAngles {
                 element,
                 counted,

@@ -10,6 +10,8 @@
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions.
 //! - `equilibrium.rs`: states without accelerations, over `balance.rs`; `trim.rs`: with inputs and
 //!   parameters as unknowns (`varied.rs`).
+//! - `continuation.rs`: equilibria along a parameter; `walk.rs`: points and steps, `folds.rs`:
+//!   folds and branchings, `stability.rs`: eigenvalues of the stiffness.
 //!
 //! All of it is generic over [`Scalar`] where it can be, so that derivatives go through it.
 //!
@@ -19,22 +21,27 @@
 
 mod balance;
 mod choice;
+mod continuation;
 mod elimination;
 mod equations;
 mod equilibrium;
+mod folds;
 mod linear;
 mod linearised;
 #[cfg(feature = "std")]
 mod modes;
 mod partition;
 mod points;
+mod stability;
 mod states;
 mod trim;
 mod varied;
+mod walk;
 
 use core::fmt;
 
 pub use choice::{Chosen, Coordinate, Motion};
+pub use continuation::{BranchEnd, BranchPoint, Continuation, PointKind};
 pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;

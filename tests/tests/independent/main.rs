@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod choice;
+mod continuation;
 mod counts;
 mod equilibrium;
 mod found;
@@ -10,3 +11,4 @@ mod linear;
 mod loops;
 mod reference;
 mod regulator;
+mod trim;
