@@ -21,7 +21,8 @@
 //! | [`embedded`] | fixed steps without a heap or the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
 //! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
-//! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes, equilibria |
+//! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes |
+//! | [`equilibria`] | where a mechanism rests, which inputs hold it, at which load it snaps through |
 //! | [`coordinates`] | absolute or joint coordinates: costs and properties of each |
 //!
 //! # A first program
@@ -143,10 +144,13 @@ pub mod choosing {}
 pub mod accuracy {}
 
 #[doc = "The equations of motion in chosen coordinates: mass matrix, inverse dynamics, Jacobians,"]
-#[doc = "linear models, equilibria."]
+#[doc = "linear models."]
 #[doc = ""]
 #[doc = include_str!("equations.md")]
 pub mod equations {}
+
+#[doc = include_str!("equilibria.md")]
+pub mod equilibria {}
 
 #[doc = include_str!("coordinates.md")]
 pub mod coordinates {}

@@ -3,16 +3,13 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::elimination::Elimination;
-use super::states::{put_velocities, write_rates};
+use super::states::write_rates;
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
-use crate::state::vector::{Array, Vector as _};
-
-/// Corrections that close loops again after a step.
-const CORRECTIONS: usize = 25;
+use crate::state::vector::Vector as _;
 
 /// A state, and the accelerations there.
 pub(super) type Reached<M, const N: usize, S> =
@@ -119,42 +116,6 @@ where
             there = self.of_bodies(&bodies);
         }
         self.with_rates(&there, *rates)
-    }
-
-    /// The state near one in which loops are closed, at the same chosen coordinates.
-    fn closed(&self, mut state: M::JointState<S>) -> Result<M::JointState<S>, Fault> {
-        if M::JOINT_REPORT.closing.is_empty() {
-            return Ok(state);
-        }
-        let Equations {
-            constants, time, ..
-        } = &self.equations;
-        let mut before = S::one();
-        for taken in 0..CORRECTIONS {
-            let closing = self.equations.partition(&state)?.closing;
-            let mut open = S::zero();
-            for (place, &number) in closing.as_slice().iter().enumerate() {
-                open = Real::max(open, number.abs().quotient(self.equations.scale(place)));
-            }
-            let is_least = open < S::EPSILON.powf(0.75) && open * S::constant(2.0) > before;
-            if open <= S::EPSILON || is_least {
-                return Ok(state);
-            }
-            if open.to_f64().is_nan() || open > before {
-                return Err(Fault::NotConverged {
-                    iterations: taken,
-                    residual: open.to_f64(),
-                    joint: None,
-                    alpha: None,
-                });
-            }
-            before = open;
-            let mut slope = state;
-            put_velocities::<M, S>(&closing, &mut slope);
-            let slope = M::joint_coordinate_rates(constants, *time, &slope);
-            state = state.plus([(S::one(), &slope)]);
-        }
-        Ok(state)
     }
 }
 

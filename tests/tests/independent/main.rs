@@ -5,6 +5,7 @@
 mod choice;
 mod continuation;
 mod counts;
+mod differences;
 mod equilibrium;
 mod found;
 mod linear;
