@@ -1,6 +1,37 @@
 //! Gauss-Jordan elimination with the largest pivots first.
 
-use super::partition::{Magnitude, at};
+use crate::forward::Forward;
+use crate::math::scalar::{Real, Scalar};
+use crate::state::vector::Array;
+
+/// A number by whose size pivots are chosen: a real one, or one that carries derivatives.
+pub(super) trait Magnitude: Scalar {
+    /// The distance from 1 to the next larger number.
+    fn round_off() -> f64;
+
+    /// The absolute value.
+    fn magnitude(self) -> f64;
+}
+
+impl<S: Real> Magnitude for S {
+    fn round_off() -> f64 {
+        S::EPSILON.to_f64()
+    }
+
+    fn magnitude(self) -> f64 {
+        self.abs().to_f64()
+    }
+}
+
+impl<S: Real, const K: usize> Magnitude for Forward<S, K> {
+    fn round_off() -> f64 {
+        S::round_off()
+    }
+
+    fn magnitude(self) -> f64 {
+        self.value().magnitude()
+    }
+}
 
 /// A system of linear equations, which may lack rank.
 ///
@@ -86,6 +117,16 @@ impl<S: Magnitude> Elimination<'_, S> {
         self.row(column).map_or(S::zero(), |row| {
             at(right, row) * self.entry(row, column).reciprocal()
         })
+    }
+}
+/// An element; zero where there is none.
+pub(super) fn at<S: Scalar>(numbers: &[S], place: usize) -> S {
+    numbers.get(place).copied().unwrap_or(S::zero())
+}
+
+pub(super) fn set<S: Scalar, A: Array<S>>(numbers: &mut A, place: usize, value: S) {
+    if let Some(number) = numbers.as_mut_slice().get_mut(place) {
+        *number = value;
     }
 }
 

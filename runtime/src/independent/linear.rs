@@ -2,9 +2,10 @@
 
 use nalgebra::SMatrix;
 
+use super::elimination::{at, set};
 use super::equations::solve;
 use super::linearised::Linearised;
-use super::partition::{Partition, at, joint_rates, set};
+use super::partition::{Partition, joint_rates};
 use super::points::moved;
 use super::states::{put_velocities, write_rates};
 use super::varied::Adjusted;
@@ -33,6 +34,13 @@ enum Direction {
     Position(usize),
     Rate(usize),
     Value(usize),
+}
+
+/// What changes.
+#[derive(Clone, Copy)]
+enum Outcome {
+    Accelerations,
+    Efforts,
 }
 
 impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
@@ -100,6 +108,26 @@ where
         values: &[Adjusted; K],
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Linearised<N, K, P, S>, Fault> {
+        self.slopes(state, values, Outcome::Accelerations, read)
+    }
+
+    /// How the efforts that are not balanced, `-h`, change with coordinates, rates and quantities,
+    /// in the place of accelerations.
+    pub(super) fn efforts_by<const K: usize>(
+        &self,
+        state: &M::JointState<S>,
+        values: &[Adjusted; K],
+    ) -> Result<Linearised<N, K, 0, S>, Fault> {
+        self.slopes(state, values, Outcome::Efforts, |_| [])
+    }
+
+    fn slopes<const K: usize, const P: usize>(
+        &self,
+        state: &M::JointState<S>,
+        values: &[Adjusted; K],
+        outcome: Outcome,
+        read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> Result<Linearised<N, K, P, S>, Fault> {
         let mut linear = Linearised::<N, K, P, S>::zeros();
         let partition = self.equations.partition(state)?;
         let rates = joint_rates::<M, S>(state);
@@ -114,7 +142,8 @@ where
         loop {
             let lanes: [Option<Direction>; LANES] = core::array::from_fn(|_| directions.next());
             let [Some(_), ..] = lanes else { break };
-            let (accelerations, readings) = self.along(state, &partition, &lanes, values, &read)?;
+            let (accelerations, readings) =
+                self.along(state, &partition, &lanes, (values, outcome), &read)?;
             for (lane, direction) in lanes.into_iter().flatten().enumerate() {
                 let slope = |number: &Lifted<S>| {
                     number.derivatives().get(lane).copied().unwrap_or(S::zero())
@@ -158,7 +187,7 @@ where
         state: &M::JointState<S>,
         partition: &Partition<M, N, S>,
         lanes: &[Option<Direction>; LANES],
-        values: &[Adjusted; K],
+        (values, outcome): (&[Adjusted; K], Outcome),
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Along<S, N, P>, Fault> {
         let mut equations = self.equations.lifted::<LANES>();
@@ -211,7 +240,11 @@ where
         let mut there = here(&ways);
         let dependent = equations.partition(&there)?;
         write_rates::<M, N, Lifted<S>>(&dependent, &rates_along, true, &mut there);
-        let accelerations = equations.forward(&there, &[Forward::zero(); N])?;
+        let none = [Forward::zero(); N];
+        let accelerations = match outcome {
+            Outcome::Accelerations => equations.forward(&there, &none)?,
+            Outcome::Efforts => equations.inverse(&there, &none)?.map(|effort| -effort),
+        };
         let bodies = self.bodies_along(&equations, state, &there);
         let view = View::new(&constants, equations.time, &bodies);
         Ok((accelerations, read(&view)))

@@ -1,42 +1,12 @@
 //! The rates of all joints by the chosen ones.
 
 use super::Equations;
-use super::elimination::Elimination;
+use super::elimination::{Elimination, Magnitude, at, set};
 use crate::error::Fault;
-use crate::forward::Forward;
-use crate::math::scalar::{Real, Scalar};
+use crate::math::scalar::Scalar;
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::JointRates;
 use crate::state::vector::Array;
-
-/// A number by whose size pivots are chosen: a real one, or one that carries derivatives.
-pub(super) trait Magnitude: Scalar {
-    /// The distance from 1 to the next larger number.
-    fn round_off() -> f64;
-
-    /// The absolute value.
-    fn magnitude(self) -> f64;
-}
-
-impl<S: Real> Magnitude for S {
-    fn round_off() -> f64 {
-        S::EPSILON.to_f64()
-    }
-
-    fn magnitude(self) -> f64 {
-        self.abs().to_f64()
-    }
-}
-
-impl<S: Real, const K: usize> Magnitude for Forward<S, K> {
-    fn round_off() -> f64 {
-        S::round_off()
-    }
-
-    fn magnitude(self) -> f64 {
-        self.value().magnitude()
-    }
-}
 
 /// `w = B z + d` and `w' = B z' + b`.
 pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
@@ -196,15 +166,4 @@ pub(super) fn velocities<M: JointRates, S: Scalar>(
         }
     }
     velocities
-}
-
-/// An element; zero where there is none.
-pub(super) fn at<S: Scalar>(numbers: &[S], place: usize) -> S {
-    numbers.get(place).copied().unwrap_or(S::zero())
-}
-
-pub(super) fn set<S: Scalar, A: Array<S>>(numbers: &mut A, place: usize, value: S) {
-    if let Some(number) = numbers.as_mut_slice().get_mut(place) {
-        *number = value;
-    }
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{SMatrix, Vector3};
 
+use super::elimination::{Magnitude, at};
 use super::equations::{finite_matrix, solve};
-use super::partition::{Magnitude, at};
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
 use crate::forward::Forward;

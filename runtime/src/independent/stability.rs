@@ -7,8 +7,8 @@ use crate::math::scalar::Real;
 /// Sweeps that Jacobi's method may take: a few suffice.
 const SWEEPS: usize = 40;
 
-/// The eigenvalues of the stiffness `-M A`, in ascending order, in units of the coordinates, over
-/// the largest entry. `None` in motion and where the stiffness is not symmetric: there they do not
+/// The eigenvalues of the stiffness `-M A` in units of the coordinates, over its largest entry, in
+/// ascending order. `None` in motion and where the stiffness is not symmetric: there they do not
 /// decide. A coordinate on which nothing depends counts as stable.
 pub(super) fn eigenvalues<S: Real, const N: usize>(
     mass: &SMatrix<S, N, N>,

@@ -4,7 +4,8 @@ use core::f64::consts::TAU;
 
 use nalgebra::SVector;
 
-use super::partition::{Partition, at, set, velocities};
+use super::elimination::{at, set};
+use super::partition::{Partition, velocities};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
 use crate::constraints::projection::Projection;

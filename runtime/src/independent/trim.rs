@@ -30,7 +30,8 @@ where
     /// equations themselves stay: set what was found by [`IndependentCoordinates::set_value`].
     ///
     /// By Newton's method on exact derivatives, from the present values. Its steps are at most a
-    /// radian or a length of the mechanism, and are halved until the accelerations become smaller.
+    /// radian or a length of the mechanism, and are halved until the efforts that are not balanced
+    /// become smaller.
     ///
     /// ```
     /// # use holonom::prelude::*;
@@ -86,22 +87,22 @@ where
         let mut here = (*guess, self.accelerations(guess)?);
         for taken in 0..STEPS {
             let ((space, rates), (state, left)) = (&set, &here);
-            let linear = space.linearise_by(state, &adjusted, |_| [])?;
+            // Of efforts: those of inputs do not depend on how far from balance they are.
+            let linear = space.efforts_by(state, &adjusted)?;
+            let efforts = -space.bias(state)?;
             let values = adjusted.map(|of| space.present(of, rates));
             let mut scales = space.scales();
             let sizes = sizes(&linear, &scales);
-            let floor = with_values(
-                space.floor(state, &linear.by_positions, &linear.by_efforts, &scales)?,
-                &linear,
-                &values,
-            );
+            let noise = S::EPSILON * S::constant(100.0);
+            let stiffness = row_sizes(&linear.by_positions, &scales);
+            let floor = with_values(stiffness.map(|size| size * noise), &linear, &values);
             let mut matrix = linear.by_positions;
             for (place, &number) in numbers.iter().enumerate() {
                 let column = linear.by_values.column(place);
                 scales[number] = unit(column.iter(), &sizes).max(values[place].abs());
                 matrix.set_column(number, &column);
             }
-            let right: [S; N] = (-left).into();
+            let right: [S; N] = (-efforts).into();
             let found = solved(&matrix, [right], &scales, &sizes);
             let ([way], [unexplained]) = (found.ways, found.unexplained);
             let without = numbers.iter().position(|&number| !found.has_pivot[number]);
@@ -129,12 +130,14 @@ where
                 let state = space.steady(&state, &linear.by_positions, &rates)?;
                 return Ok((state, adjusted.map(|of| space.present(of, &rates))));
             }
-            let before = square(left, &sizes);
+            let before = square(&efforts, &sizes);
             let mut share = Real::max(longest(&free, &scales), S::one()).reciprocal();
             let mut next = None;
             for _ in 0..HALVINGS {
-                next = trial(share).filter(|(_, (_, there))| {
-                    square(there, &sizes) < before * (S::one() - share * S::constant(1e-4))
+                let bound = before * (S::one() - share * S::constant(1e-4));
+                next = trial(share).filter(|((space, _), (there, _))| {
+                    let efforts = space.bias(there);
+                    efforts.is_ok_and(|efforts| square(&efforts, &sizes) < bound)
                 });
                 if next.is_some() {
                     break;

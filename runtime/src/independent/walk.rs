@@ -1,9 +1,9 @@
 //! Points of a branch of equilibria, and steps from one to another.
 //!
 //! By pseudo-arclength (Keller 1977). A step goes along the tangent of the branch, and Newton's
-//! method leads back to it in the plane across. In place of the bordered system one unknown with a
-//! large share in the tangent is the parameter of the branch (Rheinboldt 1986), so that at a fold
-//! the matrix is regular, too.
+//! method leads back to it in the plane across. There is no bordered system: the unknown with the
+//! largest share in the tangent is the parameter of the branch (Rheinboldt 1986). So the matrix is
+//! regular at a fold, too.
 
 use nalgebra::SVector;
 
@@ -123,8 +123,8 @@ impl<const N: usize, S: Real> Walk<N, S> {
         Err(fault)
     }
 
-    /// The next point, by a step of at most a length, which becomes shorter where the branch bends.
-    /// `None` where it would be too short, and where the value cannot change.
+    /// The next point, by a step of at most a length. The step becomes shorter where the branch
+    /// bends. `None` where it would be too short, and where the value cannot change.
     pub(super) fn stepped<M: HasInverse + HasMassMatrix>(
         &self,
         from: &Spot<M, N, S>,

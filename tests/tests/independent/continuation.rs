@@ -107,8 +107,8 @@ fn a_truss_snaps_through() -> Result<(), Fault> {
     Ok(())
 }
 
-/// From either side of the folds, to either side, and back again; from between them and from a
-/// fold, where a branch that begins towards the end turns away from it.
+/// From either side of the folds, to either side, and back again. From between them and from a fold
+/// a branch that begins towards the end turns away from it.
 #[test]
 fn a_truss_is_followed_from_anywhere() -> Result<(), Fault> {
     let h = Truss::HANDLES;
