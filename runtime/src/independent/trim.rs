@@ -58,7 +58,7 @@ where
     /// ```
     ///
     /// # Errors
-    /// - [`Fault::NotChosen`], [`Fault::ChosenTwice`]: what is held is no coordinate, or held twice.
+    /// - [`Fault::NotChosen`], [`Fault::ChosenTwice`]: no coordinate is held, or one twice.
     /// - [`Fault::NoEffect`]: a quantity that moves nothing which the other unknowns do not.
     /// - [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2).
     /// - What [`IndependentCoordinates::equilibrium`] refuses.

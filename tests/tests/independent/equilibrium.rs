@@ -58,9 +58,10 @@ fn a_governor_stands_as_high_as_its_speed_says() -> Result<(), Fault> {
     Ok(())
 }
 
-/// About steady turning at `w`. An arm of length `r` is at an angle from the vertical with `c = cos`
-/// and `s = sin`; `J` is of all about the axis. Arms obey `(m r^2 + I) q'' = 2 m r^2 s c w p' - m
-/// r^2 w^2 s^2 q`, and the turn `J p'' = -2 m r^2 s c w (q_1' + q_2')`.
+/// About steady turning at `w`. An arm of length `r` is at an angle from the vertical, with
+/// `c = cos` and `s = sin`; `J` is of all about the axis. Arms obey
+/// `(m r^2 + I) q'' = 2 m r^2 s c w p' - m r^2 w^2 s^2 q`, and the turn
+/// `J p'' = -2 m r^2 s c w (q_1' + q_2')`.
 #[test]
 fn a_governor_is_linear_about_its_turning() -> Result<(), Fault> {
     let (watt, h) = (Watt::default(), Watt::HANDLES);
