@@ -14,7 +14,7 @@ use crate::FourBar;
 /// Good for: what the [`FourBar`] is good for, with three ways to go on in the singular
 /// configurations.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
+#[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both", kernels = [mass, inverse])]
 pub struct DoubleFourBar {
     #[body(
         mass = 1.0,

@@ -186,11 +186,6 @@ pub enum Fault {
         /// state.
         is_final: bool,
     },
-    /// A direction of derivatives is a coordinate that was not chosen.
-    NotChosen {
-        /// The joint's field.
-        joint: &'static str,
-    },
     /// The derivatives of a start violate those of the constraints: along a direction a parameter
     /// moves a joint, and the bodies do not go with it.
     StartOpens {
@@ -337,6 +332,24 @@ pub enum Fault {
     NotSteady {
         /// The joint's field.
         joint: &'static str,
+    },
+    /// A joint was named whose motion is none of the chosen coordinates.
+    NotChosen {
+        /// The joint's field.
+        joint: &'static str,
+    },
+    /// A quantity was sought on which no acceleration depends, or none that the other unknowns do
+    /// not change in the same way.
+    NoEffect {
+        /// The field of the parameter, the input or the joint.
+        unknown: &'static str,
+    },
+    /// Equilibria were followed to where they end, or bend too sharply.
+    BranchEnds {
+        /// The field of the parameter, the input or the joint.
+        along: &'static str,
+        /// The last value at which there is one.
+        value: f64,
     },
     /// Angles that count turns were set, and their number is not that of the joint or force.
     CountedAngles {

@@ -224,10 +224,6 @@ impl fmt::Display for Fault {
                 "{evaluations} evaluations are used up: a singular configuration or a stiff formulation are the usual causes; \
                  `DormandPrince::budget` allows more"
             ),
-            Self::NotChosen { joint } => write!(
-                f,
-                "the coordinate of joint `{joint}` is none of the chosen ones, and follows them"
-            ),
             Self::StartOpens {
                 joint,
                 direction,
@@ -415,6 +411,21 @@ impl fmt::Display for Fault {
             Self::NotSteady { joint } => write!(
                 f,
                 "no steady motion: `{joint}` moves, and accelerations depend on where it is"
+            ),
+            Self::NotChosen { joint } => {
+                write!(
+                    f,
+                    "the motion of `{joint}` is none of the chosen coordinates"
+                )
+            }
+            Self::NoEffect { unknown } => write!(
+                f,
+                "`{unknown}` balances nothing here: no acceleration depends on it, or only as on the other unknowns"
+            ),
+            Self::BranchEnds { along, value } => write!(
+                f,
+                "no equilibrium leads on from `{along} = {}`: the branch ends there, or bends more sharply than steps can follow",
+                Measured(value)
             ),
             Self::CountedAngles {
                 element,

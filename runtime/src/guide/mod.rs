@@ -21,7 +21,8 @@
 //! | [`embedded`] | fixed steps without a heap or the standard library, single precision |
 //! | [`choosing`] | formulations and integrators |
 //! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
-//! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes, equilibria |
+//! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes |
+//! | [`equilibria`] | where a mechanism rests, which inputs hold it, at which load it snaps through |
 //! | [`sensitivities`] | how readings change with parameters, inputs and the start; parameters from measurements |
 //! | [`identification`] | masses, centres and inertias from measured torques; regressor, base parameters |
 //! | [`coordinates`] | absolute or joint coordinates: costs and properties of each |
@@ -145,10 +146,13 @@ pub mod choosing {}
 pub mod accuracy {}
 
 #[doc = "The equations of motion in chosen coordinates: mass matrix, inverse dynamics, Jacobians,"]
-#[doc = "linear models, equilibria."]
+#[doc = "linear models."]
 #[doc = ""]
 #[doc = include_str!("equations.md")]
 pub mod equations {}
+
+#[doc = include_str!("equilibria.md")]
+pub mod equilibria {}
 
 #[doc = include_str!("sensitivities.md")]
 pub mod sensitivities {}

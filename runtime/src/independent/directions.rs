@@ -4,7 +4,8 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use super::choice::Coordinate;
-use super::partition::{Partition, at, set};
+use super::elimination::{at, set};
+use super::partition::Partition;
 use super::points::moved;
 use super::states::{put_velocities, write_rates};
 use super::{Equations, IndependentCoordinates};
@@ -64,11 +65,7 @@ impl<M> Direction<M> {
 
     /// The same by numbers, among chosen places.
     fn among(&self, places: &[usize]) -> Result<Along, Fault> {
-        let column = |place: Place| {
-            let (place, joint) = place?;
-            let column = places.iter().position(|&chosen| chosen == place);
-            column.ok_or(Fault::NotChosen { joint })
-        };
+        let column = |place: Place| chosen(places, place?);
         Ok(match self.named {
             Named::Value(place) => Along::Value(place),
             Named::Position(place) => Along::Position(column(place)?),
@@ -95,6 +92,15 @@ impl<M> From<ValueHandle<M>> for Direction<M> {
     fn from(value: ValueHandle<M>) -> Self {
         Self::value(value)
     }
+}
+
+/// The number of a coordinate among the chosen ones.
+pub(super) fn chosen(
+    places: &[usize],
+    (place, joint): (usize, &'static str),
+) -> Result<usize, Fault> {
+    let number = places.iter().position(|&known| known == place);
+    number.ok_or(Fault::NotChosen { joint })
 }
 
 /// What changes along a direction, by the number of a chosen coordinate or the place of a value.

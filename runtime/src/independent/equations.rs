@@ -2,7 +2,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::partition::{Partition, at, joint_rates, set};
+use super::elimination::{at, set};
+use super::partition::{Partition, joint_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::error::{Fault, NotFinite};
 use crate::math::scalar::{Real, Scalar};
@@ -106,6 +107,19 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         let all = self.accelerations(following, accelerations);
         let efforts = M::inverse_dynamics(&self.constants, self.time, state, &all);
         self.efforts(following, &efforts)
+    }
+
+    /// The efforts of these accelerations.
+    pub(super) fn inverse(
+        &self,
+        state: &M::JointState<S>,
+        accelerations: &[S; N],
+    ) -> Result<[S; N], Fault>
+    where
+        M: HasInverse,
+    {
+        let following = self.following(state)?;
+        Ok(self.inverse_with(following.as_ref(), state, accelerations))
     }
 
     /// The mass matrix.
@@ -219,9 +233,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         M: HasInverse,
     {
         let accelerations: [S; N] = accelerations.into().into();
-        let equations = &self.equations;
-        let following = equations.following(state)?;
-        finite(equations.inverse_with(following.as_ref(), state, &accelerations))
+        finite(self.equations.inverse(state, &accelerations)?)
     }
 
     /// `h(q, v)`: [`IndependentCoordinates::inverse`] without accelerations. What velocities and

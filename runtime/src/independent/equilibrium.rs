@@ -1,26 +1,19 @@
 //! States in which nothing accelerates: at rest, and in steady motion.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use super::states::write_rates;
-use super::{Equations, IndependentCoordinates};
-use crate::constraints::projection::Projection;
+use super::IndependentCoordinates;
+use super::balance::{Reached, longest, newton, not_converged, row_sizes, square};
 use crate::error::Fault;
 use crate::math::scalar::Real;
-use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
-use crate::mechanism::relative::bodies_of;
-use crate::state::vector::Vector as _;
 
 /// Steps that may be taken.
-const STEPS: usize = 200;
+pub(super) const STEPS: usize = 200;
 /// Halvings of a step.
-const HALVINGS: usize = 12;
+pub(super) const HALVINGS: usize = 12;
 /// Steps along the accelerations, where Newton's lead nowhere.
 const FALLS: usize = 25;
-
-/// A state, and the accelerations there.
-type Reached<M, const N: usize, S> = (<M as JointCoordinates>::JointState<S>, SVector<S, N>);
 
 impl<M, const N: usize, S> IndependentCoordinates<M, N, S>
 where
@@ -118,10 +111,6 @@ where
         Err(not_converged(STEPS, &left))
     }
 
-    fn accelerations(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault> {
-        self.forward(state, [S::zero(); N])
-    }
-
     /// A share of a way, halved until what is wanted of the accelerations holds there.
     fn halved(
         &self,
@@ -165,18 +154,6 @@ where
         self.reached(state, &step, rates)
     }
 
-    /// The state at the end of a way, and the accelerations there.
-    fn reached(
-        &self,
-        state: &M::JointState<S>,
-        way: &[S; N],
-        rates: &SVector<S, N>,
-    ) -> Option<Reached<M, N, S>> {
-        let next = self.displaced(state, way, rates).ok()?;
-        let there = self.accelerations(&next).ok()?;
-        Some((next, there))
-    }
-
     /// The work that the forces of these accelerations would do on a way.
     fn power(
         &self,
@@ -190,177 +167,4 @@ where
             (mass[(row, column)] * left[column]).fused(way[row], sum)
         }))
     }
-
-    /// What coordinates compare by: a radian, or a length of the mechanism.
-    fn scales(&self) -> [S; N] {
-        self.equations
-            .places
-            .map(|place| self.equations.scale(place))
-    }
-
-    /// What round-off leaves of accelerations: that of efforts which balance each other.
-    fn floor(
-        &self,
-        state: &M::JointState<S>,
-        slopes: &SMatrix<S, N, N>,
-        by_efforts: &SMatrix<S, N, N>,
-        scales: &[S; N],
-    ) -> Result<[S; N], Fault> {
-        let mass = self.mass(state)?;
-        let mut efforts = [S::zero(); N];
-        for (row, effort) in efforts.iter_mut().enumerate() {
-            for (column, &scale) in scales.iter().enumerate() {
-                let stiffness = (0..N).fold(S::zero(), |sum, k| {
-                    mass[(row, k)].fused(slopes[(k, column)], sum)
-                });
-                *effort = *effort + stiffness.abs() * scale;
-            }
-        }
-        let mut floor = [S::zero(); N];
-        for (row, floor) in floor.iter_mut().enumerate() {
-            let parts = efforts.iter().enumerate();
-            let sum = parts.fold(S::zero(), |sum, (column, &effort)| {
-                by_efforts[(row, column)].abs().fused(effort, sum)
-            });
-            *floor = sum * S::EPSILON * S::constant(100.0);
-        }
-        Ok(floor)
-    }
-
-    /// A state in which coordinates that move have no part in the accelerations.
-    fn steady(
-        &self,
-        state: &M::JointState<S>,
-        slopes: &SMatrix<S, N, N>,
-        rates: &SVector<S, N>,
-    ) -> Result<M::JointState<S>, Fault> {
-        let rows = row_sizes(slopes, &self.scales());
-        for (number, (&rate, scale)) in rates.iter().zip(self.scales()).enumerate() {
-            let column = (0..N).map(|row| (slopes[(row, number)] * scale).abs());
-            let depends = column
-                .zip(rows)
-                .any(|(entry, size)| entry > size * S::EPSILON.sqrt());
-            if rate != S::zero() && depends {
-                return Err(Fault::NotSteady {
-                    joint: self.joint(number),
-                });
-            }
-        }
-        Ok(*state)
-    }
-
-    /// The state a way along the constraints from another one, with these rates.
-    fn displaced(
-        &self,
-        state: &M::JointState<S>,
-        way: &[S; N],
-        rates: &SVector<S, N>,
-    ) -> Result<M::JointState<S>, Fault> {
-        let Equations {
-            constants, time, ..
-        } = &self.equations;
-        let partition = self.equations.partition(state)?;
-        let mut slope = *state;
-        write_rates::<M, N, S>(&partition, way, false, &mut slope);
-        let slope = M::joint_coordinate_rates(constants, *time, &slope);
-        let mut there = state.plus([(S::one(), &slope)]);
-        if !M::JOINT_REPORT.closing.is_empty() {
-            let mut bodies = bodies_of::<S, M>(constants, &there);
-            Projection::default().correct::<M>(&self.constants, *time, &mut bodies)?;
-            there = M::joint_state(constants, &bodies);
-        }
-        self.with_rates(&there, *rates)
-    }
-}
-
-/// The largest acceleration that is left.
-fn not_converged<S: Real, const N: usize>(iterations: usize, left: &SVector<S, N>) -> Fault {
-    let most = left
-        .iter()
-        .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
-    Fault::NotConverged {
-        iterations,
-        residual: most.to_f64(),
-        joint: None,
-        alpha: None,
-    }
-}
-
-/// The longest of some ways, in radians or lengths of the mechanism.
-fn longest<S: Real, const N: usize>(way: &[S; N], scales: &[S; N]) -> S {
-    let ways = way.iter().zip(scales);
-    ways.fold(S::zero(), |most: S, (way, &scale)| {
-        most.max(way.abs().quotient(scale))
-    })
-}
-
-/// How much each acceleration changes over a radian, or over a length of the mechanism.
-fn row_sizes<S: Real, const N: usize>(slopes: &SMatrix<S, N, N>, scales: &[S; N]) -> [S; N] {
-    let mut sizes = [S::zero(); N];
-    for (size, row) in sizes.iter_mut().zip(slopes.row_iter()) {
-        let entries = row.iter().zip(scales);
-        *size = entries.fold(S::zero(), |sum, (entry, &scale)| sum + entry.abs() * scale);
-    }
-    sizes
-}
-
-/// The sum of the squares of accelerations, each by how much it can change; of those that do not
-/// change, as they are.
-fn square<S: Real, const N: usize>(left: &SVector<S, N>, sizes: &[S; N]) -> S {
-    let entries = left.iter().zip(sizes);
-    entries.fold(S::zero(), |sum, (&left, &size)| {
-        let size = if size > S::zero() { size } else { S::one() };
-        let part = left.quotient(size);
-        part.fused(part, sum)
-    })
-}
-
-/// Newton's step `J s = -a`, by elimination with the largest pivots first, and what of `a` no step
-/// explains. Coordinates on which nothing depends stay.
-fn newton<S: Real, const N: usize>(
-    slopes: &SMatrix<S, N, N>,
-    left: &SVector<S, N>,
-    scales: &[S; N],
-) -> ([S; N], [S; N]) {
-    let mut matrix = *slopes;
-    let mut right: [S; N] = (*left).into();
-    right.iter_mut().for_each(|right| *right = -*right);
-    let sizes = row_sizes(slopes, scales);
-    let mut row_of = [None; N];
-    let mut is_taken = [false; N];
-    for _ in 0..N {
-        let mut best = (S::EPSILON * S::constant(16.0 * N as f64), None);
-        for row in (0..N).filter(|&row| !is_taken[row] && sizes[row] > S::zero()) {
-            for column in (0..N).filter(|&column| row_of[column].is_none()) {
-                let size = (matrix[(row, column)] * scales[column])
-                    .abs()
-                    .quotient(sizes[row]);
-                if size > best.0 {
-                    best = (size, Some((row, column)));
-                }
-            }
-        }
-        let Some((row, column)) = best.1 else { break };
-        (is_taken[row], row_of[column]) = (true, Some(row));
-        for other in (0..N).filter(|&other| other != row) {
-            let factor = matrix[(other, column)].quotient(matrix[(row, column)]);
-            for place in 0..N {
-                matrix[(other, place)] = matrix[(other, place)] - factor * matrix[(row, place)];
-            }
-            right[other] = right[other] - factor * right[row];
-            matrix[(other, column)] = S::zero();
-        }
-    }
-    let mut way = [S::zero(); N];
-    for (column, way) in way.iter_mut().enumerate() {
-        if let Some(row) = row_of[column] {
-            *way = right[row].quotient(matrix[(row, column)]);
-        }
-    }
-    for (right, is_taken) in right.iter_mut().zip(is_taken) {
-        if is_taken {
-            *right = S::zero();
-        }
-    }
-    (way, right)
 }

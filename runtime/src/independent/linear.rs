@@ -9,6 +9,7 @@ use super::directions::Along;
 use super::equations::Factors;
 use super::linearised::Linearised;
 use super::partition::{Partition, joint_rates};
+use super::varied::Adjusted;
 use crate::error::{Fault, NotFinite};
 use crate::forward::{Forward, Lifted};
 use crate::math::scalar::{Real, Scalar};
@@ -21,6 +22,23 @@ use crate::state::vector::Array;
 
 /// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
 const LANES: usize = 4;
+
+/// What changes.
+#[derive(Clone, Copy)]
+enum Outcome {
+    /// Without efforts.
+    Accelerations,
+    /// Those that are not balanced, `-h`, at rest.
+    Efforts,
+}
+
+/// Which columns a direction belongs to.
+#[derive(Clone, Copy)]
+enum Part {
+    Positions,
+    Rates,
+    Values,
+}
 
 /// Efforts and readings along directions.
 type Slopes<S, const N: usize, const P: usize> = ([Lifted<S>; N], [Lifted<S>; P]);
@@ -80,6 +98,36 @@ where
         values: [ValueHandle<M>; K],
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Linearised<N, K, P, S>, Fault> {
+        let values = values.map(|value| Adjusted::Value(value.index()));
+        self.slopes(state, &values, Outcome::Accelerations, read)
+    }
+
+    /// The same by parameters, inputs and rates.
+    pub(super) fn linearise_by<const K: usize>(
+        &self,
+        state: &M::JointState<S>,
+        values: &[Adjusted; K],
+    ) -> Result<Linearised<N, K, 0, S>, Fault> {
+        self.slopes(state, values, Outcome::Accelerations, |_| [])
+    }
+
+    /// How the efforts that are not balanced, `-h`, change with coordinates, rates and quantities,
+    /// in the place of accelerations.
+    pub(super) fn efforts_by<const K: usize>(
+        &self,
+        state: &M::JointState<S>,
+        values: &[Adjusted; K],
+    ) -> Result<Linearised<N, K, 0, S>, Fault> {
+        self.slopes(state, values, Outcome::Efforts, |_| [])
+    }
+
+    fn slopes<const K: usize, const P: usize>(
+        &self,
+        state: &M::JointState<S>,
+        values: &[Adjusted; K],
+        outcome: Outcome,
+        read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> Result<Linearised<N, K, P, S>, Fault> {
         let mut linear = Linearised::<N, K, P, S>::zeros();
         let partition = self.equations.partition(state)?;
         let rates = joint_rates::<M, S>(state);
@@ -94,34 +142,41 @@ where
         let mass = Factors::of(equations.mass(state)?);
         let following = equations.following(state)?;
         let bias = equations.inverse_with(following.as_ref(), state, &[S::zero(); N]);
-        let accelerations = mass.solve(bias.map(|bias| -bias));
-        let positions = (0..N).map(|number| (number, Along::Position(number)));
-        let rates = (0..N).map(|number| (number, Along::Rate(number)));
-        let values = values.iter().map(|value| Along::Value(value.index()));
-        let values = values.enumerate();
+        let accelerations = match outcome {
+            Outcome::Accelerations => mass.solve(bias.map(|bias| -bias)),
+            Outcome::Efforts => [S::zero(); N],
+        };
+        let positions = (0..N).map(|number| (Part::Positions, number, Along::Position(number)));
+        let rates = (0..N).map(|number| (Part::Rates, number, Along::Rate(number)));
+        let values = values.iter().enumerate();
+        let values = values.map(|(number, &value)| (Part::Values, number, value.into()));
         let mut columns = positions.chain(rates).chain(values);
         loop {
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
-            let directions = columns.map(|column| column.map(|(_, direction)| direction));
+            let directions = columns.map(|column| column.map(|(.., direction)| direction));
             let moving = (state, &accelerations);
             let (efforts, readings) = self.along(moving, &partition, &directions, &read)?;
-            for (lane, (column, direction)) in columns.into_iter().flatten().enumerate() {
+            for (lane, (part, column, _)) in columns.into_iter().flatten().enumerate() {
                 let slope = |number: &Lifted<S>| {
                     number.derivatives().get(lane).copied().unwrap_or(S::zero())
                 };
-                let accelerations = mass.solve(efforts.each_ref().map(|effort| -slope(effort)));
+                let efforts = efforts.each_ref().map(|effort| -slope(effort));
+                let accelerations = match outcome {
+                    Outcome::Accelerations => mass.solve(efforts),
+                    Outcome::Efforts => efforts,
+                };
                 let readings = readings.each_ref().map(slope);
-                match direction {
-                    Along::Position(_) => {
+                match part {
+                    Part::Positions => {
                         put(&mut linear.by_positions, column, accelerations);
                         put(&mut linear.readings_by_positions, column, readings);
                     }
-                    Along::Rate(_) => {
+                    Part::Rates => {
                         put(&mut linear.by_rates, column, accelerations);
                         put(&mut linear.readings_by_rates, column, readings);
                     }
-                    Along::Value(_) => {
+                    Part::Values => {
                         put(&mut linear.by_values, column, accelerations);
                         put(&mut linear.readings_by_values, column, readings);
                     }

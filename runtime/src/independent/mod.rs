@@ -7,8 +7,12 @@
 //! - `equations.rs`: mass matrix and efforts. `points.rs`: Jacobians. `states.rs`: the way to
 //!   states and back.
 //! - `directions.rs`: derivatives along coordinates, rates and values.
-//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
-//!   `equilibrium.rs`: states without accelerations.
+//! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
+//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions.
+//! - `equilibrium.rs`: states without accelerations, over `balance.rs`; `trim.rs`: with inputs and
+//!   parameters as unknowns (`varied.rs`).
+//! - `continuation.rs`: equilibria along a parameter; `walk.rs`: points and steps, `folds.rs`:
+//!   folds and branchings, `stability.rs`: eigenvalues of the stiffness.
 //! - `regressor.rs`: inverse dynamics by inertial parameters. `identification.rs`: these from
 //!   measured efforts; `base_parameters.rs`: their combinations that efforts depend on.
 //!
@@ -18,12 +22,16 @@
 //! Accelerations are `w' = B z' + b`, with `D b = gamma`. Efforts `f` of all joints do the work of
 //! `B^T f` on `z` (Jourdain's principle).
 
+mod balance;
 #[cfg(feature = "std")]
 mod base_parameters;
 mod choice;
+mod continuation;
 mod directions;
+mod elimination;
 mod equations;
 mod equilibrium;
+mod folds;
 #[cfg(feature = "std")]
 mod identification;
 mod linear;
@@ -33,13 +41,18 @@ mod modes;
 mod partition;
 mod points;
 mod regressor;
+mod stability;
 mod states;
+mod trim;
+mod varied;
+mod walk;
 
 use core::fmt;
 
 #[cfg(feature = "std")]
 pub use base_parameters::{BaseParameters, InertialParameter};
 pub use choice::{Chosen, Coordinate, Motion};
+pub use continuation::{BranchEnd, BranchPoint, Continuation, PointKind};
 pub use directions::Direction;
 pub(crate) use directions::vary;
 #[cfg(feature = "std")]
@@ -48,6 +61,7 @@ pub use linearised::{Linearised, to_discrete};
 #[cfg(feature = "std")]
 pub use modes::Mode;
 pub use regressor::INERTIAL_PARAMETERS;
+pub use varied::Varied;
 
 use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;

@@ -1,6 +1,7 @@
 //! The rates of all joints by the chosen ones.
 
 use super::Equations;
+use super::elimination::{Elimination, at, set};
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_kernels::Freedom;
@@ -74,87 +75,41 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
                 }
             });
         }
-        // Of a pivoted rate its row, one higher; zero of another.
         let mut row_of = M::JointVelocities::<S>::zeros();
-        let mut is_taken = M::ClosingMultipliers::<S>::zeros();
-        let is_zero = |numbers: &[S], place: usize| {
-            numbers
-                .get(place)
-                .is_some_and(|number| number.abs().to_f64() == 0.0)
-        };
-        let entries = jacobian.as_mut_slice();
-        loop {
-            let mut best = (0.0, 0, 0);
-            for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {
-                let size = at(sizes.as_slice(), row).abs().to_f64();
-                let free = (0..width).filter(|column| !self.places.contains(column));
-                for column in free.filter(|&column| is_zero(row_of.as_slice(), column)) {
-                    let entry = at(entries, row * width + column) * scale(column);
-                    let pivot = entry.abs().to_f64() / size;
-                    if pivot > best.0 {
-                        best = (pivot, row, column);
-                    }
-                }
-            }
-            let (pivot, row, column) = best;
+        let mut elimination = Elimination {
+            entries: jacobian.as_mut_slice(),
+            width,
+            sizes: sizes.as_slice(),
+            row_of: row_of.as_mut_slice(),
             // Below, more than half of the digits would be lost.
-            if pivot <= S::EPSILON.to_f64().sqrt() {
-                break;
-            }
-            set(&mut is_taken, row, S::one());
-            set(&mut row_of, column, S::constant(row as f64 + 1.0));
-            let inverse = at(entries, row * width + column).reciprocal();
-            for other in (0..height).filter(|&other| other != row) {
-                let factor = at(entries, other * width + column) * inverse;
-                // With its derivatives, which need not vanish with it.
-                if factor == S::zero() {
-                    continue;
-                }
-                for place in 0..width {
-                    let subtracted = factor * at(entries, row * width + place);
-                    subtract(entries, other * width + place, subtracted);
-                }
-                for right in [&mut gamma, &mut explicit, &mut values] {
-                    let right = right.as_mut_slice();
-                    let subtracted = factor * at(right, row);
-                    subtract(right, other, subtracted);
-                }
-                // Exactly, so that it is not taken again.
-                if let Some(entry) = entries.get_mut(other * width + column) {
-                    *entry = S::zero();
-                }
-            }
-        }
-        for column in (0..width).filter(|column| !self.places.contains(column)) {
-            let row = at(row_of.as_slice(), column).abs().to_f64() as usize;
-            let Some(row) = row.checked_sub(1) else {
+            least: S::EPSILON.to_f64().sqrt(),
+        };
+        let is_dependent = |column: usize| !self.places.contains(&column);
+        elimination.run(
+            [&mut gamma, &mut explicit, &mut values].map(Array::as_mut_slice),
+            scale,
+            is_dependent,
+        );
+        for column in (0..width).filter(|&column| is_dependent(column)) {
+            let Some(row) = elimination.row(column) else {
                 return Err(Fault::NotDetermined {
                     joint: M::JOINT_REPORT.mover_of_rate(column),
                 });
             };
-            let inverse = at(entries, row * width + column).reciprocal();
+            let inverse = elimination.entry(row, column).reciprocal();
             for (of_chosen, &place) in partition.columns.iter_mut().zip(&self.places) {
-                set(
-                    of_chosen,
-                    column,
-                    -at(entries, row * width + place) * inverse,
-                );
+                set(of_chosen, column, -elimination.entry(row, place) * inverse);
             }
-            set(
-                &mut partition.bias,
-                column,
-                at(gamma.as_slice(), row) * inverse,
-            );
-            let drift = at(explicit.as_slice(), row) * inverse;
-            set(&mut partition.drift, column, drift);
-            let closing = at(values.as_slice(), row) * inverse;
-            set(&mut partition.closing, column, closing);
+            let of = |right: &M::ClosingMultipliers<S>| at(right.as_slice(), row) * inverse;
+            set(&mut partition.bias, column, of(&gamma));
+            set(&mut partition.drift, column, of(&explicit));
+            set(&mut partition.closing, column, of(&values));
         }
         // What is left of other rows restricts the chosen rates themselves.
-        for row in (0..height).filter(|&row| is_zero(is_taken.as_slice(), row)) {
+        for row in (0..height).filter(|&row| !elimination.is_taken(row)) {
             let size = at(sizes.as_slice(), row).abs().to_f64();
             for &place in &self.places {
-                let left = (at(entries, row * width + place) * scale(place))
+                let left = (elimination.entry(row, place) * scale(place))
                     .abs()
                     .to_f64();
                 if left > S::EPSILON.to_f64().sqrt() * size {
@@ -213,21 +168,4 @@ pub(super) fn velocities<M: JointRates, S: Scalar>(
         }
     }
     velocities
-}
-
-/// An element; zero where there is none.
-pub(super) fn at<S: Scalar>(numbers: &[S], place: usize) -> S {
-    numbers.get(place).copied().unwrap_or(S::zero())
-}
-
-pub(super) fn set<S: Scalar, A: Array<S>>(numbers: &mut A, place: usize, value: S) {
-    if let Some(number) = numbers.as_mut_slice().get_mut(place) {
-        *number = value;
-    }
-}
-
-fn subtract<S: Scalar>(numbers: &mut [S], place: usize, value: S) {
-    if let Some(number) = numbers.get_mut(place) {
-        *number = *number - value;
-    }
 }

@@ -2,8 +2,9 @@
 
 use nalgebra::{SMatrix, Vector3};
 
+use super::elimination::at;
 use super::equations::{finite_matrix, solve};
-use super::partition::{Partition, at};
+use super::partition::Partition;
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
 use crate::forward::Forward;

@@ -4,7 +4,8 @@ use core::f64::consts::TAU;
 
 use nalgebra::SVector;
 
-use super::partition::{Partition, at, set, velocities};
+use super::elimination::{at, set};
+use super::partition::{Partition, velocities};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
 use crate::constraints::projection::Projection;
@@ -19,6 +20,8 @@ use crate::state::vector::{Array, MovingState, Vector as _};
 const STRIDE: f64 = 1.0;
 /// As many strides as anybody waits for.
 const MANY: f64 = 1e5;
+/// Corrections that close loops.
+const CORRECTIONS: usize = 25;
 
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The coordinates (rad, m) at a state, zero in the reference configuration: an angle is from
@@ -176,7 +179,43 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let mut way = state;
         write_rates::<M, N, S>(&partition, &left, false, &mut way);
         let way = M::joint_coordinate_rates(&self.equations.constants, time, &way);
-        Ok(state.plus([(S::one(), &way)]))
+        self.closed(state.plus([(S::one(), &way)]))
+    }
+
+    /// The state near one in which loops are closed, at the same chosen coordinates.
+    pub(super) fn closed(&self, mut state: M::JointState<S>) -> Result<M::JointState<S>, Fault> {
+        if M::JOINT_REPORT.closing.is_empty() {
+            return Ok(state);
+        }
+        let Equations {
+            constants, time, ..
+        } = &self.equations;
+        let mut before = S::one();
+        for taken in 0..CORRECTIONS {
+            let closing = self.equations.partition(&state)?.closing;
+            let mut open = S::zero();
+            for (place, &number) in closing.as_slice().iter().enumerate() {
+                open = Real::max(open, number.abs().quotient(self.equations.scale(place)));
+            }
+            let is_least = open < S::EPSILON.powf(0.75) && open * S::constant(2.0) > before;
+            if open <= S::EPSILON || is_least {
+                return Ok(state);
+            }
+            if open.to_f64().is_nan() || open > before {
+                return Err(Fault::NotConverged {
+                    iterations: taken,
+                    residual: open.to_f64(),
+                    joint: None,
+                    alpha: None,
+                });
+            }
+            before = open;
+            let mut slope = state;
+            put_velocities::<M, S>(&closing, &mut slope);
+            let slope = M::joint_coordinate_rates(constants, *time, &slope);
+            state = state.plus([(S::one(), &slope)]);
+        }
+        Ok(state)
     }
 
     /// What is left of the way to coordinates, by the nearest turn.

@@ -2,7 +2,7 @@
 
 use holonom::prelude::*;
 use holonom_models::{CartPole, RodPendulum, SliderCrank};
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 /// Watt's governor: two balls on arms that hinge on the axis of the shaft.
 #[derive(Clone, Copy, Debug, Mechanism)]
@@ -54,6 +54,38 @@ fn a_governor_stands_as_high_as_its_speed_says() -> Result<(), Fault> {
             near.fold(1.0, f64::min) < 1e-7,
             "{speed}: {modes:?} for {wanted}"
         );
+    }
+    Ok(())
+}
+
+/// About steady turning at `w`. An arm of length `r` is at an angle from the vertical, with
+/// `c = cos` and `s = sin`; `J` is of all about the axis. Arms obey
+/// `(m r^2 + I) q'' = 2 m r^2 s c w p' - m r^2 w^2 s^2 q`, and the turn
+/// `J p'' = -2 m r^2 s c w (q_1' + q_2')`.
+#[test]
+fn a_governor_is_linear_about_its_turning() -> Result<(), Fault> {
+    let (watt, h) = (Watt::default(), Watt::HANDLES);
+    let space = watt.coordinates((h.bearing, h.right_hinge, h.left_hinge))?;
+    for speed in [4.6, 7.0, 20.0] {
+        let guess = space.state([0.3, 0.1, 0.1], [speed, 0.0, 0.0])?;
+        let steady = space.equilibrium(&guess)?;
+        let a: SMatrix<f64, 6, 6> = space.linearise(&steady, [], |_| [])?.a();
+        let cosine = 9.81 / (speed * speed * 0.5);
+        let square = 1.0 - cosine * cosine;
+        let arm = 2.0 * 0.25 + 1e-3;
+        let turning = 0.1 + 2.0 * (1e-3 + 0.5 * square);
+        let coupling = square.sqrt() * cosine * speed;
+        let mut wanted = SMatrix::<f64, 6, 6>::zeros();
+        for k in 0..3 {
+            wanted[(k, k + 3)] = 1.0;
+        }
+        for arm_row in [4, 5] {
+            wanted[(arm_row, arm_row - 3)] = -0.5 * speed * speed * square / arm;
+            wanted[(arm_row, 3)] = coupling / arm;
+            wanted[(3, arm_row)] = -coupling / turning;
+        }
+        let off = (a - wanted).amax() / wanted.amax();
+        assert!(off < 1e-10, "{speed}: {off:.1e} {a}{wanted}");
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use holonom::independent::{Chosen, to_discrete};
 use holonom::mechanism::{HasInverse, HasJacobian, HasMassMatrix, Located};
 use holonom::prelude::*;
+use holonom_models::SimplePendulum;
 use nalgebra::{Matrix2, SVector, Vector2, Vector3};
 
 /// A hinge, a ball, a hinge behind it, a bob on a ball, and a body that moves freely.
@@ -413,6 +414,31 @@ fn small_and_large_mechanisms() -> Result<(), Fault> {
         let state = by_crank.state([0.7], [1.0])?;
         let found = f64::from(by_slide.mass(&state)?[0]);
         assert!((found / wanted - 1.0).abs() < 1e-3, "{l}: {found}");
+    }
+    Ok(())
+}
+
+/// A state far from the described one was open by some thousandths: it went back to its coordinates
+/// along the constraints, which bend. With `y` the height of a pendulum of 1 m, `y'' = -g (1 - y^2)
+/// - y y'^2 / (1 - y^2)`.
+#[test]
+fn states_satisfy_the_constraints() -> Result<(), Fault> {
+    let (pendulum, h) = (SimplePendulum::default(), SimplePendulum::HANDLES);
+    let space = pendulum.coordinates([Motion::of(h.plane, 0)])?;
+    for position in [-0.5, 0.2, 0.7, -0.9] {
+        let state = space.state([position], [1.0])?;
+        let bodies = space.bodies(&state);
+        let bob = pendulum.view(0.0, &bodies)?.position(h.bob);
+        assert!((bob.norm() - 1.0).abs() < 1e-15, "{position}: {bob}");
+        assert!((bob.y.abs() - position.abs()).abs() < 1e-15);
+        let (y, sign) = (bob.y, bob.y / position);
+        let rest = 1.0 - y * y;
+        let wanted = sign * (-9.81 * rest - y / rest);
+        let found = space.forward(&state, [0.0])?[0];
+        assert!((found / wanted - 1.0).abs() < 1e-13, "{found}, {wanted}");
+        let wanted = 2.0 * 9.81 * y - (1.0 + y * y) / (rest * rest);
+        let found = space.linearise(&state, [], |_| [])?.by_positions[0];
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, {wanted}");
     }
     Ok(())
 }

@@ -1,88 +1,12 @@
-//! Linearisation, against closed forms and against differences.
+//! Linearisation, against closed forms.
 
-use core::array::from_fn;
+use core::f64::consts::PI;
 
-use holonom::independent::{Chosen, IndependentCoordinates, to_discrete};
-use holonom::mechanism::{HasInverse, HasMassMatrix, ValueHandle};
+use holonom::independent::to_discrete;
+use holonom::mechanism::ValueHandle;
 use holonom::prelude::*;
-use holonom_models::{
-    Bricard, CartPole, FlyballGovernor, FourBar, HeavyTop, RodPendulum, SliderCrank, Ur5,
-};
-use nalgebra::{Matrix2, Matrix4, SMatrix, SVector};
-
-/// Of the largest entry, by central differences of accelerations.
-const LIMIT: f64 = 1e-7;
-
-/// Derivatives by coordinates and rates against differences along the same coordinates.
-fn agrees<M: HasInverse + HasMassMatrix + Default, const N: usize>(
-    chosen: impl Chosen<M, N>,
-    positions: [f64; N],
-    rates: [f64; N],
-) -> Result<(), Fault> {
-    let mechanism = M::default();
-    let space: IndependentCoordinates<M, N> = mechanism.coordinates(chosen)?;
-    let state = space.state(positions, rates)?;
-    let linear = space.linearise(&state, [], |_| [])?;
-    let at = |q: [f64; N], v: [f64; N]| {
-        let there = space.state_near(&state, q, v)?;
-        space.forward(&there, [0.0; N])
-    };
-    let step = 1e-5;
-    let moved = |numbers: [f64; N], place: usize, by: f64| {
-        from_fn(|k| {
-            if k == place {
-                numbers[k] + by
-            } else {
-                numbers[k]
-            }
-        })
-    };
-    let columns = |along: &dyn Fn(usize, f64) -> Result<SVector<f64, N>, Fault>| {
-        let mut all = SMatrix::<f64, N, N>::zeros();
-        for column in 0..N {
-            let [after, before] = [along(column, step)?, along(column, -step)?];
-            all.set_column(column, &((after - before) / (2.0 * step)));
-        }
-        Ok::<_, Fault>(all)
-    };
-    let by_positions = columns(&|column, by| at(moved(positions, column, by), rates))?;
-    let by_rates = columns(&|column, by| at(positions, moved(rates, column, by)))?;
-    for (found, wanted) in [
-        (linear.by_positions, by_positions),
-        (linear.by_rates, by_rates),
-    ] {
-        let error = (found - wanted).amax() / (1.0 + wanted.amax());
-        assert!(
-            error < LIMIT,
-            "{}: {error:.1e}, {found}{wanted}",
-            M::REPORT.name
-        );
-    }
-    assert_eq!(linear.rates_by_positions.amax(), 0.0);
-    let identity = linear.by_efforts * space.mass(&state)?;
-    assert!((identity - SMatrix::identity()).amax() < 1e-12);
-    Ok(())
-}
-
-#[test]
-fn derivatives_are_those_of_differences() -> Result<(), Fault> {
-    let h = Ur5::HANDLES;
-    let arm = [h.pan, h.lift, h.elbow, h.wrist_1, h.wrist_2, h.wrist_3];
-    agrees::<Ur5, 6>(
-        arm,
-        [0.3, -0.8, 1.1, 0.4, -0.7, 2.0],
-        [0.5, -1.0, 0.7, 1.5, -0.2, 0.9],
-    )?;
-    agrees::<FourBar, 1>([FourBar::HANDLES.left_foot], [0.4], [2.0])?;
-    agrees::<SliderCrank, 1>([SliderCrank::HANDLES.bearing], [0.7], [20.0])?;
-    agrees::<Bricard, 1>([Bricard::HANDLES.p1], [0.2], [1.5])?;
-    // Where entries of the closing rows vanish, and their derivatives do not.
-    agrees::<FourBar, 1>([FourBar::HANDLES.left_foot], [0.0], [2.0])?;
-    agrees::<SliderCrank, 1>([SliderCrank::HANDLES.bearing], [0.0], [20.0])?;
-    let h = CartPole::HANDLES;
-    agrees::<CartPole, 2>((h.rail, h.hinge), [0.2, 0.9], [1.0, -2.0])?;
-    agrees::<RodPendulum, 1>([RodPendulum::HANDLES.pivot], [0.6], [1.0])
-}
+use holonom_models::{CartPole, FlyballGovernor, HeavyTop};
+use nalgebra::{Matrix2, Matrix4, SMatrix};
 
 /// Florian's equations, about upright: `theta'' (l (4/3 - m / M)) = g theta - F / M`, with `l` half
 /// of the pole, `m` its mass and `M` all.
@@ -272,5 +196,65 @@ fn a_governor() -> Result<(), Fault> {
         assert!((a[(row, 2)] - a[(row, 3)]).abs() < 1e-9 * a.amax());
     }
     assert!((a[(6, 2)] - a[(7, 3)]).abs() < 1e-9 * a.amax());
+    Ok(())
+}
+
+/// Two rods of 1 m and 3 kg.
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass, inverse])]
+struct DoublePendulum {
+    #[body(mass = 3.0, inertia = [0.25, 0.25, 0.001], position = [0.0, 0.0, -0.5])]
+    upper: Body,
+    #[body(mass = 3.0, inertia = [0.25, 0.25, 0.001], position = [0.0, 0.0, -1.5])]
+    lower: Body,
+    #[joint(between = [ground, upper], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    shoulder: Revolute,
+    #[joint(between = [upper, lower], point = [0.0, 0.0, -1.0], axis = [1.0, 0.0, 0.0])]
+    elbow: Revolute,
+}
+
+/// In the angles of the rods from the vertical `M = [4 1.5; 1.5 1]` and `K = g diag(4.5, 1.5)`; the
+/// elbow is their difference. Inverted, or folded over, `K` and couplings change their signs.
+#[test]
+fn a_double_pendulum() -> Result<(), Fault> {
+    let (pendulum, h) = (DoublePendulum::default(), DoublePendulum::HANDLES);
+    let space = pendulum.coordinates([h.shoulder, h.elbow])?;
+    let g = 9.81;
+    let turned = Matrix2::new(1.0, 0.0, 1.0, 1.0);
+    let back = Matrix2::new(1.0, 0.0, -1.0, 1.0);
+    for (positions, sides) in [
+        ([0.0, 0.0], [1.0, 1.0]),
+        ([PI, 0.0], [-1.0, -1.0]),
+        ([0.0, PI], [1.0, -1.0]),
+    ] {
+        let state = space.state(positions, [0.0, 0.0])?;
+        let linear = space.linearise(&state, [], |_| [])?;
+        let coupling = 1.5 * sides[0] * sides[1];
+        let inverse = Matrix2::new(1.0, -coupling, -coupling, 4.0) / (4.0 - 2.25);
+        let stiffness = Matrix2::new(4.5 * g * sides[0], 0.0, 0.0, 1.5 * g * sides[1]);
+        let wanted = -back * inverse * stiffness * turned;
+        let off = (linear.by_positions - wanted).amax();
+        assert!(off < 1e-10, "{positions:?}: {off:.1e}");
+        let wanted = back * inverse * back.transpose();
+        assert!((linear.by_efforts - wanted).amax() < 1e-12);
+        assert!(linear.by_rates.amax() < 1e-12 && linear.rates_by_positions.amax() == 0.0);
+    }
+    // `1.75 x^2 - 10.5 g x + 6.75 g^2 = 0` for squares of frequencies, or of rates of falling.
+    let squares = [-1.0, 1.0].map(|sign| g * (10.5 + sign * 63.0_f64.sqrt()) / 3.5);
+    for angle in [0.0, PI] {
+        let state = space.state([angle, 0.0], [0.0, 0.0])?;
+        let modes = space.linearise(&state, [], |_| [])?.modes();
+        for square in squares {
+            let near = |mode: &f64| (mode - square.sqrt()).abs() < 1e-10;
+            let rates = modes.iter().map(|mode| {
+                if angle == 0.0 {
+                    mode.angular_frequency()
+                } else {
+                    mode.rate.re
+                }
+            });
+            assert_eq!(rates.filter(near).count(), 1, "{angle}: {modes:?}");
+        }
+    }
     Ok(())
 }

@@ -3,7 +3,9 @@
 #![forbid(unsafe_code)]
 
 mod choice;
+mod continuation;
 mod counts;
+mod differences;
 mod equilibrium;
 mod found;
 mod identification;
@@ -12,3 +14,4 @@ mod loops;
 mod reference;
 mod regressor;
 mod regulator;
+mod trim;

@@ -1,0 +1,180 @@
+//! What changes beside positions: parameters, inputs and rates.
+
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use super::choice::Coordinate;
+use super::directions::{Along, chosen};
+use super::{Equations, IndependentCoordinates};
+use crate::constraints::row_units::characteristic_length;
+use crate::error::{Fault, ParameterError, ParameterFault};
+use crate::math::scalar::Real;
+use crate::mechanism::handle::ValueHandle;
+use crate::mechanism::joint_rates::JointRates;
+use crate::state::vector::Array;
+
+/// A quantity that is sought, or along which equilibria are followed: a parameter or an input by
+/// its handle, or the rate of a chosen coordinate by [`Varied::rate`].
+pub struct Varied<M> {
+    quantity: Quantity,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Quantity {
+    Value(usize),
+    /// The place of a rate, and its joint.
+    Rate(usize, &'static str),
+}
+
+/// The same in chosen coordinates.
+#[derive(Clone, Copy)]
+pub(super) enum Adjusted {
+    /// A parameter, by its place.
+    Value(usize),
+    /// The rate of a coordinate, by its number.
+    Rate(usize),
+}
+
+impl From<Adjusted> for Along {
+    fn from(quantity: Adjusted) -> Self {
+        match quantity {
+            Adjusted::Value(place) => Self::Value(place),
+            Adjusted::Rate(number) => Self::Rate(number),
+        }
+    }
+}
+
+impl<M: JointRates> Varied<M> {
+    /// The rate (rad/s, m/s) of a coordinate, such as the speed of a shaft in steady motion.
+    ///
+    /// # Errors
+    /// [`Fault::SeveralMotions`], [`Fault::CarriesNothing`], [`Fault::Carried`]: no such motion.
+    pub fn rate(of: impl Coordinate<M>) -> Result<Self, Fault> {
+        let (place, joint) = of.place()?;
+        Ok(Self {
+            quantity: Quantity::Rate(place, joint),
+            mechanism: PhantomData,
+        })
+    }
+
+    /// The name of the parameter, the input or the joint.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.quantity {
+            Quantity::Value(place) => M::REPORT.values.get(place).map_or("", |info| info.name),
+            Quantity::Rate(_, joint) => joint,
+        }
+    }
+
+    pub(super) fn adjusted(self, places: &[usize]) -> Result<Adjusted, Fault> {
+        match self.quantity {
+            Quantity::Value(place) => Ok(Adjusted::Value(place)),
+            Quantity::Rate(place, joint) => chosen(places, (place, joint)).map(Adjusted::Rate),
+        }
+    }
+}
+
+impl<M> From<ValueHandle<M>> for Varied<M> {
+    fn from(value: ValueHandle<M>) -> Self {
+        Self {
+            quantity: Quantity::Value(value.index()),
+            mechanism: PhantomData,
+        }
+    }
+}
+
+impl<M> Clone for Varied<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Varied<M> {}
+
+impl<M> core::fmt::Debug for Varied<M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_tuple("Varied").field(&self.quantity).finish()
+    }
+}
+
+impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
+    /// A parameter or an input, as the equations have it now.
+    #[must_use]
+    pub fn value(&self, of: ValueHandle<M>) -> S {
+        self.parameter(of.index())
+    }
+
+    /// Sets one parameter or input, by handle. Of a parameter only that it is finite is checked:
+    /// `new` of the mechanism refuses what no mechanism can have, such as a negative mass.
+    ///
+    /// States satisfy the constraints no longer where a parameter changes a closed loop.
+    ///
+    /// # Errors
+    /// [`Fault::Parameter`] for a number that is not finite; the former one then stays.
+    pub fn set_value(&mut self, of: ValueHandle<M>, value: S) -> Result<(), Fault> {
+        self.set_parameter(of.index(), value)
+    }
+
+    pub(super) fn parameter(&self, place: usize) -> S {
+        let known = self.parameters.as_slice().get(place);
+        known.copied().unwrap_or(S::zero())
+    }
+
+    fn set_parameter(&mut self, place: usize, value: S) -> Result<(), Fault> {
+        let info = M::REPORT.values.get(place);
+        let number = self.parameters.as_mut_slice().get_mut(place);
+        let (Some(info), Some(number)) = (info, number) else {
+            return Ok(());
+        };
+        if !value.is_finite() {
+            return Err(Fault::Parameter(ParameterError {
+                field: info.name,
+                attribute: "value",
+                fault: ParameterFault::NotFinite,
+            }));
+        }
+        *number = value;
+        if info.is_input {
+            M::take_inputs(&self.parameters, &mut self.constants);
+            M::take_joint_inputs(&self.parameters, &mut self.equations.constants);
+            return Ok(());
+        }
+        self.constants = M::prepare(&self.parameters);
+        let described = M::initial_state(&self.constants);
+        self.equations = Equations {
+            constants: M::prepare_joints(&self.parameters),
+            length: characteristic_length::<S, M>(&self.constants, &described),
+            ..self.equations
+        };
+        Ok(())
+    }
+
+    /// What a quantity is now, of a motion at these rates.
+    pub(super) fn present(&self, of: Adjusted, rates: &SVector<S, N>) -> S {
+        match of {
+            Adjusted::Value(place) => self.parameter(place),
+            Adjusted::Rate(number) => rates.get(number).copied().unwrap_or(S::zero()),
+        }
+    }
+
+    /// Sets it.
+    pub(super) fn adjust(
+        &mut self,
+        of: Adjusted,
+        value: S,
+        rates: &mut SVector<S, N>,
+    ) -> Result<(), Fault> {
+        match of {
+            Adjusted::Value(place) => self.set_parameter(place, value),
+            Adjusted::Rate(_) if !value.is_finite() => Err(Fault::StateNotFinite),
+            Adjusted::Rate(number) => {
+                if let Some(rate) = rates.get_mut(number) {
+                    *rate = value;
+                }
+                Ok(())
+            }
+        }
+    }
+}
