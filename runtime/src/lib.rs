@@ -15,6 +15,7 @@
 //! | whether its result can be trusted | [`RunReport::warnings`], [`Monitor`], [`guide::trust`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
+//! | many mechanisms at once, each with its own numbers | [`Ensemble`], [`Lanes`], [`guide::ensembles`] |
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
 //! | integrators | [`Rk4`], [`DormandPrince`] |
 //! | poses, velocities, angles, reactions, energies, violations by name | [`View`], [`MechanismExt`] |
@@ -48,6 +49,7 @@ pub mod formulation;
 mod forward;
 pub mod independent;
 pub mod integrate;
+pub mod lanes;
 mod math;
 pub mod measure;
 pub mod mechanism;
@@ -184,6 +186,7 @@ pub use integrate::{
     GeneralizedAlpha, Heun, ImplicitMidpoint, Kutta3, Midpoint, RadauIIA, Rk4, SemiImplicitEuler,
     Tolerance,
 };
+pub use lanes::{Ensemble, Lanes};
 pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
 pub use measure::load::Loads;
