@@ -9,7 +9,7 @@ use super::number::Lanes;
 use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
-use crate::integrate::{OneStep, Scheme, Slopes, StepStart, System};
+use crate::integrate::Scheme;
 use crate::math::clock::Clock;
 use crate::math::scalar::Real;
 use crate::measure::load::NoForces;
@@ -17,7 +17,6 @@ use crate::measure::view::View;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::stepper::end_of_step;
 use crate::state::vector::MovingState;
 
 /// Several mechanisms of one type, each with its own parameters, inputs and start: a step moves
@@ -70,14 +69,14 @@ use crate::state::vector::MovingState;
 pub struct Ensemble<T: Real, M: Mechanism, F: Formulation<T>, K, C: Coordinates<M>, const L: usize>
 {
     /// Each lane by itself.
-    dynamics: [Dynamics<T, M, F, NoForces, C>; L],
-    equations: LaneEquations<T, M, C, F::Terms, L>,
-    state: C::State<Lanes<T, L>>,
-    stopped: [Option<SimulationError<C::State<T>>>; L],
+    pub(super) dynamics: [Dynamics<T, M, F, NoForces, C>; L],
+    pub(super) equations: LaneEquations<T, M, C, F::Terms, L>,
+    pub(super) state: C::State<Lanes<T, L>>,
+    pub(super) stopped: [Option<SimulationError<C::State<T>>>; L],
     /// How many lanes go on.
-    going: usize,
-    scheme: K,
-    clock: Clock<T>,
+    pub(super) going: usize,
+    pub(super) scheme: K,
+    pub(super) clock: Clock<T>,
 }
 
 impl<T, M, F, K, const L: usize> Ensemble<T, M, F, K, M::Coordinates, L>
@@ -163,15 +162,19 @@ where
 
     /// Puts the equations of all mechanisms into their lanes; those that have stopped compute along
     /// as copies of the first that goes on.
-    fn take_equations(&mut self) {
-        let goes_on = self.stopped.iter().position(Option::is_none).unwrap_or(0);
-        let copied: C::State<T> = state_of(&self.state, goes_on);
-        for (lane, stopped) in self.stopped.iter().enumerate() {
-            if stopped.is_some() {
-                put_state(&mut self.state, lane, &copied);
+    pub(super) fn take_equations(&mut self) {
+        for (lane, dynamics) in self.dynamics.iter().enumerate() {
+            self.equations.put(lane, dynamics);
+        }
+        let Some(going) = self.stopped.iter().position(Option::is_none) else {
+            return;
+        };
+        if self.going < L {
+            let state: C::State<T> = state_of(&self.state, going);
+            for (lane, _) in self.stopped.iter().enumerate().filter(|(_, s)| s.is_some()) {
+                put_state(&mut self.state, lane, &state);
+                self.equations.put(lane, &self.dynamics[going]);
             }
-            let source = if stopped.is_some() { goes_on } else { lane };
-            self.equations.put(lane, &self.dynamics[source]);
         }
     }
 
@@ -233,7 +236,11 @@ where
     pub fn set_inputs(&mut self, inputs: &[M::Inputs<T>; L]) -> Result<(), Fault> {
         let mut lanes = self.dynamics.iter_mut().zip(inputs);
         let outcome = lanes.try_for_each(|(dynamics, inputs)| dynamics.set_inputs(inputs));
-        self.take_equations();
+        for (lane, stopped) in self.stopped.iter().enumerate() {
+            if stopped.is_none() {
+                self.equations.put_inputs(lane, &self.dynamics[lane]);
+            }
+        }
         outcome
     }
 
@@ -282,128 +289,6 @@ where
     pub fn dynamics(&self) -> &[Dynamics<T, M, F, NoForces, C>; L] {
         &self.dynamics
     }
-}
-
-impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>
-where
-    T: Real,
-    M: Mechanism,
-    F: Formulation<T>,
-    K: OneStep<T, Dynamics<T, M, F, NoForces, C>>
-        + OneStep<Lanes<T, L>, LaneEquations<T, M, C, F::Terms, L>>,
-    C: Coordinates<M>,
-{
-    /// Moves all lanes that go on by one step of `dt` (s). Where none does, nothing is moved, and
-    /// the time stays.
-    ///
-    /// # Errors
-    /// A step that is not positive and finite, or below the resolution of the time where laws
-    /// depend on it. Nothing is moved then. What a lane cannot do stops that lane
-    /// ([`Ensemble::stopped`]) and is no error here.
-    pub fn step(&mut self, dt: T) -> Result<(), Fault> {
-        let clock = end_of_step::<T, M>(&self.clock, dt)?;
-        if self.going == 0 {
-            return Ok(());
-        }
-        let next = self.at_once(dt)?;
-        let normalised = if self.equations.are_sound(&next) {
-            C::normalised_near(&next)
-        } else {
-            None
-        };
-        match normalised {
-            Some(next) => self.state = next,
-            None => self.apart(next, dt),
-        }
-        if self.going > 0 {
-            self.clock = clock;
-        }
-        Ok(())
-    }
-
-    /// The end of a step in all lanes, as it comes out.
-    #[inline(never)]
-    fn at_once(&mut self, dt: T) -> Result<C::State<Lanes<T, L>>, Fault> {
-        let (time, step) = (Lanes::splat(self.time()), Lanes::splat(dt));
-        let (equations, state) = (&mut self.equations, &self.state);
-        equations.begin();
-        let mut slope = *state;
-        equations.stage(time, state, &mut slope)?;
-        let (start, mut stages) = (
-            StepStart {
-                time,
-                state,
-                slope: &slope,
-            },
-            self.scheme.stages(&slope),
-        );
-        let equations = &mut Slopes::new(equations);
-        self.scheme.advanced(equations, start, step, &mut stages)
-    }
-
-    /// What follows a step lane by lane: those in which it is sound are normalised, the others take
-    /// it alone, and stop where that is refused.
-    #[inline(never)]
-    fn apart(&mut self, mut next: C::State<Lanes<T, L>>, dt: T) {
-        let (time, before) = (self.clock.time(), self.going);
-        let lanes = self.dynamics.iter_mut().zip(&mut self.stopped);
-        for (lane, (dynamics, stopped)) in lanes.enumerate() {
-            if stopped.is_some() {
-                continue;
-            }
-            if self.equations.is_sound(lane, &next) {
-                let mut state = state_of(&next, lane);
-                dynamics.renormalise(&mut state, None);
-                put_state(&mut next, lane, &state);
-                continue;
-            }
-            let mut state: C::State<T> = state_of(&self.state, lane);
-            match alone(&self.scheme, dynamics, (time, &mut state), dt) {
-                Ok(()) => put_state(&mut next, lane, &state),
-                Err(fault) => {
-                    self.going -= 1;
-                    *stopped = Some(SimulationError {
-                        time: time.to_f64(),
-                        fault,
-                        state,
-                    });
-                }
-            }
-        }
-        self.state = next;
-        if self.going < before {
-            self.take_equations();
-        }
-    }
-
-    /// The same with these inputs over the step, which stay until others are set.
-    ///
-    /// # Errors
-    /// As [`Ensemble::step`] and [`Ensemble::set_inputs`].
-    pub fn step_with(&mut self, inputs: &[M::Inputs<T>; L], dt: T) -> Result<(), Fault> {
-        self.set_inputs(inputs)?;
-        self.step(dt)
-    }
-}
-
-/// A step as a [`Stepper`](crate::Stepper) takes it.
-fn alone<T, M, F, K, C>(
-    scheme: &K,
-    dynamics: &mut Dynamics<T, M, F, NoForces, C>,
-    (time, state): (T, &mut C::State<T>),
-    dt: T,
-) -> Result<(), Fault>
-where
-    T: Real,
-    M: Mechanism,
-    F: Formulation<T>,
-    K: OneStep<T, Dynamics<T, M, F, NoForces, C>>,
-    C: Coordinates<M>,
-{
-    if !C::IS_RELATIVE {
-        C::check(state)?;
-    }
-    scheme.step(dynamics, time, state, dt)
 }
 
 impl<T: Real, M: Mechanism, F: Formulation<T>, K: Copy, C: Coordinates<M>, const L: usize> Clone

@@ -47,6 +47,15 @@ impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize>
         put(&mut self.coefficients, lane, &equations.coefficients);
     }
 
+    /// Takes what depends on the inputs of one mechanism into a lane.
+    pub(super) fn put_inputs<F: Formulation<T, Terms = E>, A>(
+        &mut self,
+        lane: usize,
+        dynamics: &Dynamics<T, M, F, A, C>,
+    ) {
+        put(&mut self.constants, lane, dynamics.own_constants());
+    }
+
     /// Begins a step.
     #[inline(always)]
     pub(super) fn begin(&mut self) {

@@ -1,9 +1,9 @@
 //! Several mechanisms in one evaluation.
 //!
 //! [`Lanes`] (`number.rs`) is a [`Scalar`](crate::Scalar): a kernel over such numbers evaluates as
-//! many mechanisms as there are lanes. [`Ensemble`] (`ensemble.rs`) moves them by fixed steps, each
-//! with its own parameters, inputs and start. `equations.rs` is what a step moves; `exchange.rs`
-//! brings numbers into lanes and back.
+//! many mechanisms as there are lanes. [`Ensemble`] (`ensemble.rs`) moves them by fixed steps
+//! (`step.rs`), each with its own parameters, inputs and start. `equations.rs` is what a step moves;
+//! `exchange.rs` brings numbers into lanes and back.
 //!
 //! A step is taken in all lanes at once and looked at once. A lane whose pivot vanished or whose
 //! numbers are not finite takes the step again alone, by its own
@@ -15,6 +15,7 @@ mod ensemble;
 mod equations;
 mod exchange;
 mod number;
+mod step;
 
 pub use ensemble::Ensemble;
 pub use equations::LaneEquations;
