@@ -5,7 +5,7 @@
 //! - `step`: a step of [`Rk4`] by joints, of a [`Stepper`] and of an [`Ensemble`].
 //!
 //! ```text
-//! RUSTFLAGS="-C target-cpu=native" cargo bench --target-dir target/native -p holonom-benches --bench lanes
+//! RUSTFLAGS="-C target-cpu=native" cargo bench -p holonom-benches --bench lanes
 //! ```
 
 use std::array::from_fn;

@@ -130,8 +130,8 @@ pub(crate) fn to_unit_length<S: Real>(p: &[S; 4]) -> (S, Option<S>) {
     )
 }
 
-/// Scales the four Euler parameters at a place as [`to_unit_length`] says, of numbers that cannot be
-/// compared; `None` where their length is not known to be near 1.
+/// Scales the four Euler parameters at a place as [`to_unit_length`] says, of numbers that cannot
+/// be compared; `None` where their length is not known to be near 1.
 #[inline(always)]
 pub(crate) fn scale_near_unit_length<S: Scalar>(coordinates: &mut [S], place: usize) -> Option<()> {
     let excess = norm(&read(coordinates, place)) - S::one();

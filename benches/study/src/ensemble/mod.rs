@@ -1,9 +1,9 @@
 //! Many rows of one model: each has parameters that are drawn for it, runs by itself and gives
 //! readings.
 //!
-//! A row is known by its number. Its parameters are drawn from a generator that the seed and this
-//! number determine, so a row is the same in whatever shard, lane or thread it is computed. Rows run
-//! [`LANES`] at a time in an [`Ensemble`], on all cores.
+//! A row is known by its number. The seed and this number determine the generator from which its
+//! parameters are drawn: a row is the same in whatever shard, lane or thread it is computed. Rows
+//! run [`LANES`] at a time in an [`Ensemble`], on all cores.
 //!
 //! For a cluster, compute each [`Shard`] by a job of its own and join the files by [`merge`].
 
