@@ -15,7 +15,8 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use holonom::prelude::*;
 use holonom::{
-    Ensemble, Lanes, Real, Scalar,
+    Real, Scalar,
+    lanes::{Ensemble, Lanes},
     mechanism::Plain,
     state::{Array, Vector},
 };

@@ -15,7 +15,7 @@
 //! | whether its result can be trusted | [`RunReport::warnings`], [`Monitor`], [`guide::trust`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
-//! | many mechanisms at once, each with its own numbers | [`Ensemble`], [`Lanes`], [`guide::ensembles`] |
+//! | many mechanisms at once, each with its own numbers | [`lanes::Ensemble`], [`guide::ensembles`](mod@guide::ensembles) |
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
 //! | integrators | [`Rk4`], [`DormandPrince`] |
 //! | poses, velocities, angles, reactions, energies, violations by name | [`View`], [`MechanismExt`] |
@@ -186,7 +186,6 @@ pub use integrate::{
     GeneralizedAlpha, Heun, ImplicitMidpoint, Kutta3, Midpoint, RadauIIA, Rk4, SemiImplicitEuler,
     Tolerance,
 };
-pub use lanes::{Ensemble, Lanes};
 pub use math::scalar::{Real, Scalar};
 pub use measure::access::{MechanismExt, Pose};
 pub use measure::load::Loads;

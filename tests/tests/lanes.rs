@@ -5,12 +5,12 @@
 
 use core::array::from_fn;
 
-use holonom::lanes::LaneEquations;
+use holonom::lanes::{Ensemble, LaneEquations, Lanes};
 use holonom::measure::NoForces;
 use holonom::mechanism::{Absolute, Coordinates, Relative, Terms};
 use holonom::prelude::*;
 use holonom::{
-    Ensemble, Heun, Kutta3, Lanes, Midpoint, Real, Scalar, SemiImplicitEuler, SimulationError,
+    Heun, Kutta3, Midpoint, Real, Scalar, SemiImplicitEuler, SimulationError,
     dynamics::Dynamics,
     integrate::{BogackiShampine3, DormandPrince5, DormandPrince8, OneStep},
 };

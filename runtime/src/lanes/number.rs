@@ -18,7 +18,7 @@ use crate::math::versine;
 /// in its lane, and [`Scalar::select`] chooses in each lane.
 ///
 /// ```
-/// use holonom::{Lanes, Scalar};
+/// use holonom::{Scalar, lanes::Lanes};
 ///
 /// let angles = Lanes::new([0.1, 0.5, 1.0, f64::NAN]);
 /// let sines = angles.sin() + Lanes::constant(1.0);

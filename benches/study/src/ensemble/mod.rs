@@ -13,10 +13,10 @@ use std::ops::Range;
 use std::str::FromStr;
 
 use holonom::dynamics::Dynamics;
-use holonom::lanes::LaneEquations;
+use holonom::integrate::OneStep;
+use holonom::lanes::{Ensemble, LaneEquations, Lanes};
 use holonom::measure::NoForces;
 use holonom::prelude::*;
-use holonom::{Ensemble, Lanes, ParameterError, integrate::OneStep};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
 use rayon::prelude::*;
