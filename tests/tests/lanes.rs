@@ -82,9 +82,9 @@ fn thrown<T: Real, const L: usize>(arms: &[Arm; L]) -> [StateOf<Arm, T>; L] {
 }
 
 fn torques<T: Real>(step: usize, lane: usize) -> InputsOf<Arm, T> {
-    let mut inputs = InputsOf::<Arm, T>::default();
-    inputs.torque = T::constant(0.1 * lane as f64 - 0.02 * step as f64);
-    inputs
+    InputsOf::<Arm, T> {
+        torque: T::constant(0.1 * lane as f64 - 0.02 * step as f64),
+    }
 }
 
 /// Steps an ensemble and a stepper for every lane, and compares them after every step; a step of
