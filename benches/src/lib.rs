@@ -6,6 +6,8 @@
 pub mod baselines;
 #[cfg(feature = "compare")]
 pub mod compare;
+#[cfg(feature = "ensemble")]
+pub mod ensemble;
 #[cfg(feature = "extremes")]
 pub mod extremes;
 pub mod measures;

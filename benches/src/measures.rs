@@ -56,6 +56,12 @@ pub const EXTREMES: Measures = Measures {
     feature: "extremes",
     seconds: [Some(136), None],
 };
+/// `study ensemble`.
+pub const ENSEMBLE: Measures = Measures {
+    name: "ensemble",
+    feature: "ensemble",
+    seconds: [None, None],
+};
 /// `study show`.
 pub const SHOW: Measures = Measures {
     name: "show",

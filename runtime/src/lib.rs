@@ -15,6 +15,7 @@
 //! | whether its result can be trusted | [`RunReport::warnings`], [`Monitor`], [`guide::trust`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
+//! | many mechanisms at once, each with its own numbers | [`lanes::Ensemble`], [`guide::ensembles`](mod@guide::ensembles) |
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
 //! | integrators | [`Rk4`], [`DormandPrince`] |
 //! | poses, velocities, angles, reactions, energies, violations by name | [`View`], [`MechanismExt`] |
@@ -48,6 +49,7 @@ pub mod formulation;
 mod forward;
 pub mod independent;
 pub mod integrate;
+pub mod lanes;
 mod math;
 pub mod measure;
 pub mod mechanism;

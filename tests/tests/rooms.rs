@@ -12,7 +12,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 type Module = Vec<String>;
 
 /// The rooms of the run time, each behind those that it may use.
-const RUNTIME: [&str; 15] = [
+const RUNTIME: [&str; 16] = [
     "math",
     "error",
     "state",
@@ -28,6 +28,7 @@ const RUNTIME: [&str; 15] = [
     "dynamics",
     "run",
     "sensitivity",
+    "lanes",
 ];
 
 /// What lies beside the rooms: interfaces, and the language's own tables.

@@ -14,6 +14,13 @@ pub enum StudyError {
         /// What the operating system said.
         source: io::Error,
     },
+    /// A file of rows cannot be read, or does not fit the others.
+    Rows {
+        /// Which one.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// A run stopped before its end.
     Run {
         /// Which run.
@@ -41,6 +48,7 @@ impl fmt::Display for StudyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Write { path, source } => write!(f, "cannot write {}: {source}", path.display()),
+            Self::Rows { path, reason } => write!(f, "the rows of {}: {reason}", path.display()),
             Self::Run { name, reason } => write!(f, "the run `{name}` stopped: {reason}"),
             Self::NotFinite { what } => write!(f, "{what} is not a finite number"),
             Self::Picture { title, reason } => write!(f, "cannot draw `{title}`: {reason}"),

@@ -10,6 +10,7 @@
 //! | what an evaluation costs, in both descriptions, all formulations and both number types | [`compare`] |
 //! | what accuracy costs, and which setting does for an error | [`trade`] |
 //! | where the numerics stop to hold | [`extremes`] |
+//! | thousands of rows with drawn parameters, in lanes and on all cores, in shards | [`ensemble`] |
 //! | operations of a computation | [`counted`] |
 //! | chapter 15 of Flores (2015): four formulations on one pendulum | [`chapter15`] |
 //!
@@ -25,6 +26,8 @@ pub mod compare;
 pub mod counted;
 pub mod document;
 pub mod elliptic;
+#[cfg(feature = "ensemble")]
+pub mod ensemble;
 mod error;
 #[cfg(feature = "extremes")]
 pub mod extremes;

@@ -43,7 +43,7 @@ use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::measure::view::View;
 use crate::mechanism::absolute::stabilised;
 use crate::mechanism::coordinates::{
-    Absolute, AbsoluteEquations, Coordinates, Equations, Evaluation, Relative,
+    Absolute, AbsoluteEquations, Coordinates, Equations, EquationsIn, Evaluation, Relative,
 };
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
@@ -298,6 +298,11 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     #[inline(always)]
     pub(crate) fn own_constants(&self) -> &C::Constants<S> {
         &C::equations(&self.absolute, &self.own).constants
+    }
+
+    /// The equations in its own coordinates, as a kernel takes them.
+    pub(crate) fn own_equations(&self) -> &EquationsIn<S, M, C> {
+        C::equations(&self.absolute, &self.own)
     }
 
     pub(crate) fn formulation(&self) -> &F {

@@ -19,6 +19,7 @@
 //! | [`reactions`] | the reaction of a joint: on which body, about which point; body axes and principal axes |
 //! | [`redundant`] | redundant equations, singular configurations, and joints that avoid both |
 //! | [`embedded`] | fixed steps without a heap or the standard library, single precision |
+//! | [`ensembles`] | many mechanisms at once, each with its own numbers; all cores, clusters |
 //! | [`choosing`] | formulations and integrators |
 //! | [`accuracy`] | measured costs of accuracy; which setting suffices for an error; where the numerics fail |
 //! | [`equations`] | M, h, J, inverse dynamics in coordinates by handle; linear models, modes |
@@ -138,6 +139,9 @@ pub mod redundant {}
 
 #[doc = include_str!("embedded.md")]
 pub mod embedded {}
+
+#[doc = include_str!("ensembles.md")]
+pub mod ensembles {}
 
 #[doc = include_str!("choosing.md")]
 pub mod choosing {}

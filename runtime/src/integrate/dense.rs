@@ -1,7 +1,7 @@
 //! The state within a step.
 
 use super::StepRecord;
-use crate::math::scalar::{Real, Scalar};
+use crate::math::scalar::Scalar;
 use crate::state::vector::Vector;
 
 /// The cubic through states and slopes at both ends, with an error of order `h^4`.
@@ -9,7 +9,7 @@ use crate::state::vector::Vector;
 /// `y(theta) = (1 - c) y0 + c y1 + h theta (1 - theta)^2 f0 - h theta^2 (1 - theta) f1`,
 /// `c = theta^2 (3 - 2 theta)` (Hairer, Norsett and Wanner, *Solving Ordinary Differential
 /// Equations I*, II.6).
-pub(super) fn cubic<S: Real, X: Vector<S>, K>(record: &StepRecord<'_, S, X, K>, theta: S) -> X {
+pub(super) fn cubic<S: Scalar, X: Vector<S>, K>(record: &StepRecord<'_, S, X, K>, theta: S) -> X {
     let rest = S::one() - theta;
     let weight = theta * theta * (S::constant(3.0) - theta - theta);
     let bend = record.step * theta * rest;

@@ -50,10 +50,10 @@ macro_rules! explicit {
         const _: () = {
             use crate::error::Fault;
             use crate::integrate::{Look, OneStep, Scheme, Slopes, StepStart, System};
-            use crate::math::scalar::Real;
+            use crate::math::scalar::Scalar;
             use crate::state::vector::Vector;
 
-            impl<S: Real> Scheme<S> for $method {
+            impl<S: Scalar> Scheme<S> for $method {
                 type Stages<X: Vector<S>> = [X; explicit!(@count $kept)];
 
                 fn stages<X: Vector<S>>(&self, like: &X) -> Self::Stages<X> {
@@ -84,7 +84,7 @@ macro_rules! explicit {
                 $($($item)*)?
             }
 
-            impl<S: Real, Y: System<S>> OneStep<S, Y> for $method {
+            impl<S: Scalar, Y: System<S>> OneStep<S, Y> for $method {
                 #[inline]
                 fn advanced<L: Look<S, Y::State>>(
                     &self,
@@ -109,7 +109,7 @@ macro_rules! explicit {
             }
 
             $(
-                impl<S: Real> crate::integrate::EmbeddedPair<S> for $method {
+                impl<S: crate::math::scalar::Real> crate::integrate::EmbeddedPair<S> for $method {
                     const POWER: f64 = $power;
 
                     #[inline]

@@ -102,7 +102,7 @@ pub(crate) use self::newton::by_differences;
 use self::slopes::named;
 use crate::error::Fault;
 use crate::error::setting::interval;
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
 /// A system of ordinary differential equations of first order: `y' = f(t, y)`.
@@ -127,7 +127,7 @@ use crate::state::vector::Vector;
 /// assert!((state[0] - (-1.0_f64).exp()).abs() < 1e-10);
 /// # Ok::<(), Fault>(())
 /// ```
-pub trait System<S: Real> {
+pub trait System<S: Scalar> {
     /// The state; its rates have the same type.
     type State: Vector<S>;
 
@@ -183,6 +183,7 @@ pub trait System<S: Real> {
         // No part of an object: else it would be compiled for every system, though explicit methods
         // never ask for it.
         Self: Sized,
+        S: Real,
     {
         by_differences(state, rates, columns, |state, rates| {
             self.stage(time, state, rates)
@@ -204,7 +205,7 @@ pub trait System<S: Real> {
     label = "no system of second order",
     note = "`SemiImplicitEuler` takes coordinates by the velocities at the end of a step: a mechanism has them, a `System` of one's own implements `integrate::SecondOrder`"
 )]
-pub trait SecondOrder<S: Real>: System<S> {
+pub trait SecondOrder<S: Scalar>: System<S> {
     /// Replaces the rates of the coordinates, which are those at the start of a step, by those at
     /// the velocities at its end, to which the other rates lead.
     fn with_new_velocities(
@@ -363,7 +364,7 @@ pub trait Advance<S: Real, Y: System<S>>: Integration<S, Y::State> {
     label = "no one-step method",
     note = "a `Stepper` takes a method without a step, such as `Rk4`, and the step with every `step(&mut state, dt)`"
 )]
-pub trait Scheme<S: Real>: Copy + Debug {
+pub trait Scheme<S: Scalar>: Copy + Debug {
     /// The memory of a step: slopes at the inner stages.
     type Stages<X: Vector<S>>: Clone;
 
@@ -403,7 +404,7 @@ pub trait Scheme<S: Real>: Copy + Debug {
 }
 
 /// A one-step method with a system that it moves: most move any [`System`].
-pub trait OneStep<S: Real, Y: System<S>>: Scheme<S> {
+pub trait OneStep<S: Scalar, Y: System<S>>: Scheme<S> {
     /// The state after one step, from the slope at its start; not finite where a slope at a stage
     /// is not, see [`System::stage`].
     ///
@@ -422,7 +423,10 @@ pub trait OneStep<S: Real, Y: System<S>>: Scheme<S> {
     /// # Errors
     /// A fault of the system. The state is then as before.
     #[inline]
-    fn step(&self, system: &mut Y, time: S, state: &mut Y::State, step: S) -> Result<(), Fault> {
+    fn step(&self, system: &mut Y, time: S, state: &mut Y::State, step: S) -> Result<(), Fault>
+    where
+        S: Real,
+    {
         attempt(self, system, (time, state), step)
             .map_err(|fault| refused(self, system, (time, state), step, fault))
     }

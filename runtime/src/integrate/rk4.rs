@@ -2,7 +2,7 @@
 
 use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System};
 use crate::error::Fault;
-use crate::math::scalar::Real;
+use crate::math::scalar::Scalar;
 use crate::state::vector::Vector;
 
 /// The classical Runge-Kutta method of order 4: four evaluations a step, no estimate of the error.
@@ -15,7 +15,7 @@ use crate::state::vector::Vector;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rk4;
 
-impl<S: Real> Scheme<S> for Rk4 {
+impl<S: Scalar> Scheme<S> for Rk4 {
     type Stages<X: Vector<S>> = NoStages;
 
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
@@ -32,7 +32,7 @@ impl<S: Real> Scheme<S> for Rk4 {
     }
 }
 
-impl<S: Real, Y: System<S>> OneStep<S, Y> for Rk4 {
+impl<S: Scalar, Y: System<S>> OneStep<S, Y> for Rk4 {
     #[inline]
     fn advanced<L: Look<S, Y::State>>(
         &self,

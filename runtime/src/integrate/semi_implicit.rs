@@ -2,7 +2,7 @@
 
 use super::{ErrorModel, Look, NoStages, OneStep, Scheme, SecondOrder, Slopes, StepStart};
 use crate::error::Fault;
-use crate::math::scalar::Real;
+use crate::math::scalar::Scalar;
 use crate::state::vector::Vector;
 
 /// The semi-implicit (symplectic) Euler method of order 1: velocities by the accelerations at the
@@ -17,7 +17,7 @@ use crate::state::vector::Vector;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SemiImplicitEuler;
 
-impl<S: Real> Scheme<S> for SemiImplicitEuler {
+impl<S: Scalar> Scheme<S> for SemiImplicitEuler {
     type Stages<X: Vector<S>> = NoStages;
 
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
@@ -36,7 +36,7 @@ impl<S: Real> Scheme<S> for SemiImplicitEuler {
     }
 }
 
-impl<S: Real, Y: SecondOrder<S>> OneStep<S, Y> for SemiImplicitEuler {
+impl<S: Scalar, Y: SecondOrder<S>> OneStep<S, Y> for SemiImplicitEuler {
     #[inline]
     fn advanced<L: Look<S, Y::State>>(
         &self,

@@ -3,7 +3,7 @@
 
 use super::{Counts, SecondOrder, System};
 use crate::error::Fault;
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
 /// A system as a step sees it.
@@ -13,7 +13,7 @@ pub struct Slopes<'a, Y, L> {
 }
 
 /// What is done about every slope: [`Unlooked`], [`Counting`] or [`Checking`].
-pub trait Look<S: Real, X: Vector<S>> {
+pub trait Look<S: Scalar, X: Vector<S>> {
     /// Sees that so many slopes are evaluated.
     #[doc(hidden)]
     fn count(&mut self, evaluations: usize);
@@ -56,7 +56,7 @@ pub struct Checking<S, X> {
     failed: Option<(S, X)>,
 }
 
-impl<S: Real, X: Vector<S>> Look<S, X> for Unlooked {
+impl<S: Scalar, X: Vector<S>> Look<S, X> for Unlooked {
     #[inline(always)]
     fn count(&mut self, _evaluations: usize) {}
 
@@ -72,7 +72,7 @@ impl<S: Real, X: Vector<S>> Look<S, X> for Unlooked {
     }
 }
 
-impl<S: Real, X: Vector<S>> Look<S, X> for Counting<'_> {
+impl<S: Scalar, X: Vector<S>> Look<S, X> for Counting<'_> {
     #[inline(always)]
     fn count(&mut self, evaluations: usize) {
         self.0.evaluations += evaluations;
@@ -163,7 +163,7 @@ impl<'a, Y> Slopes<'a, Y, Counting<'a>> {
     }
 }
 
-impl<S: Real, Y: System<S>, L: Look<S, Y::State>> System<S> for Slopes<'_, Y, L> {
+impl<S: Scalar, Y: System<S>, L: Look<S, Y::State>> System<S> for Slopes<'_, Y, L> {
     type State = Y::State;
 
     #[inline(always)]
@@ -186,7 +186,10 @@ impl<S: Real, Y: System<S>, L: Look<S, Y::State>> System<S> for Slopes<'_, Y, L>
         state: &Y::State,
         rates: &Y::State,
         columns: &mut <Y::State as Vector<S>>::Each<Y::State>,
-    ) -> Result<usize, Fault> {
+    ) -> Result<usize, Fault>
+    where
+        S: Real,
+    {
         let evaluations = self.system.jacobian(time, state, rates, columns)?;
         self.look.count(evaluations);
         Ok(evaluations)
@@ -198,7 +201,7 @@ impl<S: Real, Y: System<S>, L: Look<S, Y::State>> System<S> for Slopes<'_, Y, L>
     }
 }
 
-impl<S: Real, Y: SecondOrder<S>, L: Look<S, Y::State>> SecondOrder<S> for Slopes<'_, Y, L> {
+impl<S: Scalar, Y: SecondOrder<S>, L: Look<S, Y::State>> SecondOrder<S> for Slopes<'_, Y, L> {
     #[inline(always)]
     fn with_new_velocities(&mut self, time: S, state: &Y::State, step: S, rates: &mut Y::State) {
         self.system.with_new_velocities(time, state, step, rates);

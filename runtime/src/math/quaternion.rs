@@ -5,7 +5,7 @@
 //! (1988), chapter 6.
 
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{cross, square};
+use crate::math::vec3::{cross, read, square};
 
 /// `A(p) s = (e0^2 - e.e) s + 2 (e.s) e + 2 e0 e x s`.
 pub(crate) fn rotate<S: Scalar>(p: &[S; 4], s: &[S; 3]) -> [S; 3] {
@@ -102,16 +102,25 @@ pub(crate) fn from_rotation_vector<S: Real>(vector: &[S; 3]) -> [S; 4] {
     [cosine, x * factor, y * factor, z * factor]
 }
 
+/// Where `p.p - 1` is below this, a series gives `1 / |p|`: after a step of any accuracy there is
+/// no need of a root.
+const NEAR: f64 = 1e-5;
+
+/// `1 / sqrt(1 + x)`, by its series.
+#[inline(always)]
+fn by_series<S: Scalar>(excess: S) -> S {
+    let (half, three_eighths) = (S::constant(-0.5), S::constant(0.375));
+    excess.fused(three_eighths, half).fused(excess, S::one())
+}
+
 /// `| |p| - 1 |` and the factor `1 / |p|`; none where there is no such number: those stay what they
 /// are, for whoever uses them to refuse.
 #[inline(always)]
 pub(crate) fn to_unit_length<S: Real>(p: &[S; 4]) -> (S, Option<S>) {
     let excess = norm(p) - S::one();
-    // `1 / sqrt(1 + x)` by its series: after a step of any accuracy there is no need of a root.
-    if excess.abs() < S::constant(1e-5) {
-        let (half, three_eighths) = (S::constant(-0.5), S::constant(0.375));
-        let factor = excess.fused(three_eighths, half).fused(excess, S::one());
-        return (half.abs() * excess.abs(), Some(factor));
+    if excess.abs() < S::constant(NEAR) {
+        let drift = S::constant(0.5) * excess.abs();
+        return (drift, Some(by_series(excess)));
     }
     let length = length(p);
     let is_some = length.is_finite() && length > S::zero();
@@ -119,6 +128,15 @@ pub(crate) fn to_unit_length<S: Real>(p: &[S; 4]) -> (S, Option<S>) {
         (length - S::one()).abs(),
         is_some.then(|| length.reciprocal()),
     )
+}
+
+/// Scales the four Euler parameters at a place as [`to_unit_length`] says, of numbers that cannot
+/// be compared; `None` where their length is not known to be near 1.
+#[inline(always)]
+pub(crate) fn scale_near_unit_length<S: Scalar>(coordinates: &mut [S], place: usize) -> Option<()> {
+    let excess = norm(&read(coordinates, place)) - S::one();
+    let is_near = S::are_within(&[excess], 0.9 * NEAR);
+    is_near.then(|| scale(coordinates, place, by_series(excess)))
 }
 
 /// `p.p`, summed as generated kernels do, so that the compiler sees the same sum.

@@ -89,6 +89,10 @@ pub trait Scalar:
     /// are right.
     const SEVEN_DIGITS: bool = false;
 
+    /// Whether a number is several, side by side: what [`Scalar::are_within`] denies of it may hold
+    /// of some of them.
+    const HAS_LANES: bool = false;
+
     /// Whether the absolute values of these numbers are known to be at most `bound`; NaN, which
     /// shows in whatever is computed of it, does not count. A type that cannot tell says no.
     #[must_use]

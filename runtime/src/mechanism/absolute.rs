@@ -1,6 +1,7 @@
 //! Absolute coordinates, by the kernels of a mechanism.
 
 use crate::error::Fault;
+use crate::math::quaternion::scale_near_unit_length;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
 use crate::mechanism::coordinates::{
@@ -156,6 +157,21 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         };
         M::rewrap(&absolute.constants, state);
         Some(norm_drift)
+    }
+
+    #[inline(always)]
+    fn normalised_near<S: Scalar>(state: &M::State<S>) -> Option<M::State<S>> {
+        if M::REPORT.auxiliaries > 0 {
+            return None;
+        }
+        let mut unit = *state;
+        for body in M::REPORT.bodies {
+            if body.kind == BodyKind::Rigid && !P::NORMALISED_RATES {
+                let coordinates = unit.coordinates_mut().as_mut_slice();
+                scale_near_unit_length(coordinates, body.coordinate + 3)?;
+            }
+        }
+        Some(unit)
     }
 
     #[inline(always)]

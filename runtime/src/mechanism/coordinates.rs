@@ -187,6 +187,11 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
         rates: Option<&mut Self::State<S>>,
     ) -> Option<S>;
 
+    /// The same state of numbers that cannot be compared; `None` where a length is not near 1 or
+    /// turns are counted.
+    #[doc(hidden)]
+    fn normalised_near<S: Scalar>(state: &Self::State<S>) -> Option<Self::State<S>>;
+
     /// Calls with the bodies of a state, with Euler parameters as kernels read them.
     #[doc(hidden)]
     fn with_bodies<S: Real, R>(

@@ -1,7 +1,7 @@
 //! Relative coordinates, by the kernels of a mechanism in joint coordinates.
 
 use crate::error::Fault;
-use crate::math::quaternion::{from_matrix, scale, to_unit_length};
+use crate::math::quaternion::{from_matrix, scale, scale_near_unit_length, to_unit_length};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
 use crate::mechanism::absolute::{take_nearer_sign, with_nearer_signs};
@@ -228,6 +228,18 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
             }
         }
         norm_drift
+    }
+
+    #[inline(always)]
+    fn normalised_near<S: Scalar>(state: &M::JointState<S>) -> Option<M::JointState<S>> {
+        if M::JOINT_REPORT.rewraps || M::JOINT_REPORT.has_screws() {
+            return None;
+        }
+        let mut unit = *state;
+        for &place in M::JOINT_REPORT.euler_parameters {
+            scale_near_unit_length(unit.rest_slice_mut(), place)?;
+        }
+        Some(unit)
     }
 
     #[inline(always)]

@@ -335,7 +335,10 @@ where
 }
 
 /// The clock after a step, if that is one.
-fn end_of_step<S: Real, M: Mechanism>(clock: &Clock<S>, dt: S) -> Result<Clock<S>, Fault> {
+pub(crate) fn end_of_step<S: Real, M: Mechanism>(
+    clock: &Clock<S>,
+    dt: S,
+) -> Result<Clock<S>, Fault> {
     let time = clock.time();
     if positive("step", dt)? < time.ulp() && M::REPORT.time.is_anywhere() {
         return Err(Fault::StepTooShort {

@@ -164,7 +164,21 @@ fn turned_beside<S: Scalar>((near, angle): ([S; 2], S), (from, whole): ([S; 2], 
         return turned_a_little(near, angle);
     }
     let [pair] = turned(&[from], &[whole]);
+    if S::HAS_LANES {
+        return where_little(angle, turned_a_little(near, angle), pair);
+    }
     pair
+}
+
+/// The first pair in lanes whose angle is at most [`LITTLE`], in others the second.
+#[inline(always)]
+fn where_little<S: Scalar>(angle: S, little: [S; 2], pair: [S; 2]) -> [S; 2] {
+    let [size, bound] = [angle.abs(), S::constant(LITTLE)];
+    let ([c, s], [little_c, little_s]) = (pair, little);
+    [
+        bound.select(size, c, little_c),
+        bound.select(size, s, little_s),
+    ]
 }
 
 /// Angles (rad) for which six powers leave 9.5e-18 of a turn, and three leave 1.0e-9.
@@ -234,29 +248,47 @@ fn turned_once_and_twice<S: Scalar, const T: usize>(
     pairs: &[[S; 2]; T],
     angles: &[S; T],
 ) -> [[[S; 2]; T]; 2] {
-    let (mut once, mut twice) = (*pairs, *pairs);
-    // Of a pair that stands alone the next evaluation does nothing but wait. What is missing of its
-    // length is not turned with it: that would be known later.
+    // Of a pair that stands alone the next evaluation does nothing but wait.
     if T == 1 && S::are_within(angles, LITTLE) {
-        for ((once, twice), &angle) in once.iter_mut().zip(&mut twice).zip(angles) {
-            let pair = *once;
-            let [[way_c, way_s], [more_c, more_s]] = [way(pair, angle), stretch(pair)];
-            let [c, s] = pair;
-            *once = [
-                c + angle.fused(way_c, more_c),
-                s + angle.fused(way_s, more_s),
-            ];
-            [*twice] = turned_by(&[pair], &[versine::doubled(versine::of_little(angle))]);
-        }
-        return [once, twice];
+        return turned_little_and_twice(pairs, angles);
     }
     let mut turns = S::sines_and_versines(angles);
-    once = turned_by(pairs, &turns);
+    let mut once = turned_by(pairs, &turns);
     // A loop, because `map` is called where much is compiled together.
     for turn in &mut turns {
         *turn = versine::doubled(*turn);
     }
-    twice = turned_by(pairs, &turns);
+    let mut twice = turned_by(pairs, &turns);
+    if T == 1 && S::HAS_LANES {
+        let [little_once, little_twice] = turned_little_and_twice(pairs, angles);
+        for ((pair, little), &angle) in once.iter_mut().zip(little_once).zip(angles) {
+            *pair = where_little(angle, little, *pair);
+        }
+        for ((pair, little), &angle) in twice.iter_mut().zip(little_twice).zip(angles) {
+            *pair = where_little(angle, little, *pair);
+        }
+    }
+    [once, twice]
+}
+
+/// Pairs, turned by angles of at most [`LITTLE`] and by twice these. What is missing of a length is
+/// not turned with the pair: that would be known later.
+#[inline(always)]
+fn turned_little_and_twice<S: Scalar, const T: usize>(
+    pairs: &[[S; 2]; T],
+    angles: &[S; T],
+) -> [[[S; 2]; T]; 2] {
+    let (mut once, mut twice) = (*pairs, *pairs);
+    for ((once, twice), &angle) in once.iter_mut().zip(&mut twice).zip(angles) {
+        let pair = *once;
+        let [[way_c, way_s], [more_c, more_s]] = [way(pair, angle), stretch(pair)];
+        let [c, s] = pair;
+        *once = [
+            c + angle.fused(way_c, more_c),
+            s + angle.fused(way_s, more_s),
+        ];
+        [*twice] = turned_by(&[pair], &[versine::doubled(versine::of_little(angle))]);
+    }
     [once, twice]
 }
 

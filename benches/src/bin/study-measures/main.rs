@@ -5,6 +5,8 @@
 
 #[cfg(feature = "compare")]
 mod comparison;
+#[cfg(feature = "ensemble")]
+mod ensemble;
 #[cfg(feature = "extremes")]
 mod extremes;
 #[cfg(feature = "show")]
@@ -43,6 +45,10 @@ enum Study {
     /// interrupted map goes on with the same command.
     #[cfg(feature = "extremes")]
     Extremes(extremes::Extremes),
+    /// Many rows of one model, each with parameters that are drawn for it: a CSV file with a line
+    /// for each. A part of all rows is computed by itself, and the files of all parts are joined.
+    #[cfg(feature = "ensemble")]
+    Ensemble(ensemble::Rows),
     /// A problem that moves: its run, recorded into a page that opens from disk.
     #[cfg(feature = "show")]
     Show(show::Show),
@@ -59,6 +65,8 @@ fn main() -> ExitCode {
         Study::Recommend(arguments) => trade::recommend(arguments),
         #[cfg(feature = "extremes")]
         Study::Extremes(arguments) => extremes::study(arguments),
+        #[cfg(feature = "ensemble")]
+        Study::Ensemble(arguments) => ensemble::study(arguments),
         #[cfg(feature = "show")]
         Study::Show(arguments) => show::study(arguments),
     };

@@ -1,8 +1,8 @@
 //! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores
 //! (2015), `study compare` shows what an evaluation costs, `study trade` what accuracy costs,
-//! `study recommend` which setting does, `study extremes` where the numerics stop to hold, and
-//! `study show` how a problem moves. The latter are a program of their own, which is built where it
-//! is asked for.
+//! `study recommend` which setting does, `study extremes` where the numerics stop to hold,
+//! `study ensemble` what many rows of drawn parameters give, and `study show` how a problem moves.
+//! All but the first are a program of their own, which is built where it is asked for.
 
 #![forbid(unsafe_code)]
 
@@ -40,6 +40,8 @@ enum Study {
     Recommend(Handed),
     /// Where the numerics stop to hold.
     Extremes(Handed),
+    /// Many rows of one model with drawn parameters, in shards: a table of their readings.
+    Ensemble(Handed),
     /// How a problem moves: a page that opens from disk.
     Show(Handed),
 }
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         Some(Study::Trade(handed)) => measures::TRADE.run(handed),
         Some(Study::Recommend(handed)) => measures::RECOMMEND.run(handed),
         Some(Study::Extremes(handed)) => measures::EXTREMES.run(handed),
+        Some(Study::Ensemble(handed)) => measures::ENSEMBLE.run(handed),
         Some(Study::Show(handed)) => measures::SHOW.run(handed),
     };
     outcome.unwrap_or_else(|error| {

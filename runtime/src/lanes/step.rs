@@ -1,0 +1,137 @@
+//! A step of all lanes at once, and of those apart that it does not fit.
+
+use super::ensemble::Ensemble;
+use super::equations::LaneEquations;
+use super::exchange::{put_state, state_of};
+use super::number::Lanes;
+use crate::dynamics::Dynamics;
+use crate::error::{Fault, SimulationError};
+use crate::formulation::Formulation;
+use crate::integrate::{OneStep, Slopes, StepStart, System};
+use crate::math::scalar::Real;
+use crate::measure::load::NoForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::run::stepper::end_of_step;
+
+impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>
+where
+    T: Real,
+    M: Mechanism,
+    F: Formulation<T>,
+    K: OneStep<T, Dynamics<T, M, F, NoForces, C>>
+        + OneStep<Lanes<T, L>, LaneEquations<T, M, C, F::Terms, L>>,
+    C: Coordinates<M>,
+{
+    /// Moves all lanes that go on by one step of `dt` (s). Where none does, nothing is moved, and
+    /// the time stays.
+    ///
+    /// # Errors
+    /// A step that is not positive and finite, or below the resolution of the time where laws
+    /// depend on it. Nothing is moved then. What a lane cannot do stops that lane
+    /// ([`Ensemble::stopped`]) and is no error here.
+    pub fn step(&mut self, dt: T) -> Result<(), Fault> {
+        let clock = end_of_step::<T, M>(&self.clock, dt)?;
+        if self.going == 0 {
+            return Ok(());
+        }
+        let next = self.at_once(dt)?;
+        let normalised = if self.equations.are_sound(&next) {
+            C::normalised_near(&next)
+        } else {
+            None
+        };
+        match normalised {
+            Some(next) => self.state = next,
+            None => self.apart(next, dt),
+        }
+        if self.going > 0 {
+            self.clock = clock;
+        }
+        Ok(())
+    }
+
+    /// The end of a step in all lanes, as it comes out.
+    #[inline(never)]
+    fn at_once(&mut self, dt: T) -> Result<C::State<Lanes<T, L>>, Fault> {
+        let (time, step) = (Lanes::splat(self.time()), Lanes::splat(dt));
+        let (equations, state) = (&mut self.equations, &self.state);
+        equations.begin();
+        let mut slope = *state;
+        equations.stage(time, state, &mut slope)?;
+        let (start, mut stages) = (
+            StepStart {
+                time,
+                state,
+                slope: &slope,
+            },
+            self.scheme.stages(&slope),
+        );
+        let equations = &mut Slopes::new(equations);
+        self.scheme.advanced(equations, start, step, &mut stages)
+    }
+
+    /// What follows a step lane by lane: those in which it is sound are normalised, the others take
+    /// it alone, and stop where that is refused.
+    #[inline(never)]
+    fn apart(&mut self, mut next: C::State<Lanes<T, L>>, dt: T) {
+        let (time, before) = (self.clock.time(), self.going);
+        let lanes = self.dynamics.iter_mut().zip(&mut self.stopped);
+        for (lane, (dynamics, stopped)) in lanes.enumerate() {
+            if stopped.is_some() {
+                continue;
+            }
+            if self.equations.is_sound(lane, &next) {
+                let mut state = state_of(&next, lane);
+                dynamics.renormalise(&mut state, None);
+                put_state(&mut next, lane, &state);
+                continue;
+            }
+            let mut state: C::State<T> = state_of(&self.state, lane);
+            match alone(&self.scheme, dynamics, (time, &mut state), dt) {
+                Ok(()) => put_state(&mut next, lane, &state),
+                Err(fault) => {
+                    self.going -= 1;
+                    *stopped = Some(SimulationError {
+                        time: time.to_f64(),
+                        fault,
+                        state,
+                    });
+                }
+            }
+        }
+        self.state = next;
+        if self.going < before {
+            self.take_equations();
+        }
+    }
+
+    /// The same with these inputs over the step, which stay until others are set.
+    ///
+    /// # Errors
+    /// As [`Ensemble::step`] and [`Ensemble::set_inputs`].
+    pub fn step_with(&mut self, inputs: &[M::Inputs<T>; L], dt: T) -> Result<(), Fault> {
+        self.set_inputs(inputs)?;
+        self.step(dt)
+    }
+}
+
+/// A step as a [`Stepper`](crate::Stepper) takes it.
+fn alone<T, M, F, K, C>(
+    scheme: &K,
+    dynamics: &mut Dynamics<T, M, F, NoForces, C>,
+    (time, state): (T, &mut C::State<T>),
+    dt: T,
+) -> Result<(), Fault>
+where
+    T: Real,
+    M: Mechanism,
+    F: Formulation<T>,
+    K: OneStep<T, Dynamics<T, M, F, NoForces, C>>,
+    C: Coordinates<M>,
+{
+    if !C::IS_RELATIVE {
+        C::check(state)?;
+    }
+    scheme.step(dynamics, time, state, dt)
+}
