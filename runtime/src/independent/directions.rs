@@ -16,6 +16,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
+use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::relative::{bodies_by, bodies_of};
 use crate::state::vector::{Array as _, StateParts};
 
@@ -111,6 +112,12 @@ pub(super) enum Along {
     Value(usize),
 }
 
+/// Parameters and bodies along directions.
+type Start<M, const K: usize, S> = (
+    <M as Mechanism>::Parameters<Forward<S, K>>,
+    <M as Mechanism>::State<Forward<S, K>>,
+);
+
 /// A state along directions, and what the kernels take there.
 pub(super) struct StateAlong<M: JointRates, const N: usize, const K: usize, S: Scalar> {
     pub(super) parameters: M::Parameters<Forward<S, K>>,
@@ -194,7 +201,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         &self,
         state: &M::JointState<S>,
         directions: &[Direction<M>; K],
-    ) -> Result<(M::Parameters<Forward<S, K>>, M::State<Forward<S, K>>), Fault> {
+    ) -> Result<Start<M, K, S>, Fault> {
         let partition = self.equations.partition(state)?;
         let mut along = [None; K];
         for (along, direction) in along.iter_mut().zip(directions) {

@@ -49,7 +49,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// ```
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::mass`](crate::IndependentCoordinates::mass);
+    /// As [`IndependentCoordinates::mass`];
     /// [`Fault::NotChosen`] for a direction that is none of the chosen coordinates.
     pub fn sensitivities<const K: usize>(
         &self,

@@ -19,6 +19,9 @@ use crate::run::report::RunResult;
 use crate::run::sample::Sample;
 use crate::run::simulation::{Runs, Simulation};
 
+/// A state whose numbers carry derivatives.
+type State<M, const K: usize, S> = <M as Mechanism>::State<Forward<S, K>>;
+
 /// A mechanism along `K` directions, a formulation and an explicit method, ready to run: by
 /// [`Sensitivities::simulation`].
 ///
@@ -129,7 +132,7 @@ where
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
         observe: O,
-    ) -> RunResult<Forward<S, K>, M, R::Error<M::State<Forward<S, K>>>>
+    ) -> RunResult<Forward<S, K>, M, R::Error<State<M, K, S>>>
     where
         O: FnMut(&Sample<'_, Forward<S, K>, M>) -> R,
         R: IntoFlow,
