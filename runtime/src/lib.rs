@@ -15,6 +15,7 @@
 //! | whether its result can be trusted | [`RunReport::warnings`], [`Monitor`], [`guide::trust`] |
 //! | positions, velocities and efforts of a mechanism that is driven fully | [`KinematicAnalysis`], [`KinematicReport`] |
 //! | single steps, for a loop of your own | [`Stepper`] |
+//! | derivatives of a run by parameters, inputs and the start | [`sensitivity`], [`guide::sensitivities`](mod@guide::sensitivities) |
 //! | many mechanisms at once, each with its own numbers | [`lanes::Ensemble`], [`guide::ensembles`](mod@guide::ensembles) |
 //! | four formulations of the constraints | [`StandardLagrange`], [`Baumgarte`], [`Penalty`], [`AugmentedLagrangian`] |
 //! | integrators | [`Rk4`], [`DormandPrince`] |
