@@ -211,12 +211,19 @@ where
                 value: here.value.to_f64(),
             };
             let shortest = step * S::constant(SHORTEST);
-            let next = walk.stepped(&here, &mut length, shortest).ok_or(ended)?;
+            // What cannot be searched through has led to another branch.
+            let (next, passed) = loop {
+                let next = walk.stepped(&here, &mut length, shortest).ok_or(ended)?;
+                if let Ok(passed) = Passed::between(&walk, &here, (length, &next)) {
+                    break (next, passed);
+                }
+                length = length * S::constant(0.5);
+            };
             let Passed {
                 fold,
                 branching,
                 last,
-            } = Passed::between(&walk, &here, (length, &next))?;
+            } = passed;
             let fold = fold.map(|spot| (spot, PointKind::Fold));
             let branching = branching.map(|spot| (spot, PointKind::Branching));
             if let Some((spot, kind)) = fold.or(branching)

@@ -54,8 +54,8 @@ pub(super) fn check_derivatives<M: Mechanism, const K: usize, S: Real>(
         };
         let largest = numbers().fold(S::one(), |most, number| most.max(number.value().abs()));
         let fastest = |direction: usize| {
-            let slopes =
-                numbers().filter_map(|number| number.derivatives().get(direction).copied());
+            let all = numbers().chain(constants.as_slice());
+            let slopes = all.filter_map(|number| number.derivatives().get(direction).copied());
             slopes.fold(S::zero(), |most, slope| most.max(slope.abs()))
         };
         for (row, (whole, size)) in whole.as_slice().iter().zip(sizes.as_slice()).enumerate() {
