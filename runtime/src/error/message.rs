@@ -168,6 +168,26 @@ impl fmt::Display for Fault {
                  runs or steps of that length, and its output held as an input",
                 Given(time)
             ),
+            Self::EventNotANumber { event, time } => write!(
+                f,
+                "the reading of event `{event}` is not a number at {} s",
+                Given(time)
+            ),
+            Self::Chattering {
+                event,
+                events,
+                time,
+            } => write!(
+                f,
+                "event `{event}` fires {events} times within a moment at {} s: its handler leads back to where it fires; let it bring the mechanism to \
+                 rest, take a smoothed law, or stop the run",
+                Given(time)
+            ),
+            Self::NotVerified => write!(
+                f,
+                "a run with events or controllers has no companion that `verified()` could compare it with; compare with a second run of \
+                 another tolerance or step"
+            ),
             Self::Unstable { step } => write!(
                 f,
                 "the numbers grew without bound: a step of {} s is too long for the spin, the springs or the dampers here, unless a force grows \

@@ -1,0 +1,18 @@
+//! Events of a run, and controllers at their period.
+//!
+//! `watch.rs` follows the sign of a reading, `root.rs` finds where it passes zero, `list.rs` is what
+//! happens in a run, behind one pointer: a run is compiled once for all of it. `search.rs` looks
+//! into a step, on the dense output of the method. `handling.rs` calls handlers and controllers
+//! between two segments, `hybrid.rs` is what a user writes.
+//!
+//! A sign, not a value, says that a reading has passed: it is right whatever a correction after the
+//! step does to the last digits. A reading that a handler leaves at zero has no sign, and takes
+//! that of the first look at which it has one.
+
+pub(crate) mod context;
+mod handling;
+pub(crate) mod hybrid;
+pub(crate) mod list;
+pub(crate) mod root;
+mod search;
+pub(crate) mod watch;
