@@ -3,7 +3,8 @@
 //! `watch.rs` follows the sign of a reading, `root.rs` finds where it passes zero, `list.rs` is what
 //! happens in a run, behind one pointer: a run is compiled once for all of it. `search.rs` looks
 //! into a step, on the dense output of the method. `handling.rs` calls handlers and controllers
-//! between two segments, `hybrid.rs` is what a user writes.
+//! between two segments, `hybrid.rs` is what a user writes. `single_step.rs` is the same for a
+//! `Stepper`.
 //!
 //! A sign, not a value, says that a reading has passed: it is right whatever a correction after the
 //! step does to the last digits. A reading that a handler leaves at zero has no sign, and takes
@@ -15,4 +16,5 @@ pub(crate) mod hybrid;
 pub(crate) mod list;
 pub(crate) mod root;
 mod search;
+mod single_step;
 pub(crate) mod watch;

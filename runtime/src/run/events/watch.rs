@@ -50,6 +50,8 @@ pub struct Watch<S> {
     name: &'static str,
     crossing: Crossing,
     side: Side,
+    /// Readings up to this size are still at the zero where the motion began.
+    zero: S,
     /// The last reading.
     reading: S,
     /// Where it passes zero, of an event that is to be handled.
@@ -65,6 +67,7 @@ impl<S: Real> Watch<S> {
             name,
             crossing,
             side: Side::Unknown,
+            zero: S::zero(),
             reading: S::zero(),
             root: None,
             last: None,
@@ -84,15 +87,18 @@ impl<S: Real> Watch<S> {
 
     /// A reading that may be at zero: then the way of the motion says on which side it is.
     fn stand(&mut self, [reading, ahead]: [S; 2], size: S) {
-        let round_off = S::constant(AT_ZERO) * S::EPSILON;
-        let is_at_zero = reading.abs() <= size.max(round_off);
-        self.side = Side::Unknown;
+        let size = size.max(S::constant(AT_ZERO) * S::EPSILON);
+        let is_at_zero = reading.abs() <= size;
+        (self.side, self.zero) = (Side::Unknown, S::zero());
         self.pass(if is_at_zero {
             ahead - reading
         } else {
             reading
         });
         self.reading = reading;
+        if is_at_zero {
+            self.zero = size;
+        }
     }
 
     /// A reading, or the fault of one that is not a number.
@@ -109,29 +115,36 @@ impl<S: Real> Watch<S> {
     /// Whether the condition is met where the next reading is this one.
     pub(crate) fn is_met(&self, reading: S) -> bool {
         match self.side {
+            _ if self.is_at_zero() && reading.abs() <= self.zero => false,
             Side::Below => reading >= S::zero() && self.crossing != Crossing::Falling,
             Side::Above => reading <= S::zero() && self.crossing != Crossing::Rising,
             Side::Unknown => false,
         }
     }
 
-    /// A reading with its sign turned, so that it is negative before it passes zero.
+    /// A reading with its sign turned, so that it is negative before it passes zero, or leaves the
+    /// zero where the motion began.
     pub(crate) fn upwards(&self, reading: S) -> S {
-        if self.side == Side::Above {
+        let upwards = if self.side == Side::Above {
             -reading
         } else {
             reading
-        }
+        };
+        upwards - self.zero
     }
 
+    /// Whether the reading has not left the zero where the motion began.
+    fn is_at_zero(&self) -> bool {
+        self.zero > S::zero()
+    }
 
     /// Goes on with a reading by which the condition is not met.
     pub(crate) fn pass(&mut self, reading: S) {
         self.reading = reading;
-        if reading > S::zero() {
-            self.side = Side::Above;
-        } else if reading < S::zero() {
-            self.side = Side::Below;
+        if reading > self.zero {
+            (self.side, self.zero) = (Side::Above, S::zero());
+        } else if reading < -self.zero {
+            (self.side, self.zero) = (Side::Below, S::zero());
         }
     }
 
@@ -156,6 +169,7 @@ impl<S: Real> Watch<S> {
         }
         let moment = (S::constant(MOMENT) * longest).max(S::constant(4.0 * SAME) * time.ulp());
         let at_once = self.last.is_some_and(|last| time - last <= moment);
+        let at_once = at_once || self.is_at_zero();
         self.at_once = if at_once { self.at_once + 1 } else { 0 };
         if self.at_once >= AT_ONCE {
             return Err(Fault::Chattering {
@@ -165,6 +179,7 @@ impl<S: Real> Watch<S> {
             });
         }
         self.last = Some(time);
+        self.zero = S::zero();
         self.root = Some(time);
         self.reading = reading;
         // Where the reading comes from tells, not its last digits.
