@@ -164,8 +164,8 @@ impl fmt::Display for Fault {
             Self::TwoAnswers { body, time } => write!(
                 f,
                 "the closure's forces on body `{body}` differ between two calls with the same time, {} s, and the same state: it is called at trial states, \
-                 for times that go back and forth, and may depend on time and state alone; a controller with memory is called once a period, between \
-                 runs or steps of that length, and its output held as an input",
+                 for times that go back and forth, and may depend on time and state alone; a controller with memory is called once a period, \
+                 by `every_period` of the simulation, and its output held as an input",
                 Given(time)
             ),
             Self::EventNotANumber { event, time } => write!(

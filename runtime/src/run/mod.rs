@@ -42,7 +42,7 @@ mod written;
 
 pub use companion::{BodyError, Verification};
 pub use events::context::Event;
-pub use events::hybrid::{Handling, HybridSimulation};
+pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
 pub use events::list::{Happenings, NothingHappens};
 pub use events::watch::Crossing;
 pub use kinematics::KinematicResult;

@@ -131,7 +131,11 @@ where
         )
         .run(0.0..=5.0, every(0.1), |_| ())
         .expect("it swings");
-    assert!(report.warnings().is_empty(), "{name}: {}", report.warnings());
+    assert!(
+        report.warnings().is_empty(),
+        "{name}: {}",
+        report.warnings()
+    );
     // Energy goes with the square of the sine of half the amplitude.
     let frequency = (2.0 * GRAVITY * 0.5 / (1.0 / 6.0 + 0.5)).sqrt();
     let mut modulus = (0.25 * PI).sin();

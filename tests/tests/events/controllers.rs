@@ -72,7 +72,11 @@ where
         })
         .run(0.0..=end, every(0.33), |_| ())
         .expect("it is controlled");
-    assert!(period > KHZ || report.warnings().is_empty(), "{}", report.warnings());
+    assert!(
+        period > KHZ || report.warnings().is_empty(),
+        "{}",
+        report.warnings()
+    );
     let periods = (end / period).round() as usize;
     assert_eq!(times.len(), periods);
     for (k, time) in times.iter().enumerate() {
@@ -152,7 +156,11 @@ fn inputs_begin_as_those_of_the_mechanism_and_controllers_may_stop() {
         .every_period(0.1, |sample, inputs| {
             seen.push(inputs.push);
             inputs.push += 1.0;
-            if sample.time() > 0.25 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if sample.time() > 0.25 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         })
         .run(0.0..=1.0, every(1.0), |_| ())
         .expect("it moves");

@@ -14,7 +14,11 @@ fn zeno<I: Runs<f64, Ball, StandardLagrange>>(integrator: I, restitution: f64) -
             event.set_displacement_rate(rail, restitution * speed)
         })
         .run(0.0..=100.0, every(0.1), |sample| {
-            assert!(height(sample) > -1e-9, "through the floor at {}", sample.time());
+            assert!(
+                height(sample) > -1e-9,
+                "through the floor at {}",
+                sample.time()
+            );
         })
         .expect_err("it bounces without end");
     let fall = (2.0 / GRAVITY).sqrt();
@@ -53,17 +57,27 @@ fn a_sliding_mode_is_told() {
     let (mut slider, h) = (Slider::new(0.0).expect("acceptable"), Slider::HANDLES);
     slider.push = -1.0;
     let mut start = slider.described_state().expect("described");
-    slider.set_displacement_rate(&mut start, h.rail, 1.0).expect("free");
+    slider
+        .set_displacement_rate(&mut start, h.rail, 1.0)
+        .expect("free");
     let error = slider
         .simulation(StandardLagrange, DormandPrince::default())
         .initial_state(start)
-        .on("rest", Crossing::Either, |s| s.displacement_rate(h.rail), |event| {
-            let push = -event.inputs_mut().push;
-            event.inputs_mut().push = push;
-        })
+        .on(
+            "rest",
+            Crossing::Either,
+            |s| s.displacement_rate(h.rail),
+            |event| {
+                let push = -event.inputs_mut().push;
+                event.inputs_mut().push = push;
+            },
+        )
         .run(0.0..=5.0, every(0.1), |_| ())
         .expect_err("it slides");
-    assert!(matches!(error.fault, Fault::Chattering { event: "rest", .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Chattering { event: "rest", .. }),
+        "{error}"
+    );
     assert!((error.time - 1.0).abs() < 1e-6, "{error}");
     let text = error.to_string();
     assert!(text.contains("event `rest` fires"), "{text}");
@@ -83,17 +97,28 @@ fn a_reading_that_is_not_a_number_is_told() {
             )
             .run(0.0..=1.0, every(0.1), |_| ())
             .expect_err("not a number");
-        assert!(matches!(error.fault, Fault::EventNotANumber { event: "lost", .. }), "{error}");
+        assert!(
+            matches!(error.fault, Fault::EventNotANumber { event: "lost", .. }),
+            "{error}"
+        );
         assert!((error.time - bad).abs() < 0.011, "{error}");
     }
     // Infinite readings have a sign.
     let report = ball
         .simulation(StandardLagrange, Rk4::every(0.01))
         .run_until(0.0..=1.0, Crossing::Rising, |s| {
-            if s.time() < 0.3 { f64::NEG_INFINITY } else { f64::INFINITY }
+            if s.time() < 0.3 {
+                f64::NEG_INFINITY
+            } else {
+                f64::INFINITY
+            }
         })
         .expect("it stops");
-    assert!(report.stopped && (report.time - 0.3).abs() < 1e-12, "{}", report.time);
+    assert!(
+        report.stopped && (report.time - 0.3).abs() < 1e-12,
+        "{}",
+        report.time
+    );
 }
 
 #[test]
@@ -106,7 +131,10 @@ fn settings_are_refused() {
             .every_period(period, |_, _| ())
             .run(0.0..=1.0, every(0.1), |_| ())
             .expect_err("no period");
-        assert!(matches!(error.fault, Fault::Setting { name: "period", .. }), "{error}");
+        assert!(
+            matches!(error.fault, Fault::Setting { name: "period", .. }),
+            "{error}"
+        );
     }
     let error = simulation
         .clone()

@@ -1,8 +1,8 @@
 //! What handlers change, and what is refused.
 
+use holonom::Runs;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::Runs;
 
 use super::{Ball, GRAVITY, Slider, height};
 
@@ -13,7 +13,9 @@ fn a_handler_that_stops_leaves_the_state_that_was_found() {
         let mut last = 0.0;
         let report = ball
             .simulation(StandardLagrange, DormandPrince::default())
-            .on("floor", Crossing::Falling, height, |_| ControlFlow::Break(()))
+            .on("floor", Crossing::Falling, height, |_| {
+                ControlFlow::Break(())
+            })
             .run(0.0..=end + 1e-14, every(0.3), |sample| last = sample.time())
             .expect("it falls");
         let time = (2.0 / GRAVITY).sqrt();
@@ -39,17 +41,28 @@ fn a_handler_changes_parameters() {
     {
         let (slider, h) = (Slider::new(0.0).expect("acceptable"), Slider::HANDLES);
         let mut start = slider.described_state().expect("described");
-        slider.set_displacement_rate(&mut start, h.rail, 1.0).expect("free");
+        slider
+            .set_displacement_rate(&mut start, h.rail, 1.0)
+            .expect("free");
         let mut other = Slider::new(0.0).expect("acceptable");
-        let report = Simulation::new(&slider, StandardLagrange, DormandPrince::new(super::tight()))
-            .coordinates::<C>()
-            .initial_state(start)
-            .on("oil", Crossing::Rising, |s| s.time() - 1.0, |event| {
+        let report = Simulation::new(
+            &slider,
+            StandardLagrange,
+            DormandPrince::new(super::tight()),
+        )
+        .coordinates::<C>()
+        .initial_state(start)
+        .on(
+            "oil",
+            Crossing::Rising,
+            |s| s.time() - 1.0,
+            |event| {
                 other.damping = 1.0;
                 event.update(&other)
-            })
-            .run(0.0..=3.0, every(0.1), |_| ())
-            .expect("it moves");
+            },
+        )
+        .run(0.0..=3.0, every(0.1), |_| ())
+        .expect("it moves");
         let speed = Slider::velocity(&report.state, h.slider).x;
         assert!((speed - (-2.0_f64).exp()).abs() < 1e-10, "{speed}");
         assert!(report.warnings().is_empty(), "{}", report.warnings());
@@ -65,7 +78,12 @@ fn a_parameter_that_is_not_acceptable_ends_the_run() {
     other.damping = f64::NAN;
     let error = slider
         .simulation(StandardLagrange, DormandPrince::default())
-        .on("oil", Crossing::Rising, |s| s.time() - 1.0, |event| event.update(&other))
+        .on(
+            "oil",
+            Crossing::Rising,
+            |s| s.time() - 1.0,
+            |event| event.update(&other),
+        )
         .run(0.0..=3.0, every(0.1), |_| ())
         .expect_err("refused");
     assert!(matches!(error.fault, Fault::Parameter(_)), "{error}");
@@ -79,12 +97,19 @@ fn a_handler_sets_a_position() {
     let mut times = Vec::new();
     let report = ball
         .simulation(StandardLagrange, DormandPrince::default())
-        .on("floor", Crossing::Falling, height, |event| -> Result<(), Fault> {
-            times.push(event.time());
-            event.set_displacement(rail, 0.0)?;
-            event.set_displacement_rate(rail, 0.0)
+        .on(
+            "floor",
+            Crossing::Falling,
+            height,
+            |event| -> Result<(), Fault> {
+                times.push(event.time());
+                event.set_displacement(rail, 0.0)?;
+                event.set_displacement_rate(rail, 0.0)
+            },
+        )
+        .run(0.0..=3.0, every(0.1), |sample| {
+            assert!(height(sample) > -1e-12)
         })
-        .run(0.0..=3.0, every(0.1), |sample| assert!(height(sample) > -1e-12))
         .expect("it falls");
     let fall = (2.0 / GRAVITY).sqrt();
     assert_eq!(times.len(), 6);
@@ -106,7 +131,10 @@ fn a_state_that_a_handler_sets_is_checked_as_a_start() {
         .on("floor", Crossing::Falling, height, open)
         .run(0.0..=3.0, every(0.1), |_| ())
         .expect_err("it opens the rail");
-    assert!(matches!(error.fault, Fault::InconsistentStart { joint: "rail", .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::InconsistentStart { joint: "rail", .. }),
+        "{error}"
+    );
     assert!((error.time - (2.0 / GRAVITY).sqrt()).abs() < 1e-12);
     let error = ball
         .simulation(StandardLagrange, DormandPrince::default())

@@ -16,9 +16,19 @@ fn events_of_one_step_are_handled_in_their_order() {
         log.borrow_mut().push((event.name(), event.time()));
     };
     two.simulation(StandardLagrange, Rk4::every(1.0))
-        .on("high", Crossing::Falling, |s| s.pose(h.high).position.z, note)
+        .on(
+            "high",
+            Crossing::Falling,
+            |s| s.pose(h.high).position.z,
+            note,
+        )
         .on("low", Crossing::Falling, |s| s.pose(h.low).position.z, note)
-        .on("half", Crossing::Either, |s| s.pose(h.high).position.z - 1.0, note)
+        .on(
+            "half",
+            Crossing::Either,
+            |s| s.pose(h.high).position.z - 1.0,
+            note,
+        )
         .on("up", Crossing::Rising, |s| s.pose(h.high).position.z, note)
         .run(0.0..=1.0, every(1.0), |_| ())
         .expect("they fall");
@@ -47,16 +57,26 @@ fn events_at_one_time_are_all_handled_whatever_the_first_one_does() {
         let report = two
             .simulation(StandardLagrange, DormandPrince::default())
             .initial_state(start)
-            .on("one", Crossing::Falling, |s| level(s, one), |event| {
-                let [a, b] = counts.get();
-                counts.set([a + 1, b]);
-                event.set_displacement_rate(one, -event.displacement_rate(one))
-            })
-            .on("other", Crossing::Falling, |s| level(s, other), |event| {
-                let [a, b] = counts.get();
-                counts.set([a, b + 1]);
-                event.set_displacement_rate(other, -event.displacement_rate(other))
-            })
+            .on(
+                "one",
+                Crossing::Falling,
+                |s| level(s, one),
+                |event| {
+                    let [a, b] = counts.get();
+                    counts.set([a + 1, b]);
+                    event.set_displacement_rate(one, -event.displacement_rate(one))
+                },
+            )
+            .on(
+                "other",
+                Crossing::Falling,
+                |s| level(s, other),
+                |event| {
+                    let [a, b] = counts.get();
+                    counts.set([a, b + 1]);
+                    event.set_displacement_rate(other, -event.displacement_rate(other))
+                },
+            )
             .run(0.0..=10.0, every(0.1), |sample| {
                 let [a, b] = [h.a, h.b].map(|joint| level(sample, joint));
                 assert!((a - b).abs() < 1e-6 && a > -1e-9, "{a} {b}");
@@ -75,7 +95,12 @@ fn an_event_at_the_end_of_a_step_or_of_the_run_is_found_once() {
             let mut times = Vec::new();
             let report = ball
                 .simulation(StandardLagrange, Rk4::every(step))
-                .on("half", crossing, |s| s.time() - 0.5, |e| times.push(e.time()))
+                .on(
+                    "half",
+                    crossing,
+                    |s| s.time() - 0.5,
+                    |e| times.push(e.time()),
+                )
                 .run(0.0..=end, every_step(), |_| ())
                 .expect("it falls");
             assert_eq!(times, [0.5], "{step}");
@@ -88,8 +113,10 @@ fn an_event_at_the_end_of_a_step_or_of_the_run_is_found_once() {
 fn an_event_at_the_start_does_not_fire() {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail);
     let mut start = ball.described_state().expect("described");
-    ball.set_displacement(&mut start, rail, -1.0 - 1e-16).expect("free");
-    ball.set_displacement_rate(&mut start, rail, 2.0).expect("free");
+    ball.set_displacement(&mut start, rail, -1.0 - 1e-16)
+        .expect("free");
+    ball.set_displacement_rate(&mut start, rail, 2.0)
+        .expect("free");
     for crossing in [Crossing::Rising, Crossing::Falling, Crossing::Either] {
         let mut times = Vec::new();
         ball.simulation(StandardLagrange, DormandPrince::default())
@@ -97,7 +124,11 @@ fn an_event_at_the_start_does_not_fire() {
             .on("floor", crossing, height, |event| times.push(event.time()))
             .run(0.0..=1.0, every(1.0), |_| ())
             .expect("it flies");
-        let wanted: &[f64] = if crossing == Crossing::Rising { &[] } else { &[4.0 / GRAVITY] };
+        let wanted: &[f64] = if crossing == Crossing::Rising {
+            &[]
+        } else {
+            &[4.0 / GRAVITY]
+        };
         assert_eq!(times.len(), wanted.len(), "{crossing:?} {times:?}");
         for (time, wanted) in times.iter().zip(wanted) {
             assert!((time - wanted).abs() < 1e-12);

@@ -32,7 +32,8 @@ where
         assert_eq!(time, stepper.time());
         assert!((time - wanted).abs() < 1e-10, "{time} {wanted}");
         let rate = view.displacement_rate(h.rail);
-        ball.set_displacement_rate(&mut bodies, h.rail, -0.7 * rate).expect("free");
+        ball.set_displacement_rate(&mut bodies, h.rail, -0.7 * rate)
+            .expect("free");
         state = stepper.state_of(&bodies).expect("closed");
         speed *= 0.7;
         wanted += 2.0 * speed / GRAVITY;

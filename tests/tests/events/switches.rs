@@ -127,8 +127,18 @@ fn a_pulse_of_inputs_is_met_to_its_digits() {
     let (slider, h) = (slider(), Slider::HANDLES);
     let report = slider
         .simulation(StandardLagrange, DormandPrince::default())
-        .on("on", Crossing::Rising, |s| s.time() - 5.0, |e| e.inputs_mut().push = 1e4)
-        .on("off", Crossing::Rising, |s| s.time() - 5.0001, |e| e.inputs_mut().push = 0.0)
+        .on(
+            "on",
+            Crossing::Rising,
+            |s| s.time() - 5.0,
+            |e| e.inputs_mut().push = 1e4,
+        )
+        .on(
+            "off",
+            Crossing::Rising,
+            |s| s.time() - 5.0001,
+            |e| e.inputs_mut().push = 0.0,
+        )
         .run(0.0..=10.0, every(5.0), |_| ())
         .expect("it moves");
     let speed = Slider::velocity(&report.state, h.slider).x;

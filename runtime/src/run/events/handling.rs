@@ -230,12 +230,7 @@ where
     }
 
     /// A little ahead on the way of the motion, as far as the velocities lead.
-    fn ahead(
-        &self,
-        hybrid: &Hybrid<'_, S, M>,
-        time: S,
-        state: &M::State<S>,
-    ) -> (S, M::State<S>) {
+    fn ahead(&self, hybrid: &Hybrid<'_, S, M>, time: S, state: &M::State<S>) -> (S, M::State<S>) {
         let left = hybrid.end - time;
         let mut step = left;
         if hybrid.longest > S::zero() {

@@ -8,9 +8,9 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
-use crate::measure::load::{AppliedForces, NoForces};
+use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::{InputsOf, Mechanism};
 use crate::run::events::context::Event;
 use crate::run::events::list::{Controlled, Handled, Happenings, NothingHappens};
 use crate::run::events::watch::{Crossing, Period, Watch};
@@ -33,24 +33,13 @@ impl From<Infallible> for Fault {
 
 /// A simulation with events and controllers, by [`Simulation::on`] and
 /// [`Simulation::every_period`]. See [`guide::events`](mod@crate::guide::events).
-pub struct HybridSimulation<
-    'a,
-    S: Real,
-    M: Mechanism,
-    F,
-    I,
-    E,
-    A = NoForces,
-    C = <M as Mechanism>::Coordinates,
-> {
-    simulation: Simulation<'a, S, M, F, I, A, C>,
+pub struct HybridSimulation<T, E> {
+    simulation: T,
     happenings: E,
 }
 
 /// As the simulation.
-impl<S: Real, M: Mechanism, F: Debug, I: Debug, E, A, C> Debug
-    for HybridSimulation<'_, S, M, F, I, E, A, C>
-{
+impl<T: Debug, E> Debug for HybridSimulation<T, E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("HybridSimulation")
             .field("simulation", &self.simulation)
@@ -58,7 +47,32 @@ impl<S: Real, M: Mechanism, F: Debug, I: Debug, E, A, C> Debug
     }
 }
 
-impl<'a, S, M, F, I, A, C> Simulation<'a, S, M, F, I, A, C>
+/// A simulation in which something more happens.
+pub type With<T, E, H> = HybridSimulation<T, (E, H)>;
+
+/// What a simulation computes with, and what it simulates.
+pub trait Simulated {
+    /// Its numbers.
+    type Number: Real;
+    /// Its mechanism.
+    type Mechanism: Mechanism;
+}
+
+impl<S: Real, M: Mechanism, F, I, A, C> Simulated for Simulation<'_, S, M, F, I, A, C> {
+    type Number = S;
+    type Mechanism = M;
+}
+
+impl<T, E> HybridSimulation<T, E> {
+    fn and<H>(self, happening: H) -> With<T, E, H> {
+        HybridSimulation {
+            simulation: self.simulation,
+            happenings: (self.happenings, happening),
+        }
+    }
+}
+
+impl<S, M, F, I, A, C> Simulation<'_, S, M, F, I, A, C>
 where
     S: Real,
     M: Mechanism,
@@ -111,14 +125,13 @@ where
     /// without end, those of a start for a state that a handler sets, and the fault that a handler
     /// returns. [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
     #[must_use]
-    #[allow(clippy::type_complexity, reason = "the list of what happens")]
     pub fn on<G, H, R>(
         self,
         name: &'static str,
         crossing: Crossing,
         reading: G,
         handler: H,
-    ) -> HybridSimulation<'a, S, M, F, I, (NothingHappens, Handled<S, G, H>), A, C>
+    ) -> HybridSimulation<Self, (NothingHappens, Handled<S, G, H>)>
     where
         G: Fn(&Sample<'_, S, M>) -> S,
         H: FnMut(&mut Event<'_, S, M>) -> R,
@@ -165,12 +178,11 @@ where
     /// time does not resolve, and the fault that the controller returns. [`Fault::NotVerified`] of
     /// a run that is to be [`Simulation::verified`].
     #[must_use]
-    #[allow(clippy::type_complexity, reason = "the list of what happens")]
     pub fn every_period<K, R>(
         self,
         period: S,
         controller: K,
-    ) -> HybridSimulation<'a, S, M, F, I, (NothingHappens, Controlled<S, K>), A, C>
+    ) -> HybridSimulation<Self, (NothingHappens, Controlled<S, K>)>
     where
         K: FnMut(&Sample<'_, S, M>, &mut M::Inputs<S>) -> R,
         R: Handling,
@@ -224,11 +236,14 @@ where
             Reporting::EveryStep
         };
         let stop = |_: &mut Event<'_, S, M>| ControlFlow::Break(());
-        let hybrid = self.clone().without_events().on("the end", crossing, reading, stop);
+        let hybrid = self
+            .clone()
+            .without_events()
+            .on("the end", crossing, reading, stop);
         { hybrid }.run(interval, reporting, |_| ())
     }
 
-    fn without_events(self) -> HybridSimulation<'a, S, M, F, I, NothingHappens, A, C> {
+    fn without_events(self) -> HybridSimulation<Self, NothingHappens> {
         HybridSimulation {
             simulation: self,
             happenings: NothingHappens,
@@ -236,31 +251,19 @@ where
     }
 }
 
-impl<'a, S, M, F, I, E, A, C> HybridSimulation<'a, S, M, F, I, E, A, C>
-where
-    S: Real,
-    M: Mechanism,
-{
-    fn and<H>(self, happening: H) -> HybridSimulation<'a, S, M, F, I, (E, H), A, C> {
-        HybridSimulation {
-            simulation: self.simulation,
-            happenings: (self.happenings, happening),
-        }
-    }
-
+impl<T: Simulated, E> HybridSimulation<T, E> {
     /// See [`Simulation::on`].
     #[must_use]
-    #[allow(clippy::type_complexity, reason = "the list of what happens")]
     pub fn on<G, H, R>(
         self,
         name: &'static str,
         crossing: Crossing,
         reading: G,
         handler: H,
-    ) -> HybridSimulation<'a, S, M, F, I, (E, Handled<S, G, H>), A, C>
+    ) -> With<T, E, Handled<T::Number, G, H>>
     where
-        G: Fn(&Sample<'_, S, M>) -> S,
-        H: FnMut(&mut Event<'_, S, M>) -> R,
+        G: Fn(&Sample<'_, T::Number, T::Mechanism>) -> T::Number,
+        H: FnMut(&mut Event<'_, T::Number, T::Mechanism>) -> R,
         R: Handling,
     {
         self.and(Handled {
@@ -272,14 +275,13 @@ where
 
     /// See [`Simulation::every_period`].
     #[must_use]
-    #[allow(clippy::type_complexity, reason = "the list of what happens")]
     pub fn every_period<K, R>(
         self,
-        period: S,
+        period: T::Number,
         controller: K,
-    ) -> HybridSimulation<'a, S, M, F, I, (E, Controlled<S, K>), A, C>
+    ) -> With<T, E, Controlled<T::Number, K>>
     where
-        K: FnMut(&Sample<'_, S, M>, &mut M::Inputs<S>) -> R,
+        K: FnMut(&Sample<'_, T::Number, T::Mechanism>, &mut InputsOf<T::Mechanism, T::Number>) -> R,
         R: Handling,
     {
         self.and(Controlled {
@@ -287,7 +289,13 @@ where
             controller,
         })
     }
+}
 
+impl<S, M, F, I, A, C, E> HybridSimulation<Simulation<'_, S, M, F, I, A, C>, E>
+where
+    S: Real,
+    M: Mechanism,
+{
     /// Runs over an interval of time (s) as [`Simulation::run`] does, with events and controllers.
     /// A further run begins with what their closures remember.
     ///

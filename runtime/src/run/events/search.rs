@@ -15,6 +15,9 @@ use crate::run::events::watch::{is_same, looks};
 use crate::run::sample::Sample;
 use crate::run::segments::Run;
 
+/// The time (s) and the state of an event.
+type Found<S, M> = Option<(S, <M as Mechanism>::State<S>)>;
+
 impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
 where
     S: Real,
@@ -30,7 +33,7 @@ where
         &mut self,
         integration: &mut K,
         (start, near): (S, &M::State<S>),
-    ) -> Result<Option<(S, M::State<S>)>, Fault> {
+    ) -> Result<Found<S, M>, Fault> {
         let Some(hybrid) = self.hybrid.as_mut().filter(|hybrid| hybrid.watches) else {
             return Ok(None);
         };
@@ -69,7 +72,7 @@ where
         mut self,
         start: S,
         hybrid: &mut Hybrid<'_, S, M>,
-    ) -> Result<Option<(S, M::State<S>)>, Fault> {
+    ) -> Result<Found<S, M>, Fault> {
         hybrid.longest = hybrid.longest.max(self.end - start);
         let mut before = start;
         for time in looks(start, self.end, hybrid.is_fresh) {

@@ -90,11 +90,7 @@ impl<S: Real> Watch<S> {
         let size = size.max(S::constant(AT_ZERO) * S::EPSILON);
         let is_at_zero = reading.abs() <= size;
         (self.side, self.zero) = (Side::Unknown, S::zero());
-        self.pass(if is_at_zero {
-            ahead - reading
-        } else {
-            reading
-        });
+        self.pass(if is_at_zero { ahead - reading } else { reading });
         self.reading = reading;
         if is_at_zero {
             self.zero = size;
