@@ -7,6 +7,7 @@ mod controllers;
 mod faults;
 mod handlers;
 mod order;
+mod rough;
 mod single_steps;
 mod switches;
 

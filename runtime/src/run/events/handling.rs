@@ -112,6 +112,9 @@ where
             stops: false,
         };
         if is_found {
+            self.read_all(hybrid, time, state, |watch, [reading, _]| {
+                watch.correct(reading);
+            })?;
             done = self.call(hybrid, Called::Handlers, time, state)?;
         }
         if !done.stops && time < hybrid.end {

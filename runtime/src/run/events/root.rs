@@ -1,15 +1,15 @@
 //! Where a reading passes zero.
 //!
-//! By the rule of false position, after Dowell and Jarratt, *A modified regula falsi method for
-//! computing the root of an equation* (1971), known as Illinois, with a bisection wherever two steps
-//! of it have not halved the bracket. It needs no derivative, and some eight readings.
+//! The Illinois method: the rule of false position after Dowell and Jarratt, *A modified regula
+//! falsi method for computing the root of an equation* (1971). It bisects wherever two steps have not
+//! halved the bracket. It needs no derivative, and some eight readings.
 
 use crate::math::scalar::Real;
 
 /// A bracket shorter than so many units in the last place of the time is not divided.
 const SHORTEST: f64 = 4.0;
 
-/// More than it ever takes: a bisection in three divisions.
+/// More than it ever takes: two divisions halve the bracket, or a third bisects it.
 pub(crate) const MOST: usize = 192;
 
 /// The first time in `(low, high]` at which a reading has passed zero, to some units in the last

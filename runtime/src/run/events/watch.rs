@@ -54,6 +54,8 @@ pub struct Watch<S> {
     zero: S,
     /// The last reading.
     reading: S,
+    /// The size of the readings on either side of the zero that was found.
+    scale: S,
     /// Where it passes zero, of an event that is to be handled.
     root: Option<S>,
     /// When it passed last (s), and how often at once.
@@ -69,6 +71,7 @@ impl<S: Real> Watch<S> {
             side: Side::Unknown,
             zero: S::zero(),
             reading: S::zero(),
+            scale: S::zero(),
             root: None,
             last: None,
             at_once: 0,
@@ -82,12 +85,15 @@ impl<S: Real> Watch<S> {
     /// Begins a run with this reading, and one a little ahead on the way of the motion.
     pub(crate) fn begin(&mut self, [reading, ahead]: [S; 2]) {
         *self = Self::new(self.name, self.crossing);
-        self.stand([reading, ahead], S::zero());
+        self.stand([reading, ahead], Self::round_off());
+    }
+
+    fn round_off() -> S {
+        S::constant(AT_ZERO) * S::EPSILON
     }
 
     /// A reading that may be at zero: then the way of the motion says on which side it is.
     fn stand(&mut self, [reading, ahead]: [S; 2], size: S) {
-        let size = size.max(S::constant(AT_ZERO) * S::EPSILON);
         let is_at_zero = reading.abs() <= size;
         (self.side, self.zero) = (Side::Unknown, S::zero());
         self.pass(if is_at_zero { ahead - reading } else { reading });
@@ -146,6 +152,7 @@ impl<S: Real> Watch<S> {
 
     /// Keeps a reading until [`Watch::go_on`].
     pub(crate) fn keep(&mut self, reading: S, root: Option<S>) {
+        self.scale = self.reading.abs().max(reading.abs());
         self.reading = reading;
         self.root = root;
     }
@@ -192,21 +199,26 @@ impl<S: Real> Watch<S> {
         self.root.is_some()
     }
 
+    /// Takes the reading in the state that was found, after its correction.
+    pub(crate) fn correct(&mut self, reading: S) {
+        if self.is_found() {
+            // Its last digits, and what the correction has changed of them, say nothing.
+            let digits = self.reading.abs().min(S::EPSILON.sqrt() * self.scale);
+            let size = S::constant(2.0) * (digits + (reading - self.reading).abs());
+            self.zero = size.max(Self::round_off());
+        }
+        self.reading = reading;
+    }
+
     /// Takes the reading after all handlers of an instant, and one a little ahead on the way of the
     /// motion; `moved` where a handler has set the state.
-    pub(crate) fn settle(&mut self, [reading, ahead]: [S; 2], moved: bool) {
-        let size = if self.root.take().is_some() {
-            if !moved {
-                self.reading = reading;
-                return;
-            }
-            S::constant(2.0) * self.reading.abs()
-        } else if reading == self.reading {
-            return;
-        } else {
-            S::zero()
-        };
-        self.stand([reading, ahead], size);
+    pub(crate) fn settle(&mut self, readings: [S; 2], moved: bool) {
+        let is_found = self.root.take().is_some();
+        if is_found && moved {
+            self.stand(readings, self.zero);
+        } else if !is_found && readings[0] != self.reading {
+            self.stand(readings, Self::round_off());
+        }
     }
 }
 
