@@ -52,7 +52,8 @@ where
 
 /// Looks into the last step of an integration, or into what comes before an event within it, before
 /// its end is corrected or shown to the monitor: as far as pivots at the ends of its parts do not
-/// tell that the mechanism kept away from where one vanishes. The bodies stood near by a moment ago.
+/// tell that the mechanism kept away from where one vanishes. The bodies stood near by a moment
+/// ago.
 ///
 /// By joints a step may be a fifth of a turn.
 pub(crate) fn look_within<S, M, F, A, C, K>(

@@ -1,8 +1,8 @@
 //! Where a reading passes zero.
 //!
 //! The Illinois method: the rule of false position after Dowell and Jarratt, *A modified regula
-//! falsi method for computing the root of an equation* (1971). It bisects wherever two steps have not
-//! halved the bracket. It needs no derivative, and some eight readings.
+//! falsi method for computing the root of an equation* (1971). It bisects wherever two steps have
+//! not halved the bracket. It needs no derivative, and some eight readings.
 
 use crate::math::scalar::Real;
 
