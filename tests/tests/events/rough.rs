@@ -136,7 +136,6 @@ fn a_run_may_be_repeated_and_has_no_length() {
     hybrid
         .run(0.5..=0.5, every(0.1), |_| ())
         .expect("it stands");
-    drop(hybrid);
     assert_eq!(found.len(), 3);
     assert!(found[0] == found[1] && found[1] == found[2]);
     let simulation = ball.simulation(StandardLagrange, Rk4::every(0.01));
