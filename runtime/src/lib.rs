@@ -221,7 +221,7 @@ pub mod prelude {
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
     pub use crate::mechanism::{Assembly, InputsOf, Point, StateOf};
-    pub use crate::run::Simulate;
+    pub use crate::run::{Crossing, Simulate};
     pub use crate::sensitivity::SensitivityExt;
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,

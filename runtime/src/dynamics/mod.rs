@@ -269,6 +269,16 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
         let parameters = parameters(mechanism)?;
         mechanism.check_likes(Some(&self.parameters))?;
+        self.take_parameters(parameters)
+    }
+
+    /// The parameters and inputs.
+    pub(crate) fn parameters(&self) -> &M::Parameters<S> {
+        &self.parameters
+    }
+
+    /// Takes parameters and inputs that are known to be acceptable.
+    pub(crate) fn take_parameters(&mut self, parameters: M::Parameters<S>) -> Result<(), Fault> {
         self.absolute = equations::<S, M, F>(&parameters, &self.formulation, &self.stabilisation)?;
         self.own = C::own(&parameters, &self.stabilisation, &self.absolute);
         self.parameters = parameters;

@@ -259,6 +259,15 @@ where
         Some(self.pivot_of(time, bodies).relative)
     }
 
+    /// As if the last evaluation had been where bodies stand so, for the monitor.
+    pub(crate) fn see_pivot(&mut self, time: S, bodies: &M::State<S>) {
+        if const { Self::SEES_PIVOTS }
+            && let Some(pivot) = self.pivot_within(time, bodies)
+        {
+            self.seen.pivot = pivot;
+        }
+    }
+
     /// The smallest relative pivot where bodies stand so, as the square of a distance, without a
     /// compliance.
     fn pivot_of(&self, time: S, bodies: &M::State<S>) -> Pivot<S> {

@@ -132,6 +132,25 @@ pub enum Fault {
         /// The time (s) at which it was asked twice.
         time: f64,
     },
+    /// The reading of an event is not a number, see [`Simulation::on`](crate::Simulation::on).
+    EventNotANumber {
+        /// The name of the event.
+        event: &'static str,
+        /// The time (s).
+        time: f64,
+    },
+    /// An event fires again and again at once, see [`Simulation::on`](crate::Simulation::on).
+    Chattering {
+        /// The name of the event.
+        event: &'static str,
+        /// How often at once.
+        events: usize,
+        /// The time (s).
+        time: f64,
+    },
+    /// A run with events or controllers was to be
+    /// [`verified`](crate::Simulation::verified).
+    NotVerified,
     /// A fixed step that is too long for what moves or acts: a spin, a spring, a damper. The motion
     /// grew beyond all numbers.
     Unstable {

@@ -164,9 +164,29 @@ impl fmt::Display for Fault {
             Self::TwoAnswers { body, time } => write!(
                 f,
                 "the closure's forces on body `{body}` differ between two calls with the same time, {} s, and the same state: it is called at trial states, \
-                 for times that go back and forth, and may depend on time and state alone; a controller with memory is called once a period, between \
-                 runs or steps of that length, and its output held as an input",
+                 for times that go back and forth, and may depend on time and state alone; a controller with memory is called once a period, \
+                 by `every_period` of the simulation, and its output held as an input",
                 Given(time)
+            ),
+            Self::EventNotANumber { event, time } => write!(
+                f,
+                "the reading of event `{event}` is not a number at {} s",
+                Given(time)
+            ),
+            Self::Chattering {
+                event,
+                events,
+                time,
+            } => write!(
+                f,
+                "event `{event}` fires {events} times within a moment at {} s: its handler leads back to where it fires; let it bring the mechanism to \
+                 rest, take a smoothed law, or stop the run",
+                Given(time)
+            ),
+            Self::NotVerified => write!(
+                f,
+                "a run with events or controllers has no companion that `verified()` could compare it with; compare with a second run of \
+                 another tolerance or step"
             ),
             Self::Unstable { step } => write!(
                 f,

@@ -129,7 +129,8 @@ where
                 Err(fault) => return Err(fault),
             };
             let Some(value) = of(&spot) else { break };
-            if value.abs() < best.0 {
+            // A sign alone, which is all that a single eigenvalue has, is nearest where it was last.
+            if value.abs() <= best.0 {
                 best = (value.abs(), length, spot);
             }
             // A side that stays counts half.

@@ -57,6 +57,7 @@ mod generalized_alpha;
 mod implicit_midpoint;
 mod linear;
 mod lobatto;
+mod looked_into;
 mod newton;
 mod radau;
 mod record;
@@ -97,6 +98,7 @@ pub use slopes::{Checking, Counting, Look, Slopes, Unlooked};
 
 use core::fmt::Debug;
 
+pub(crate) use self::looked_into::StepWithin;
 pub(crate) use self::newton::by_differences;
 
 use self::slopes::named;

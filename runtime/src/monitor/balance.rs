@@ -67,6 +67,11 @@ impl<S: Real> Balance<S> {
         self.slope = None;
     }
 
+    /// Energy (J) that an event puts in is no work, and nothing to account for.
+    pub(super) fn jump(&mut self, energy: S) {
+        self.start = self.start + energy;
+    }
+
     /// Takes the energies (J) at the end of a step whose work was added.
     #[inline]
     pub(super) fn level(&mut self, time: S, kinetic: S, potential: S) {

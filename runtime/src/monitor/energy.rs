@@ -85,6 +85,12 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         self.balance.restart();
     }
 
+    /// An event has put so much energy (J) into the mechanism.
+    pub(super) fn jump(&mut self, energy: S) {
+        self.before = None;
+        self.balance.jump(energy);
+    }
+
     /// Whether the work of forces is known well enough for the balance to tell anything.
     pub(super) fn has_balance(&self) -> bool {
         self.balance.tells(ENERGY)

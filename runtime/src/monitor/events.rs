@@ -80,6 +80,11 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.energy.restart();
     }
 
+    /// An event has put so much energy (J) into the mechanism.
+    pub(crate) fn jump(&mut self, energy: S) {
+        self.energy.jump(energy);
+    }
+
     /// Counts a correction that was accepted without convergence.
     pub(crate) fn accept_unconverged_correction(&mut self, time: S) {
         self.unconverged.correction(time);

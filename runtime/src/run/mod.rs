@@ -22,6 +22,7 @@
 mod columns;
 pub(crate) mod companion;
 pub(crate) mod direct;
+pub(crate) mod events;
 pub(crate) mod kinematics;
 pub(crate) mod output;
 pub(crate) mod post_step;
@@ -40,6 +41,10 @@ pub(crate) mod within;
 mod written;
 
 pub use companion::{BodyError, Verification};
+pub use events::context::Event;
+pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
+pub use events::list::{Happenings, NothingHappens};
+pub use events::watch::Crossing;
 pub use kinematics::KinematicResult;
 pub use output::{IntoFlow, Reporting};
 pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};

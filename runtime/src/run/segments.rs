@@ -15,6 +15,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::{Monitor, fastest};
 use crate::run::companion::Companion;
+use crate::run::events::list::Hybrid;
 use crate::run::output::Schedule;
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
@@ -33,6 +34,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     pub(crate) breaks: &'r [S],
     pub(crate) monitor: Option<Monitor<S, M>>,
     pub(crate) log: Log<'r, S, M>,
+    /// Events and controllers.
+    pub(crate) hybrid: Option<Hybrid<'r, S, M>>,
     /// Steps so far.
     pub(crate) steps: usize,
     pub(crate) counts: Counts,
@@ -40,6 +43,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
 
 /// A step that was taken, and looked into for the monitor.
 struct Taken<S: Real, M: Mechanism> {
+    /// The first event within it.
+    event: Option<(S, M::State<S>)>,
     /// Where a rule of higher order would have led, where that is asked.
     better: Option<M::State<S>>,
     /// Evaluations so far, and those of them that looked into the step.
@@ -58,9 +63,9 @@ pub(crate) type Observer<'o, S, M> = dyn FnMut(&Sample<'_, S, M>) -> ControlFlow
 pub(crate) struct Log<'r, S: Real, M: Mechanism> {
     observe: &'r mut Observer<'r, S, M>,
     worst_violation: S,
-    flow: ControlFlow<()>,
+    pub(crate) flow: ControlFlow<()>,
     /// Steps since a state was shown.
-    unseen: usize,
+    pub(crate) unseen: usize,
 }
 
 impl<'r, S: Real, M: Mechanism> Log<'r, S, M> {
@@ -71,6 +76,11 @@ impl<'r, S: Real, M: Mechanism> Log<'r, S, M> {
             flow: ControlFlow::Continue(()),
             unseen: 0,
         }
+    }
+
+    /// Stops the run.
+    pub(crate) fn stop(&mut self) {
+        self.flow = ControlFlow::Break(());
     }
 }
 
@@ -95,7 +105,10 @@ where
             self.evaluate(start, &last_good.1)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
         }
-        self.show(start, &last_good.1, &mut companion);
+        self.begin_events(last_good)?;
+        if self.log.flow.is_continue() {
+            self.show(start, &last_good.1, &mut companion);
+        }
         if let Some(monitor) = self.monitor.as_mut().filter(|_| from < end) {
             self.dynamics.begin(monitor, start, &last_good.1);
         }
@@ -104,7 +117,10 @@ where
             self.dynamics.ask_twice(start, (end, start.1))?;
         }
         while from < end && self.log.flow.is_continue() {
-            let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
+            let mut until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
+            if let Some(hybrid) = &mut self.hybrid {
+                until = hybrid.next_instant(until);
+            }
             let span = TimeSpan {
                 start: from,
                 end: until,
@@ -113,9 +129,11 @@ where
             if let Some(companion) = &mut companion {
                 companion.restart(&span, self.stabilisation);
             }
-            self.segment(integrator, &mut companion, span, last_good)
+            let reached = self.segment(integrator, &mut companion, span, last_good);
+            reached
+                .and_then(|()| self.happen(last_good, &mut companion))
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
-            from = until;
+            from = last_good.0;
         }
         let mut report = self.report(*last_good);
         report.verification = companion.map(Companion::found);
@@ -130,8 +148,8 @@ where
         Ok(())
     }
 
-    /// Integrates over an interval without breaks: step by step, each is taken, then reports within
-    /// it are made, then its end is observed.
+    /// Integrates over an interval without breaks, up to the first event: step by step, each is
+    /// taken, then reports within it are made, then its end is observed.
     fn segment<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         integrator: &I,
@@ -152,8 +170,11 @@ where
         // What interpolants evaluate for the monitor is no part of the run.
         let mut of_monitor = 0_usize;
         while integration.time() < span.end {
-            let taken = self.take(&mut integration, &last_good.1)?;
-            let has_reported = self.report_within(&mut integration, companion, last_good)?;
+            let taken = self.take(&mut integration, last_good)?;
+            let event = taken.event.as_ref();
+            let reached = event.map_or(integration.time(), |&(time, _)| time);
+            let has_reported =
+                self.report_within(&mut integration, reached, companion, last_good)?;
             if self.log.flow.is_break() {
                 break;
             }
@@ -168,54 +189,69 @@ where
             if !is_shared {
                 of_monitor = of_monitor.saturating_add(taken.looks);
             }
-            self.observe(&mut integration, taken.better, last_good)?;
-            if self.schedule.at(last_good.0, self.log.unseen) {
+            if let Some(&(time, bodies)) = event {
+                self.observe_event(integration.estimate(), (time, bodies), last_good)?;
+            } else {
+                self.observe(&mut integration, taken.better, last_good)?;
+            }
+            let is_event = event.is_some();
+            if !is_event && self.schedule.at(last_good.0, self.log.unseen) {
                 self.show(last_good.0, &last_good.1, companion);
                 if self.log.flow.is_break() {
                     break;
                 }
             }
             let evaluations = integration.counts().without(of_monitor).evaluations;
-            if evaluations >= budget && integration.time() < span.end {
+            if evaluations >= budget && last_good.0 < span.end {
                 let evaluations = self.counts.evaluations.saturating_add(evaluations);
                 return Err(Fault::Budget {
                     evaluations,
                     joint: None,
                 });
             }
+            if is_event {
+                break;
+            }
         }
         self.counts = self.counts.plus(integration.counts().without(of_monitor));
         Ok(())
     }
 
-    /// Takes a step, and looks into it for the monitor. The bodies stood near by at its start.
+    /// Takes a step, and looks into it for events and for the monitor. The bodies stood near by at
+    /// its start.
     #[inline]
     fn take<K: Advance<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         integration: &mut K,
-        near: &M::State<S>,
+        &(start, ref near): &(S, M::State<S>),
     ) -> Result<Taken<S, M>, Fault> {
         integration.advance(&mut self.dynamics)?;
+        let event = self.event_within(integration, (start, near))?;
         let before = integration.counts().evaluations;
         let mut better = None;
         if let Some(monitor) = &mut self.monitor {
-            better = better_end(monitor, &mut self.dynamics, integration, near);
-            look_within(monitor, &mut self.dynamics, integration, near);
+            if event.is_none() {
+                better = better_end(monitor, &mut self.dynamics, integration, near);
+            }
+            let dynamics = &mut self.dynamics;
+            look_within(monitor, dynamics, integration, near, event.as_ref());
         }
         let evaluations = integration.counts().evaluations;
         Ok(Taken {
+            event,
             better,
             evaluations,
             looks: evaluations.saturating_sub(before),
         })
     }
 
-    /// Shows the states at reporting times within the last step, until the observer stops; whether
-    /// there are any.
+    /// Shows the states at reporting times within the last step up to a time, until the observer
+    /// stops; whether there are any.
     #[inline]
     fn report_within<I, K>(
         &mut self,
         integration: &mut K,
+        reached: S,
         companion: &mut Option<Companion<S, M, F, A, C, I>>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<bool, Fault>
@@ -224,7 +260,7 @@ where
         K: Advance<S, Dynamics<S, M, F, A, C>>,
     {
         let mut start = None;
-        while let Some(time) = self.schedule.within(integration.time()) {
+        while let Some(time) = self.schedule.within(reached) {
             start.get_or_insert_with(|| (self.dynamics.seen(), *last_good));
             let state = integration.at(&mut self.dynamics, time)?;
             let mut state = self.dynamics.bodies_near(&state, &last_good.1);
@@ -265,13 +301,43 @@ where
             let state = self.dynamics.nearest_to(&state, integration.state());
             integration.replace(state);
         }
+        if let (Some(monitor), Some(better)) = (&mut self.monitor, better) {
+            monitor.judge([&state, &better]);
+        }
+        let estimate = integration.estimate();
+        self.accept((time, integration.state()), state, estimate, last_good)
+    }
+
+    /// The same of an event within the last step, with the bodies there.
+    #[inline(never)]
+    fn observe_event(
+        &mut self,
+        estimate: Option<S>,
+        (time, mut bodies): (S, M::State<S>),
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
+        if let Some(stabilisation) = self.stabilisation {
+            bodies = self.stabilised(stabilisation, time, bodies)?;
+        }
+        if self.monitor.is_some() {
+            self.dynamics.see_pivot(time, &bodies);
+        }
+        let state = self.dynamics.nearest(&bodies);
+        self.accept((time, &state), bodies, estimate, last_good)
+    }
+
+    /// Takes a state, and the bodies in it, as the last good one.
+    #[inline]
+    fn accept(
+        &mut self,
+        (time, of_integration): (S, &C::State<S>),
+        state: M::State<S>,
+        estimate: Option<S>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
         if let Some(monitor) = &mut self.monitor {
-            if let Some(better) = better {
-                monitor.judge([&state, &better]);
-            }
-            let estimate = integration.estimate();
             self.dynamics
-                .monitor(monitor, time, integration.state(), &state, estimate);
+                .monitor(monitor, time, of_integration, &state, estimate);
             let unconverged = self.dynamics.iterations().unconverged;
             monitor.accept_unconverged_evaluations(unconverged, time);
         }
@@ -303,7 +369,7 @@ where
         Ok(state)
     }
 
-    fn show<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
+    pub(crate) fn show<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         time: S,
         state: &M::State<S>,

@@ -19,6 +19,7 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
 use crate::run::companion::Companion;
+use crate::run::events::list::{Happenings, Hybrid};
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
@@ -260,8 +261,7 @@ where
     ///
     /// It is called at trial states, for times that go back and forth, and may remember nothing:
     /// what gives two answers for one time and state ends a run with [`Fault::TwoAnswers`]. A
-    /// controller with memory belongs between runs of a period, see
-    /// [`guide::forces`](mod@crate::guide::forces).
+    /// controller with memory is called by [`Simulation::every_period`].
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
@@ -362,6 +362,22 @@ where
         &self,
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
+        observe: O,
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
+    where
+        I: Runs<S, M, F, C, A>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
+    {
+        self.run_with(None, interval, reporting, observe)
+    }
+
+    /// The same with events and controllers.
+    pub(crate) fn run_with<O, R>(
+        &self,
+        happenings: Option<&mut dyn Happenings<S, M>>,
+        interval: RangeInclusive<S>,
+        reporting: Reporting<S>,
         mut observe: O,
     ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
@@ -379,12 +395,19 @@ where
         let (start, end) = interval.into_inner();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
         let mut last_good = (start, self.initial.unwrap_or_else(zeros));
-        let report = self.attempt((start, end), reporting, &mut observe, &mut last_good);
+        let report = self.attempt(
+            happenings,
+            (start, end),
+            reporting,
+            &mut observe,
+            &mut last_good,
+        );
         outcome::<R, _, _, _>(report, failure, last_good)
     }
 
     fn attempt(
         &self,
+        happenings: Option<&mut dyn Happenings<S, M>>,
         (start, end): (S, S),
         reporting: Reporting<S>,
         observe: &mut Observer<'_, S, M>,
@@ -403,6 +426,8 @@ where
         last_good.1 = state;
         check_interval(start, end)?;
         let schedule = Schedule::new(start, end, reporting)?;
+        let hybrid = happenings.map(|list| self.hybrid(list, (start, end)));
+        let hybrid = hybrid.transpose()?;
         check_state::<S, M>(&state)?;
         M::rewrap(&constants, &mut state);
         if let Some(projection) = self.assemble {
@@ -435,10 +460,27 @@ where
             breaks: self.breaks,
             monitor,
             log: Log::new(observe),
+            hybrid,
             steps: 0,
             counts: Counts::default(),
         };
         run.go(&self.integrator, companion, (start, end), last_good)
+    }
+
+    /// What happens in a run over an interval (s).
+    fn hybrid<'h>(
+        &self,
+        list: &'h mut (dyn Happenings<S, M> + 'h),
+        interval: (S, S),
+    ) -> Result<Hybrid<'h, S, M>, Fault> {
+        if self.is_verified {
+            return Err(Fault::NotVerified);
+        }
+        let inputs = match self.mechanism {
+            Source::Mechanism(mechanism) => mechanism.inputs(),
+            Source::Parameters(_) => M::Inputs::default(),
+        };
+        Hybrid::new(list, inputs, self.accepts_any_start, interval)
     }
 }
 

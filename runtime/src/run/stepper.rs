@@ -7,7 +7,7 @@ use crate::dynamics::{Dynamics, Iterations};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::formulation::Formulation;
-use crate::integrate::{OneStep, Scheme};
+use crate::integrate::{OneStep, Scheme, System as _};
 use crate::math::clock::Clock;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
@@ -62,8 +62,8 @@ pub struct Stepper<
     A = NoForces,
     C: Coordinates<M> = <M as Mechanism>::Coordinates,
 > {
-    dynamics: Dynamics<S, M, F, A, C>,
-    scheme: K,
+    pub(crate) dynamics: Dynamics<S, M, F, A, C>,
+    pub(crate) scheme: K,
     clock: Clock<S>,
     projection: Option<Projection<S>>,
 }
@@ -285,15 +285,39 @@ where
     /// Why the step could not be done. State and time are then as before.
     pub fn step(&mut self, state: &mut C::State<S>, dt: S) -> Result<(), Fault> {
         let time = self.time();
-        let clock = end_of_step::<S, M>(&self.clock, dt)?;
-        if !C::IS_RELATIVE {
-            C::check(state)?;
-        }
+        let clock = self.checked(state, dt)?;
         if let Some(projection) = self.projection {
             self.projected(state, dt, clock.time(), &projection)?;
         } else {
             self.scheme.step(&mut self.dynamics, time, state, dt)?;
         }
+        self.clock = clock;
+        Ok(())
+    }
+
+    /// The clock after a step from a state, if both can be.
+    #[inline]
+    pub(crate) fn checked(&self, state: &C::State<S>, dt: S) -> Result<Clock<S>, Fault> {
+        let clock = end_of_step::<S, M>(&self.clock, dt)?;
+        if !C::IS_RELATIVE {
+            C::check(state)?;
+        }
+        Ok(clock)
+    }
+
+    /// Ends a step that was looked into with a state after `dt` (s).
+    pub(crate) fn end_step(
+        &mut self,
+        state: &mut C::State<S>,
+        mut next: C::State<S>,
+        dt: S,
+    ) -> Result<(), Fault> {
+        let clock = self.clock.after(dt);
+        self.dynamics.renormalise(&mut next, None);
+        *state = match self.projection {
+            Some(projection) => self.corrected(&next, clock.time(), &projection)?,
+            None => next,
+        };
         self.clock = clock;
         Ok(())
     }
@@ -310,11 +334,20 @@ where
         let mut next = *state;
         let time = self.time();
         self.scheme.step(&mut self.dynamics, time, &mut next, dt)?;
-        let mut bodies = self.dynamics.bodies(&next);
+        *state = self.corrected(&next, end, projection)?;
+        Ok(())
+    }
+
+    fn corrected(
+        &self,
+        next: &C::State<S>,
+        end: S,
+        projection: &Projection<S>,
+    ) -> Result<C::State<S>, Fault> {
+        let mut bodies = self.dynamics.bodies(next);
         let constants = self.dynamics.constants();
         projection.correct_in_motion::<M>(constants, end, &mut bodies)?;
-        *state = self.dynamics.nearest_to(&bodies, &next);
-        Ok(())
+        Ok(self.dynamics.nearest_to(&bodies, next))
     }
 
     /// The same with these inputs over the step, which stay until others are set: also where the

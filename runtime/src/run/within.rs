@@ -50,9 +50,10 @@ where
     better.map(|state| dynamics.bodies_near(&state, near))
 }
 
-/// Looks into the last step of an integration, before its end is corrected or shown to the monitor:
-/// as far as pivots at the ends of its parts do not tell that the mechanism kept away from where
-/// one vanishes. The bodies stood near by a moment ago.
+/// Looks into the last step of an integration, or into what comes before an event within it, before
+/// its end is corrected or shown to the monitor: as far as pivots at the ends of its parts do not
+/// tell that the mechanism kept away from where one vanishes. The bodies stood near by a moment
+/// ago.
 ///
 /// By joints a step may be a fifth of a turn.
 pub(crate) fn look_within<S, M, F, A, C, K>(
@@ -60,6 +61,7 @@ pub(crate) fn look_within<S, M, F, A, C, K>(
     dynamics: &mut Dynamics<S, M, F, A, C>,
     integration: &mut K,
     near: &M::State<S>,
+    event: Option<&(S, M::State<S>)>,
 ) where
     S: Real,
     M: Mechanism,
@@ -68,15 +70,19 @@ pub(crate) fn look_within<S, M, F, A, C, K>(
     C: Coordinates<M>,
     K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
-    let (start, end) = (monitor.time(), integration.time());
+    let (start, step_end) = (monitor.time(), integration.time());
+    let end = event.map_or(step_end, |&(time, _)| time);
     let asked = monitor.asks(end - start);
     if !(asked.pivot || asked.gradient) {
         return;
     }
-    let last = dynamics.bodies_near(integration.state(), near);
+    let last = event.map_or_else(
+        || dynamics.bodies_near(integration.state(), near),
+        |&(_, bodies)| bodies,
+    );
     let rate = monitor.faster(&last);
     let first = monitor.last_nearness(asked);
-    let known = dynamics.pivot_seen();
+    let known = dynamics.pivot_seen().filter(|_| event.is_none());
     let last = nearness(monitor, dynamics, (end, &last), asked, known);
     if !monitor.may_pass(rate * (end - start), [first, last]) {
         return;

@@ -466,3 +466,68 @@ fn what_is_not_finite_does_not_travel() -> Result<(), Fault> {
     assert!(space.linearise(&state, [], |_| []).is_err() && space.equilibrium(&state).is_err());
     Ok(())
 }
+
+/// A rod that stands on a hinge with a torsion spring, under a load.
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(coordinates = "joints", kernels = [mass, inverse])]
+struct Strut {
+    #[input]
+    load: f64,
+    #[input]
+    side: f64,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.5])]
+    rod: Body,
+    #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    foot: Revolute,
+    #[force(between = [ground, rod], axis = [1.0, 0.0, 0.0], stiffness = 10.0)]
+    spring: TorsionalSpringDamper,
+    #[force(between = [ground, rod], point = [0.0, 0.0, 1.0], force = [0.0, side, -load])]
+    weight: PointForce,
+}
+
+/// The branching of one coordinate was told at the end of the step that passes it; and a walk with
+/// a small imperfection ended at the first step that led to another branch.
+#[test]
+fn a_strut_buckles() -> Result<(), Fault> {
+    use core::ops::ControlFlow;
+    use holonom::independent::{BranchEnd, Continuation, PointKind};
+    let h = Strut::HANDLES;
+    for (from, to) in [
+        (0.0, 30.0),
+        (0.0, 11.0),
+        (0.3, 30.0),
+        (9.5, 30.0),
+        (30.0, 0.0),
+    ] {
+        let mut space = Strut::default().coordinates([h.foot])?;
+        space.set_value(h.load, from)?;
+        let (upright, mut found) = (space.state([0.0], [0.0])?, Vec::new());
+        let end = space.follow(&upright, Continuation::new(h.load, to), |point| {
+            if point.kind != PointKind::Regular {
+                found.push((point.kind, point.value));
+            }
+            ControlFlow::Continue(())
+        })?;
+        assert_eq!(end, BranchEnd::Reached);
+        let [(PointKind::Branching, load)] = found[..] else {
+            panic!("{from} to {to}: {found:?}")
+        };
+        assert!((load - 10.0).abs() < 1e-9, "{from} to {to}: {load}");
+    }
+    for side in [1e-2, 1e-3, 1e-4, 1e-6] {
+        let mut space = Strut::default().coordinates([h.foot])?;
+        space.set_value(h.side, side)?;
+        let start = space.equilibrium(&space.state([0.0], [0.0])?)?;
+        let mut last = 0.0;
+        let end = space.follow(&start, Continuation::new(h.load, 12.0), |point| {
+            last = space.positions(&point.state).map_or(f64::NAN, |at| at[0]);
+            ControlFlow::Continue(())
+        })?;
+        assert_eq!(end, BranchEnd::Reached);
+        // `10 q = 12 sin(q) + side cos(q)` of the angle away from upright.
+        let q = last.abs();
+        let left = 10.0 * q - 12.0 * q.sin() - side * q.cos();
+        assert!(left.abs() < 1e-9 && q > 0.5, "{side}: {q} leaves {left}");
+    }
+    Ok(())
+}

@@ -1,0 +1,154 @@
+//! What a handler of an event sees, and may change.
+
+use core::fmt::{self, Debug};
+use core::ops::Deref;
+
+use crate::assembly::subtree::Subtree;
+use crate::dynamics::parameters;
+use crate::error::Fault;
+use crate::math::scalar::Real;
+use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
+use crate::mechanism::kernels::Mechanism;
+use crate::run::sample::Sample;
+
+/// An event of a run, for the handler of [`Simulation::on`](crate::Simulation::on): the
+/// [`Sample`] as it was found, and what the handler changes.
+///
+/// Readings are those of the state that was found, whatever has been set since. Set positions
+/// before velocities.
+pub struct Event<'e, S: Real, M: Mechanism> {
+    sample: Sample<'e, S, M>,
+    name: &'static str,
+    former: &'e M::Parameters<S>,
+    pub(super) state: M::State<S>,
+    pub(super) inputs: M::Inputs<S>,
+    pub(super) parameters: Option<M::Parameters<S>>,
+}
+
+/// The name of the event and the sample.
+impl<S: Real, M: Mechanism> Debug for Event<'_, S, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Event")
+            .field("name", &self.name)
+            .field("sample", &self.sample)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
+    pub(super) fn new(
+        sample: Sample<'e, S, M>,
+        name: &'static str,
+        former: &'e M::Parameters<S>,
+        inputs: M::Inputs<S>,
+    ) -> Self {
+        Self {
+            state: *sample.state(),
+            sample,
+            name,
+            former,
+            inputs,
+            parameters: None,
+        }
+    }
+
+    /// The name of the condition.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The state with which the run goes on. It is checked as a start is.
+    pub fn state_mut(&mut self) -> &mut M::State<S> {
+        &mut self.state
+    }
+
+    /// The inputs with which the run goes on.
+    pub fn inputs_mut(&mut self) -> &mut M::Inputs<S> {
+        &mut self.inputs
+    }
+
+    pub(super) fn sample_and_inputs(&mut self) -> (&Sample<'e, S, M>, &mut M::Inputs<S>) {
+        (&self.sample, &mut self.inputs)
+    }
+
+    /// Goes on with the parameters and inputs of another value of the mechanism.
+    ///
+    /// # Errors
+    /// A parameter that is not acceptable; the former ones then stay.
+    pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
+        let parameters = parameters(mechanism)?;
+        mechanism.check_likes(Some(self.former))?;
+        self.inputs = mechanism.inputs();
+        self.parameters = Some(parameters);
+        Ok(())
+    }
+
+    /// Sets the angle of a joint (rad), see
+    /// [`MechanismExt::set_angle`](crate::MechanismExt::set_angle).
+    ///
+    /// # Errors
+    /// Those of that function. The state is then as before.
+    pub fn set_angle<J: HasAngle>(
+        &mut self,
+        joint: JointHandle<M, J>,
+        angle: S,
+    ) -> Result<(), Fault> {
+        self.state = self.subtree(joint)?.set_angle(angle)?;
+        Ok(())
+    }
+
+    /// Sets the rate of the angle of a joint (rad/s), see
+    /// [`MechanismExt::set_angle_rate`](crate::MechanismExt::set_angle_rate).
+    ///
+    /// # Errors
+    /// Those of that function. The state is then as before.
+    pub fn set_angle_rate<J: HasAngle>(
+        &mut self,
+        joint: JointHandle<M, J>,
+        rate: S,
+    ) -> Result<(), Fault> {
+        self.state = self.subtree(joint)?.set_angle_rate(rate)?;
+        Ok(())
+    }
+
+    /// Sets the displacement of a joint (m), see
+    /// [`MechanismExt::set_displacement`](crate::MechanismExt::set_displacement).
+    ///
+    /// # Errors
+    /// Those of that function. The state is then as before.
+    pub fn set_displacement<J: HasDisplacement>(
+        &mut self,
+        joint: JointHandle<M, J>,
+        displacement: S,
+    ) -> Result<(), Fault> {
+        self.state = self.subtree(joint)?.set_displacement(displacement)?;
+        Ok(())
+    }
+
+    /// Sets the rate of the displacement of a joint (m/s), see
+    /// [`MechanismExt::set_displacement_rate`](crate::MechanismExt::set_displacement_rate).
+    ///
+    /// # Errors
+    /// Those of that function. The state is then as before.
+    pub fn set_displacement_rate<J: HasDisplacement>(
+        &mut self,
+        joint: JointHandle<M, J>,
+        rate: S,
+    ) -> Result<(), Fault> {
+        self.state = self.subtree(joint)?.set_displacement_rate(rate)?;
+        Ok(())
+    }
+
+    fn subtree<J>(&self, joint: JointHandle<M, J>) -> Result<Subtree<'_, S, M>, Fault> {
+        Subtree::of(self.sample.constants(), &self.state, joint.index())
+    }
+}
+
+impl<'e, S: Real, M: Mechanism> Deref for Event<'e, S, M> {
+    type Target = Sample<'e, S, M>;
+
+    fn deref(&self) -> &Sample<'e, S, M> {
+        &self.sample
+    }
+}

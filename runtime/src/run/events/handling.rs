@@ -1,0 +1,250 @@
+//! Handlers and controllers, called between two segments of a run.
+
+use core::ops::ControlFlow;
+
+use crate::assembly::consistent_start::check_start;
+use crate::constraints::extent::largest;
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::Integrator;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::check_state;
+use crate::run::companion::Companion;
+use crate::run::events::context::Event;
+use crate::run::events::list::{Happening, Hybrid};
+use crate::run::events::watch::Watch;
+use crate::run::sample::Sample;
+use crate::run::segments::Run;
+use crate::state::vector::{Array, StateParts, Vector as _};
+
+/// A way (m, rad) that is little.
+const LITTLE: f64 = 1e-6;
+
+/// What handlers and controllers have done at an instant.
+#[derive(Clone, Copy)]
+struct Done {
+    /// A handler has set the state.
+    moved: bool,
+    /// A handler or a controller stops the run.
+    stops: bool,
+}
+
+/// What is called at an instant.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Called {
+    Handlers,
+    Controllers,
+}
+
+impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Calls controllers at the start, and takes the readings there.
+    pub(crate) fn begin_events(
+        &mut self,
+        (time, state): &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
+        let Some(mut hybrid) = self.hybrid.take() else {
+            return Ok(());
+        };
+        let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
+        self.read_all(&mut hybrid, *time, state, |watch, readings| {
+            watch.begin(readings);
+        })?;
+        self.hybrid = Some(hybrid);
+        if done.stops {
+            self.log.stop();
+        }
+        Ok(())
+    }
+
+    /// Reports an event that was found, calls its handler and the controllers of the instant that
+    /// was reached. The state is the one with which the run goes on.
+    pub(crate) fn happen<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
+        &mut self,
+        last_good: &mut (S, M::State<S>),
+        companion: &mut Option<Companion<S, M, F, A, C, I>>,
+    ) -> Result<(), Fault> {
+        let Some(mut hybrid) = self.hybrid.take() else {
+            return Ok(());
+        };
+        let is_found = core::mem::take(&mut hybrid.is_found);
+        if is_found && self.log.unseen > 0 {
+            self.schedule.at(last_good.0, 0);
+            self.show(last_good.0, &last_good.1, companion);
+        }
+        let mut done = Done {
+            moved: false,
+            stops: self.log.flow.is_break(),
+        };
+        if !done.stops {
+            done = self.act(&mut hybrid, is_found, last_good)?;
+            if done.moved || done.stops && self.log.unseen > 0 {
+                self.show(last_good.0, &last_good.1, companion);
+            }
+        }
+        if done.stops {
+            self.log.stop();
+        }
+        self.hybrid = Some(hybrid);
+        Ok(())
+    }
+
+    fn act(
+        &mut self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        is_found: bool,
+        (time, state): &mut (S, M::State<S>),
+    ) -> Result<Done, Fault> {
+        let time = *time;
+        let before = self.monitor.is_some().then(|| self.energies(time, state));
+        let mut done = Done {
+            moved: false,
+            stops: false,
+        };
+        if is_found {
+            self.read_all(hybrid, time, state, |watch, [reading, _]| {
+                watch.correct(reading);
+            })?;
+            done = self.call(hybrid, Called::Handlers, time, state)?;
+        }
+        if !done.stops && time < hybrid.end {
+            done.stops = self.call(hybrid, Called::Controllers, time, state)?.stops;
+        }
+        if is_found {
+            hybrid.is_fresh = true;
+            self.read_all(hybrid, time, state, |watch, readings| {
+                watch.settle(readings, done.moved);
+            })?;
+        }
+        let after = before.map(|_| self.energies(time, state));
+        if let (Some(monitor), Some(before), Some(after)) = (&mut self.monitor, before, after) {
+            monitor.jump(after - before);
+        }
+        Ok(done)
+    }
+
+    /// Kinetic and potential energy (J).
+    fn energies(&self, time: S, state: &M::State<S>) -> S {
+        let constants = self.dynamics.constants();
+        M::kinetic_energy(constants, state) + M::potential_energy(constants, time, state)
+    }
+
+    /// Calls what is due at a time, one after the other: each sees what the former have done.
+    fn call(
+        &mut self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        called: Called,
+        time: S,
+        state: &mut M::State<S>,
+    ) -> Result<Done, Fault> {
+        let mut done = Done {
+            moved: false,
+            stops: false,
+        };
+        let Hybrid {
+            list,
+            inputs,
+            accepts_any_state,
+            end,
+            ..
+        } = hybrid;
+        list.each(&mut |happening: &mut dyn Happening<S, M>| {
+            let name = match called {
+                Called::Handlers => happening
+                    .watch()
+                    .filter(|watch| watch.is_found())
+                    .map(|watch| watch.name()),
+                Called::Controllers => happening
+                    .period()
+                    .is_some_and(|period| period.is_due(time))
+                    .then_some(""),
+            };
+            let Some(name) = name else {
+                return Ok(());
+            };
+            let view = self.dynamics.view(time, state);
+            let sample = Sample::new(view, &self.dynamics);
+            let mut event = Event::new(sample, name, self.dynamics.parameters(), *inputs);
+            let flow = happening.act(&mut event)?;
+            let (next, held, parameters) = (event.state, event.inputs, event.parameters);
+            if let Some(parameters) = parameters {
+                self.dynamics.take_parameters(parameters)?;
+            }
+            if held != *inputs || parameters.is_some() {
+                self.dynamics.set_inputs(&held)?;
+                *inputs = held;
+            }
+            if next != *state {
+                let duration = *end - time;
+                *state = self.checked(time, duration, next, *accepts_any_state)?;
+                done.moved = true;
+            }
+            done.stops |= matches!(flow, ControlFlow::Break(()));
+            Ok(())
+        })?;
+        Ok(done)
+    }
+
+    /// A state that a handler has set, as a start is checked.
+    fn checked(
+        &self,
+        time: S,
+        duration: S,
+        mut state: M::State<S>,
+        accepts_any: bool,
+    ) -> Result<M::State<S>, Fault> {
+        let constants = self.dynamics.constants();
+        check_state::<S, M>(&state)?;
+        M::rewrap(constants, &mut state);
+        if !accepts_any || C::IS_RELATIVE {
+            check_start::<S, M>(constants, (time, duration), &state, C::IS_RELATIVE)?;
+        }
+        Ok(state)
+    }
+
+    fn read_all(
+        &self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        time: S,
+        state: &M::State<S>,
+        mut take: impl FnMut(&mut Watch<S>, [S; 2]),
+    ) -> Result<(), Fault> {
+        let (later, ahead) = self.ahead(hybrid, time, state);
+        let dynamics = &self.dynamics;
+        hybrid.list.each(&mut |happening| {
+            let here = Sample::new(dynamics.view(time, state), dynamics);
+            let ahead = Sample::new(dynamics.view(later, &ahead), dynamics);
+            let readings = [happening.read(&here), happening.read(&ahead)];
+            if let Some(watch) = happening.watch() {
+                take(watch, [watch.checked(time, readings[0])?, readings[1]]);
+            }
+            Ok(())
+        })
+    }
+
+    /// A little ahead on the way of the motion, as far as the velocities lead.
+    fn ahead(&self, hybrid: &Hybrid<'_, S, M>, time: S, state: &M::State<S>) -> (S, M::State<S>) {
+        let left = hybrid.end - time;
+        let mut step = left;
+        if hybrid.longest > S::zero() {
+            step = step.min(hybrid.longest);
+        }
+        let speed = largest(state.velocities().as_slice());
+        if speed * step > S::constant(LITTLE) {
+            step = S::constant(LITTLE).quotient(speed);
+        }
+        let rates = M::coordinate_rates(self.dynamics.constants(), state);
+        let rates = M::State::from_parts(rates, Array::zeros());
+        (time + step, state.plus([(step, &rates)]))
+    }
+}

@@ -1,0 +1,168 @@
+//! The first event within a step, on the dense output of the method.
+
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::Advance;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::with_unit_orientations;
+use crate::run::events::list::{Happening, Hybrid};
+use crate::run::events::root::{MOST, locate};
+use crate::run::events::watch::{is_same, looks};
+use crate::run::sample::Sample;
+use crate::run::segments::Run;
+
+/// The time (s) and the state of an event.
+type Found<S, M> = Option<(S, <M as Mechanism>::State<S>)>;
+
+impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// The time and the state of the first event within the last step, which began at a time where
+    /// the bodies stood near by; before the step is corrected or shown to the monitor.
+    #[inline]
+    pub(crate) fn event_within<K: Advance<S, Dynamics<S, M, F, A, C>>>(
+        &mut self,
+        integration: &mut K,
+        (start, near): (S, &M::State<S>),
+    ) -> Result<Found<S, M>, Fault> {
+        let Some(hybrid) = self.hybrid.as_mut().filter(|hybrid| hybrid.watches) else {
+            return Ok(None);
+        };
+        let seen = self.dynamics.seen();
+        let step = Step {
+            dynamics: &mut self.dynamics,
+            end: integration.time(),
+            integration,
+            near,
+        };
+        let found = step.first_event(start, hybrid);
+        self.dynamics.recall(seen);
+        found
+    }
+}
+
+/// A step that is looked into.
+struct Step<'s, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, K> {
+    dynamics: &'s mut Dynamics<S, M, F, A, C>,
+    integration: &'s mut K,
+    near: &'s M::State<S>,
+    end: S,
+}
+
+impl<S, M, F, A, C, K> Step<'_, S, M, F, A, C, K>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+    K: Advance<S, Dynamics<S, M, F, A, C>>,
+{
+    #[inline(never)]
+    fn first_event(
+        mut self,
+        start: S,
+        hybrid: &mut Hybrid<'_, S, M>,
+    ) -> Result<Found<S, M>, Fault> {
+        hybrid.longest = hybrid.longest.max(self.end - start);
+        let mut before = start;
+        for time in looks(start, self.end, hybrid.is_fresh) {
+            let bodies = self.bodies(time)?;
+            let mut first: Option<S> = None;
+            hybrid.list.each(&mut |happening| {
+                let root = self.look(happening, before, (time, &bodies))?;
+                first = match (first, root) {
+                    (Some(first), Some(root)) => Some(first.min(root)),
+                    (first, root) => first.or(root),
+                };
+                Ok(())
+            })?;
+            let Some(root) = first else {
+                hybrid.list.each(&mut |happening| {
+                    if let Some(watch) = happening.watch() {
+                        watch.go_on();
+                    }
+                    Ok(())
+                })?;
+                before = time;
+                continue;
+            };
+            // The end of an interval where it is there to round-off.
+            let root = if is_same(root, time) { time } else { root };
+            let bodies = self.bodies(root)?;
+            let longest = hybrid.longest;
+            hybrid.list.each(&mut |happening| {
+                let reading = self.read(happening, root, &bodies)?;
+                happening
+                    .watch()
+                    .map_or(Ok(()), |watch| watch.take(root, reading, longest))
+            })?;
+            hybrid.is_found = true;
+            return Ok(Some((root, bodies)));
+        }
+        hybrid.is_fresh = false;
+        Ok(None)
+    }
+
+    /// Where a condition is met between two times, of which the bodies at the second are known.
+    fn look(
+        &mut self,
+        happening: &mut dyn Happening<S, M>,
+        before: S,
+        (time, bodies): (S, &M::State<S>),
+    ) -> Result<Option<S>, Fault> {
+        let reading = self.read(happening, time, bodies)?;
+        let Some(&mut watch) = happening.watch() else {
+            return Ok(None);
+        };
+        let mut root = None;
+        if watch.is_met(reading) {
+            let read = |time: S| {
+                let bodies = self.bodies(time)?;
+                let reading = self.read(happening, time, &bodies)?;
+                Ok::<S, Fault>(watch.upwards(reading))
+            };
+            let found = locate((before, time), watch.upwards(reading), read, MOST)?;
+            root = Some(found.plain());
+        }
+        if let Some(watch) = happening.watch() {
+            watch.keep(reading, root);
+        }
+        Ok(root)
+    }
+
+    /// The reading of a condition; zero where there is none.
+    fn read(
+        &self,
+        happening: &mut dyn Happening<S, M>,
+        time: S,
+        bodies: &M::State<S>,
+    ) -> Result<S, Fault> {
+        let view = self.dynamics.view(time, bodies);
+        let reading = happening.read(&Sample::new(view, &*self.dynamics));
+        match happening.watch() {
+            Some(watch) => watch.checked(time, reading),
+            None => Ok(reading),
+        }
+    }
+
+    fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
+        let bodies = if time == self.end {
+            let state = self.integration.state();
+            self.dynamics.bodies_near(state, self.near)
+        } else {
+            let state = self.integration.at(self.dynamics, time)?;
+            self.dynamics.bodies_near(&state, self.near)
+        };
+        Ok(with_unit_orientations::<S, M>(&bodies))
+    }
+}

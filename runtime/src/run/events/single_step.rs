@@ -1,0 +1,123 @@
+//! The first event within a step of a [`Stepper`].
+
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{OneStep, StepWithin};
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::measure::view::View;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::with_unit_orientations;
+use crate::run::events::root::locate;
+use crate::run::events::watch::{Crossing, Watch, looks};
+use crate::run::stepper::Stepper;
+
+/// The part of a step after which the motion says on which side of zero a reading is.
+const FIRST_LOOK: f64 = 1.0 / 1_048_576.0;
+
+/// How often a bracket is divided at the most: some eight times would do.
+const MOST: usize = 48;
+
+impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K: OneStep<S, Dynamics<S, M, F, A, C>>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Moves the state by one step of `dt` (s), or to where a reading first passes zero within it.
+    /// The time (s) of that, which [`Stepper::time`] then is; `None` after a whole step.
+    ///
+    /// The zero is located on the interpolant of the method, to some units in the last place of the
+    /// time. The step costs one evaluation more than [`Stepper::step`]
+    /// ([`DormandPrince8`](crate::integrate::DormandPrince8) four), and at most 66 interpolations
+    /// with a reading each. Two zeros within a sixth of the step may be missed.
+    ///
+    /// A step that begins at a zero, to round-off, does not end there: the motion says on which
+    /// side the reading is. So after an event you change the state and go on.
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// # struct Rod {
+    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    /// #     rod: Body,
+    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     hinge: Revolute,
+    /// # }
+    /// let (rod, hinge) = (Rod::default(), Rod::HANDLES.hinge);
+    /// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
+    /// let mut state = stepper.initial_state()?;
+    /// for period in 1..=100 {
+    ///     let end = 0.01 * f64::from(period);
+    ///     let stop = |view: &View<'_, f64, Rod>| view.angle(hinge) + 1.0;
+    ///     let left = end - stepper.time();
+    ///     if stepper.step_until(&mut state, left, Crossing::Falling, stop)?.is_some() {
+    ///         let mut bodies = stepper.bodies(&state);
+    ///         let rate = stepper.view(&bodies).angle_rate(hinge);
+    ///         rod.set_angle_rate(&mut bodies, hinge, 0.5 * rate.abs())?;
+    ///         state = stepper.state_of(&bodies)?;
+    ///         stepper.step(&mut state, end - stepper.time())?;
+    ///     }
+    /// }
+    /// # Ok::<(), Fault>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Stepper::step`], and [`Fault::EventNotANumber`] of a reading. State and time are then
+    /// as before.
+    pub fn step_until(
+        &mut self,
+        state: &mut C::State<S>,
+        dt: S,
+        crossing: Crossing,
+        reading: impl Fn(&View<'_, S, M>) -> S,
+    ) -> Result<Option<S>, Fault> {
+        let time = self.time();
+        self.checked(state, dt)?;
+        let from = (time, &*state);
+        let step = StepWithin::take(self.scheme, &mut self.dynamics, from, dt)?;
+        let dynamics = &self.dynamics;
+        let near = dynamics.bodies(state);
+        let state_at = |part: S| {
+            if part == S::one() {
+                *step.end()
+            } else {
+                step.at(part)
+            }
+        };
+        let watch = Watch::new("the end of a step", crossing);
+        let read = |part: S| {
+            let bodies = dynamics.bodies_near(&state_at(part), &near);
+            let bodies = with_unit_orientations::<S, M>(&bodies);
+            let time = part.fused(dt, time);
+            watch.checked(time, reading(&dynamics.view(time, &bodies)))
+        };
+        let mut sign = watch;
+        let (zero, one) = (S::zero(), S::one());
+        let first = S::constant(FIRST_LOOK);
+        sign.begin([read(zero)?, read(first)?]);
+        let mut before = zero;
+        let mut found = None;
+        for part in looks(zero, one, true) {
+            let now = read(part)?;
+            if sign.is_met(now) {
+                let upwards = |part: S| Ok::<S, Fault>(sign.upwards(read(part)?));
+                let root = locate((before, part), sign.upwards(now), upwards, MOST)?;
+                found = Some(root.plain());
+                break;
+            }
+            sign.pass(now);
+            before = part;
+        }
+        let part = found.unwrap_or(one);
+        let next = state_at(part);
+        self.end_step(state, next, part * dt)?;
+        Ok(found.map(|_| self.time()))
+    }
+}
