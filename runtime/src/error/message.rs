@@ -440,7 +440,7 @@ impl fmt::Display for Fault {
             }
             Self::NoEffect { unknown } => write!(
                 f,
-                "`{unknown}` balances nothing here: no acceleration depends on it, or only as on the other unknowns"
+                "`{unknown}` balances nothing here: no acceleration depends on it at its present value, or only as on the other unknowns"
             ),
             Self::BranchEnds { along, value } => write!(
                 f,
