@@ -129,7 +129,7 @@ where
                 Err(fault) => return Err(fault),
             };
             let Some(value) = of(&spot) else { break };
-            // A sign alone, which is all that a single eigenvalue has, is nearest where it was last.
+            // A single eigenvalue tells its sign alone, which is nearest where it was last.
             if value.abs() <= best.0 {
                 best = (value.abs(), length, spot);
             }

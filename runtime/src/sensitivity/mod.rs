@@ -31,9 +31,8 @@ use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array as _;
 
 /// A mechanism along `K` directions, each of a parameter, an input or the start: by
-/// [`SensitivityExt::sensitivities`], or by [`IndependentCoordinates::sensitivities`].
-///
-/// [`IndependentCoordinates::sensitivities`]: crate::independent::IndependentCoordinates::sensitivities
+/// [`SensitivityExt::sensitivities`], or by `sensitivities` of
+/// [`IndependentCoordinates`](crate::independent::IndependentCoordinates).
 pub struct Sensitivities<M: Mechanism, const K: usize, S: Real = f64> {
     pub(crate) parameters: M::Parameters<Forward<S, K>>,
     pub(crate) start: Option<M::State<Forward<S, K>>>,
