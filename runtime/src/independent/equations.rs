@@ -62,7 +62,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// `B^T M B`.
-    fn mass_with(
+    pub(super) fn mass_with(
         &self,
         following: Option<&Partition<M, N, S>>,
         state: &M::JointState<S>,

@@ -139,9 +139,9 @@ where
         // With `M a = -h`, `M da = -(d(M) a + dh)`: what changes the efforts of these
         // accelerations.
         let equations = &self.equations;
-        let mass = Factors::of(equations.mass(state)?);
-        let following = equations.following(state)?;
-        let bias = equations.inverse_with(following.as_ref(), state, &[S::zero(); N]);
+        let following = (!M::JOINT_REPORT.closing.is_empty()).then_some(&partition);
+        let mass = Factors::of(equations.mass_with(following, state));
+        let bias = equations.inverse_with(following, state, &[S::zero(); N]);
         let accelerations = match outcome {
             Outcome::Accelerations => mass.solve(bias.map(|bias| -bias)),
             Outcome::Efforts => [S::zero(); N],
