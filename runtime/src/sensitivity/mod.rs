@@ -1,10 +1,10 @@
 //! Runs whose numbers carry derivatives: how what is read changes with parameters, inputs and the
 //! start (forward sensitivities).
 //!
-//! A run over [`Forward`] numbers is the run that it would be over plain ones, step by step:
-//! numbers are ordered by their values, and the steps of a control are no functions of what they
-//! were chosen by. `differentiable.rs` says through what derivatives go. Newton's method ends by
-//! values, when derivatives are one iteration behind, so implicit methods are not among that.
+//! A run over [`Forward`] numbers is the plain run, step by step. Numbers are ordered by their
+//! values. The steps of a control are no functions of what they were chosen by.
+//! `differentiable.rs` says through what derivatives go. Newton's method ends by values, when
+//! derivatives are one iteration behind, so implicit methods are not among that.
 //!
 //! `start.rs` looks whether the derivatives of a start satisfy those of the constraints, which
 //! nothing in a run would notice.
@@ -59,8 +59,8 @@ impl<M: Mechanism, const K: usize, S: Real> Debug for Sensitivities<M, K, S> {
 pub trait SensitivityExt: Mechanism {
     /// Runs from the described state that carry derivatives by these parameters and inputs.
     ///
-    /// Everything that is read in such a run is a [`Forward`] number: its value is that of the
-    /// plain run, its derivatives are exact ones of the numbers that the method computes.
+    /// Everything that is read in such a run is a [`Forward`] number. Its value is that of the
+    /// plain run. Its derivatives are exact ones of the numbers that the method computes.
     ///
     /// ```
     /// use holonom::prelude::*;
