@@ -14,10 +14,10 @@ use super::assemblers as by_hand;
 #[cfg(feature = "large")]
 use super::scenes::{
     AlternatingChain4, AlternatingChain8, RevoluteChain2, RevoluteChain4, RevoluteChain8,
-    RevoluteChain16, RevoluteChain32, SphericalChain2, SphericalChain8, Windows10,
+    RevoluteChain16, RevoluteChain32, SphericalChain2, SphericalChain8,
 };
 #[cfg(feature = "huge")]
-use super::scenes::{SphericalChain32, Windows40};
+use super::scenes::{SphericalChain32, Windows10, Windows40};
 
 /// The step of Runge-Kutta (s).
 const STEP: f64 = 1e-3;
@@ -114,7 +114,7 @@ pub fn entries() -> Vec<Entry> {
         windows::<DoubleFourBar>(2),
         #[cfg(feature = "large")]
         windows::<QuintupleFourBar>(5),
-        #[cfg(feature = "large")]
+        #[cfg(feature = "huge")]
         windows::<Windows10>(10),
         #[cfg(feature = "huge")]
         windows::<Windows40>(40),

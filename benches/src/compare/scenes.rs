@@ -23,6 +23,7 @@ macro_rules! chain {
 /// Four-bar windows side by side: upright rods of 1 m and 1 kg on the ground, each joined to the
 /// next by one of the same kind at the top, moving at 1 m/s along +x, gravity along -y. Problem A02
 /// of the IFToMM library, as [`holonom_models::QuintupleFourBar`].
+#[cfg(feature = "huge")]
 macro_rules! windows {
     ($(#[$attribute:meta])* $name:ident: [$rods:tt] [$windows:tt]) => {
         $(#[$attribute])*
@@ -100,6 +101,7 @@ chain! {
     SphericalChain32: [Spherical; 32]
 }
 
+#[cfg(feature = "huge")]
 windows! {
     /// Ten windows.
     Windows10: [11] [10]
