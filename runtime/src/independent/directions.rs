@@ -17,7 +17,7 @@ use crate::math::vec3::read;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::relative::{bodies_by, bodies_of};
+use crate::mechanism::relative::{bodies_by, bodies_of, rates_of_motion};
 use crate::state::vector::{Array as _, StateParts};
 
 /// What derivatives are taken by: a parameter or an input, or a chosen coordinate or its rate at
@@ -162,7 +162,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let slopes = ways.map(|way| {
                 let mut turned = *state;
                 put_velocities::<M, S>(&way, &mut turned);
-                M::joint_coordinate_rates(&self.equations.constants, self.equations.time, &turned)
+                rates_of_motion::<S, M>(&self.equations.constants, self.equations.time, &turned)
             });
             moved::<M, S, K>(state, &slopes)
         };

@@ -366,8 +366,40 @@ impl<'a> Numbers<'a> {
         })
     }
 
+    /// Whether an expression names a run-time value.
+    pub(super) fn is_value(&self, expr: &Expr) -> bool {
+        Faults::unheard(|faults| self.place(expr, faults)) != Found::Nothing
+    }
+
+    /// Whether an expression names a state of the user's own.
+    pub(super) fn is_state(&self, expr: &Expr) -> bool {
+        Faults::unheard(|faults| self.state(expr, faults)).is_some()
+    }
+
+    /// The place among the user's own states of what an expression names; `None` if it names none.
+    pub(super) fn state(&self, expr: &Expr, faults: &mut Faults) -> Option<Found> {
+        let starts = self.values.iter().filter(|value| value.is_start);
+        let names = starts.map(|value| &value.name);
+        let found = Reference::of(expr)?.find(names, self.unmeasured, &self.field, faults);
+        (found != Found::Nothing).then_some(found)
+    }
+
+    /// The start of a state, which is where it stands among the run-time values.
+    pub(super) fn start(&mut self, place: usize, span: Span) -> Number {
+        let value = self.at_run_time(place);
+        self.number(Value::Later(value), span)
+    }
+
     fn run_time_value(&self, place: usize, at: &Expr, faults: &mut Faults) -> Option<Later> {
         let value = &self.values[place];
+        if value.is_start {
+            let name = &value.name;
+            faults.at(
+                at,
+                format!("`{name}` is a state, which changes in time: it stands in laws of forces and in rates of states alone"),
+            );
+            return None;
+        }
         if value.is_input
             && let Some(reason) = self.no_inputs
         {
@@ -378,15 +410,20 @@ impl<'a> Numbers<'a> {
             );
             return None;
         }
+        Some(self.at_run_time(place))
+    }
+
+    fn at_run_time(&self, place: usize) -> Later {
+        let value = &self.values[place];
         let (name, parameters) = (value_name(&value.name), local("parameters"));
-        Some(Later {
+        Later {
             expression: quote!(#name),
             scalar: Some(quote!(#parameters[#place])),
             is_const: false,
             is_varying: value.is_input,
             values: vec![place],
             like: value.like,
-        })
+        }
     }
 
     fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<Value> {
