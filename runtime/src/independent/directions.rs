@@ -15,6 +15,7 @@ use crate::math::quaternion::product;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
 use crate::mechanism::handle::ValueHandle;
+use crate::mechanism::joint_kernels::JointParts as _;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::relative::{bodies_by, bodies_of, rates_of_motion};
@@ -179,6 +180,16 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             }
         }
         let mut there = here(&ways);
+        // The start of a state of the user's own is its value here.
+        for (lane, direction) in directions.iter().enumerate() {
+            let is_varied =
+                |value| matches!(direction, Some(Along::Value(place)) if *place == value);
+            for info in M::JOINT_REPORT.states {
+                if is_varied(info.value) {
+                    vary(there.rest_slice_mut().get_mut(info.coordinate), lane);
+                }
+            }
+        }
         if let Some(dependent) = equations.following(&there)? {
             write_rates::<M, N, Forward<S, K>>(&dependent, &rates_along, true, &mut there);
         } else {

@@ -23,7 +23,7 @@ const VOLTAGE: f64 = 12.0;
 
 /// A fan on a motor.
 #[derive(Mechanism)]
-#[mechanism(coordinates = "both")]
+#[mechanism(coordinates = "both", kernels = [mass])]
 struct Fan {
     #[input]
     voltage: f64,

@@ -64,3 +64,33 @@ fn derivatives_by_a_start_are_those_of_the_linear_system() {
         );
     }
 }
+
+#[test]
+fn a_start_in_chosen_coordinates_has_the_same_derivative() {
+    let fan = Fan::of(R);
+    let h = Fan::HANDLES;
+    let mut ends = [[0.0; 2]; 2];
+    let [plain, chosen] = &mut ends;
+    let read = |sample: &Sample<'_, Forward<f64, 1>, Fan>| {
+        let [current] = sample.state_value(h.current).derivatives();
+        let [speed] = sample.angle_rate(h.bearing).derivatives();
+        [current, speed]
+    };
+    fan.sensitivities([h.current.start()])
+        .expect("sound parameters")
+        .simulation(StandardLagrange, Rk4::every(1e-4))
+        .run(0.0..=END, every(END), |sample| *plain = read(sample))
+        .expect("it runs");
+    let space = fan.coordinates([h.bearing]).expect("one coordinate");
+    let start = space.state([0.0], [0.0]).expect("it is free");
+    space
+        .sensitivities(&start, [h.current.start().into()])
+        .expect("a direction")
+        .simulation(StandardLagrange, Rk4::every(1e-4))
+        .run(0.0..=END, every(END), |sample| *chosen = read(sample))
+        .expect("it runs");
+    let [plain, chosen] = ends;
+    for (plain, chosen) in plain.into_iter().zip(chosen) {
+        assert!(plain.abs() > 1e-3 && (plain - chosen).abs() < 1e-12 * plain.abs());
+    }
+}
