@@ -62,7 +62,7 @@ pub(crate) fn state_of<S: Real, M: Mechanism>(
         let rate = rates.as_slice().get(info.coordinate);
         !all_finite(rate.into_iter())
     });
-    found.map(|info| NotFinite::State(info.name))
+    found.map(|info| NotFinite::Rate(info.name))
 }
 
 /// The first joint with an element that is not finite, in a value for each row or in `D`.

@@ -425,19 +425,19 @@ pub enum NotFinite {
     /// The acceleration of a body, while forces and equations are finite.
     Body(&'static str),
     /// The rate of a state of the user's own.
-    State(&'static str),
+    Rate(&'static str),
 }
 
 /// What knows the motion of bodies alone, and no states of the user's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LeavesOut {
-    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha).
-    GeneralizedAlpha,
+    /// A method that moves bodies alone: [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    Method,
     /// A [`KinematicAnalysis`](crate::KinematicAnalysis), which integrates nothing.
     Kinematics,
     /// A linearisation, an equilibrium, a trim or a continuation in chosen coordinates.
-    Coordinates,
+    Linearisation,
 }
 
 /// What a joint's equations are about.

@@ -64,13 +64,13 @@ impl fmt::Display for Fault {
             }
             Self::StateLeftOut { state, by } => {
                 let why = match by {
-                    LeavesOut::GeneralizedAlpha => {
+                    LeavesOut::Method => {
                         "the generalized-alpha method moves bodies alone; take another method"
                     }
                     LeavesOut::Kinematics => {
                         "a kinematic analysis integrates nothing; take a simulation"
                     }
-                    LeavesOut::Coordinates => {
+                    LeavesOut::Linearisation => {
                         "linearisations and equilibria know the chosen coordinates alone"
                     }
                 };
@@ -97,7 +97,7 @@ impl fmt::Display for Fault {
                     NotFinite::Body(name) => {
                         write!(f, ": the acceleration of body `{name}` is not finite")
                     }
-                    NotFinite::State(name) => {
+                    NotFinite::Rate(name) => {
                         write!(f, ": the rate of state `{name}` is not finite")
                     }
                 }

@@ -129,7 +129,7 @@ where
         outcome: Outcome,
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Linearised<N, K, P, S>, Fault> {
-        bodies_alone::<M>(LeavesOut::Coordinates)?;
+        bodies_alone::<M>(LeavesOut::Linearisation)?;
         let mut linear = Linearised::<N, K, P, S>::zeros();
         let partition = self.equations.partition(state)?;
         let rates = joint_rates::<M, S>(state);

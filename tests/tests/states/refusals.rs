@@ -24,7 +24,7 @@ fn generalized_alpha_names_the_state() {
         .absolute_coordinates()
         .run(0.0..=0.1, every(0.1), |_| ())
         .expect_err("it moves bodies alone");
-    assert_eq!(left_out(error.fault), LeavesOut::GeneralizedAlpha);
+    assert_eq!(left_out(error.fault), LeavesOut::Method);
 }
 
 /// A shaft that is driven, and the heat in its bearing.
@@ -104,7 +104,7 @@ fn chosen_coordinates_hold_the_state_and_linearise_nothing() {
             .expect_err("it has a rate"),
     ];
     for fault in faults {
-        assert_eq!(left_out(fault), LeavesOut::Coordinates);
+        assert_eq!(left_out(fault), LeavesOut::Linearisation);
     }
 }
 
@@ -135,7 +135,7 @@ fn a_rate_that_is_no_number_names_its_state() {
     for by_joints in [false, true] {
         let error = run(by_joints).expect_err("no root");
         let expected = Fault::RatesNotFinite {
-            origin: NotFinite::State("level"),
+            origin: NotFinite::Rate("level"),
         };
         assert_eq!(error.fault, expected);
         let text = error.fault.to_string();

@@ -42,12 +42,6 @@ struct Motor {
     displacement: f64,
     #[state(rate = sleeve.rate)]
     which: f64,
-    #[state(rate = socket.angle)]
-    socket_angle: f64,
-    #[state(rate = spring.rate)]
-    spring_rate: f64,
-    #[state(rate = pull.lenght)]
-    length: f64,
     #[state(rate = tan(current) + current % 2.0)]
     functions: f64,
     #[state(rate = bearings[2].rate)]
