@@ -359,35 +359,11 @@ impl<'a> Numbers<'a> {
     }
 
     /// The place of a run-time value by its name.
-    fn place(&self, expr: &Expr, faults: &mut Faults) -> Found {
+    pub(super) fn place(&self, expr: &Expr, faults: &mut Faults) -> Found {
         let names = self.values.iter().map(|value| &value.name);
         Reference::of(expr).map_or(Found::Nothing, |reference| {
             reference.find(names, self.unmeasured, &self.field, faults)
         })
-    }
-
-    /// Whether an expression names a run-time value.
-    pub(super) fn is_value(&self, expr: &Expr) -> bool {
-        Faults::unheard(|faults| self.place(expr, faults)) != Found::Nothing
-    }
-
-    /// Whether an expression names a state of the user's own.
-    pub(super) fn is_state(&self, expr: &Expr) -> bool {
-        Faults::unheard(|faults| self.state(expr, faults)).is_some()
-    }
-
-    /// The place among the user's own states of what an expression names; `None` if it names none.
-    pub(super) fn state(&self, expr: &Expr, faults: &mut Faults) -> Option<Found> {
-        let starts = self.values.iter().filter(|value| value.is_start);
-        let names = starts.map(|value| &value.name);
-        let found = Reference::of(expr)?.find(names, self.unmeasured, &self.field, faults);
-        (found != Found::Nothing).then_some(found)
-    }
-
-    /// The start of a state, which is where it stands among the run-time values.
-    pub(super) fn start(&mut self, place: usize, span: Span) -> Number {
-        let value = self.at_run_time(place);
-        self.number(Value::Later(value), span)
     }
 
     fn run_time_value(&self, place: usize, at: &Expr, faults: &mut Faults) -> Option<Later> {
@@ -413,7 +389,7 @@ impl<'a> Numbers<'a> {
         Some(self.at_run_time(place))
     }
 
-    fn at_run_time(&self, place: usize) -> Later {
+    pub(super) fn at_run_time(&self, place: usize) -> Later {
         let value = &self.values[place];
         let (name, parameters) = (value_name(&value.name), local("parameters"));
         Later {

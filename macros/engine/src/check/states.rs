@@ -1,15 +1,18 @@
 //! The user's own states: their rates, and what these read of joints and forces.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 use syn::spanned::Spanned;
-use syn::{ExprField, Member};
+use syn::{Expr, ExprField, Member};
 
 use super::elements::{Found, Reference, bare, known};
 use super::expression::too_large;
+use super::later::Value as Known;
 use super::laws::LawReader;
 use super::number::Numbers;
 use crate::diag::{Faults, did_you_mean, list};
-use crate::model::{Element, ElementDef, ElementKind, Extent, LawTerm, Name, Term, UserState};
+use crate::model::{
+    Element, ElementDef, ElementKind, Extent, LawTerm, Name, Number, Term, UserState,
+};
 use crate::syntax::Value;
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
 
@@ -104,6 +107,32 @@ impl Readings<'_> {
             reference.at(),
             format!("no joint or force `{text}`; {there}{near}"),
         );
+    }
+}
+
+impl Numbers<'_> {
+    /// Whether an expression names a run-time value.
+    pub(super) fn is_value(&self, expr: &Expr) -> bool {
+        Faults::unheard(|faults| self.place(expr, faults)) != Found::Nothing
+    }
+
+    /// Whether an expression names a state of the user's own.
+    pub(super) fn is_state(&self, expr: &Expr) -> bool {
+        Faults::unheard(|faults| self.state(expr, faults)).is_some()
+    }
+
+    /// The place among the user's own states of what an expression names; `None` if it names none.
+    pub(super) fn state(&self, expr: &Expr, faults: &mut Faults) -> Option<Found> {
+        let starts = self.values.iter().filter(|value| value.is_start);
+        let names = starts.map(|value| &value.name);
+        let found = Reference::of(expr)?.find(names, self.unmeasured, &self.field, faults);
+        (found != Found::Nothing).then_some(found)
+    }
+
+    /// The start of a state, which is where it stands among the run-time values.
+    pub(super) fn start(&mut self, place: usize, span: Span) -> Number {
+        let value = self.at_run_time(place);
+        self.number(Known::Later(value), span)
     }
 }
 
