@@ -8,7 +8,7 @@ use proc_macro::TokenStream;
 /// `holonom`.
 #[proc_macro_derive(
     Mechanism,
-    attributes(mechanism, body, joint, force, point, part, port, param, input)
+    attributes(mechanism, body, joint, force, point, part, port, param, input, state)
 )]
 pub fn derive_mechanism(input: TokenStream) -> TokenStream {
     holonom_engine::derive(input.into()).into()
@@ -18,7 +18,7 @@ pub fn derive_mechanism(input: TokenStream) -> TokenStream {
 /// of `holonom`.
 #[proc_macro_derive(
     Assembly,
-    attributes(mechanism, body, joint, force, point, part, port, param, input)
+    attributes(mechanism, body, joint, force, point, part, port, param, input, state)
 )]
 pub fn derive_assembly(input: TokenStream) -> TokenStream {
     holonom_engine::derive_assembly(input.into()).into()

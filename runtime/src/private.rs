@@ -12,7 +12,7 @@ pub use crate::mechanism::{
     HasCoriolis, HasDisplacement, HasGravity, HasInverse, HasJacobian, HasMassMatrix, Joint,
     JointCounter, JointInfo, JointMotion, JointRates, JointReport, Kernel, Marker, MarkerKind,
     Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape, ShapeKind,
-    Stabilisation, Terms, ValueHandle, ValueInfo,
+    Stabilisation, StateHandle, StateInfo, Terms, ValueHandle, ValueInfo,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -43,6 +43,7 @@ pub fn evaluate_in_parts<S: Scalar, M: Mechanism, T: Terms>(
     let mut coordinate_rates = M::coordinate_rates(constants, &read);
     // Those of Euler parameters are made of these as they are.
     scale_euler_rates::<S, M>(&mut coordinate_rates, state, |length| length);
+    M::state_rates_into(constants, time, &read, &mut coordinate_rates);
     *rates = M::State::from_parts(coordinate_rates, accelerations);
     *multipliers = solved;
     pivot
@@ -377,6 +378,8 @@ macro_rules! __stub_mechanism {
     (@value part $part:ty) => { <$part>::VALUE };
     (@handle value) => { $crate::__private::ValueHandle<__M> };
     (@value value) => { $crate::__private::ValueHandle::new(0) };
+    (@handle state) => { $crate::__private::StateHandle<__M> };
+    (@value state) => { $crate::__private::StateHandle::new(0) };
     (@handle point) => { $crate::__private::PointHandle<__M> };
     (@value point) => { $crate::__private::PointHandle::new(0) };
     (@value body) => { $crate::BodyHandle::new(0) };
@@ -435,6 +438,7 @@ macro_rules! __stub_mechanism {
                     blocks: &[],
                     coordinates: 0,
                     auxiliaries: 0,
+                    states: &[],
                     velocities: 0,
                     equations: 0,
                     rank: $crate::mechanism::Rank::NotDecided,
@@ -509,6 +513,7 @@ macro_rules! __stub_joints {
                 euler_parameters: &[],
                 counters: &[],
                 auxiliaries: 0,
+                states: &[],
                 rewraps: false,
                 determines: false,
             };

@@ -107,6 +107,14 @@ impl Faults {
         result.map_err(|error| self.add(error)).ok()
     }
 
+    /// What a reader finds, whatever it refuses on the way: for one that only looks.
+    pub fn unheard<T>(look: impl FnOnce(&mut Self) -> T) -> T {
+        let mut faults = Self::new();
+        let found = look(&mut faults);
+        faults.read = true;
+        found
+    }
+
     /// Whether there is a fault.
     #[must_use]
     pub fn any(&self) -> bool {

@@ -41,7 +41,8 @@ pub(crate) fn counted_apart<S: Real, M: Mechanism>(from: &M::State<S>, to: &M::S
     let angles = |state: &M::State<S>| *state.coordinates();
     let (from, to) = (angles(from), angles(to));
     let pairs = from.as_slice().iter().zip(to.as_slice());
-    let changes = pairs.skip(M::REPORT.coordinates);
+    let pairs = pairs.skip(M::REPORT.coordinates);
+    let changes = pairs.take(M::REPORT.auxiliaries);
     changes.fold(S::zero(), |most, (&a, &b)| most.max((b - a).abs()))
 }
 

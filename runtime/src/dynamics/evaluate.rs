@@ -206,7 +206,7 @@ where
             Err(fault) => return Err(fault),
         }
         let constants = &self.equations.constants;
-        C::finish(constants, state, rates, &solution.accelerations);
+        C::finish(constants, time, state, rates, &solution.accelerations);
         *multipliers = solution.multipliers;
         Ok(Parts {
             pivot: first.pivot,

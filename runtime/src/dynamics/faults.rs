@@ -2,7 +2,7 @@
 
 use super::{Dynamics, Evaluator, vanishes};
 use crate::constraints::extent::farthest;
-use crate::dynamics::origin::{before_accelerations, differing};
+use crate::dynamics::origin::{before_accelerations, differing, state_of};
 use crate::error::{Fault, NotFinite};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
@@ -133,7 +133,10 @@ where
             C::body_of_velocity(place).map(NotFinite::Body)
         };
         Fault::RatesNotFinite {
-            origin: origin.or_else(of_body).unwrap_or(NotFinite::Unknown),
+            origin: origin
+                .or_else(of_body)
+                .or_else(|| state_of::<S, M>(self.absolute, time, read))
+                .unwrap_or(NotFinite::Unknown),
         }
     }
 
@@ -152,7 +155,7 @@ where
         }
         let constants = &self.equations.constants;
         let (pivot, _) = self.begin(time, state, rates, |first, rates| {
-            C::finish(constants, state, rates, first.accelerations);
+            C::finish(constants, time, state, rates, first.accelerations);
             first.pivot
         });
         pivot

@@ -68,7 +68,7 @@ where
                 lifted,
                 rates,
                 Some(law),
-                |first, rates| C::finish(constants, lifted, rates, first.accelerations),
+                |first, rates| C::finish(constants, at, lifted, rates, first.accelerations),
             );
         })
     }

@@ -4,7 +4,7 @@ use super::trial::Trial;
 use super::{Dynamics, singular, vanishes};
 use crate::constraints::extent::extent;
 use crate::constraints::extent::farthest;
-use crate::error::Fault;
+use crate::error::{Fault, LeavesOut};
 use crate::formulation::{Formulation, add};
 use crate::integrate::{AlphaEnd, AlphaStep, RigidConstraints};
 use crate::math::scalar::Real;
@@ -12,7 +12,7 @@ use crate::math::vec3::{read, write};
 use crate::measure::load::AppliedForces;
 use crate::mechanism::blocks::add_product;
 use crate::mechanism::coordinates::Absolute;
-use crate::mechanism::kernels::{Mechanism, Orientation, Rigid};
+use crate::mechanism::kernels::{Mechanism, Orientation, Rigid, bodies_alone};
 use crate::state::vector::{Array, StateParts, Vector};
 
 /// Iterations that a step may take.
@@ -73,6 +73,7 @@ where
         &mut self,
         asked: &AlphaStep<'_, S, M::State<S>>,
     ) -> Result<AlphaEnd<M::State<S>>, Fault> {
+        bodies_alone::<M>(LeavesOut::Method)?;
         let mass = M::mass(self.constants());
         let first = M::jacobian(self.constants(), asked.end - asked.step, asked.state);
         let mut trial = Trial::<S, M>::new(asked, first);

@@ -48,6 +48,23 @@ pub(crate) fn before_accelerations<S: Real, M: Mechanism, T: Terms>(
     joint(&M::REPORT, rows, jacobian.as_slice()).map(NotFinite::Joint)
 }
 
+/// The first of the user's own states whose rate is not finite.
+#[cold]
+pub(crate) fn state_of<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> Option<NotFinite> {
+    let mut rates = Array::zeros();
+    M::state_rates_into(constants, time, state, &mut rates);
+    let mut states = M::REPORT.states.iter();
+    let found = states.find(|info| {
+        let rate = rates.as_slice().get(info.coordinate);
+        !all_finite(rate.into_iter())
+    });
+    found.map(|info| NotFinite::Rate(info.name))
+}
+
 /// The first joint with an element that is not finite, in a value for each row or in `D`.
 fn joint<S: Real>(report: &Report, rows: [&[S]; 3], jacobian: &[S]) -> Option<&'static str> {
     let mut joints = report.joints.iter().enumerate();

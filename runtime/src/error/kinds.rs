@@ -68,6 +68,13 @@ pub enum Fault {
         /// The body's field.
         body: &'static str,
     },
+    /// The mechanism has a state of the user's own, with a rate, which was asked to be left out.
+    StateLeftOut {
+        /// The state's field.
+        state: &'static str,
+        /// Who leaves it out.
+        by: LeavesOut,
+    },
     /// The rates came out as NaN or infinity: forces beyond the range of numbers, or a singular
     /// system.
     RatesNotFinite {
@@ -417,6 +424,20 @@ pub enum NotFinite {
     Joint(&'static str),
     /// The acceleration of a body, while forces and equations are finite.
     Body(&'static str),
+    /// The rate of a state of the user's own.
+    Rate(&'static str),
+}
+
+/// What knows the motion of bodies alone, and no states of the user's own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LeavesOut {
+    /// A method that moves bodies alone: [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    Method,
+    /// A [`KinematicAnalysis`](crate::KinematicAnalysis), which integrates nothing.
+    Kinematics,
+    /// A linearisation, an equilibrium, a trim or a continuation in chosen coordinates.
+    Linearisation,
 }
 
 /// What a joint's equations are about.

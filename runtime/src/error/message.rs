@@ -5,7 +5,8 @@ use core::fmt;
 
 use crate::error::readable::{Given, Measured};
 use crate::error::{
-    AngleSet, Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
+    AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
+    SimulationError,
 };
 
 impl fmt::Display for ParameterError {
@@ -61,6 +62,23 @@ impl fmt::Display for Fault {
             Self::ZeroOrientation { body } => {
                 write!(f, "the Euler parameters of body `{body}` have no length")
             }
+            Self::StateLeftOut { state, by } => {
+                let why = match by {
+                    LeavesOut::Method => {
+                        "the generalized-alpha method moves bodies alone; take another method"
+                    }
+                    LeavesOut::Kinematics => {
+                        "a kinematic analysis integrates nothing; take a simulation"
+                    }
+                    LeavesOut::Linearisation => {
+                        "linearisations and equilibria know the chosen coordinates alone"
+                    }
+                };
+                write!(
+                    f,
+                    "the state `{state}` of the mechanism has a rate of its own: {why}"
+                )
+            }
             Self::RatesNotFinite { origin } => {
                 write!(f, "the rates of the state are not finite")?;
                 match origin {
@@ -78,6 +96,9 @@ impl fmt::Display for Fault {
                     ),
                     NotFinite::Body(name) => {
                         write!(f, ": the acceleration of body `{name}` is not finite")
+                    }
+                    NotFinite::Rate(name) => {
+                        write!(f, ": the rate of state `{name}` is not finite")
                     }
                 }
             }

@@ -11,5 +11,6 @@ pub(crate) mod sentence;
 pub(crate) mod setting;
 
 pub use kinds::{
-    AngleSet, Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
+    AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
+    SimulationError,
 };

@@ -9,6 +9,7 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
+use crate::mechanism::relative::rates_of_motion;
 use crate::state::vector::Vector as _;
 
 /// A state, and the accelerations there.
@@ -108,7 +109,7 @@ where
         let partition = self.equations.partition(state)?;
         let mut slope = *state;
         write_rates::<M, N, S>(&partition, way, false, &mut slope);
-        let slope = M::joint_coordinate_rates(constants, *time, &slope);
+        let slope = rates_of_motion::<S, M>(constants, *time, &slope);
         let mut there = self.closed(state.plus([(S::one(), &slope)]))?;
         if M::JOINT_REPORT.rewraps {
             let mut bodies = self.bodies(&there);

@@ -15,9 +15,10 @@ use crate::math::quaternion::product;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
 use crate::mechanism::handle::ValueHandle;
+use crate::mechanism::joint_kernels::JointParts as _;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::relative::{bodies_by, bodies_of};
+use crate::mechanism::relative::{bodies_by, bodies_of, rates_of_motion};
 use crate::state::vector::{Array as _, StateParts};
 
 /// What derivatives are taken by: a parameter or an input, or a chosen coordinate or its rate at
@@ -162,7 +163,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let slopes = ways.map(|way| {
                 let mut turned = *state;
                 put_velocities::<M, S>(&way, &mut turned);
-                M::joint_coordinate_rates(&self.equations.constants, self.equations.time, &turned)
+                rates_of_motion::<S, M>(&self.equations.constants, self.equations.time, &turned)
             });
             moved::<M, S, K>(state, &slopes)
         };
@@ -179,6 +180,16 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             }
         }
         let mut there = here(&ways);
+        // The start of a state of the user's own is its value here.
+        for (lane, direction) in directions.iter().enumerate() {
+            let is_varied =
+                |value| matches!(direction, Some(Along::Value(place)) if *place == value);
+            for info in M::JOINT_REPORT.states {
+                if is_varied(info.value) {
+                    vary(there.rest_slice_mut().get_mut(info.coordinate), lane);
+                }
+            }
+        }
         if let Some(dependent) = equations.following(&there)? {
             write_rates::<M, N, Forward<S, K>>(&dependent, &rates_along, true, &mut there);
         } else {

@@ -10,7 +10,7 @@ use super::equations::Factors;
 use super::linearised::Linearised;
 use super::partition::{Partition, joint_rates};
 use super::varied::Adjusted;
-use crate::error::{Fault, NotFinite};
+use crate::error::{Fault, LeavesOut, NotFinite};
 use crate::forward::{Forward, Lifted};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
@@ -18,6 +18,7 @@ use crate::measure::view::View;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
+use crate::mechanism::kernels::bodies_alone;
 use crate::state::vector::Array;
 
 /// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
@@ -128,6 +129,7 @@ where
         outcome: Outcome,
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Linearised<N, K, P, S>, Fault> {
+        bodies_alone::<M>(LeavesOut::Linearisation)?;
         let mut linear = Linearised::<N, K, P, S>::zeros();
         let partition = self.equations.partition(state)?;
         let rates = joint_rates::<M, S>(state);

@@ -13,7 +13,7 @@ use crate::math::vec3::{cross, minus, plus, read, times};
 use crate::mechanism::joint_rates::{HasJacobian, HasMassMatrix, JointRates};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::{Located, Place};
-use crate::mechanism::relative::each_body;
+use crate::mechanism::relative::{each_body, rates_of_motion};
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, MovingState, Vector};
 
@@ -169,7 +169,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let Equations {
             constants, time, ..
         } = &self.equations;
-        let slope = M::joint_coordinate_rates(constants, *time, state);
+        let slope = rates_of_motion::<S, M>(constants, *time, state);
         let moved = moved::<M, S, 1>(state, &[slope]);
         let mut equations = self.equations.lifted::<1>();
         equations.time = Forward::new(*time, [S::one()]);

@@ -14,7 +14,7 @@ use crate::math::vec3::{cross, minus, plus, read};
 use crate::measure::view::View;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::joint_rates::{HasJacobian, JointRates};
-use crate::mechanism::relative::{BodyMotion, each_body};
+use crate::mechanism::relative::{BodyMotion, each_body, rates_of_motion};
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::Array;
 
@@ -133,7 +133,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let accelerations: [S; N] = finite(accelerations)?.into();
         let partition = equations.partition(state)?;
         let all = equations.accelerations(Some(&partition), &accelerations);
-        let mut slope = M::joint_coordinate_rates(&equations.constants, equations.time, state);
+        let mut slope = rates_of_motion::<S, M>(&equations.constants, equations.time, state);
         put_velocities::<M, S>(&all, &mut slope);
         let moving = moved::<M, S, 1>(state, &[slope]);
         let motions = M::body_motions(&equations.lifted::<1>().constants, &moving);

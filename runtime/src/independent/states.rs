@@ -13,7 +13,7 @@ use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_kernels::{Freedom, JointMotion};
 use crate::mechanism::joint_rates::JointRates;
-use crate::mechanism::relative::bodies_of;
+use crate::mechanism::relative::{bodies_of, rates_of_motion};
 use crate::state::vector::{Array, MovingState, Vector as _};
 
 /// What an angle is turned at once while loops are closed (rad).
@@ -155,7 +155,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         }
         let mut moving = *state;
         put_velocities::<M, S>(&rates, &mut moving);
-        let slope = M::joint_coordinate_rates(constants, *time, &moving);
+        let slope = rates_of_motion::<S, M>(constants, *time, &moving);
         state.plus([(S::one(), &slope)])
     }
 
@@ -178,7 +178,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let partition = self.equations.partition(&state)?;
         let mut way = state;
         write_rates::<M, N, S>(&partition, &left, false, &mut way);
-        let way = M::joint_coordinate_rates(&self.equations.constants, time, &way);
+        let way = rates_of_motion::<S, M>(&self.equations.constants, time, &way);
         self.closed(state.plus([(S::one(), &way)]))
     }
 
@@ -212,7 +212,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             before = open;
             let mut slope = state;
             put_velocities::<M, S>(&closing, &mut slope);
-            let slope = M::joint_coordinate_rates(constants, *time, &slope);
+            let slope = rates_of_motion::<S, M>(constants, *time, &slope);
             state = state.plus([(S::one(), &slope)]);
         }
         Ok(state)

@@ -12,7 +12,7 @@ use crate::math::quaternion::{
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read, write};
 use crate::mechanism::handle::{
-    BodyHandle, CountsTurns, HasAngle, HasDisplacement, Joint, JointHandle,
+    BodyHandle, CountsTurns, HasAngle, HasDisplacement, Joint, JointHandle, StateHandle,
 };
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
@@ -187,6 +187,21 @@ pub trait MechanismExt: Mechanism {
             *place = angle;
         }
         Ok(())
+    }
+
+    /// The value of a state of the user's own, in the unit that its rate and its start have.
+    fn state_value<S: Scalar>(state: &Self::State<S>, of: StateHandle<Self>) -> S {
+        let [value] = read(state.coordinates().as_slice(), of.coordinate());
+        value
+    }
+
+    /// Sets a state of the user's own. It moves no body.
+    fn set_state_value<S: Scalar>(state: &mut Self::State<S>, of: StateHandle<Self>, value: S) {
+        write(
+            state.coordinates_mut().as_mut_slice(),
+            of.coordinate(),
+            [value],
+        );
     }
 
     /// Sets the angle of a joint (rad), as [`View::angle`](crate::View::angle) reads it: what the

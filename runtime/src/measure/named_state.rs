@@ -8,6 +8,7 @@
 mod bodies;
 mod counters;
 mod names;
+mod states;
 
 use core::fmt;
 
@@ -18,6 +19,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use self::bodies::Bodies;
 use self::counters::Counters;
 use self::names::NameOf;
+use self::states::States;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
@@ -41,6 +43,7 @@ use crate::mechanism::orientations::check_state;
 /// | `.. angular_velocity` | along **principal** axes (rad/s); not of a particle |
 /// | `.. principal_axes` | Euler parameters of the rotation from the user's axes to the principal axes; not of a particle |
 /// | `unwrapped_angles` | by the name of the joint or force that counts turns: its angles (rad) |
+/// | `states` | by the name of the field: the value of a state of the user's own; only where there are any |
 ///
 /// Numbers come back bit for bit where the format keeps them: with `serde_json`, turn on its
 /// feature `float_roundtrip`.
@@ -109,11 +112,15 @@ impl<M: Mechanism, S: Real> fmt::Debug for NamedState<M, S> {
 impl<M: Mechanism, S: Real + Serialize> Serialize for NamedState<M, S> {
     fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
         check::<M, S>(self.time, &self.state).map_err(W::Error::custom)?;
-        let mut fields = serializer.serialize_struct("NamedState", 4)?;
+        let count = if States::<M, S>::NONE { 4 } else { 5 };
+        let mut fields = serializer.serialize_struct("NamedState", count)?;
         fields.serialize_field("mechanism", M::REPORT.name)?;
         fields.serialize_field("time", &self.time)?;
         fields.serialize_field("bodies", &Bodies::<M, S>(self.state))?;
         fields.serialize_field("unwrapped_angles", &Counters::<M, S>(self.state))?;
+        if !States::<M, S>::NONE {
+            fields.serialize_field("states", &States::<M, S>(self.state))?;
+        }
         fields.end()
     }
 }
@@ -130,6 +137,11 @@ impl<'de, M: Mechanism, S: Real + Deserialize<'de>> Deserialize<'de> for NamedSt
             ..
         } = read;
         read.unwrapped_angles.put_into(&mut state);
+        match &read.states {
+            Some(states) => states.put_into(&mut state),
+            None if States::<M, S>::NONE => {}
+            None => return Err(D::Error::missing_field("states")),
+        }
         check::<M, S>(time, &state).map_err(D::Error::custom)?;
         Ok(Self { time, state })
     }
@@ -148,6 +160,12 @@ struct Parts<M: Mechanism, S: Real> {
     time: S,
     bodies: Bodies<M, S>,
     unwrapped_angles: Counters<M, S>,
+    #[serde(default = "none")]
+    states: Option<States<M, S>>,
+}
+
+const fn none<T>() -> Option<T> {
+    None
 }
 
 /// Refuses a state that is none.

@@ -12,7 +12,7 @@ use crate::math::vec3::{minus, read, square, times};
 use crate::measure::access::{MechanismExt, Pose};
 use crate::measure::reaction::{Wrench, wrench};
 use crate::mechanism::handle::{
-    BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle,
+    BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle, StateHandle,
 };
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
@@ -225,6 +225,22 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     #[must_use]
     pub fn displacement_rate<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
         self.displacement_parts(joint.index()).rate
+    }
+
+    /// The value of a state of the user's own, in the unit that its rate and its start have.
+    #[must_use]
+    pub fn state_value(&self, of: StateHandle<M>) -> S {
+        M::state_value(self.state, of)
+    }
+
+    /// The rate of a state of the user's own, in its unit a second.
+    #[must_use]
+    pub fn state_rate(&self, of: StateHandle<M>) -> S {
+        let mut rates = Array::zeros();
+        let state = self.state_of_kernels();
+        M::state_rates_into(self.constants(), self.time, &state, &mut rates);
+        let [rate] = read(rates.as_slice(), of.coordinate());
+        rate
     }
 
     /// The effort of a driver: the generalised force with which it acts on the quantity that it

@@ -119,18 +119,19 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     #[inline(always)]
     fn finish<S: Scalar>(
         constants: &M::Constants<S>,
+        time: S,
         state: &M::State<S>,
         rates: &mut M::State<S>,
         accelerations: &M::Velocities<S>,
     ) {
-        *rates.coordinates_mut() = coordinate_rates::<S, M, P>(constants, state, rates);
+        *rates.coordinates_mut() = coordinate_rates::<S, M, P>(constants, time, (state, rates));
         *rates.velocities_mut() = *accelerations;
     }
 
     #[inline]
     fn with_new_velocities<S: Scalar>(
         constants: &M::Constants<S>,
-        _time: S,
+        time: S,
         state: &M::State<S>,
         step: S,
         rates: &mut M::State<S>,
@@ -140,7 +141,7 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         for (velocity, &rate) in velocities.zip(rates.rates_slice()) {
             *velocity = rate.fused(step, *velocity);
         }
-        *rates.coordinates_mut() = coordinate_rates::<S, M, P>(constants, state, &end);
+        *rates.coordinates_mut() = coordinate_rates::<S, M, P>(constants, time, (state, &end));
     }
 
     #[inline]
@@ -256,13 +257,14 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
 #[inline]
 fn coordinate_rates<S: Scalar, M: Mechanism, P: Orientation>(
     constants: &M::Constants<S>,
-    state: &M::State<S>,
-    read: &M::State<S>,
+    time: S,
+    (state, read): (&M::State<S>, &M::State<S>),
 ) -> <M::State<S> as StateParts<S>>::Coordinates {
     let mut rates = M::coordinate_rates(constants, read);
     if !P::NORMALISED_RATES {
         scale_euler_rates::<S, M>(&mut rates, state, |length| length);
     }
+    M::state_rates_into(constants, time, read, &mut rates);
     rates
 }
 

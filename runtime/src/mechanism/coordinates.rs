@@ -162,6 +162,7 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
     #[doc(hidden)]
     fn finish<S: Scalar>(
         constants: &Self::Constants<S>,
+        time: S,
         state: &Self::State<S>,
         rates: &mut Self::State<S>,
         accelerations: &Self::Velocities<S>,

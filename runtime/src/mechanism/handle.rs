@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::{
-    BodyInfo, BodyKind, ForceInfo, JointInfo, PointInfo, RedundantRow, ValueInfo,
+    BodyInfo, BodyKind, ForceInfo, JointInfo, PointInfo, RedundantRow, StateInfo, ValueInfo,
 };
 
 /// A joint as a type: its equations and the bodies that it connects.
@@ -155,6 +155,26 @@ handle! {
 handle! {
     /// A parameter or an input of the mechanism `M`.
     ValueHandle<M>, values: ValueInfo
+}
+
+handle! {
+    /// A state of the user's own in the mechanism `M`: a field with `#[state(rate = ..)]`.
+    StateHandle<M>, states: StateInfo
+}
+
+impl<M: Mechanism> StateHandle<M> {
+    /// Where the state starts, as a value of the mechanism: for
+    /// [sensitivities](crate::sensitivity::SensitivityExt::sensitivities) by it.
+    #[must_use]
+    pub fn start(self) -> ValueHandle<M> {
+        // One that is not there has no value.
+        ValueHandle::new(self.info().map_or(usize::MAX, |info| info.value))
+    }
+
+    /// Its place among the coordinates of a state.
+    pub(crate) fn coordinate(self) -> usize {
+        self.info().map_or(usize::MAX, |info| info.coordinate)
+    }
 }
 
 impl<M: Mechanism> BodyHandle<M> {

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use crate::math::scalar::Scalar;
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
-use crate::mechanism::report::Kernel;
+use crate::mechanism::report::{Kernel, StateInfo};
 use crate::state::joint_state::JointState;
 use crate::state::vector::{Array, MovingState};
 
@@ -213,8 +213,11 @@ pub struct JointReport {
     pub euler_parameters: &'static [usize],
     /// What the auxiliary variables count, one after the other.
     pub counters: &'static [JointCounter],
-    /// How many of the further coordinates are auxiliary variables; they are the last.
+    /// How many of the further coordinates are auxiliary variables; they are the last but for the
+    /// user's own states.
     pub auxiliaries: usize,
+    /// The user's own states, which are the last of the further coordinates.
+    pub states: &'static [StateInfo],
     /// Whether some of these count angles that are no sums of the turns of joints, so that they are
     /// put right after every step.
     pub rewraps: bool,

@@ -222,6 +222,10 @@ impl fmt::Display for JointReport {
                 "rest()[{coordinate}]: an auxiliary variable, the angle that `{element}` counts turns of (rad)"
             )?;
         }
+        for state in self.states {
+            let (name, coordinate) = (state.name, state.coordinate);
+            writeln!(f, "rest()[{coordinate}]: the state `{name}`")?;
+        }
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use crate::error::ParameterError;
+use crate::error::{Fault, LeavesOut, ParameterError};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
@@ -249,11 +249,23 @@ pub trait Mechanism: Sized + 'static {
     }
 
     /// The rates of the coordinates: `r' = v`, `p' = 1/2 L(p)^T w` with `p` as it is; behind them
-    /// the rates of the auxiliary variables.
+    /// the rates of the auxiliary variables, and zeros for the user's own states: a motion of the
+    /// bodies leaves these as they are.
     fn coordinate_rates<S: Scalar>(
         constants: &Self::Constants<S>,
         state: &Self::State<S>,
     ) -> <Self::State<S> as StateParts<S>>::Coordinates;
+
+    /// Writes the rates of the user's own states in their places ([`Report::states`]), and leaves
+    /// the others. Without effect where there are none.
+    #[inline(always)]
+    fn state_rates_into<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _rates: &mut <Self::State<S> as StateParts<S>>::Coordinates,
+    ) {
+    }
 
     /// A point or direction that a joint or force names, by its place in [`Report::markers`]: in
     /// principal axes of its body, a point from the centre of mass (m); in global axes on the
@@ -515,4 +527,15 @@ impl Orientation for Normalised {
 
 impl Orientation for Chapter15 {
     const NORMALISED_RATES: bool = true;
+}
+
+/// Refuses a mechanism with states of the user's own.
+pub(crate) fn bodies_alone<M: Mechanism>(by: LeavesOut) -> Result<(), Fault> {
+    match M::REPORT.states {
+        [] => Ok(()),
+        [first, ..] => Err(Fault::StateLeftOut {
+            state: first.name,
+            by,
+        }),
+    }
 }

@@ -24,7 +24,8 @@ pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };
 pub use handle::{
-    CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint, PointHandle, ValueHandle,
+    CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint, PointHandle, StateHandle,
+    ValueHandle,
 };
 /// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
 /// [`guide::parts`](crate::guide::parts).
@@ -44,5 +45,6 @@ pub use point::{Located, Point};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{
     Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
-    Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind, ValueInfo,
+    Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind, StateInfo,
+    ValueInfo,
 };

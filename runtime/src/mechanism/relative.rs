@@ -163,6 +163,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     #[inline(always)]
     fn finish<S: Scalar>(
         _constants: &M::JointConstants<S>,
+        _time: S,
         _state: &M::JointState<S>,
         rates: &mut M::JointState<S>,
         accelerations: &M::JointVelocities<S>,
@@ -222,8 +223,10 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
             let counted = bodies.coordinates().as_slice();
             let counted = counted.get(M::REPORT.coordinates..).unwrap_or(&[]);
             let rest = state.rest_slice_mut();
-            let first = rest.len().saturating_sub(M::JOINT_REPORT.auxiliaries);
-            for (place, &value) in counted.iter().enumerate() {
+            let last = M::JOINT_REPORT.auxiliaries + M::JOINT_REPORT.states.len();
+            let first = rest.len().saturating_sub(last);
+            let counted = counted.iter().take(M::JOINT_REPORT.auxiliaries);
+            for (place, &value) in counted.enumerate() {
                 write(rest, first + place, [value]);
             }
         }
@@ -309,6 +312,20 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     }
 }
 
+/// The rates of the coordinates by the velocities alone: the user's own states stay what they are
+/// along a way that is no motion in time.
+pub(crate) fn rates_of_motion<S: Scalar, M: JointCoordinates>(
+    constants: &M::JointConstants<S>,
+    time: S,
+    state: &M::JointState<S>,
+) -> M::JointState<S> {
+    let mut rates = M::joint_coordinate_rates(constants, time, state);
+    for own in M::JOINT_REPORT.states {
+        write(rates.rest_slice_mut(), own.coordinate, [S::zero()]);
+    }
+    rates
+}
+
 /// `x = x + y`.
 fn add<S: Scalar>(x: &mut [S], y: &[S]) {
     x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x + y);
@@ -325,7 +342,8 @@ pub(crate) struct BodyMotion<S> {
     pub(crate) rotation: Option<([[S; 3]; 3], [S; 3])>,
 }
 
-/// The motions of the bodies one after the other, and behind them the auxiliary variables.
+/// The motions of the bodies one after the other, and behind them the auxiliary variables and the
+/// user's own states.
 pub(crate) fn each_body<S: Scalar, M: JointCoordinates>(
     motions: &[S],
     mut then: impl FnMut(usize, &'static BodyInfo, BodyMotion<S>),
@@ -352,7 +370,7 @@ pub(crate) fn each_body<S: Scalar, M: JointCoordinates>(
         };
         then(number, body, motion);
     }
-    next(M::REPORT.auxiliaries)
+    next(M::REPORT.auxiliaries + M::REPORT.states.len())
 }
 
 /// How the bodies of joint coordinates stand and move.

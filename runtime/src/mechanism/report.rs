@@ -17,7 +17,7 @@ pub struct Report {
     pub markers: &'static [Marker],
     /// The named points in the order of the fields.
     pub points: &'static [PointInfo],
-    /// Parameters and inputs in the order of the fields.
+    /// Parameters, inputs and the starts of states, in the order of the fields.
     pub values: &'static [ValueInfo],
     /// What bodies look like that are described by shapes, body by body: see
     /// [`crate::Mechanism::shape`].
@@ -31,6 +31,9 @@ pub struct Report {
     /// Auxiliary variables, which stand behind the coordinates of the bodies in a state: angles
     /// that count turns (rad).
     pub auxiliaries: usize,
+    /// The user's own states in the order of the fields. In a state they stand behind the auxiliary
+    /// variables.
+    pub states: &'static [StateInfo],
     /// Velocities `u`: six a body, three a particle.
     pub velocities: usize,
     /// Constraint equations; those that were left out do not count.
@@ -61,9 +64,9 @@ pub struct Report {
 pub struct ExplicitTime {
     /// In the constraints: the mechanism has drivers.
     pub constraints: bool,
-    /// In forces.
+    /// In forces, and in the rates of the user's own states.
     pub forces: bool,
-    /// In potential energies.
+    /// In potential energies, or one of the user's own states does.
     pub potential: bool,
     /// The instants (s), in order, at which a `smooth_step` of the time begins or ends: those whose
     /// numbers the macro can see. A run begins its integration anew there, so that no step passes
@@ -277,7 +280,20 @@ pub struct PointInfo {
     pub body: Option<usize>,
 }
 
-/// A parameter or an input.
+/// A state of the user's own: a number that integrates a rate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StateInfo {
+    /// The name of the field.
+    pub name: &'static str,
+    /// Its place: among the coordinates of a state, or among
+    /// [`rest`](crate::state::JointState::rest) in joint coordinates.
+    pub coordinate: usize,
+    /// The place of its start in [`Report::values`].
+    pub value: usize,
+}
+
+/// A parameter, an input, or the start of a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ValueInfo {

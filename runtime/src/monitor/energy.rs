@@ -9,7 +9,9 @@ use super::limits::{self, above};
 use super::record::{Look, MonitoredStep, RunFacts};
 use super::warning::Warning;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::{read, write};
 use crate::mechanism::kernels::Mechanism;
+use crate::state::vector::{Array, StateParts};
 
 /// A change of energy that no force accounts for, over the energy that the mechanism exchanges:
 /// motions go with the root of their energy, so one of this size is right to about a hundredth.
@@ -27,6 +29,20 @@ pub(super) struct Energy<S: Scalar, M: Mechanism> {
     balance: Balance<S>,
     /// The end of the last step, where potentials change with time by themselves.
     before: Option<(S, M::State<S>)>,
+}
+
+/// Bodies of one state with the user's own states of another.
+fn with_states_of<S: Real, M: Mechanism>(bodies: M::State<S>, of: &M::State<S>) -> M::State<S> {
+    let mut mixed = bodies;
+    for info in M::REPORT.states {
+        let value: [S; 1] = read(of.coordinates().as_slice(), info.coordinate);
+        write(
+            mixed.coordinates_mut().as_mut_slice(),
+            info.coordinate,
+            value,
+        );
+    }
+    mixed
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Energy<S, M> {
@@ -64,13 +80,16 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         self.balance.level(time, look.kinetic, look.potential);
     }
 
-    /// What a potential gains by the time alone, at either end of a step.
+    /// What a potential gains by the time and by the user's own states alone, at either end of a
+    /// step.
     fn work_by_time(&mut self, step: &MonitoredStep<'_, S, M>) {
         let (time, state) = (step.end, step.state);
         if let Some((then, before)) = self.before.replace((time, *state)) {
-            let energy = |time, state| M::potential_energy(step.constants, time, state);
-            let at_start = energy(time, &before) - energy(then, &before);
-            let at_end = energy(time, state) - energy(then, state);
+            let energy = |time, state| M::potential_energy(step.constants, time, &state);
+            let later = with_states_of::<S, M>(before, state);
+            let sooner = with_states_of::<S, M>(*state, &before);
+            let at_start = energy(time, later) - energy(then, before);
+            let at_end = energy(time, *state) - energy(then, sooner);
             self.balance.add([at_start, at_end]);
         }
     }

@@ -66,6 +66,7 @@ pub(super) fn columns<M: Mechanism>(extra: &Extra) -> Vec<String> {
             names.push(format!("{name}.displacement_rate [m/s]"));
         }
     }
+    names.extend(M::REPORT.states.iter().map(|state| state.name.to_string()));
     names.extend(["kinetic_energy [J]", "potential_energy [J]", "violation"].map(String::from));
     for &angles in &extra.angles {
         let (all, each) = names_of(angles);

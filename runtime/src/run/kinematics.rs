@@ -9,11 +9,11 @@ use core::ops::{ControlFlow, RangeInclusive};
 use self::motion::Motion;
 use crate::constraints::projection::Projection;
 use crate::dynamics::Dynamics;
-use crate::error::{Fault, SimulationError};
+use crate::error::{Fault, LeavesOut, SimulationError};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::{Mechanism, bodies_alone};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Warnings;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
@@ -220,6 +220,7 @@ where
         check_interval(start, end)?;
         let mut schedule = Schedule::new(start, end, reporting)?;
         check_state::<S, M>(&state)?;
+        bodies_alone::<M>(LeavesOut::Kinematics)?;
         let degrees_of_freedom = M::REPORT.degrees_of_freedom;
         if degrees_of_freedom > 0 {
             return Err(Fault::NotDriven { degrees_of_freedom });

@@ -11,7 +11,7 @@ use std::vec::Vec;
 use crate::error::AngleSet;
 use crate::math::scalar::Real;
 use crate::measure::unwrapped::UnwrappedAngle;
-use crate::mechanism::handle::{BodyHandle, JointHandle};
+use crate::mechanism::handle::{BodyHandle, JointHandle, StateHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::readout::AngleParts;
 use crate::mechanism::report::BodyKind;
@@ -230,6 +230,9 @@ impl Row {
                 let parts = sample.displacement_parts(place);
                 row.push(&[parts.value, parts.rate]);
             }
+        }
+        for place in 0..M::REPORT.states.len() {
+            row.push(&[sample.state_value(StateHandle::new(place))]);
         }
         row.push(&[
             sample.kinetic_energy(),

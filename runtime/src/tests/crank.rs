@@ -107,6 +107,7 @@ impl Mechanism for Crank {
             offset: 0,
         }],
         auxiliaries: 1,
+        states: &[],
         equations: 6,
         degrees_of_freedom: 0,
         time: ExplicitTime {

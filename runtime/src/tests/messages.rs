@@ -2,6 +2,7 @@
 
 extern crate std;
 
+use crate::error::LeavesOut;
 use crate::error::ParameterFault;
 use crate::error::Quantity;
 use crate::state::State;
@@ -97,6 +98,27 @@ fn what_cannot_be_set_is_told_with_what_can() {
         ),
     ] {
         assert_eq!(fault.to_string(), message);
+    }
+}
+
+#[test]
+fn who_leaves_states_out_says_so() {
+    for (by, message) in [
+        (
+            LeavesOut::Method,
+            "the state `current` of the mechanism has a rate of its own: the generalized-alpha method moves bodies alone; take another method",
+        ),
+        (
+            LeavesOut::Kinematics,
+            "the state `current` of the mechanism has a rate of its own: a kinematic analysis integrates nothing; take a simulation",
+        ),
+        (
+            LeavesOut::Linearisation,
+            "the state `current` of the mechanism has a rate of its own: linearisations and equilibria know the chosen coordinates alone",
+        ),
+    ] {
+        let state = "current";
+        assert_eq!(Fault::StateLeftOut { state, by }.to_string(), message);
     }
 }
 

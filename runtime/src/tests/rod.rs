@@ -117,6 +117,7 @@ impl Mechanism for Rod {
         }],
         coordinates: 7,
         auxiliaries: 0,
+        states: &[],
         velocities: 6,
         equations: 5,
         rank: Rank::Decided {

@@ -13,6 +13,7 @@ fn refusals() {
         "law",
         "mechanism",
         "part",
+        "state",
         "types",
         "urdf",
     ] {

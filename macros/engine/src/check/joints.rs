@@ -164,7 +164,12 @@ impl JointChecker<'_> {
                     self.refuse_index(arguments, expr, faults);
                     let words = arguments.iter().map(ToString::to_string);
                     numbers.words = std::iter::once("time".to_string()).chain(words).collect();
-                    let law = LawReader { arguments, numbers }.read(expr, faults);
+                    let law = LawReader {
+                        arguments,
+                        numbers,
+                        readings: None,
+                    }
+                    .read(expr, faults);
                     numbers.words.clear();
                     return law.map(|law| (Binding::Law(law), false));
                 }
@@ -200,6 +205,7 @@ impl JointChecker<'_> {
             bindings,
             dropped: Vec::new(),
             is_cut,
+            read: Vec::new(),
         })
     }
 

@@ -5,7 +5,9 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{BinOp, Expr, UnOp};
 
+use super::elements::Found;
 use super::number::Numbers;
+use super::states::Readings;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{Function, LawTerm};
 use crate::syntax::ungroup;
@@ -14,6 +16,8 @@ use crate::syntax::ungroup;
 pub(super) struct LawReader<'a, 'b, 'c> {
     pub(super) arguments: &'a [Ident],
     pub(super) numbers: &'b mut Numbers<'c>,
+    /// What can be read of joints and forces: in rates of states.
+    pub(super) readings: Option<&'a Readings<'a>>,
 }
 
 impl LawReader<'_, '_, '_> {
@@ -31,7 +35,14 @@ impl LawReader<'_, '_, '_> {
         if is_number && !self.varies(expr) {
             return self.numbers.scalar(expr, faults).map(LawTerm::Number);
         }
+        if let Some(state) = self.numbers.state(expr, faults) {
+            return self.state(state, expr, faults);
+        }
         match ungroup(expr) {
+            Expr::Field(field) if self.is_reading(expr) => {
+                let readings = self.readings?;
+                readings.read(field, &self.numbers.field, faults)
+            }
             Expr::Path(path) => {
                 let name = path.path.get_ident()?;
                 let place = self.arguments.iter().position(|argument| argument == name);
@@ -90,6 +101,27 @@ impl LawReader<'_, '_, '_> {
         }
     }
 
+    /// A state of the user's own.
+    fn state(&self, found: Found, expr: &Expr, faults: &mut Faults) -> Option<LawTerm> {
+        let Found::At(place) = found else { return None };
+        if let Some(reason) = self.numbers.no_inputs {
+            let name = code(expr);
+            let (reason, _) = reason.split_once(';').unwrap_or((reason, ""));
+            faults.at(
+                expr,
+                format!("`{name}` is a state, which changes in time: {reason}"),
+            );
+            return None;
+        }
+        Some(LawTerm::State(place))
+    }
+
+    /// Whether a path with a `.` is a reading of a joint or force, and no number of a part.
+    fn is_reading(&self, expr: &Expr) -> bool {
+        let is_field = matches!(ungroup(expr), Expr::Field(_));
+        self.readings.is_some() && is_field && !self.numbers.is_value(expr)
+    }
+
     fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<LawTerm> {
         let name = code(&call.func);
         let Some(function) = Function::named(&name) else {
@@ -120,8 +152,11 @@ impl LawReader<'_, '_, '_> {
         list(std::iter::once("time".to_string()).chain(arguments))
     }
 
-    /// Whether an expression speaks of the time or of an argument.
+    /// Whether an expression speaks of the time, of an argument, of a state or of a reading.
     fn varies(&self, expr: &Expr) -> bool {
+        if self.numbers.is_state(expr) || self.is_reading(expr) {
+            return true;
+        }
         match ungroup(expr) {
             Expr::Path(path) => path
                 .path

@@ -13,6 +13,7 @@ use super::definition::{Definition, Definitions, definition};
 use super::joints::JointChecker;
 use super::number::Numbers;
 use super::pairs::Pairs;
+use super::states::{self, Readings};
 use super::{asked, kinds, parts, points, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::name::Step;
@@ -165,8 +166,8 @@ fn described<'a>(
             faults.at_name(
                 &field.name,
                 format!(
-                    "field `{}` is not described; write `#[body(..)]`, `#[joint(..)]`, `#[force(..)]`, `#[point(..)]`, `#[param]` or \
-                     `#[input]` above it",
+                    "field `{}` is not described; write `#[body(..)]`, `#[joint(..)]`, `#[force(..)]`, `#[point(..)]`, `#[param]`, \
+                     `#[input]` or `#[state(..)]` above it",
                     field.name.field()
                 ),
             );
@@ -180,7 +181,9 @@ fn described<'a>(
                 refuse_part(field, faults);
                 continue;
             }
-            Role::Body | Role::Port | Role::Point | Role::Param | Role::Input => continue,
+            Role::Body | Role::Port | Role::Point | Role::Param | Role::Input | Role::State => {
+                continue;
+            }
         };
         let checker = JointChecker {
             field,
@@ -223,6 +226,22 @@ fn described<'a>(
             );
         }
     }
+    let with_role = |wanted: Role| {
+        let fields = syntax.fields.iter();
+        let fields =
+            fields.filter(move |field| matches!(&field.role, Some((role, _)) if *role == wanted));
+        fields.map(|field| &field.name)
+    };
+    let readings = Readings {
+        names: with_role(Role::Joint)
+            .chain(with_role(Role::Force))
+            .collect(),
+        elements: joints.iter().chain(&forces).map(Option::as_ref).collect(),
+        definitions: &definitions,
+        bodies: &names,
+        unmeasured: &syntax.unmeasured,
+    };
+    let states = states::states(syntax, &readings, &mut numbers, faults);
     if is_ambiguous(syntax) {
         return None;
     }
@@ -236,8 +255,11 @@ fn described<'a>(
     });
     let parts: Vec<_> = parts.collect::<Option<_>>().filter(|_| are_placed)?;
     let bodies: Vec<_> = bodies.into_iter().collect::<Option<_>>()?;
-    let joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
-    let forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
+    let mut joints: Vec<_> = joints.into_iter().collect::<Option<_>>()?;
+    let mut forces: Vec<_> = forces.into_iter().collect::<Option<_>>()?;
+    let states: Vec<_> = states.into_iter().collect::<Option<_>>()?;
+    let mut elements: Vec<_> = joints.iter_mut().chain(&mut forces).collect();
+    states::tell(&states, &mut elements);
     let points = points.into_iter().map(|(_, point)| point);
     let points: Vec<_> = points.collect::<Option<_>>()?;
     let values = std::mem::take(&mut numbers.values);
@@ -251,6 +273,7 @@ fn described<'a>(
         bodies,
         joints,
         forces,
+        states,
         points,
         parts,
         values,

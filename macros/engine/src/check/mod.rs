@@ -12,7 +12,8 @@
 //!   expressions: one in `f64` for checks, one over the scalar type for kernels.
 //! - `linear.rs`: linear functions of such numbers.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
-//! - `values.rs`: parameters and inputs. A reader that meets an input where none may be is given
+//! - `states.rs`: rates of the user's own states, and what they read of joints and forces.
+//! - `values.rs`: parameters, inputs and starts of states. A reader that meets an input where none may be is given
 //!   the reason.
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
 //!   all names are known (`syntax/integer.rs`). See `docs/decisions/003-arrays-of-fields.md`.
@@ -49,6 +50,7 @@ mod parts;
 mod placement;
 mod points;
 mod redundant;
+mod states;
 mod values;
 
 use crate::diag::Faults;

@@ -359,7 +359,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// The place of a run-time value by its name.
-    fn place(&self, expr: &Expr, faults: &mut Faults) -> Found {
+    pub(super) fn place(&self, expr: &Expr, faults: &mut Faults) -> Found {
         let names = self.values.iter().map(|value| &value.name);
         Reference::of(expr).map_or(Found::Nothing, |reference| {
             reference.find(names, self.unmeasured, &self.field, faults)
@@ -368,6 +368,14 @@ impl<'a> Numbers<'a> {
 
     fn run_time_value(&self, place: usize, at: &Expr, faults: &mut Faults) -> Option<Later> {
         let value = &self.values[place];
+        if value.is_start {
+            let name = &value.name;
+            faults.at(
+                at,
+                format!("`{name}` is a state, which changes in time: it stands in laws of forces and in rates of states alone"),
+            );
+            return None;
+        }
         if value.is_input
             && let Some(reason) = self.no_inputs
         {
@@ -378,15 +386,20 @@ impl<'a> Numbers<'a> {
             );
             return None;
         }
+        Some(self.at_run_time(place))
+    }
+
+    pub(super) fn at_run_time(&self, place: usize) -> Later {
+        let value = &self.values[place];
         let (name, parameters) = (value_name(&value.name), local("parameters"));
-        Some(Later {
+        Later {
             expression: quote!(#name),
             scalar: Some(quote!(#parameters[#place])),
             is_const: false,
             is_varying: value.is_input,
             values: vec![place],
             like: value.like,
-        })
+        }
     }
 
     fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<Value> {

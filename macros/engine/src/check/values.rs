@@ -1,4 +1,4 @@
-//! Run-time values: parameters and inputs.
+//! Run-time values: parameters, inputs and the starts of states.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
@@ -13,6 +13,10 @@ use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
 /// Words that numbers and laws are written with.
 const TAKEN: [&str; 5] = ["PI", "TAU", "ground", "time", "local"];
 
+/// What gives the rate of a state, for a message.
+const RATE: &str =
+    "its time derivative, as in `rate = (voltage - resistance * current) / inductance`";
+
 /// The run-time values in the order of the fields.
 pub(super) fn values(
     syntax: &MechanismSyntax,
@@ -21,9 +25,10 @@ pub(super) fn values(
 ) -> Vec<RunTimeValue> {
     let mut values = Vec::new();
     for field in &syntax.fields {
-        let is_input = match &field.role {
-            Some((Role::Param, _)) => false,
-            Some((Role::Input, _)) => true,
+        let (is_input, is_start) = match &field.role {
+            Some((Role::Param, _)) => (false, false),
+            Some((Role::Input, _)) => (true, false),
+            Some((Role::State, _)) => (false, true),
             _ => continue,
         };
         let name = &field.name;
@@ -37,18 +42,23 @@ pub(super) fn values(
             );
         }
         let found = code(&field.ty);
+        let what = if is_start { "state" } else { "run-time value" };
         if field.ty.to_token_stream().to_string() != "f64" {
             faults.within(name, |faults| {
                 faults.at(
                     &field.ty,
-                    format!("`{name}` is of type `{found}`; a run-time value is an `f64`"),
+                    format!("`{name}` is of type `{found}`; a {what} is an `f64`"),
                 );
             });
         }
-        let like = faults.within(name, |faults| like(syntax, field, facade, faults));
+        let like = faults.within(name, |faults| match is_start {
+            true => start(syntax, field, facade, faults),
+            false => like(syntax, field, facade, faults),
+        });
         values.push(RunTimeValue {
             name: name.clone(),
             is_input,
+            is_start,
             like,
         });
     }
@@ -67,9 +77,40 @@ fn like(
     let mut pairs = Pairs::new(format!("parameter `{}`", field.name), owner, &field.list);
     let written = pairs.optional("like", faults);
     pairs.finish(faults);
-    let written = of_element(syntax, &field.name, written?, faults)?;
+    written_number(syntax, field, ("like", written?), facade, faults)
+}
+
+/// Where a state starts.
+fn start(
+    syntax: &MechanismSyntax,
+    field: &Field,
+    facade: &TokenStream,
+    faults: &mut Faults,
+) -> Option<f64> {
+    let (_, word) = field.role.as_ref()?;
+    let owner = word.segments.first()?.ident.span();
+    let mut pairs = Pairs::new(format!("state `{}`", field.name), owner, &field.list);
+    // What it is, is read once joints and forces are known.
+    pairs.required("rate", RATE, faults);
+    let written = pairs.optional("start", faults);
+    pairs.finish(faults);
+    match written {
+        Some(written) => written_number(syntax, field, ("start", written), facade, faults),
+        None => Some(0.0),
+    }
+}
+
+/// A number that the macro sees, of one element if it is given for several.
+fn written_number(
+    syntax: &MechanismSyntax,
+    field: &Field,
+    (key, written): (&str, &Expr),
+    facade: &TokenStream,
+    faults: &mut Faults,
+) -> Option<f64> {
+    let written = of_element(syntax, &field.name, (key, written), faults)?;
     let mut numbers = Numbers::new(field.name.clone(), &syntax.unmeasured, facade);
-    numbers.attribute = "like".into();
+    numbers.attribute = key.into();
     numbers.written(written, faults)
 }
 
@@ -77,7 +118,7 @@ fn like(
 fn of_element<'a>(
     syntax: &MechanismSyntax,
     name: &Name,
-    written: &'a Expr,
+    (key, written): (&str, &'a Expr),
     faults: &mut Faults,
 ) -> Option<&'a Expr> {
     let Some(several) = elements(written) else {
@@ -93,7 +134,7 @@ fn of_element<'a>(
             faults.at(
                 written,
                 format!(
-                    "`{field}` has {count} elements, and `like` {found}; give one number for each, or one for all of them, in which `k` may \
+                    "`{field}` has {count} elements, and `{key}` {found}; give one number for each, or one for all of them, in which `k` may \
                      stand"
                 ),
             );
@@ -102,7 +143,12 @@ fn of_element<'a>(
         (None, _) => {
             faults.at(
                 written,
-                format!("`{field}` is one number, and so is what it is like, as in `like = 0.8`"),
+                match key {
+                    "like" => format!(
+                        "`{field}` is one number, and so is what it is like, as in `like = 0.8`"
+                    ),
+                    _ => format!("`{field}` is one number, and so is `{key}`, as in `{key} = 0.8`"),
+                },
             );
             None
         }

@@ -44,7 +44,7 @@ impl Pose {
 }
 
 /// Joint coordinates, auxiliary variables and velocities from the coordinates, auxiliary variables
-/// and velocities of the bodies.
+/// and velocities of the bodies. The user's own states stay what they are.
 #[must_use]
 pub fn from_bodies(arena: &mut Arena, model: &Model, links: &Links) -> Vec<Expr> {
     let layout = model.layout();
@@ -52,7 +52,7 @@ pub fn from_bodies(arena: &mut Arena, model: &Model, links: &Links) -> Vec<Expr>
         links,
         poses: vec![Pose::ground(); links.links.len()],
         coordinates: vec![Arena::ZERO; 2 * links.turns + links.rest],
-        counters: (0..layout.auxiliaries)
+        counters: (0..layout.auxiliaries + layout.states)
             .map(|k| arena.input(Input::Coordinate((layout.coordinates + k) as u32)))
             .collect(),
         velocities: vec![Arena::ZERO; links.velocities],
@@ -117,7 +117,7 @@ struct Reader<'a> {
     links: &'a Links,
     poses: Vec<Pose>,
     coordinates: Vec<Expr>,
-    /// The auxiliary variables.
+    /// The auxiliary variables, and the user's own states behind them.
     counters: Vec<Expr>,
     velocities: Vec<Expr>,
 }

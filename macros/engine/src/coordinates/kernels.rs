@@ -9,7 +9,7 @@ use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{PivotCheck, Solver, relative};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input};
-use crate::symbolic::equations::{Kernel, euler_rates, turning};
+use crate::symbolic::equations::{Kernel, euler_rates, state_rates, turning};
 
 /// An evaluation: outputs are the rates of the pairs' angles, of the further coordinates and
 /// auxiliary variables, and of the velocities; multipliers; relative pivots in the order of
@@ -65,11 +65,13 @@ pub struct JointKernels {
     pub strategy: Strategy,
     /// Pairs of cosine and sine.
     pub turns: usize,
-    /// Further coordinates, auxiliary variables behind them.
+    /// Further coordinates, auxiliary variables behind them, and then the user's own states.
     pub rest: usize,
     /// The auxiliary variables among them.
     pub auxiliaries: usize,
-    /// Whether one of these is not the integral of velocities.
+    /// The user's own states among them.
+    pub states: usize,
+    /// Whether an auxiliary variable is not the integral of velocities.
     pub rewraps: bool,
     /// Whether every row determines a velocity where rows have no compliance.
     pub determines: bool,
@@ -88,7 +90,7 @@ pub struct JointKernels {
     /// Without a compliance, and with one where rows remain.
     pub solvers: Vec<Solver>,
     /// The bodies: position, velocity, and of a rigid one rotation matrix row by row and angular
-    /// velocity in principal axes; auxiliary variables.
+    /// velocity in principal axes; auxiliary variables; the user's own states.
     pub bodies: Kernel,
     /// Pairs, further coordinates, auxiliary variables and velocities, from the state of the
     /// bodies.
@@ -131,8 +133,9 @@ impl JointKernels {
         Self {
             strategy,
             turns: links.turns,
-            rest: links.rest + auxiliaries,
+            rest: links.rest + auxiliaries + model.states.len(),
             auxiliaries,
+            states: model.states.len(),
             rewraps: reduced
                 .scene
                 .counters
@@ -211,6 +214,7 @@ fn evaluation(mut reduced: Reduced, terms: Terms) -> Evaluation {
     for place in 0..reduced.scene.counters.len() {
         outputs.push(turning(&mut reduced.scene, place));
     }
+    outputs.extend(state_rates(&mut reduced.scene));
     outputs.extend(solution.accelerations);
     outputs.extend(solution.multipliers);
     let checks = reduced.referred(&solution.checks);
@@ -275,7 +279,7 @@ fn bodies(reduced: &Reduced, model: &Model) -> Kernel {
     }
     let mut arena = reduced.scene.space.arena.clone();
     let first = 2 * reduced.links.turns + reduced.links.rest;
-    for place in 0..reduced.scene.counters.len() {
+    for place in 0..reduced.scene.counters.len() + model.states.len() {
         outputs.push(arena.input(Input::Coordinate((first + place) as u32)));
     }
     Kernel { arena, outputs }

@@ -67,12 +67,11 @@ fn construction(
     let inputs = model.values.iter().filter(|value| value.is_input);
     let inputs = inputs.filter(|value| value.name.parts().is_empty());
     let inputs = fields(inputs.map(|value| &value.name)).into_iter();
-    let inputs: Vec<_> = inputs
-        .map(|(input, length)| match length {
-            Some(length) => quote!(#input: [0.0; #length],),
-            None => quote!(#input: 0.0,),
-        })
-        .collect();
+    let inputs = inputs.map(|(input, length)| match length {
+        Some(length) => quote!(#input: [0.0; #length],),
+        None => quote!(#input: 0.0,),
+    });
+    let inputs: Vec<_> = inputs.chain(starts(model)).collect();
     let has_inputs = model.values.iter().any(|value| value.is_input);
     let given = given(model);
     let default = |values: TokenStream| {
@@ -130,6 +129,25 @@ fn construction(
     }
 }
 
+/// The user's own states at their starts.
+fn starts(model: &Model) -> Vec<TokenStream> {
+    let starts = || {
+        let starts = model.values.iter().filter(|value| value.is_start);
+        starts.filter(|value| value.name.parts().is_empty())
+    };
+    let fields = fields(starts().map(|value| &value.name)).into_iter();
+    let written = fields.map(|(name, length)| {
+        let own = starts().filter(|value| value.name.text() == name.text());
+        let own = own.map(|value| value.like.unwrap_or_default());
+        let field = name.field();
+        match length {
+            Some(_) => quote!(#field: [#(#own),*],),
+            None => quote!(#field: #(#own)*,),
+        }
+    });
+    written.collect()
+}
+
 /// An argument of `new`: its type, and its value where all parameters are what they are like.
 struct Given {
     name: Ident,
@@ -141,7 +159,7 @@ struct Given {
 fn given(model: &Model) -> Vec<Given> {
     let mut parts = given_parts(model);
     let mut given: Vec<Given> = Vec::new();
-    let own = model.values.iter().filter(|value| !value.is_input);
+    let own = model.values.iter().filter(|value| value.is_parameter());
     let mut own = own.peekable();
     while let Some(value) = own.next() {
         if let Some((top, _)) = value.name.parts().first() {
@@ -230,6 +248,6 @@ fn has_parameters(model: &Model, part: &Name) -> bool {
         let first = value.parts().first();
         first.is_some_and(|(field, _)| field == part.field())
     };
-    let mut parameters = model.values.iter().filter(|value| !value.is_input);
+    let mut parameters = model.values.iter().filter(|value| value.is_parameter());
     parameters.any(|value| top(&value.name))
 }

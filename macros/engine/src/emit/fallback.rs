@@ -66,7 +66,13 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
 /// Whether a field of a role has a handle.
 const fn has_handle(role: Role) -> bool {
     match role {
-        Role::Body | Role::Joint | Role::Force | Role::Point | Role::Param | Role::Input => true,
+        Role::Body
+        | Role::Joint
+        | Role::Force
+        | Role::Point
+        | Role::Param
+        | Role::Input
+        | Role::State => true,
         Role::Part | Role::Port => false,
     }
 }
@@ -206,6 +212,7 @@ fn handle(
     match (definition(field, types), &field.role) {
         (_, Some((Role::Point, _))) => quote!(point),
         (_, Some((Role::Param | Role::Input, _))) => quote!(value),
+        (_, Some((Role::State, _))) => quote!(state),
         (Some(Definition::Body(_)), _) | (None, Some((Role::Body, _))) => quote!(body),
         (Some(Definition::Element(_) | Definition::Faulty | Definition::Assembly), role) => {
             let path = syntax.type_path(&field.ty, field.origin, facade);

@@ -32,7 +32,14 @@ impl Writer<'_> {
             let value = quote!(#facade::__private::PointHandle::new(#place));
             (&point.name, (kind, value))
         });
-        let values = self.model.values.iter().enumerate().map(|(place, value)| {
+        let states = self.model.states.iter().enumerate().map(|(place, state)| {
+            let kind = quote!(#facade::__private::StateHandle<#name>);
+            let handle = quote!(#facade::__private::StateHandle::new(#place));
+            (&state.name, (kind, handle))
+        });
+        let values = self.model.values.iter().enumerate();
+        let values = values.filter(|(_, value)| !value.is_start);
+        let values = values.map(|(place, value)| {
             let kind = quote!(#facade::__private::ValueHandle<#name>);
             let handle = quote!(#facade::__private::ValueHandle::new(#place));
             (&value.name, (kind, handle))
@@ -43,7 +50,11 @@ impl Writer<'_> {
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         };
         let structs = Structs::new("__Handles", head, TokenStream::new());
-        let elements = bodies.chain(joints).chain(forces).chain(points);
+        let elements = bodies
+            .chain(joints)
+            .chain(forces)
+            .chain(points)
+            .chain(states);
         structs.written(&nested(elements.chain(values)))
     }
 }

@@ -4,7 +4,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::report::{evaluation_name, kernel, terms_name};
+use super::report::{evaluation_name, kernel, state_infos, terms_name};
 use super::writer::Writer;
 use crate::coordinates::kernels::{JointKernels, Meaning};
 use crate::symbolic::arena::Stage;
@@ -115,13 +115,14 @@ impl Writer<'_, JointKernels> {
         });
         let closing = kernels.rows.iter().map(|&row| joint(Some(row)));
         let rows = kernels.rows_of_bodies.iter().map(|&row| option(row));
-        let first = kernels.rest - kernels.auxiliaries;
+        let first = kernels.rest - kernels.auxiliaries - kernels.states;
         let elements: Vec<_> = self.model.elements().collect();
         let counters = self.model.counters().into_iter().enumerate();
         let counters = counters.map(|(place, counter)| {
             let (place, element) = (first + place, elements[counter.element].name.to_string());
             quote!(#facade::__private::JointCounter { element: #element, coordinate: #place })
         });
+        let states = state_infos(self.model, first + kernels.auxiliaries, facade);
         let counts = self.counts().into_iter();
         let counts = counts.map(|(name, count)| kernel(&name, count, facade));
         let asked = self.asked_counts().into_iter();
@@ -139,6 +140,7 @@ impl Writer<'_, JointKernels> {
                 euler_parameters: &[#(#balls),*],
                 counters: &[#(#counters),*],
                 auxiliaries: #auxiliaries,
+                states: &[#(#states),*],
                 rewraps: #rewraps,
                 determines: #determines,
             }

@@ -90,6 +90,6 @@ impl Writer<'_> {
 
 /// What every parameter is like, in the order of the fields; `None` where one of them does not say.
 pub(super) fn defaults(model: &Model) -> Option<Vec<f64>> {
-    let parameters = model.values.iter().filter(|value| !value.is_input);
+    let parameters = model.values.iter().filter(|value| value.is_parameter());
     parameters.map(|value| value.like).collect()
 }

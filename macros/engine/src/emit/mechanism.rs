@@ -133,11 +133,7 @@ impl Writer<'_> {
     fn types(&self, factors: &TokenStream, inputs: &TokenStream) -> TokenStream {
         let facade = self.facade;
         let layout = self.model.layout();
-        let (q, u, m) = (
-            layout.coordinates + layout.auxiliaries,
-            layout.velocities,
-            layout.rows,
-        );
+        let (q, u, m) = (layout.stored(), layout.velocities, layout.rows);
         let values = self.model.values.len();
         let jacobian_size = self.kernels.jacobian.outputs.len();
         let (c, k) = (self.store.constants(), self.store.coefficients());
@@ -236,7 +232,7 @@ impl Writer<'_> {
             let time = local("time");
             tokens.extend(self.function(name, kernel, &quote!(#time: __S,), result));
         }
-        let coordinates = self.model.layout().coordinates + self.model.layout().auxiliaries;
+        let coordinates = self.model.layout().stored();
         let coordinates = Returned::Array(quote!([__S; #coordinates]));
         for (name, kernel, result) in [
             ("kinetic_energy", &kernels.kinetic_energy, &number),
@@ -244,6 +240,7 @@ impl Writer<'_> {
         ] {
             tokens.extend(self.function(name, kernel, &TokenStream::new(), result));
         }
+        tokens.extend(self.state_rates());
         let StraightLine {
             statements,
             outputs,
@@ -316,7 +313,7 @@ impl Writer<'_> {
             outputs,
         } = self.line(&self.kernels.initial_state);
         let layout = self.model.layout();
-        let (coordinates, velocities) = outputs.split_at(layout.coordinates + layout.auxiliaries);
+        let (coordinates, velocities) = outputs.split_at(layout.stored());
         let constants = local("constants");
         quote! {
             fn initial_state<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> Self::State<__S> {

@@ -40,6 +40,7 @@ pub mod report;
 mod rows;
 mod solution;
 mod solver;
+mod states;
 pub mod store;
 pub mod straight_line;
 mod writer;

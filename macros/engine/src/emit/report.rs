@@ -37,6 +37,9 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
     ] {
         counts.push((name.into(), of(kernel)));
     }
+    if !kernels.state_rates.outputs.is_empty() {
+        counts.push(("state rates".into(), of(&kernels.state_rates)));
+    }
     if !kernels.readouts.energies.is_empty() {
         counts.push(("power".into(), of(&kernels.power)));
     }
@@ -221,6 +224,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (name, is_input) = (value.name.to_string(), value.is_input);
         quote!(#facade::__private::ValueInfo { name: #name, is_input: #is_input })
     });
+    let states = state_infos(model, layout.coordinates + layout.auxiliaries, facade);
     let bodies_and_shapes = model.bodies.iter().enumerate();
     let shapes = bodies_and_shapes.flat_map(|(place, body)| {
         let shapes = body.shapes.iter();
@@ -281,6 +285,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             blocks: &[#(#blocks),*],
             coordinates: #coordinates,
             auxiliaries: #auxiliaries,
+            states: &[#(#states),*],
             velocities: #velocities,
             equations: #rows,
             rank: #rank,
@@ -292,6 +297,18 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             plan: #plan,
         }
     }
+}
+
+/// The user's own states, of which the first has this place.
+pub(super) fn state_infos(model: &Model, first: usize, facade: &TokenStream) -> Vec<TokenStream> {
+    let states = model.states.iter().enumerate();
+    let states = states.map(|(place, state)| {
+        let (name, coordinate, value) = (state.name.to_string(), first + place, state.value);
+        quote! {
+            #facade::__private::StateInfo { name: #name, coordinate: #coordinate, value: #value }
+        }
+    });
+    states.collect()
 }
 
 fn shape(body: usize, shape: &Shape, facade: &TokenStream) -> TokenStream {

@@ -9,14 +9,20 @@ impl Model {
     #[must_use]
     pub fn counted(&self, element: &Element) -> Vec<Turn> {
         let definition = self.definition(element);
-        let reads = |turn: &Turn| match definition.kind {
+        let is_read = |turn: &Turn| element.read.iter().any(|term| reads(term, *turn, element));
+        let counts = |turn: &Turn| match definition.kind {
             ElementKind::Joint => true,
             ElementKind::Force => {
                 let mut actions = definition.actions.iter();
-                actions.any(|action| acts_by(action, *turn, element))
+                actions.any(|action| acts_by(action, *turn, element)) || is_read(turn)
             }
         };
-        definition.turns.iter().copied().filter(reads).collect()
+        // The angle of a joint that no equation speaks of.
+        let own = definition
+            .angle
+            .filter(|turn| !definition.turns.contains(turn));
+        let counted = definition.turns.iter().copied().filter(counts);
+        counted.chain(own.filter(is_read)).collect()
     }
 }
 
@@ -68,7 +74,7 @@ fn changes_by(term: &Term, turn: Turn, element: &Element) -> bool {
 /// Whether a law has an argument in it.
 fn takes(law: &LawTerm, argument: usize) -> bool {
     match law {
-        LawTerm::Number(_) | LawTerm::Time => false,
+        LawTerm::Number(_) | LawTerm::Time | LawTerm::State(_) | LawTerm::Reading { .. } => false,
         LawTerm::Argument(place) => *place == argument,
         LawTerm::Sum(terms) => terms.iter().any(|(_, term)| takes(term, argument)),
         LawTerm::Product(a, b) => takes(a, argument) || takes(b, argument),

@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use proc_macro2::{Ident, TokenStream};
 
 use super::asked::Asked;
-use super::joint::{ElementDef, Extent, Function, Turn};
+use super::joint::{ElementDef, Extent, Function, Term, Turn};
 use super::name::Name;
 use super::number::{Number, Symbol, literals};
 use super::rank::Independence;
@@ -97,6 +97,15 @@ pub enum LawTerm {
     Product(Box<LawTerm>, Box<LawTerm>),
     /// A function.
     Function(Function, Box<LawTerm>),
+    /// A state of the user's own, by its place.
+    State(usize),
+    /// What is read of a joint, or behind the joints of a force: in rates of states alone.
+    Reading {
+        /// The place of the joint or force.
+        element: usize,
+        /// A scalar of its definition.
+        term: Box<Term>,
+    },
 }
 
 impl LawTerm {
@@ -104,11 +113,13 @@ impl LawTerm {
     #[must_use]
     pub fn extent(&self, arguments: &[Extent]) -> Extent {
         match self {
-            Self::Number(_) | Self::Time => Extent::ONE,
+            Self::Number(_) | Self::Time | Self::State(_) => Extent::ONE,
             Self::Argument(place) => arguments[*place],
             Self::Sum(terms) => Extent::sum(terms.iter().map(|(_, term)| term.extent(arguments))),
             Self::Product(a, b) => a.extent(arguments).product(b.extent(arguments)),
             Self::Function(_, inner) => inner.extent(arguments).function(),
+            Self::Reading { term, .. } => term
+                .extent(&|_: usize, arguments: &[Extent]| Extent::sum(arguments.iter().copied())),
         }
     }
 }
@@ -130,6 +141,21 @@ pub struct Element {
     pub dropped: Vec<usize>,
     /// Whether it carries no body in joint coordinates, because the user says so.
     pub is_cut: bool,
+    /// What rates of states read of it.
+    pub read: Vec<Term>,
+}
+
+/// A state of the user's own: a number that integrates a rate.
+#[derive(Clone, Debug)]
+pub struct UserState {
+    /// The field, or its element.
+    pub name: Name,
+    /// The place of its start among the run-time values.
+    pub value: usize,
+    /// Its value at the start.
+    pub start: Number,
+    /// Its time derivative.
+    pub rate: LawTerm,
 }
 
 /// A named point, fixed on a body.
@@ -161,8 +187,19 @@ pub struct RunTimeValue {
     pub name: Name,
     /// Whether it may change at every step; if not, it is set on construction.
     pub is_input: bool,
+    /// Whether it is where a state of the user's own starts.
+    pub is_start: bool,
     /// The typical value of a parameter (`like`): the rank is decided there, and it is the default.
+    /// The default of a start.
     pub like: Option<f64>,
+}
+
+impl RunTimeValue {
+    /// Whether it is given on construction.
+    #[must_use]
+    pub const fn is_parameter(&self) -> bool {
+        !self.is_input && !self.is_start
+    }
 }
 
 /// An angle over many turns: an auxiliary variable of the state.
@@ -221,6 +258,8 @@ pub struct Model {
     pub joints: Vec<Element>,
     /// The forces in the order of the fields.
     pub forces: Vec<Element>,
+    /// The user's own states in the order of the fields.
+    pub states: Vec<UserState>,
     /// The named points in the order of the fields.
     pub points: Vec<NamedPoint>,
     /// The parts in the order of the fields, each before those in it.
@@ -319,6 +358,7 @@ impl Model {
             bodies: kept.iter().map(|&body| self.bodies[body].clone()).collect(),
             joints: vec![joint],
             forces: Vec::new(),
+            states: Vec::new(),
             ..self.clone()
         }
     }
@@ -340,6 +380,7 @@ impl Model {
             layout.velocities += body.kind.velocities();
         }
         layout.auxiliaries = self.counters().len();
+        layout.states = self.states.len();
         for joint in &self.joints {
             layout.row.push(layout.rows);
             layout.rows += self.equations(joint);
@@ -361,6 +402,8 @@ pub struct Layout {
     pub coordinates: usize,
     /// Auxiliary variables, behind the coordinates of bodies.
     pub auxiliaries: usize,
+    /// States of the user's own, behind the auxiliary variables.
+    pub states: usize,
     /// All velocities.
     pub velocities: usize,
     /// All rows.
@@ -368,6 +411,12 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// Coordinates of bodies, auxiliary variables and states of the user's own.
+    #[must_use]
+    pub const fn stored(&self) -> usize {
+        self.coordinates + self.auxiliaries + self.states
+    }
+
     /// The joint of a row. Joints without rows stand at the place of the next.
     #[must_use]
     pub fn joint_of(&self, row: usize) -> usize {

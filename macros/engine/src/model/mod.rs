@@ -20,6 +20,7 @@ pub use joint::{
 };
 pub use mechanism::{
     Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, NamedPoint, Part, RunTimeValue,
+    UserState,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;

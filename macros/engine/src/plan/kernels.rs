@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::equations::{
     Block, Kernel, coordinate_rates, counters, initial_state, jacobian, kinds, kinetic_energy,
-    mass, potential_energy, rows, vector_rows, with_scene,
+    mass, potential_energy, rows, state_rates, vector_rows, with_scene,
 };
 use crate::symbolic::scene::Scene;
 use crate::symbolic::table::Table;
@@ -73,9 +73,12 @@ pub struct Kernels {
     pub kinetic_energy: Kernel,
     /// Potential energy.
     pub potential_energy: Kernel,
-    /// `q'`.
+    /// `q'`; zeros in the places of the user's own states.
     pub coordinate_rates: Kernel,
-    /// Coordinates, auxiliary variables, then velocities, of the described state.
+    /// The rates of the user's own states.
+    pub state_rates: Kernel,
+    /// Coordinates, auxiliary variables, the user's own states, then velocities, of the described
+    /// state.
     pub initial_state: Kernel,
     /// The auxiliary variables, as the angles that they count.
     pub counters: Kernel,
@@ -130,7 +133,13 @@ impl Kernels {
             forces: with_scene(scene, |scene| applied_forces(scene, &kinds(model))),
             kinetic_energy: kinetic_energy(scene),
             potential_energy: potential_energy(scene),
-            coordinate_rates: with_scene(scene, |scene| coordinate_rates(scene, model)),
+            coordinate_rates: with_scene(scene, |scene| {
+                let mut rates = coordinate_rates(scene, model);
+                // They have no part in how bodies move.
+                rates.resize(model.layout().stored(), Arena::ZERO);
+                rates
+            }),
+            state_rates: with_scene(scene, state_rates),
             initial_state: initial_state(model),
             counters: counters(scene),
             power: with_scene(scene, |scene| {
@@ -225,6 +234,7 @@ fn fused(
     let mut scene = scene.clone();
     let solution = solved(&mut scene, &kinds(model), system, terms);
     let mut outputs = coordinate_rates(&mut scene, model);
+    outputs.extend(state_rates(&mut scene));
     outputs.extend(solution.accelerations);
     outputs.extend(solution.multipliers);
     let (pivots, checks) = relative_pivots(&mut scene, system);

@@ -36,10 +36,7 @@ impl StartValues {
         let initial = initial_state(model);
         let values = evaluate(&initial.arena, &initial.outputs, |_| None);
         Self {
-            coordinates: values
-                .into_iter()
-                .take(model.layout().coordinates + model.layout().auxiliaries)
-                .collect(),
+            coordinates: values.into_iter().take(model.layout().stored()).collect(),
         }
     }
 
@@ -481,7 +478,8 @@ fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>
         | ScalarExpr::Time
         | ScalarExpr::Function(..)
         | ScalarExpr::Angle(_)
-        | ScalarExpr::Rate(_) => None,
+        | ScalarExpr::Rate(_)
+        | ScalarExpr::State { .. } => None,
     }
 }
 

@@ -174,7 +174,7 @@ impl State {
     /// Euler parameters are of length 1.
     fn generic(model: &Model) -> Self {
         let layout = model.layout();
-        let places = 0..layout.coordinates + layout.auxiliaries;
+        let places = 0..layout.stored();
         let mut coordinates: Vec<f64> = places.map(|place| spread(place as u64)).collect();
         for (body, &first) in model.bodies.iter().zip(&layout.coordinate) {
             if body.kind == BodyKind::Rigid {

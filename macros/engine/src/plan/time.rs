@@ -10,9 +10,9 @@ use crate::symbolic::equations::Kernel;
 pub struct ExplicitTime {
     /// In the constraints: drivers.
     pub constraints: bool,
-    /// In forces.
+    /// In forces, and in the rates of the user's own states.
     pub forces: bool,
-    /// In potential energies.
+    /// In potential energies, or one of these states does.
     pub potential: bool,
     /// The instants (s), in order, at which a smooth step of the time begins or ends, as far as the
     /// macro can see them.
@@ -24,24 +24,33 @@ impl ExplicitTime {
     #[must_use]
     pub fn of(kernels: &Kernels) -> Self {
         let mut breaks = Vec::new();
-        for kernel in [&kernels.constraints, &kernels.forces] {
+        for kernel in [&kernels.constraints, &kernels.forces, &kernels.state_rates] {
             add_breaks(kernel, &mut breaks);
         }
+        // They stand behind all other coordinates.
+        let first = kernels.coordinate_rates.outputs.len() - kernels.state_rates.outputs.len();
+        let is_state =
+            |node| matches!(node, Node::Input(Input::Coordinate(place)) if place as usize >= first);
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         Self {
             constraints: has_time(&kernels.constraints),
-            forces: has_time(&kernels.forces),
-            potential: has_time(&kernels.potential_energy),
+            forces: has_time(&kernels.forces) || has_time(&kernels.state_rates),
+            potential: has_time(&kernels.potential_energy)
+                || reads(&kernels.potential_energy, is_state),
             breaks,
         }
     }
 }
 
 fn has_time(kernel: &Kernel) -> bool {
+    reads(kernel, |node| node == Node::Input(Input::Time))
+}
+
+fn reads(kernel: &Kernel, wanted: impl Fn(Node) -> bool) -> bool {
     let live = kernel.arena.live(&kernel.outputs, Stage::Literal);
     live.into_iter()
-        .any(|place| kernel.arena.node(place) == Node::Input(Input::Time))
+        .any(|place| wanted(kernel.arena.node(place)))
 }
 
 /// Where the argument of a smooth step, held between 0 and 1, comes to either end.

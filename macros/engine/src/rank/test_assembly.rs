@@ -169,6 +169,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         bindings,
         dropped: Vec::new(),
         is_cut: false,
+        read: Vec::new(),
     };
     Model {
         name: joint.name.clone(),
@@ -176,6 +177,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         bodies: bodies.into(),
         joints: vec![used],
         forces: Vec::new(),
+        states: Vec::new(),
         points: Vec::new(),
         parts: Vec::new(),
         constants: Vec::new(),

@@ -51,6 +51,7 @@ pub fn advance(arena: &mut Arena, model: &Model, joint: &Element, pitch: usize) 
         copies: &copies,
         // Defaults are constant, and an angle is zero in the reference configuration.
         first_counter: 0,
+        first_state: 0,
         paired: &|_, _, _| None,
     };
     let pitch = binder.number(arena, pitch);
@@ -66,6 +67,8 @@ pub(super) struct Binder<'a> {
     pub(super) copies: &'a [Option<Copies>],
     /// The place of its first auxiliary variable in the state.
     pub(super) first_counter: usize,
+    /// The place of the first of the user's own states.
+    pub(super) first_state: usize,
     /// Angles that the coordinates hold as pairs.
     pub(super) paired: &'a PairedAngles<'a>,
 }
@@ -195,7 +198,18 @@ impl Binder<'_> {
                     .map(|argument| self.scalar(arena, argument))
                     .collect();
                 match &self.element.bindings[*parameter] {
-                    Binding::Law(law) => expand(arena, law, &arguments),
+                    Binding::Law(law) => {
+                        let reading = |_: &mut Arena, _: usize, _: &Term| {
+                            unreachable!("the laws of forces read no other joint or force")
+                        };
+                        let first_state = self.first_state;
+                        Law {
+                            first_state,
+                            arguments: &arguments,
+                            reading: &reading,
+                        }
+                        .expand(arena, law)
+                    }
                     other => unreachable!("a law is bound to a law, not to {other:?}"),
                 }
             }
@@ -280,26 +294,42 @@ impl Binder<'_> {
     }
 }
 
-/// A law with its arguments put in.
-fn expand(arena: &mut Arena, law: &LawTerm, arguments: &[ScalarExpr]) -> ScalarExpr {
-    match law {
-        LawTerm::Number(value) => ScalarExpr::Constant(number(arena, *value)),
-        LawTerm::Time => ScalarExpr::Time,
-        LawTerm::Argument(place) => arguments[*place].clone(),
-        LawTerm::Sum(terms) => {
-            let terms = terms
-                .iter()
-                .map(|(minus, term)| (signed_one(*minus), expand(arena, term, arguments)))
-                .collect();
-            sum(arena, terms)
-        }
-        LawTerm::Product(a, b) => {
-            let (a, b) = (expand(arena, a, arguments), expand(arena, b, arguments));
-            product(arena, a, b)
-        }
-        LawTerm::Function(function, inner) => {
-            let inner = expand(arena, inner, arguments);
-            of(arena, *function, inner)
+/// What stands for the names in a law.
+pub(super) struct Law<'a> {
+    /// The place of the first of the user's own states.
+    pub(super) first_state: usize,
+    pub(super) arguments: &'a [ScalarExpr],
+    /// What is read of a joint or force, by its place.
+    pub(super) reading: &'a dyn Fn(&mut Arena, usize, &Term) -> ScalarExpr,
+}
+
+impl Law<'_> {
+    /// A law with all of these put in.
+    pub(super) fn expand(&self, arena: &mut Arena, law: &LawTerm) -> ScalarExpr {
+        match law {
+            LawTerm::Number(value) => ScalarExpr::Constant(number(arena, *value)),
+            LawTerm::Time => ScalarExpr::Time,
+            LawTerm::Argument(place) => self.arguments[*place].clone(),
+            LawTerm::State(place) => ScalarExpr::State {
+                place: *place,
+                value: arena.input(Input::Coordinate((self.first_state + place) as u32)),
+            },
+            LawTerm::Reading { element, term } => (self.reading)(arena, *element, term),
+            LawTerm::Sum(terms) => {
+                let terms = terms
+                    .iter()
+                    .map(|(minus, term)| (signed_one(*minus), self.expand(arena, term)))
+                    .collect();
+                sum(arena, terms)
+            }
+            LawTerm::Product(a, b) => {
+                let (a, b) = (self.expand(arena, a), self.expand(arena, b));
+                product(arena, a, b)
+            }
+            LawTerm::Function(function, inner) => {
+                let inner = self.expand(arena, inner);
+                of(arena, *function, inner)
+            }
         }
     }
 }

@@ -186,6 +186,7 @@ impl ScalarExpr {
             }
             Self::Angle(angle) => angle.value(space, motion),
             Self::Rate(inner) => inner.rate(space, motion),
+            Self::State { value, .. } => *value,
         }
     }
 
@@ -214,6 +215,7 @@ impl ScalarExpr {
             }
             Self::Angle(angle) => angle.rate(space, motion),
             Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
+            Self::State { place, .. } => motion.states[*place].value(space, motion),
         }
     }
 
@@ -253,6 +255,7 @@ impl ScalarExpr {
             }
             Self::Angle(angle) => angle.bias(space, motion),
             Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
+            Self::State { .. } => unreachable!("the laws of joints hold no states"),
         }
     }
 
@@ -283,7 +286,7 @@ impl ScalarExpr {
                 a.pull_back(space, motion, on_a, gradient);
                 b.pull_back(space, motion, on_b, gradient);
             }
-            Self::Time => {}
+            Self::Time | Self::State { .. } => {}
             Self::Function(function, inner) => {
                 let x = inner.value(space, motion);
                 let slope = function.slope(&mut space.arena, x);

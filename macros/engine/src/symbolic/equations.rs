@@ -3,7 +3,7 @@
 
 use super::arena::{Arena, Expr};
 use super::expression::Constraint;
-use super::fixed::{initial_orientation, triple};
+use super::fixed::{initial_orientation, number, triple};
 use super::scene::Scene;
 use super::vector::{self, Frame, Triple};
 use crate::model::inertia::rotation;
@@ -230,6 +230,13 @@ pub(crate) fn turning(scene: &mut Scene, counter: usize) -> Expr {
     rate
 }
 
+/// The rates of the user's own states.
+pub(crate) fn state_rates(scene: &mut Scene) -> Vec<Expr> {
+    let Scene { space, motion, .. } = scene;
+    let rates = motion.states.iter();
+    rates.map(|rate| rate.value(space, motion)).collect()
+}
+
 /// The rates of the auxiliary variables.
 pub(crate) fn counter_rates(scene: &Scene) -> Kernel {
     with_scene(scene, |scene| {
@@ -257,7 +264,8 @@ fn unwrapped_angles(scene: &mut Scene) -> Vec<Expr> {
         .collect()
 }
 
-/// The state that the attributes describe: coordinates, auxiliary variables, then velocities.
+/// The state that the attributes describe: coordinates, auxiliary variables, the user's own states,
+/// then velocities.
 pub fn initial_state(model: &Model) -> Kernel {
     let mut arena = Arena::new();
     let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
@@ -275,6 +283,12 @@ pub fn initial_state(model: &Model) -> Kernel {
         }
     }
     coordinates.resize(coordinates.len() + model.layout().auxiliaries, Arena::ZERO);
+    coordinates.extend(
+        model
+            .states
+            .iter()
+            .map(|state| number(&mut arena, state.start)),
+    );
     coordinates.extend(velocities);
     Kernel {
         arena,

@@ -38,6 +38,13 @@ pub enum ScalarExpr {
     Angle(Box<AngleExpr>),
     /// The time derivative, which has no derivative of its own.
     Rate(Box<ScalarExpr>),
+    /// A state of the user's own.
+    State {
+        /// Its place among these.
+        place: usize,
+        /// Its value.
+        value: Expr,
+    },
 }
 
 /// An angle by multiples of its sine and cosine, and the auxiliary variable near which it lies.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::arena::{Arena, Expr};
+use super::expression::ScalarExpr;
 use super::vector::{Space, Triple, VectorId};
 
 /// Position and rates of the bodies, as vectors.
@@ -22,6 +23,8 @@ pub struct Motion {
     pub reference: Vec<Triple>,
     /// The time.
     pub time: Expr,
+    /// The rates of the user's own states.
+    pub states: Vec<ScalarExpr>,
 }
 
 impl Motion {

@@ -2,7 +2,7 @@
 //! bodies.
 
 use super::arena::{Arena, Expr, Input};
-use super::bind::{Binder, Effect, all_copies};
+use super::bind::{Binder, Effect, Law, all_copies};
 use super::expression::{AngleExpr, Constraint, PairedAngles, ScalarExpr, VectorExpr};
 use super::fixed::{Copies, number, triple};
 use super::kept::kept;
@@ -193,7 +193,7 @@ impl Scene {
         if exact {
             space = space.exact();
         }
-        let motion = Motion {
+        let mut motion = Motion {
             position: charts
                 .iter()
                 .map(|chart| space.native(Frame::Global, chart.position))
@@ -210,18 +210,23 @@ impl Scene {
             spin_components: charts.iter().map(|chart| chart.spin).collect(),
             reference: vec![ZERO; charts.len()],
             time,
+            states: Vec::new(),
         };
         let mut constraints = Vec::new();
         let mut effects = Vec::new();
         let mut counters = Vec::new();
         let mut displacements = Vec::new();
+        let mut first_counters = Vec::new();
+        let first_state = first_counter + layout.auxiliaries;
         for (place, element) in model.elements().enumerate() {
             let definition = model.definition(element);
+            first_counters.push(first_counter + counters.len());
             let binder = Binder {
                 model,
                 element,
                 copies: &copies[place],
                 first_counter: first_counter + counters.len(),
+                first_state,
                 paired,
             };
             let arena = &mut space.arena;
@@ -266,6 +271,27 @@ impl Scene {
                 });
             }
         }
+        let elements: Vec<_> = model.elements().collect();
+        let reading = |arena: &mut Arena, element: usize, term: &Term| {
+            let binder = Binder {
+                model,
+                element: elements[element],
+                copies: &copies[element],
+                first_counter: first_counters[element],
+                first_state,
+                paired,
+            };
+            binder.scalar(arena, term)
+        };
+        let rate = Law {
+            first_state,
+            arguments: &[],
+            reading: &reading,
+        };
+        for state in &model.states {
+            let rate = rate.expand(&mut space.arena, &state.rate);
+            motion.states.push(rate);
+        }
         Self {
             space,
             motion,
@@ -290,8 +316,9 @@ impl Scene {
             model,
             element,
             copies: &self.copies[joint],
-            // No angle over turns stands in it.
+            // No angle over turns stands in it, and no law.
             first_counter: 0,
+            first_state: 0,
             paired: &|_, _, _| None,
         };
         let terms = model.definition(element).requirements.iter();

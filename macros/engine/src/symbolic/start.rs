@@ -86,8 +86,8 @@ pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Exp
             function.value(arena, inner)
         }
         ScalarExpr::Angle(_) => Arena::ZERO,
-        ScalarExpr::Time | ScalarExpr::Rate(_) => {
-            unreachable!("the language refuses time and rates in the reference configuration")
+        ScalarExpr::Time | ScalarExpr::Rate(_) | ScalarExpr::State { .. } => {
+            unreachable!("the language refuses time, rates and laws in the reference configuration")
         }
     }
 }

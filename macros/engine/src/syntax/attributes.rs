@@ -58,7 +58,7 @@ pub(super) fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) 
             continue;
         }
         result.role = Some((role, attribute.path().clone()));
-        if role.has_carrier() || matches!(role, Role::Param | Role::Point) {
+        if role.has_carrier() || matches!(role, Role::Param | Role::Point | Role::State) {
             result.list = super::list(attribute, faults);
         } else if !matches!(attribute.meta, syn::Meta::Path(_)) {
             let word = attribute.path().to_token_stream();

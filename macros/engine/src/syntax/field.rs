@@ -26,10 +26,12 @@ pub enum Role {
     Param,
     /// `#[input]`.
     Input,
+    /// `#[state(rate = ..)]`: a state of the user's own.
+    State,
 }
 
 impl Role {
-    pub(super) const ALL: [(&'static str, Self); 8] = [
+    pub(super) const ALL: [(&'static str, Self); 9] = [
         ("body", Self::Body),
         ("joint", Self::Joint),
         ("force", Self::Force),
@@ -38,6 +40,7 @@ impl Role {
         ("port", Self::Port),
         ("param", Self::Param),
         ("input", Self::Input),
+        ("state", Self::State),
     ];
 
     /// Whether the field's type is a body, a joint, a force or an assembly.

@@ -144,6 +144,7 @@ pub fn list(attribute: &syn::Attribute, faults: &mut Faults) -> List {
                 "joint" => "#[joint(between = [ground, rod], ..)]",
                 "force" => "#[force(between = [ground, rod], ..)]",
                 "param" => "#[param(like = 0.8)]",
+                "state" => "#[state(rate = -current / 0.1)]",
                 "point" => "#[point(on = rod, at = [0.0, 0.5, 0.0])]",
                 "part" => "#[part(at = [0.0, 0.5, 0.0], ..)]",
                 _ => "#[mechanism(gravity = [0.0, 0.0, -9.81])]",

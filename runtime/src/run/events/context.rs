@@ -7,7 +7,8 @@ use crate::assembly::subtree::Subtree;
 use crate::dynamics::parameters;
 use crate::error::Fault;
 use crate::math::scalar::Real;
-use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
+use crate::measure::access::MechanismExt as _;
+use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle, StateHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::sample::Sample;
 
@@ -138,6 +139,12 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     ) -> Result<(), Fault> {
         self.state = self.subtree(joint)?.set_displacement_rate(rate)?;
         Ok(())
+    }
+
+    /// Sets a state of the user's own, see
+    /// [`MechanismExt::set_state_value`](crate::MechanismExt::set_state_value).
+    pub fn set_state_value(&mut self, of: StateHandle<M>, value: S) {
+        M::set_state_value(&mut self.state, of, value);
     }
 
     fn subtree<J>(&self, joint: JointHandle<M, J>) -> Result<Subtree<'_, S, M>, Fault> {

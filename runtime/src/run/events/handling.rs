@@ -9,6 +9,7 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Integrator;
 use crate::math::scalar::Real;
+use crate::math::vec3::read;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
@@ -232,18 +233,24 @@ where
         })
     }
 
-    /// A little ahead on the way of the motion, as far as the velocities lead.
+    /// A little ahead on the way of the motion, as far as velocities and rates of states lead.
     fn ahead(&self, hybrid: &Hybrid<'_, S, M>, time: S, state: &M::State<S>) -> (S, M::State<S>) {
         let left = hybrid.end - time;
         let mut step = left;
         if hybrid.longest > S::zero() {
             step = step.min(hybrid.longest);
         }
-        let speed = largest(state.velocities().as_slice());
+        let constants = self.dynamics.constants();
+        let mut rates = M::coordinate_rates(constants, state);
+        M::state_rates_into(constants, time, state, &mut rates);
+        let states = M::REPORT.states.iter();
+        let speed = states.fold(largest(state.velocities().as_slice()), |speed, info| {
+            let [rate] = read(rates.as_slice(), info.coordinate);
+            speed.max(rate.abs())
+        });
         if speed * step > S::constant(LITTLE) {
             step = S::constant(LITTLE).quotient(speed);
         }
-        let rates = M::coordinate_rates(self.dynamics.constants(), state);
         let rates = M::State::from_parts(rates, Array::zeros());
         (time + step, state.plus([(step, &rates)]))
     }

@@ -1,0 +1,52 @@
+//! The rates of the user's own states.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::parts::Frame;
+use super::straight_line::StraightLine;
+use super::writer::Writer;
+use crate::syntax::words::local;
+
+impl Writer<'_> {
+    /// Only where there are such states; the trait does nothing by default.
+    pub(super) fn state_rates(&mut self) -> TokenStream {
+        let kernels = self.kernels;
+        if kernels.state_rates.outputs.is_empty() {
+            return TokenStream::new();
+        }
+        let facade = self.facade;
+        let [constants, time, state, rates] = ["constants", "time", "state", "rates"].map(local);
+        let (unpack, mechanism) = (Self::unpack(), &self.model.name);
+        let frame = Frame {
+            name: "__state_rates".into(),
+            facade: facade.clone(),
+            declared: quote! {
+                #constants: &<#mechanism as #facade::Mechanism>::Constants<__S>,
+                #time: __S,
+                #state: &<#mechanism as #facade::Mechanism>::State<__S>,
+            },
+            passed: quote!(#constants, #time, #state,),
+            unpack: unpack.clone(),
+        };
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line_of(&kernels.state_rates, &frame);
+        let layout = self.model.layout();
+        let stored = layout.stored();
+        let places = stored - layout.states..stored;
+        quote! {
+            fn state_rates_into<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
+                #rates: &mut [__S; #stored],
+            ) {
+                #unpack
+                #statements
+                #( #rates[#places] = #outputs; )*
+            }
+        }
+    }
+}
