@@ -183,9 +183,10 @@ impl fmt::Display for Fault {
                  rest, take a smoothed law, or stop the run",
                 Given(time)
             ),
+            Self::Checkpoint(fault) => fault.fmt(f),
             Self::NotVerified => write!(
                 f,
-                "a run with events or controllers has no companion that `verified()` could compare it with; compare with a second run of \
+                "a run with events, controllers or checkpoints has no companion that `verified()` could compare it with; compare with a second run of \
                  another tolerance or step"
             ),
             Self::Unstable { step } => write!(

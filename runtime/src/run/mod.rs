@@ -5,6 +5,10 @@
 //! call, and runs need no type for each. The stabilisation `TreeRecovery` goes from bodies to joint
 //! coordinates and back by the kernels of starts.
 //!
+//! `checkpoint` is where a run can go on, and `resumed.rs` goes on there: `past.rs` is what of it a
+//! run reads, without a heap. A run is compiled once for both: a resumed integration is begun as it
+//! was, and then its memory is replaced.
+//!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
 //! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
 //! kernel is generated for it.
@@ -18,6 +22,8 @@
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
+#[cfg(feature = "std")]
+pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
@@ -25,12 +31,14 @@ pub(crate) mod direct;
 pub(crate) mod events;
 pub(crate) mod kinematics;
 pub(crate) mod output;
+pub(crate) mod past;
 pub(crate) mod post_step;
 #[cfg(feature = "recorder")]
 pub(crate) mod record_error;
 #[cfg(feature = "recorder")]
 pub(crate) mod recorder;
 pub(crate) mod report;
+pub(crate) mod resumed;
 pub(crate) mod sample;
 pub(crate) mod segments;
 pub(crate) mod simulate;
@@ -40,6 +48,8 @@ pub(crate) mod within;
 #[cfg(feature = "serde")]
 mod written;
 
+#[cfg(feature = "std")]
+pub use checkpoint::Checkpoint;
 pub use companion::{BodyError, Verification};
 pub use events::context::Event;
 pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
