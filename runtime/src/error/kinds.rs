@@ -153,6 +153,15 @@ pub enum Fault {
     /// A run with events or controllers, or one that goes on from a checkpoint, was to be
     /// [`verified`](crate::Simulation::verified).
     NotVerified,
+    /// A trajectory does not know the time that it is asked for.
+    OutsideTrajectory {
+        /// The time (s).
+        time: f64,
+        /// Where it begins (s); NaN where it knows no motion.
+        start: f64,
+        /// Where it ends (s).
+        end: f64,
+    },
     /// A checkpoint cannot be made, or a run cannot go on from it.
     Checkpoint(CheckpointFault),
     /// A fixed step that is too long for what moves or acts: a spin, a spring, a damper. The motion

@@ -184,6 +184,20 @@ impl fmt::Display for Fault {
                 Given(time)
             ),
             Self::Checkpoint(fault) => fault.fmt(f),
+            Self::OutsideTrajectory { time, start, end } => {
+                let time = Given(time);
+                if start.is_nan() {
+                    return write!(
+                        f,
+                        "the trajectory knows no motion, and so not that at {time} s; record one by `trajectory(..)` of a run"
+                    );
+                }
+                let [start, end] = [start, end].map(Given);
+                write!(
+                    f,
+                    "the trajectory goes from {start} s to {end} s, and was asked for {time} s"
+                )
+            }
             Self::NotVerified => write!(
                 f,
                 "a run with events, controllers or checkpoints has no companion that `verified()` could compare it with; compare with a second run of \

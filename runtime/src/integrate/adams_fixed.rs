@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::record::{LastStep, Reached, reached};
 use super::tableau::terms;
 use super::{
-    Advance, Counts, ErrorModel, Integration, Integrator, Look, Memory, Method, NoStages, OneStep as _,
-    Rk4, Slopes, StepStart, System, TimeSpan, dense, named,
+    Advance, Counts, ErrorModel, Integration, Integrator, Look, Memory, Method, NoStages,
+    OneStep as _, Rk4, Slopes, StepStart, System, TimeSpan, dense, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;

@@ -5,8 +5,8 @@ use core::mem::swap;
 use super::controller::{Controller, FIRST_SHARE};
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Adaptive, Advance, Counts, EmbeddedPair, Integration, Memory, OneStep, Slopes, StepRecord, StepStart,
-    System, TimeSpan, named,
+    Adaptive, Advance, Counts, EmbeddedPair, Integration, Memory, OneStep, Slopes, StepRecord,
+    StepStart, System, TimeSpan, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;

@@ -3,8 +3,8 @@
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Advance, Counts, ErrorModel, Heun, ImplicitMidpoint, Integration, Integrator, Kutta3, Memory, Method,
-    Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, StepStart, System, TimeSpan,
+    Advance, Counts, ErrorModel, Heun, ImplicitMidpoint, Integration, Integrator, Kutta3, Memory,
+    Method, Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, StepStart, System, TimeSpan,
     refused,
 };
 use crate::error::Fault;

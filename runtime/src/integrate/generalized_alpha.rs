@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Advance, Counts, ErrorModel, Integration, Integrator, Memory, Method, NoStages, RigidConstraints,
-    TimeSpan, dense,
+    Advance, Counts, ErrorModel, Integration, Integrator, Memory, Method, NoStages,
+    RigidConstraints, TimeSpan, dense,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;

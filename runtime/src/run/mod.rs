@@ -44,6 +44,8 @@ pub(crate) mod segments;
 pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
+#[cfg(feature = "std")]
+pub(crate) mod trajectory;
 pub(crate) mod within;
 #[cfg(feature = "serde")]
 mod written;
@@ -61,3 +63,5 @@ pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use record_error::RecordError;
 pub use simulate::Simulate;
+#[cfg(feature = "std")]
+pub use trajectory::Trajectory;

@@ -78,6 +78,8 @@ where
         self.log.unseen = progress.unseen;
         self.log.worst_violation = progress.worst_violation;
         let (time, state) = &past.at;
+        #[cfg(feature = "std")]
+        self.begin_records(*time, false);
         if past.segment.is_none() {
             let of_integration = self.dynamics.nearest(state);
             self.check_rates(*time, &of_integration, past)?;

@@ -186,6 +186,8 @@ where
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
         }
         self.begin_events(last_good)?;
+        #[cfg(feature = "std")]
+        self.begin_records(start, true);
         if self.log.flow.is_continue() {
             self.show(start, &last_good.1, companion);
         }
@@ -241,12 +243,19 @@ where
             let taken = self.take(&mut integration, last_good)?;
             let event = taken.event.as_ref();
             let reached = event.map_or(integration.time(), |&(time, _)| time);
+            #[cfg(feature = "std")]
+            let is_recorded = {
+                let at_end = event.map(|(_, bodies)| bodies);
+                self.record_within(&mut integration, (reached, at_end), last_good)?
+            };
+            #[cfg(not(feature = "std"))]
+            let is_recorded = false;
             let has_reported =
                 self.report_within(&mut integration, reached, companion, last_good)?;
             if self.log.flow.is_break() {
                 break;
             }
-            let is_shared = if has_reported {
+            let is_shared = if has_reported || is_recorded {
                 // With reports, which find what interpolation needs where a look has evaluated it,
                 // or evaluate for each time anew.
                 integration.counts().evaluations == taken.evaluations
@@ -262,6 +271,8 @@ where
             } else {
                 self.observe(&mut integration, taken.better, last_good)?;
             }
+            #[cfg(feature = "std")]
+            self.record_end(last_good);
             let is_event = event.is_some();
             if !is_event && self.schedule.at(last_good.0, self.log.unseen) {
                 self.show(last_good.0, &last_good.1, companion);
@@ -430,7 +441,7 @@ where
 
     /// A state after its stabilisation.
     #[inline(never)]
-    fn stabilised(
+    pub(crate) fn stabilised(
         &mut self,
         stabilisation: &dyn PostStabilisation<S, M>,
         time: S,

@@ -517,13 +517,7 @@ where
             steps: 0,
             counts: Counts::default(),
         };
-        run.go(
-            &self.integrator,
-            companion,
-            (start, end),
-            last_good,
-            past,
-        )
+        run.go(&self.integrator, companion, (start, end), last_good, past)
     }
 
     /// The start of a run over an interval (s) from a state, assembled where that is asked.

@@ -44,7 +44,8 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
     };
     let with = |value: &dyn Fn(usize, &RunTimeValue) -> TokenStream| {
         let values = inputs(model);
-        let values = values.map(|(number, input)| (&input.name, (quote!(__S), value(number, input))));
+        let values =
+            values.map(|(number, input)| (&input.name, (quote!(__S), value(number, input))));
         let structs = Structs::new("__Inputs", head.clone(), quote!(<__S>));
         structs.written(&nested(values))
     };

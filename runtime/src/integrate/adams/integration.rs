@@ -215,7 +215,8 @@ impl<S: Real, X: Vector<S>> Integration<S, X> for AdamsIntegration<S, X> {
         memory.count(&mut self.order);
         memory.flag(&mut self.is_starting);
         self.coefficients.remember(memory);
-        self.differences.each(|difference| memory.vector(difference));
+        self.differences
+            .each(|difference| memory.vector(difference));
         // A file may hold any number.
         self.order = self.order.clamp(1, HIGHEST);
         true

@@ -45,7 +45,6 @@ use crate::run::past::{Numbers, Past, PastSegment, Plan, Progress};
 ///
 /// [`Simulation::checkpoints`]: crate::Simulation::checkpoints
 /// [`Simulation::resume`]: crate::Simulation::resume
-#[derive(Clone)]
 pub struct Checkpoint<M: Mechanism, S: Real = f64> {
     method: String,
     formulation: String,
@@ -160,7 +159,6 @@ impl<M: Mechanism, S: Real> Checkpoint<M, S> {
         self.interval.1 = end;
         self
     }
-
 }
 
 impl<M: Mechanism, S: Real> Plan<S, M> for &Checkpoint<M, S> {
@@ -207,6 +205,20 @@ impl<M: Mechanism, S: Real> Plan<S, M> for &Checkpoint<M, S> {
             monitor: monitor.map(|(monitor, seen)| (monitor, *seen)),
             warnings: &self.warnings,
         }))
+    }
+}
+
+impl<M: Mechanism, S: Real> Clone for Checkpoint<M, S> {
+    fn clone(&self) -> Self {
+        Self {
+            method: self.method.clone(),
+            formulation: self.formulation.clone(),
+            rates: self.rates.clone(),
+            segment: self.segment.clone(),
+            events: self.events.clone(),
+            warnings: self.warnings.clone(),
+            ..*self
+        }
     }
 }
 

@@ -100,7 +100,11 @@ fn structure<M: Mechanism>() -> String {
         }
     }
     let mut hash = Hash(0xcbf2_9ce4_8422_2325);
-    let _ = write!(hash, "{:?}", M::REPORT);
+    let report = M::REPORT;
+    let elements = (report.bodies, report.joints, report.forces, report.values);
+    let layout = (report.carriers, report.redundant, report.equations);
+    let sizes = (report.coordinates, report.auxiliaries, report.velocities);
+    let _ = write!(hash, "{elements:?} {layout:?} {sizes:?}");
     format!("{:016x}", hash.0)
 }
 
@@ -342,8 +346,6 @@ impl<M: Mechanism, S: Real + Serialize> Serialize for Checkpoint<M, S> {
 impl<'de, M: Mechanism, S: Real + Deserialize<'de>> Deserialize<'de> for Checkpoint<M, S> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let parts = Parts::<M, S>::deserialize(deserializer)?;
-        parts
-            .checkpoint()
-            .ok_or_else(|| D::Error::custom(DAMAGED))
+        parts.checkpoint().ok_or_else(|| D::Error::custom(DAMAGED))
     }
 }

@@ -14,6 +14,8 @@ use crate::run::events::watch::{Period, Watch, is_same};
 use crate::run::output::IntoFlow;
 use crate::run::past::Past;
 use crate::run::sample::Sample;
+#[cfg(feature = "std")]
+use crate::run::trajectory::Trajectory;
 
 /// Something that happens in a run.
 #[doc(hidden)]
@@ -41,6 +43,15 @@ pub trait Happening<S: Real, M: Mechanism> {
     fn keep(&mut self, _checkpoint: &Checkpoint<M, S>) -> Result<ControlFlow<()>, Fault> {
         Ok(ControlFlow::Continue(()))
     }
+
+    /// Whether it records the motion.
+    fn records(&self) -> bool {
+        false
+    }
+
+    /// Shows the trajectory that is recorded.
+    #[cfg(feature = "std")]
+    fn record(&mut self, _visit: &mut dyn FnMut(&mut Trajectory<M, S>)) {}
 
     /// The reading of an event.
     fn read(&self, _sample: &Sample<'_, S, M>) -> S {
@@ -155,6 +166,8 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     pub(crate) taken: Option<M::Parameters<S>>,
     /// After how many steps, at the most, a checkpoint may be due.
     pub(crate) keeps: Option<usize>,
+    /// Whether the motion is recorded.
+    pub(crate) records: bool,
     /// Warnings from before a restart from a file.
     #[cfg(feature = "std")]
     pub(crate) former: std::vec::Vec<std::string::String>,
@@ -180,13 +193,14 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
         accepts_any_state: bool,
         (start, end): (S, S),
     ) -> Result<Self, Fault> {
-        let (mut watches, mut keeps) = (false, None);
+        let (mut watches, mut records, mut keeps) = (false, false, None);
         list.each(&mut |happening| {
             if let Some(steps) = happening.steps_to_keep() {
                 positive("steps between checkpoints", steps as f64)?;
                 keeps = Some(keeps.map_or(steps, |other| common(steps, other)));
             }
             watches |= happening.watch().is_some();
+            records |= happening.records();
             let Some(period) = happening.period() else {
                 return Ok(());
             };
@@ -207,6 +221,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             given: *given,
             taken: None,
             keeps,
+            records,
             #[cfg(feature = "std")]
             former: std::vec::Vec::new(),
             accepts_any_state,
