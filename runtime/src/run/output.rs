@@ -135,7 +135,7 @@ impl<S> Reporting<S> {
     }
 
     /// The interval (s) between reports, where there is one.
-    fn interval(self) -> Option<S> {
+    pub(crate) fn interval(self) -> Option<S> {
         match self {
             Self::Every(interval) | Self::EveryOrSteps { interval, .. } => Some(interval),
             Self::EveryStep => None,

@@ -156,7 +156,15 @@ impl<M: Mechanism, S: Real> Checkpoint<M, S> {
     /// that step, fixed steps do not differ.
     #[must_use]
     pub fn until(mut self, end: S) -> Self {
+        /// Parts of an interval between reports that are none.
+        const NEARLY: f64 = 1e-6;
+        let (start, former) = self.interval;
         self.interval.1 = end;
+        if let Some(dt) = self.reporting.interval().filter(|_| self.time >= former) {
+            // The report at the former end is one more than those at their interval.
+            let done = (self.time - start).quotient(dt).to_f64();
+            self.progress.reports = (done + NEARLY) as usize;
+        }
         self
     }
 }

@@ -48,7 +48,8 @@ const POINTS: [f64; FINEST + 1] = [
 struct Piece<S> {
     start: S,
     end: S,
-    /// The place of its first point, and the intervals between its points.
+    /// The place of its first point, and the intervals between its points. Before the first one is
+    /// the state at the start: some interpolants lead back to another one, by their error.
     first: usize,
     intervals: usize,
 }
@@ -58,8 +59,8 @@ struct Piece<S> {
 ///
 /// Between the ends of steps it is the dense output of the method, to 1e-11 of the elements of the
 /// state: what a report at that time would have shown. Its error is that of the method's
-/// interpolant. At the time of an event it has both states, the one that was found and the one with
-/// which the run went on.
+/// interpolant. At the ends of steps it is the state of the run. At the time of an event it has both
+/// states, the one that was found and the one with which the run went on.
 ///
 /// ```
 /// use holonom::prelude::*;
@@ -154,6 +155,9 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
             if time == piece.end {
                 return points.last().copied();
             }
+            if time == piece.start {
+                return self.points.get(piece.first.checked_sub(1)?).copied();
+            }
             let part = (time - piece.start).quotient(piece.end - piece.start);
             Some(interpolated::<S, M>(points, part))
         });
@@ -180,8 +184,16 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
         self.points.truncate(known);
     }
 
-    /// Adds a piece of its points.
-    fn add(&mut self, (start, end): (S, S), points: impl Iterator<Item = M::State<S>>) {
+    /// Adds a piece of the state at its start and its points.
+    fn add(
+        &mut self,
+        (start, end): (S, S),
+        from: &M::State<S>,
+        points: impl Iterator<Item = M::State<S>>,
+    ) {
+        if self.points.last() != Some(from) {
+            self.points.push(*from);
+        }
         let first = self.points.len();
         self.points.extend(points);
         let intervals = (self.points.len() - first).saturating_sub(1);

@@ -72,7 +72,6 @@ where
             Some(bodies) => *bodies,
             None => self.dynamics.bodies_near(integration.state(), from),
         };
-        points[0] = Some(*from);
         points[FINEST] = Some(self.recorded(end, to)?);
         let mut look = |run: &mut Self, points: &mut Points<M::State<S>>, intervals: usize| {
             for place in (0..=FINEST).step_by(FINEST / intervals) {
@@ -100,7 +99,7 @@ where
         self.dynamics.recall(seen);
         self.each_record(&mut |trajectory| {
             let known = points.iter().step_by(FINEST / intervals);
-            trajectory.add((start, end), known.filter_map(|point| *point));
+            trajectory.add((start, end), from, known.filter_map(|point| *point));
         });
         Ok(true)
     }
