@@ -27,6 +27,7 @@ pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
+pub(crate) mod dense_step;
 pub(crate) mod direct;
 pub(crate) mod events;
 pub(crate) mod kinematics;
@@ -53,6 +54,7 @@ mod written;
 #[cfg(feature = "std")]
 pub use checkpoint::Checkpoint;
 pub use companion::{BodyError, Verification};
+pub use dense_step::DenseStep;
 pub use events::context::Event;
 pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
 pub use events::list::{Happenings, NothingHappens};

@@ -18,8 +18,6 @@ use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
-#[cfg(feature = "std")]
-use crate::run::checkpoint::Checkpoint;
 use crate::run::companion::Companion;
 use crate::run::events::list::{Happenings, Hybrid};
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
@@ -59,6 +57,9 @@ pub struct Simulation<
     is_verified: bool,
     coordinates: PhantomData<C>,
 }
+
+/// The interval (s) of a run, when it reports, and where it goes on.
+type ToDo<'p, S, M> = ((S, S), Reporting<S>, Option<&'p Past<'p, S, M>>);
 
 /// Where the numbers of a mechanism come from.
 enum Source<'a, S: Real, M: Mechanism> {
@@ -376,54 +377,6 @@ where
         self.run_with(None, Planned(interval, reporting), observe)
     }
 
-    /// Goes on from a [`Checkpoint`](crate::run::Checkpoint) to the end of its interval: what is
-    /// shown and reported from there on is what the whole run would have shown and reported.
-    ///
-    /// Build the simulation as that of the run: the same mechanism with the values of its start,
-    /// the same formulation, method, coordinates, corrections, breaks, forces, events and
-    /// controllers. The initial state is of no account. [`HybridSimulation::resume`] goes on with
-    /// events, controllers and further checkpoints.
-    ///
-    /// ```
-    /// use holonom::prelude::*;
-    /// # #[derive(Mechanism)]
-    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
-    /// # struct Rod {
-    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
-    /// #     rod: Body,
-    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    /// #     hinge: Revolute,
-    /// # }
-    /// let rod = Rod::default();
-    /// let simulation = || rod.simulation(StandardLagrange, DormandPrince::default());
-    /// let mut kept = Vec::new();
-    /// let whole = simulation()
-    ///     .checkpoints(10, |checkpoint| kept.push(checkpoint.clone()))
-    ///     .run(0.0..=5.0, every(0.1), |_| ())?;
-    /// let half = &kept[kept.len() / 2];
-    /// assert_eq!(simulation().resume(half, |_| ())?, whole); // to the last bit
-    /// # Ok::<(), SimulationError<StateOf<Rod>>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Those of [`Simulation::run`], and [`Fault::Checkpoint`] where the simulation is not that of
-    /// the checkpoint.
-    ///
-    /// [`HybridSimulation::resume`]: crate::run::HybridSimulation::resume
-    #[cfg(feature = "std")]
-    pub fn resume<O, R>(
-        &self,
-        checkpoint: &Checkpoint<M, S>,
-        observe: O,
-    ) -> RunResult<S, M, R::Error<M::State<S>>>
-    where
-        I: Runs<S, M, F, C, A>,
-        O: FnMut(&Sample<'_, S, M>) -> R,
-        R: IntoFlow,
-    {
-        self.run_with(None, checkpoint, observe)
-    }
-
     /// The same with events and controllers.
     pub(crate) fn run_with<O, R>(
         &self,
@@ -457,7 +410,7 @@ where
     fn attempt(
         &self,
         happenings: Option<&mut dyn Happenings<S, M>>,
-        ((start, end), reporting, past): ((S, S), Reporting<S>, Option<&Past<'_, S, M>>),
+        ((start, end), reporting, past): ToDo<'_, S, M>,
         observe: &mut Observer<'_, S, M>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<RunReport<S, M>, Fault>

@@ -1,5 +1,8 @@
 //! Trajectories against what observers were shown, and against closed forms.
 
+use holonom::dynamics::Dynamics;
+use holonom::integrate::{DormandPrince5, DormandPrince8, FixedStep, OneStep};
+use holonom::measure::NoForces;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::{Checkpoint, Trajectory};
@@ -189,4 +192,55 @@ fn jumps_have_two_sides() {
         assert_eq!(resumed.at(time), whole.at(time));
         assert_eq!(alone.at(time), whole.at(time));
     }
+}
+
+/// A step of a stepper, asked within, is what observers of a run of such steps are shown.
+#[test]
+fn a_step_that_is_asked_within_is_what_observers_are_shown() {
+    fn compared<K, C>(scheme: K, method: FixedStep<f64, K>)
+    where
+        C: Coordinates<Flap>,
+        K: OneStep<f64, Dynamics<f64, Flap, StandardLagrange, NoForces, C>>,
+        FixedStep<f64, K>: Runs<f64, Flap, StandardLagrange, C>,
+    {
+        let flap = flap();
+        let mut shown: Shown<Flap> = Vec::new();
+        // Up to where a law of the flap begins, and the run begins anew.
+        Simulation::new(&flap, StandardLagrange, method)
+            .coordinates::<C>()
+            .run(0.0..=0.25, every(0.003), |sample| {
+                shown.push((sample.time(), *sample.state()));
+            })
+            .expect("it runs");
+        let stepper = Stepper::<f64, _, _, _>::new(&flap, StandardLagrange, scheme);
+        let mut stepper = stepper.expect("acceptable").coordinates::<C>();
+        let mut state = stepper.initial_state().expect("a start");
+        let mut asked = 0;
+        while stepper.time() < 0.24 {
+            let from = stepper.time();
+            let step = stepper.step_dense(&mut state, 0.01).expect("it moves");
+            for (time, shown) in &shown {
+                if (from..=stepper.time()).contains(time) {
+                    let found = stepper.within(&step, *time).expect("within");
+                    let (q, exact) = (found.velocities(), shown.velocities());
+                    let off = q
+                        .iter()
+                        .zip(exact)
+                        .map(|(a, b)| (a - b).abs())
+                        .fold(0.0, f64::max);
+                    assert!(off < 1e-12, "{time}: {off:e}");
+                    asked += 1;
+                }
+            }
+            let before = stepper.within(&step, from - 1e-3);
+            assert!(matches!(before, Err(Fault::OutsideTrajectory { .. })));
+            let end = stepper.within(&step, stepper.time()).expect("within");
+            assert_eq!(end.velocities(), stepper.bodies(&state).velocities());
+        }
+        assert!(asked > 75, "{asked}");
+    }
+    compared::<_, Relative>(Rk4, Rk4::every(0.01));
+    compared::<_, Absolute>(Rk4, Rk4::every(0.01));
+    compared::<_, Relative>(DormandPrince5, DormandPrince::every(0.01));
+    compared::<_, Absolute>(DormandPrince8, DormandPrince853::every(0.01));
 }

@@ -5,8 +5,8 @@
 //! parameters are drawn: a row is the same in whatever shard, lane or thread it is computed. Rows
 //! run [`LANES`] at a time in an [`Ensemble`], on all cores.
 //!
-//! Rows can be kept as they are done ([`resume`]): a computation that was interrupted goes on. For a
-//! cluster, compute each [`Shard`] by a job of its own and join the files by [`merge`].
+//! Rows can be kept as they are done ([`fn@resume`]): a computation that was interrupted goes on.
+//! For a cluster, compute each [`Shard`] by a job of its own and join the files by [`merge`].
 
 mod resume;
 mod rows;

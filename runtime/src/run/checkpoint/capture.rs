@@ -19,6 +19,9 @@ use crate::run::past::Progress;
 use crate::run::segments::{Begun, Run};
 use crate::state::vector::Vector;
 
+/// An integration under way, with its start; `None` between two of them.
+type UnderWay<'u, K, S, X> = Option<(&'u mut K, &'u Begun<S, X>)>;
+
 impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
 where
     S: Real,
@@ -44,7 +47,7 @@ where
     pub(crate) fn keep<I, K>(
         &mut self,
         integrator: &I,
-        under_way: Option<(&mut K, &Begun<S, C::State<S>>)>,
+        under_way: UnderWay<'_, K, S, C::State<S>>,
         &(time, ref state): &(S, M::State<S>),
     ) -> Result<(), Fault>
     where
@@ -75,7 +78,7 @@ where
     fn checkpoint<I, K>(
         &mut self,
         integrator: &I,
-        under_way: Option<(&mut K, &Begun<S, C::State<S>>)>,
+        under_way: UnderWay<'_, K, S, C::State<S>>,
         (time, state): (S, &M::State<S>),
         hybrid: &mut Hybrid<'_, S, M>,
     ) -> Result<Checkpoint<M, S>, Fault>

@@ -1,7 +1,7 @@
 //! Where a run can go on, to the last bit.
 //!
 //! A checkpoint is taken between two steps of an integration, or between two integrations.
-//! `capture.rs` takes it of a run and puts it back, `written.rs` has it in a file. What the method
+//! `capture.rs` takes it of a run, `written.rs` has it in a file. What the method
 //! remembers is numbers in the order in which it hands them over
 //! ([`Integration::remember`](crate::integrate::Integration::remember)).
 //!
@@ -12,6 +12,7 @@
 
 mod capture;
 pub(crate) mod keeper;
+mod resume;
 #[cfg(feature = "serde")]
 mod written;
 

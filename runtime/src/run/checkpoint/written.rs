@@ -60,7 +60,8 @@ impl Written {
         if self.format != meant.format {
             let [found, known] = [self.format, meant.format];
             Some(format!(
-                "this is a checkpoint in the format {found}, and this program reads the format {known}"
+                "this is a checkpoint in the format {found}, and this program reads the format \
+                 {known}"
             ))
         } else if self.mechanism != meant.mechanism {
             let found = &self.mechanism;
@@ -70,7 +71,8 @@ impl Written {
         } else if self.holonom != meant.holonom {
             let [found, known] = [&self.holonom, &meant.holonom];
             Some(format!(
-                "this is a checkpoint of holonom {found}, and not of {known}, whose numbers may be others"
+                "this is a checkpoint of holonom {found}, and not of {known}, whose numbers may be \
+                 others"
             ))
         } else if self.numbers != meant.numbers {
             let [found, known] = [&self.numbers, &meant.numbers];
@@ -79,7 +81,8 @@ impl Written {
             ))
         } else if self.structure != meant.structure {
             Some(format!(
-                "`{name}` has other fields than at the time of this checkpoint, or they are in another order"
+                "`{name}` has other fields than at the time of this checkpoint, or they are in \
+                 another order"
             ))
         } else {
             None

@@ -412,7 +412,7 @@ where
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
-        let happenings = Some(&mut self.happenings as &mut dyn Happenings<S, M>);
-        self.simulation.run_with(happenings, checkpoint, observe)
+        let list: &mut dyn Happenings<S, M> = &mut self.happenings;
+        self.simulation.run_with(Some(list), checkpoint, observe)
     }
 }
