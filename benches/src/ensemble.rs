@@ -1,9 +1,11 @@
 //! What `study ensemble` draws and reads.
 
+use std::path::Path;
+
 use holonom::prelude::*;
 use holonom_study::StudyError;
 use holonom_study::ensemble::rand_chacha::ChaCha8Rng;
-use holonom_study::ensemble::{Draw, Rows, Steps, Table, compute};
+use holonom_study::ensemble::{Draw, Rows, Steps, Table, resume};
 use rand::RngExt as _;
 
 /// A model of which rows are computed.
@@ -87,27 +89,37 @@ pub struct CrankRocker {
     motor: TorsionalActuator,
 }
 
-/// The rows of a shard; `done` is told how many further ones are done.
+/// The rows of a shard, each in a journal as soon as it is done; `done` is told how many further
+/// ones are done.
 ///
 /// # Errors
-/// What [`compute`] refuses.
-pub fn table(model: Model, rows: &Rows, done: impl Fn(u64) + Sync) -> Result<Table, StudyError> {
+/// What [`resume`] refuses.
+pub fn table(
+    model: Model,
+    rows: &Rows,
+    journal: &Path,
+    done: impl Fn(u64) + Sync,
+) -> Result<Table, StudyError> {
     match model {
         Model::Pendulum => {
-            let computed = compute(rows, (StandardLagrange, Rk4, STEPS), pendulum, swing, done)?;
+            let method = (StandardLagrange, Rk4, STEPS);
             let drawn = ["length", "mass", "damping", "angle"];
-            Ok(Table::new(
-                rows,
-                (drawn, ["angle_at_end", "highest_angle"]),
-                &computed,
-            ))
+            let names = (drawn, ["angle_at_end", "highest_angle"]);
+            resume(rows, journal, names, method, pendulum, swing, done)
         }
         Model::FourBar => {
             let method = (Baumgarte::default(), Rk4, STEPS);
-            let computed = compute(rows, method, crank_rocker, turn, done)?;
             let drawn = ["mass", "damping", "torque"];
             let read = ["crank_rate_at_end", "highest_crank_rate", "violation"];
-            Ok(Table::new(rows, (drawn, read), &computed))
+            resume(
+                rows,
+                journal,
+                (drawn, read),
+                method,
+                crank_rocker,
+                turn,
+                done,
+            )
         }
     }
 }

@@ -21,6 +21,7 @@
 //! | integrators | [`Rk4`], [`DormandPrince`] |
 //! | poses, velocities, angles, reactions, energies, violations by name | [`View`], [`MechanismExt`] |
 //! | orientations as Euler, Bryant or roll-pitch-yaw angles | [`View::euler_angles`], [`measure`] |
+//! | runs that go on where they stopped, a motion at any time | [`run::Checkpoint`], [`run::Trajectory`], with the feature `std` |
 //! | states in files, by name | `measure::NamedState`, with the feature `serde` |
 //! | samples as lines of a CSV file | `Recorder`, with the feature `recorder` |
 //! | correction onto the constraints | [`Projection`] |

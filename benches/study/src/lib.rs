@@ -33,6 +33,8 @@ mod error;
 pub mod extremes;
 pub mod files;
 pub mod format;
+#[cfg(any(feature = "ensemble", feature = "trade"))]
+mod journal;
 pub mod page;
 pub mod pendulum;
 pub mod run;

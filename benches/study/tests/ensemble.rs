@@ -1,13 +1,13 @@
 //! Rows are the same in whatever shard they are computed, and files of shards join to that of all.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use holonom::prelude::*;
 use holonom_models::RodPendulum;
 use holonom_study::StudyError;
 use holonom_study::ensemble::rand_chacha::{ChaCha8Rng, rand_core::Rng};
-use holonom_study::ensemble::{Draw, Row, Rows, Shard, Steps, Table, compute, merge};
+use holonom_study::ensemble::{Draw, Row, Rows, Shard, Steps, Table, compute, merge, resume};
 
 const STEPS: Steps = Steps {
     step: 0.01,
@@ -102,4 +102,92 @@ fn shards_are_all_rows_once() {
     for wrong in ["0/8", "9/8", "1", "a/b", "1/0"] {
         assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
     }
+}
+
+/// Where a child process of the test below keeps its rows.
+const JOURNAL: &str = "HOLONOM_ROWS_OF_A_CHILD";
+
+fn kept(journal: &Path, done: impl Fn(u64) + Sync) -> Result<Table, StudyError> {
+    let rows = Rows {
+        all: 200,
+        shard: Shard::ALL,
+        seed: 7,
+    };
+    let names = (["drawn"], ["angle", "highest"]);
+    let method = (StandardLagrange, Rk4, STEPS);
+    resume(&rows, journal, names, method, draw, read, done)
+}
+
+/// Run by the test below in a process of its own; nothing otherwise. It never comes to an end: once
+/// rows are kept, it waits to be interrupted.
+#[test]
+#[ignore = "a child process of another test"]
+fn rows_of_a_child() {
+    if let Some(journal) = std::env::var_os(JOURNAL) {
+        let done = std::sync::atomic::AtomicU64::new(0);
+        let wait = |further| {
+            let order = std::sync::atomic::Ordering::SeqCst;
+            while done.fetch_add(further, order) >= 40 {
+                std::thread::park();
+            }
+        };
+        kept(Path::new(&journal), wait).expect("sound rows");
+    }
+}
+
+/// The child is sent a signal once some rows are in its journal, and never gets to all of them.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_computation_goes_on() {
+    use std::process::{Command, Stdio};
+
+    let directory = std::env::temp_dir().join(format!("holonom-rows-kept-{}", std::process::id()));
+    let journal = directory.join("journal");
+    let lines = || {
+        fs::read_to_string(&journal)
+            .unwrap_or_default()
+            .lines()
+            .count()
+    };
+    for _ in 0..2 {
+        let mut child = Command::new(std::env::current_exe().expect("this program"))
+            .args([
+                "--exact",
+                "rows_of_a_child",
+                "--ignored",
+                "--test-threads=1",
+            ])
+            .env(JOURNAL, &journal)
+            .env("RAYON_NUM_THREADS", "2")
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("a process");
+        let before = lines();
+        while lines() < before.max(20) {
+            assert!(
+                child.try_wait().expect("a status").is_none(),
+                "it ended by itself"
+            );
+            std::thread::yield_now();
+        }
+        let signal = Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .status();
+        assert!(signal.expect("a program").success());
+        assert!(!child.wait().expect("a status").success());
+    }
+    let known = lines() as u64 - 1;
+    assert!((20..200).contains(&known), "{known}");
+
+    let told = std::sync::Mutex::new(Vec::new());
+    let table = kept(&journal, |further| {
+        told.lock().expect("sound").push(further)
+    });
+    let told = told.into_inner().expect("sound");
+    // The last line may have been cut short.
+    assert!(told[0] == known || told[0] == known - 1, "{told:?} {known}");
+    assert_eq!(told.iter().sum::<u64>(), 200);
+    let whole = kept(&directory.join("another"), |_| ()).expect("sound rows");
+    assert_eq!(table.expect("sound rows"), whole);
+    fs::remove_dir_all(&directory).expect("there");
 }

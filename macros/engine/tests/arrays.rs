@@ -165,7 +165,14 @@ fn functions(file: File) -> Vec<(String, String)> {
 }
 
 /// The functions that name fields of a struct.
-const OF_FIELDS: [&str; 5] = ["parameters", "new", "inputs", "put_inputs", "default"];
+const OF_FIELDS: [&str; 6] = [
+    "parameters",
+    "new",
+    "inputs",
+    "put_inputs",
+    "inputs_of",
+    "default",
+];
 
 /// The handles and what takes values over from the struct.
 #[test]

@@ -3,6 +3,8 @@
 
 use core::fmt::Display;
 
+use crate::error::checkpoint::CheckpointFault;
+
 /// A number of the description that the macro could not see is not acceptable.
 ///
 /// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
@@ -155,9 +157,20 @@ pub enum Fault {
         /// The time (s).
         time: f64,
     },
-    /// A run with events or controllers was to be
+    /// A run with events or controllers, or one that goes on from a checkpoint, was to be
     /// [`verified`](crate::Simulation::verified).
     NotVerified,
+    /// A trajectory does not know the time that it is asked for.
+    OutsideTrajectory {
+        /// The time (s).
+        time: f64,
+        /// Where it begins (s); NaN where it knows no motion.
+        start: f64,
+        /// Where it ends (s).
+        end: f64,
+    },
+    /// A checkpoint cannot be made, or a run cannot go on from it.
+    Checkpoint(CheckpointFault),
     /// A fixed step that is too long for what moves or acts: a spin, a spring, a damper. The motion
     /// grew beyond all numbers.
     Unstable {

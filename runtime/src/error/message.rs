@@ -204,9 +204,24 @@ impl fmt::Display for Fault {
                  rest, take a smoothed law, or stop the run",
                 Given(time)
             ),
+            Self::Checkpoint(fault) => fault.fmt(f),
+            Self::OutsideTrajectory { time, start, end } => {
+                let time = Given(time);
+                if start.is_nan() {
+                    return write!(
+                        f,
+                        "the trajectory knows no motion, and so not that at {time} s; record one by `trajectory(..)` of a run"
+                    );
+                }
+                let [start, end] = [start, end].map(Given);
+                write!(
+                    f,
+                    "the trajectory goes from {start} s to {end} s, and was asked for {time} s"
+                )
+            }
             Self::NotVerified => write!(
                 f,
-                "a run with events or controllers has no companion that `verified()` could compare it with; compare with a second run of \
+                "a run with events, controllers or checkpoints has no companion that `verified()` could compare it with; compare with a second run of \
                  another tolerance or step"
             ),
             Self::Unstable { step } => write!(

@@ -3,6 +3,7 @@
 //! Texts are in `message.rs`. `Debug` of an error says the same as `Display`, because a `main`
 //! that returns an error prints `Debug`.
 
+mod checkpoint;
 mod kinds;
 pub(crate) mod message;
 pub(crate) mod readable;
@@ -10,6 +11,7 @@ pub(crate) mod readable;
 pub(crate) mod sentence;
 pub(crate) mod setting;
 
+pub use checkpoint::CheckpointFault;
 pub use kinds::{
     AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
     SimulationError,

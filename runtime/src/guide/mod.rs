@@ -16,7 +16,8 @@
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
 //! | [`states`] | numbers with a rate of their own: motor currents, filters, hydraulic pressures, integrals of controllers |
 //! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
-//! | [`results`] | what can be read, with units, frames and signs; state and restart |
+//! | [`results`] | what can be read, with units, frames and signs; states in files |
+//! | [`restart`] | checkpoints of a run, from which it goes on exactly; a motion that can be asked at any time |
 //! | [`trust`] | whether to trust a result: the warnings of a run, starts, steps and budgets |
 //! | [`reactions`] | the reaction of a joint: on which body, about which point; body axes and principal axes |
 //! | [`redundant`] | redundant equations, singular configurations, and joints that avoid both |
@@ -135,6 +136,9 @@ pub mod parameters {}
 
 #[doc = include_str!("results.md")]
 pub mod results {}
+
+#[doc = include_str!("restart.md")]
+pub mod restart {}
 
 #[doc = include_str!("trust.md")]
 pub mod trust {}

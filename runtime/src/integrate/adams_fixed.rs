@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::record::{LastStep, Reached, reached};
 use super::tableau::terms;
 use super::{
-    Advance, Counts, ErrorModel, Integration, Integrator, Look, Method, NoStages, OneStep as _,
-    Rk4, Slopes, StepStart, System, TimeSpan, dense, named,
+    Advance, Counts, ErrorModel, Integration, Integrator, Look, Memory, Method, NoStages,
+    OneStep as _, Rk4, Slopes, StepStart, System, TimeSpan, dense, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -155,6 +155,15 @@ impl<S: Real, X: Vector<S>> AdamsFixedIntegration<S, X> {
 
 impl<S: Real, X: Vector<S>> Integration<S, X> for AdamsFixedIntegration<S, X> {
     reached!();
+
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        self.reached.remember(memory);
+        memory.vector(&mut self.last.first);
+        for slope in &mut self.before {
+            memory.vector(slope);
+        }
+        true
+    }
 }
 
 impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsFixedIntegration<S, Y::State> {

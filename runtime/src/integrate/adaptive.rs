@@ -5,8 +5,8 @@ use core::mem::swap;
 use super::controller::{Controller, FIRST_SHARE};
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Adaptive, Advance, Counts, EmbeddedPair, Integration, OneStep, Slopes, StepRecord, StepStart,
-    System, TimeSpan, named,
+    Adaptive, Advance, Counts, EmbeddedPair, Integration, Memory, OneStep, Slopes, StepRecord,
+    StepStart, System, TimeSpan, named,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -145,6 +145,12 @@ impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> AdaptiveIntegration<S, X, K> {
 
 impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Integration<S, X> for AdaptiveIntegration<S, X, K> {
     reached!();
+
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        self.reached.remember(memory);
+        memory.number(&mut self.next_step);
+        true
+    }
 }
 
 impl<S, K, Y> Advance<S, Y> for AdaptiveIntegration<S, Y::State, K>

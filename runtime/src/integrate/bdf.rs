@@ -5,9 +5,9 @@ use core::mem::replace;
 use super::controlled::controlled;
 use super::controller::{Controller, FIRST_SHARE};
 use super::linear::Factors;
-use super::newton::{Age, Newton, Progress};
+use super::newton::{Age, Newton, Progress, remember_columns};
 use super::record::{Reached, reached};
-use super::{Advance, Counts, Integration, Slopes, System, TimeSpan, named};
+use super::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -327,6 +327,24 @@ fn interpolation<S: Real>(factor: S) -> [[S; HIGHEST]; HIGHEST] {
 impl<S: Real, X: Vector<S>> Integration<S, X> for BdfIntegration<S, X> {
     // Where a state is replaced, those before are moved along: their differences stay.
     reached!();
+
+    // Factors follow from the Jacobian and the shift.
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        self.reached.remember(memory);
+        memory.number(&mut self.step);
+        memory.count(&mut self.order);
+        memory.count(&mut self.equal);
+        for difference in &mut self.differences {
+            memory.vector(difference);
+        }
+        self.age.remember(memory);
+        let length = self.reached.state.length();
+        remember_columns::<S, X>(memory, &mut self.jacobian, length);
+        self.factorised = None;
+        // A file may hold any number.
+        self.order = self.order.clamp(1, HIGHEST);
+        true
+    }
 }
 
 impl<S: Real, Y: System<S>> Advance<S, Y> for BdfIntegration<S, Y::State> {

@@ -3,8 +3,8 @@
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Advance, Counts, ErrorModel, Heun, ImplicitMidpoint, Integration, Integrator, Kutta3, Method,
-    Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, StepStart, System, TimeSpan,
+    Advance, Counts, ErrorModel, Heun, ImplicitMidpoint, Integration, Integrator, Kutta3, Memory,
+    Method, Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, StepStart, System, TimeSpan,
     refused,
 };
 use crate::error::Fault;
@@ -134,6 +134,11 @@ pub struct FixedIntegration<S: Real, X: Vector<S>, K: Scheme<S>> {
 
 impl<S: Real, X: Vector<S>, K: Scheme<S>> Integration<S, X> for FixedIntegration<S, X, K> {
     reached!();
+
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        self.reached.remember(memory);
+        true
+    }
 }
 
 impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedIntegration<S, Y::State, K> {

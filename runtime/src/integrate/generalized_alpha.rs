@@ -6,8 +6,8 @@ use super::fixed::Grid;
 use super::lobatto::better_end;
 use super::record::{LastStep, Reached, reached};
 use super::{
-    Advance, Counts, ErrorModel, Integration, Integrator, Method, NoStages, RigidConstraints,
-    TimeSpan, dense,
+    Advance, Counts, ErrorModel, Integration, Integrator, Memory, Method, NoStages,
+    RigidConstraints, TimeSpan, dense,
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
@@ -244,6 +244,12 @@ pub struct GeneralizedAlphaIntegration<S: Real, X: Vector<S>> {
 
 impl<S: Real, X: Vector<S>> Integration<S, X> for GeneralizedAlphaIntegration<S, X> {
     reached!();
+
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        self.reached.remember(memory);
+        memory.vector(&mut self.auxiliary);
+        true
+    }
 }
 
 impl<S, Y> Advance<S, Y> for GeneralizedAlphaIntegration<S, Y::State>

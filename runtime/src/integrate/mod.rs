@@ -58,6 +58,7 @@ mod implicit_midpoint;
 mod linear;
 mod lobatto;
 mod looked_into;
+mod memory;
 mod newton;
 mod radau;
 mod record;
@@ -89,6 +90,7 @@ pub use generalized_alpha::{
     AlphaEnd, AlphaStep, AlphaWeights, GeneralizedAlpha, GeneralizedAlphaIntegration,
 };
 pub use implicit_midpoint::ImplicitMidpoint;
+pub use memory::Memory;
 pub use radau::{RadauIIA, RadauIntegration};
 pub use rk2::{Heun, Midpoint};
 pub use rk3::Kutta3;
@@ -99,6 +101,7 @@ pub use slopes::{Checking, Counting, Look, Slopes, Unlooked};
 use core::fmt::Debug;
 
 pub(crate) use self::looked_into::StepWithin;
+pub(crate) use self::memory::{Reader, Tape};
 pub(crate) use self::newton::by_differences;
 
 use self::slopes::named;
@@ -333,6 +336,16 @@ pub trait Integration<S: Real, X: Vector<S>> {
 
     /// What it has cost so far.
     fn counts(&self) -> Counts;
+
+    /// Hands everything that the next steps depend on to a [`Memory`], which writes it or replaces
+    /// it: where it is, slopes and states of former steps, the size of the next step. Whether it
+    /// does: a method that does not cannot go on from a checkpoint.
+    ///
+    /// It is asked between two steps. What it replaces was begun by the same method over the same
+    /// interval.
+    fn remember(&mut self, _memory: &mut Memory<'_, S>) -> bool {
+        false
+    }
 }
 
 /// An integration under way.

@@ -1,6 +1,7 @@
 //! What implicit methods have in common: a simplified Newton iteration, and the Jacobian of the
 //! rates.
 
+use super::Memory;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::math::scalar::increment;
@@ -83,6 +84,34 @@ pub(super) enum Age {
     Former,
     /// It is to be computed.
     Unknown,
+}
+
+impl Age {
+    /// Its part of [`Integration::remember`](super::Integration::remember).
+    pub(super) fn remember<S: Real>(&mut self, memory: &mut Memory<'_, S>) {
+        let mut place = match self {
+            Self::Present => 0,
+            Self::Former => 1,
+            Self::Unknown => 2,
+        };
+        memory.count(&mut place);
+        *self = match place {
+            0 => Self::Present,
+            1 => Self::Former,
+            _ => Self::Unknown,
+        };
+    }
+}
+
+/// The part of a Jacobian in [`Integration::remember`](super::Integration::remember).
+pub(super) fn remember_columns<S: Real, X: Vector<S>>(
+    memory: &mut Memory<'_, S>,
+    columns: &mut X::Each<X>,
+    length: usize,
+) {
+    for column in 0..length {
+        memory.vector(&mut columns[column]);
+    }
 }
 
 /// The Jacobian of the rates by differences of them, one evaluation for every element of the state

@@ -5,10 +5,10 @@ use core::mem::{replace, swap};
 use super::controlled::controlled;
 use super::controller::{Controller, FIRST_SHARE};
 use super::linear::{ComplexColumn, Factors};
-use super::newton::{Age, Newton, Progress};
+use super::newton::{Age, Newton, Progress, remember_columns};
 use super::record::{Reached, reached};
 use super::tableau_radau as tableau;
-use super::{Advance, Counts, Integration, Slopes, System, TimeSpan, Tolerance, named};
+use super::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, Tolerance, named};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::math::scalar::Real;
@@ -352,6 +352,22 @@ struct Trial<S, X> {
 
 impl<S: Real, X: Vector<S>> Integration<S, X> for RadauIntegration<S, X> {
     reached!();
+
+    // Factors follow from the Jacobian and the step.
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        self.reached.remember(memory);
+        memory.number(&mut self.next_step);
+        self.age.remember(memory);
+        let length = self.reached.state.length();
+        remember_columns::<S, X>(memory, &mut self.jacobian, length);
+        self.factorised = None;
+        memory.number(&mut self.step);
+        memory.optional(&mut self.error);
+        for increment in &mut self.increments {
+            memory.vector(increment);
+        }
+        true
+    }
 }
 
 impl<S: Real, Y: System<S>> Advance<S, Y> for RadauIntegration<S, Y::State> {

@@ -2,7 +2,7 @@
 
 use core::mem::{replace, swap};
 
-use super::{Counts, Scheme, Slopes, StepEnds, StepRecord, System, TimeSpan, named};
+use super::{Counts, Memory, Scheme, Slopes, StepEnds, StepRecord, System, TimeSpan, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
@@ -37,6 +37,23 @@ impl<S: Real, X: Vector<S>> Reached<S, X> {
             is_known: true,
             estimate: None,
         })
+    }
+
+    /// Its part of [`Integration::remember`](super::Integration::remember).
+    pub(super) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        let Counts {
+            evaluations,
+            accepted,
+            rejected,
+        } = &mut self.counts;
+        for count in [evaluations, accepted, rejected] {
+            memory.count(count);
+        }
+        memory.number(&mut self.time);
+        memory.vector(&mut self.state);
+        memory.vector(&mut self.slope);
+        memory.flag(&mut self.is_known);
+        memory.optional(&mut self.estimate);
     }
 
     /// Computes the slope, once; refused if it is not finite.

@@ -134,6 +134,13 @@ pub trait Mechanism: Sized + 'static {
         Ok(())
     }
 
+    /// The inputs that were put among the parameters.
+    #[inline]
+    #[must_use]
+    fn inputs_of<S: Scalar>(_parameters: &Self::Parameters<S>) -> Self::Inputs<S> {
+        Self::Inputs::default()
+    }
+
     /// Computes once what depends on parameters and inputs only.
     fn prepare<S: Scalar>(parameters: &Self::Parameters<S>) -> Self::Constants<S>;
 

@@ -5,6 +5,10 @@
 //! call, and runs need no type for each. The stabilisation `TreeRecovery` goes from bodies to joint
 //! coordinates and back by the kernels of starts.
 //!
+//! `checkpoint` is where a run can go on, and `resumed.rs` goes on there: `past.rs` is what of it a
+//! run reads, without a heap. A run is compiled once for both: a resumed integration is begun as it
+//! was, and then its memory is replaced.
+//!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
 //! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
 //! kernel is generated for it.
@@ -18,29 +22,39 @@
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
+#[cfg(feature = "std")]
+pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
+pub(crate) mod dense_step;
 pub(crate) mod direct;
 pub(crate) mod events;
 pub(crate) mod kinematics;
 pub(crate) mod output;
+pub(crate) mod past;
 pub(crate) mod post_step;
 #[cfg(feature = "recorder")]
 pub(crate) mod record_error;
 #[cfg(feature = "recorder")]
 pub(crate) mod recorder;
 pub(crate) mod report;
+pub(crate) mod resumed;
 pub(crate) mod sample;
 pub(crate) mod segments;
 pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
+#[cfg(feature = "std")]
+pub(crate) mod trajectory;
 pub(crate) mod within;
 #[cfg(feature = "serde")]
 mod written;
 
+#[cfg(feature = "std")]
+pub use checkpoint::Checkpoint;
 pub use companion::{BodyError, Verification};
+pub use dense_step::DenseStep;
 pub use events::context::Event;
 pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
 pub use events::list::{Happenings, NothingHappens};
@@ -51,3 +65,5 @@ pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use record_error::RecordError;
 pub use simulate::Simulate;
+#[cfg(feature = "std")]
+pub use trajectory::Trajectory;

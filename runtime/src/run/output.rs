@@ -10,6 +10,7 @@ use crate::math::scalar::Real;
 
 /// When a run shows its state to the observer; the start and the end are always among the times.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Reporting<S> {
     /// At `t0 + k dt` (s) and at the end.
@@ -134,7 +135,7 @@ impl<S> Reporting<S> {
     }
 
     /// The interval (s) between reports, where there is one.
-    fn interval(self) -> Option<S> {
+    pub(crate) fn interval(self) -> Option<S> {
         match self {
             Self::Every(interval) | Self::EveryOrSteps { interval, .. } => Some(interval),
             Self::EveryStep => None,
@@ -184,6 +185,18 @@ impl<S: Real> Schedule<S> {
             reporting,
             done: 0,
         })
+    }
+
+    /// The interval, the reporting, and how many reporting times are done.
+    #[cfg(feature = "std")]
+    pub(crate) fn parts(&self) -> ((S, S), Reporting<S>, usize) {
+        ((self.start, self.end), self.reporting, self.done)
+    }
+
+    /// Goes on after so many reporting times.
+    pub(crate) fn after(mut self, done: usize) -> Self {
+        self.done = done;
+        self
     }
 
     /// The time from a time to the next report.

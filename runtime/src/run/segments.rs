@@ -17,6 +17,7 @@ use crate::monitor::{Monitor, fastest};
 use crate::run::companion::Companion;
 use crate::run::events::list::Hybrid;
 use crate::run::output::Schedule;
+use crate::run::past::Past;
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
 use crate::run::sample::Sample;
@@ -56,13 +57,23 @@ struct Taken<S: Real, M: Mechanism> {
 /// the cost of three calls.
 const ASKED_TWICE: usize = 1024;
 
+/// An integration that was begun.
+#[derive(Clone, Copy)]
+pub(crate) struct Begun<S, X> {
+    /// When (s), and in which state.
+    pub(crate) start: S,
+    pub(crate) state: X,
+    /// What interpolants have evaluated for the monitor, which is no part of the run.
+    pub(crate) of_monitor: usize,
+}
+
 /// Whom states are shown to. Behind a pointer, so that a run is compiled once for all observers.
 pub(crate) type Observer<'o, S, M> = dyn FnMut(&Sample<'_, S, M>) -> ControlFlow<()> + 'o;
 
 /// Shows states to the observer.
 pub(crate) struct Log<'r, S: Real, M: Mechanism> {
     observe: &'r mut Observer<'r, S, M>,
-    worst_violation: S,
+    pub(crate) worst_violation: S,
     pub(crate) flow: ControlFlow<()>,
     /// Steps since a state was shown.
     pub(crate) unseen: usize,
@@ -99,23 +110,23 @@ where
         mut companion: Option<Companion<S, M, F, A, C, I>>,
         (start, end): (S, S),
         last_good: &mut (S, M::State<S>),
+        past: Option<&Past<'_, S, M>>,
     ) -> Result<RunReport<S, M>, Fault> {
         let mut from = start;
-        if start == end {
-            self.evaluate(start, &last_good.1)
+        if let Some(past) = past {
+            self.take_past(past)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+            from = match &past.segment {
+                Some(segment) => segment.start,
+                None => {
+                    self.go_on_with_events(last_good)?;
+                    last_good.0
+                }
+            };
+        } else {
+            self.begin(integrator, &mut companion, (start, end), last_good)?;
         }
-        self.begin_events(last_good)?;
-        if self.log.flow.is_continue() {
-            self.show(start, &last_good.1, &mut companion);
-        }
-        if let Some(monitor) = self.monitor.as_mut().filter(|_| from < end) {
-            self.dynamics.begin(monitor, start, &last_good.1);
-        }
-        if from < end {
-            let start = (start, &last_good.1);
-            self.dynamics.ask_twice(start, (end, start.1))?;
-        }
+        let mut past = past;
         while from < end && self.log.flow.is_continue() {
             let mut until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
             if let Some(hybrid) = &mut self.hybrid {
@@ -129,15 +140,65 @@ where
             if let Some(companion) = &mut companion {
                 companion.restart(&span, self.stabilisation);
             }
-            let reached = self.segment(integrator, &mut companion, span, last_good);
+            let reached = self.segment(integrator, &mut companion, span, last_good, past.take());
             reached
                 .and_then(|()| self.happen(last_good, &mut companion))
+                .and_then(|()| self.keep_between(integrator, last_good, end))
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
             from = last_good.0;
         }
         let mut report = self.report(*last_good);
         report.verification = companion.map(Companion::found);
         Ok(report)
+    }
+
+    /// Hands over a checkpoint between two integrations, or at the end of the run.
+    #[cfg(feature = "std")]
+    fn keep_between<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
+        &mut self,
+        integrator: &I,
+        last_good: &(S, M::State<S>),
+        end: S,
+    ) -> Result<(), Fault> {
+        let is_due = last_good.0 >= end || self.keeps_now();
+        if self.keeps() && is_due && self.log.flow.is_continue() {
+            self.keep::<I, I::Integration>(integrator, None, last_good)?;
+        }
+        Ok(())
+    }
+
+    #[cfg(not(feature = "std"))]
+    #[inline(always)]
+    fn keep_between<I>(&self, _: &I, _: &(S, M::State<S>), _: S) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    /// Begins at the start: evaluates, calls controllers, shows the state.
+    fn begin<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
+        &mut self,
+        integrator: &I,
+        companion: &mut Option<Companion<S, M, F, A, C, I>>,
+        (start, end): (S, S),
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
+        if start == end {
+            self.evaluate(start, &last_good.1)
+                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+        }
+        self.begin_events(last_good)?;
+        #[cfg(feature = "std")]
+        self.begin_records(start, true);
+        if self.log.flow.is_continue() {
+            self.show(start, &last_good.1, companion);
+        }
+        if let Some(monitor) = self.monitor.as_mut().filter(|_| start < end) {
+            self.dynamics.begin(monitor, start, &last_good.1);
+        }
+        if start < end {
+            let start = (start, &last_good.1);
+            self.dynamics.ask_twice(start, (end, start.1))?;
+        }
+        Ok(())
     }
 
     /// Evaluates the rates once: a run of no length is refused where any other would be.
@@ -156,10 +217,21 @@ where
         companion: &mut Option<Companion<S, M, F, A, C, I>>,
         span: TimeSpan<S>,
         last_good: &mut (S, M::State<S>),
+        past: Option<&Past<'_, S, M>>,
     ) -> Result<(), Fault> {
-        let start = self.dynamics.nearest(&last_good.1);
-        let mut integration = integrator.start(&mut self.dynamics, span, start)?;
-        if let Some(monitor) = &mut self.monitor {
+        let under_way = past.and_then(|past| Some((past, past.segment?)));
+        let mut begun = match &under_way {
+            Some((_, segment)) => Self::begun(segment)?,
+            None => Begun {
+                start: span.start,
+                state: self.dynamics.nearest(&last_good.1),
+                of_monitor: 0,
+            },
+        };
+        let mut integration = integrator.start(&mut self.dynamics, span, begun.state)?;
+        if let Some((past, segment)) = under_way {
+            self.go_on(&mut integration, segment.memory, past)?;
+        } else if let Some(monitor) = &mut self.monitor {
             monitor.restart();
             let state = integration.state();
             self.dynamics
@@ -167,18 +239,23 @@ where
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
-        // What interpolants evaluate for the monitor is no part of the run.
-        let mut of_monitor = 0_usize;
         while integration.time() < span.end {
             let taken = self.take(&mut integration, last_good)?;
             let event = taken.event.as_ref();
             let reached = event.map_or(integration.time(), |&(time, _)| time);
+            #[cfg(feature = "std")]
+            let is_recorded = {
+                let at_end = event.map(|(_, bodies)| bodies);
+                self.record_within(&mut integration, (reached, at_end), last_good)?
+            };
+            #[cfg(not(feature = "std"))]
+            let is_recorded = false;
             let has_reported =
                 self.report_within(&mut integration, reached, companion, last_good)?;
             if self.log.flow.is_break() {
                 break;
             }
-            let is_shared = if has_reported {
+            let is_shared = if has_reported || is_recorded {
                 // With reports, which find what interpolation needs where a look has evaluated it,
                 // or evaluate for each time anew.
                 integration.counts().evaluations == taken.evaluations
@@ -187,13 +264,15 @@ where
                 taken.looks <= 1 && self.stabilisation.is_none()
             };
             if !is_shared {
-                of_monitor = of_monitor.saturating_add(taken.looks);
+                begun.of_monitor = begun.of_monitor.saturating_add(taken.looks);
             }
             if let Some(&(time, bodies)) = event {
                 self.observe_event(integration.estimate(), (time, bodies), last_good)?;
             } else {
                 self.observe(&mut integration, taken.better, last_good)?;
             }
+            #[cfg(feature = "std")]
+            self.record_end(last_good);
             let is_event = event.is_some();
             if !is_event && self.schedule.at(last_good.0, self.log.unseen) {
                 self.show(last_good.0, &last_good.1, companion);
@@ -201,7 +280,8 @@ where
                     break;
                 }
             }
-            let evaluations = integration.counts().without(of_monitor).evaluations;
+            let counts = integration.counts().without(begun.of_monitor);
+            let evaluations = counts.evaluations;
             if evaluations >= budget && last_good.0 < span.end {
                 let evaluations = self.counts.evaluations.saturating_add(evaluations);
                 return Err(Fault::Budget {
@@ -212,8 +292,16 @@ where
             if is_event {
                 break;
             }
+            #[cfg(feature = "std")]
+            if self.keeps_now() && last_good.0 < span.end {
+                self.keep(integrator, Some((&mut integration, &begun)), last_good)?;
+                if self.log.flow.is_break() {
+                    break;
+                }
+            }
         }
-        self.counts = self.counts.plus(integration.counts().without(of_monitor));
+        let counts = integration.counts().without(begun.of_monitor);
+        self.counts = self.counts.plus(counts);
         Ok(())
     }
 
@@ -353,7 +441,7 @@ where
 
     /// A state after its stabilisation.
     #[inline(never)]
-    fn stabilised(
+    pub(crate) fn stabilised(
         &mut self,
         stabilisation: &dyn PostStabilisation<S, M>,
         time: S,

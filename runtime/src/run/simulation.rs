@@ -21,8 +21,10 @@ use crate::monitor::Monitor;
 use crate::run::companion::Companion;
 use crate::run::events::list::{Happenings, Hybrid};
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
+use crate::run::past::{Past, Plan, Planned};
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
+use crate::run::resumed::take_values;
 use crate::run::sample::Sample;
 use crate::run::segments::{Log, Observer, Run};
 use crate::state::vector::{Array, StateParts};
@@ -55,6 +57,9 @@ pub struct Simulation<
     is_verified: bool,
     coordinates: PhantomData<C>,
 }
+
+/// The interval (s) of a run, when it reports, and where it goes on.
+type ToDo<'p, S, M> = ((S, S), Reporting<S>, Option<&'p Past<'p, S, M>>);
 
 /// Where the numbers of a mechanism come from.
 enum Source<'a, S: Real, M: Mechanism> {
@@ -369,15 +374,14 @@ where
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
-        self.run_with(None, interval, reporting, observe)
+        self.run_with(None, Planned(interval, reporting), observe)
     }
 
     /// The same with events and controllers.
     pub(crate) fn run_with<O, R>(
         &self,
         happenings: Option<&mut dyn Happenings<S, M>>,
-        interval: RangeInclusive<S>,
-        reporting: Reporting<S>,
+        plan: impl Plan<S, M>,
         mut observe: O,
     ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
@@ -392,24 +396,21 @@ where
                 ControlFlow::Break(())
             })
         };
-        let (start, end) = interval.into_inner();
+        let (interval, reporting) = plan.interval();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
-        let mut last_good = (start, self.initial.unwrap_or_else(zeros));
-        let report = self.attempt(
-            happenings,
-            (start, end),
-            reporting,
-            &mut observe,
-            &mut last_good,
-        );
+        let mut last_good = (interval.0, self.initial.unwrap_or_else(zeros));
+        let past = plan.past(&self.integrator, &self.formulation, C::IS_RELATIVE);
+        let report = past.and_then(|past| {
+            let plan = (interval, reporting, past.as_ref());
+            self.attempt(happenings, plan, &mut observe, &mut last_good)
+        });
         outcome::<R, _, _, _>(report, failure, last_good)
     }
 
     fn attempt(
         &self,
         happenings: Option<&mut dyn Happenings<S, M>>,
-        (start, end): (S, S),
-        reporting: Reporting<S>,
+        ((start, end), reporting, past): ToDo<'_, S, M>,
         observe: &mut Observer<'_, S, M>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<RunReport<S, M>, Fault>
@@ -420,27 +421,32 @@ where
             Source::Mechanism(mechanism) => Dynamics::new(mechanism, self.formulation),
             Source::Parameters(given) => Dynamics::of_parameters(given, self.formulation),
         }?;
-        let dynamics = dynamics.with_forces(&self.forces).coordinates::<C>();
+        let mut dynamics = dynamics.with_forces(&self.forces).coordinates::<C>();
+        let given = *dynamics.parameters();
+        if let Some(past) = past {
+            take_values(&mut dynamics, past)?;
+        }
         let constants = *dynamics.constants();
-        let mut state = self.initial.unwrap_or_else(|| M::initial_state(&constants));
-        last_good.1 = state;
+        let described = || M::initial_state(&constants);
+        *last_good = past.map_or_else(
+            || (start, self.initial.unwrap_or_else(described)),
+            |past| past.at,
+        );
         check_interval(start, end)?;
+        check_interval(last_good.0, end)?;
         let schedule = Schedule::new(start, end, reporting)?;
-        let hybrid = happenings.map(|list| self.hybrid(list, (start, end)));
+        let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
+        let hybrid = happenings.map(|list| self.hybrid(list, (start, end), &given, past));
         let hybrid = hybrid.transpose()?;
-        check_state::<S, M>(&state)?;
-        M::rewrap(&constants, &mut state);
-        if let Some(projection) = self.assemble {
-            let from = M::initial_state(&constants);
-            assembled::<S, M>(&projection, &constants, start, &mut state, &from)?;
+        check_state::<S, M>(&last_good.1)?;
+        if past.is_none() {
+            last_good.1 = self.start(&constants, (start, end), last_good.1, described)?;
+        } else if self.is_verified {
+            return Err(Fault::NotVerified);
         }
-        last_good.1 = state;
-        if !self.accepts_any_start || C::IS_RELATIVE {
-            let interval = (start, end - start);
-            check_start::<S, M>(&constants, interval, &state, C::IS_RELATIVE)?;
-        }
+        let state = last_good.1;
         let monitor = self.is_monitored.then(|| {
-            Monitor::new(&constants, start, &state)
+            Monitor::new(&constants, last_good.0, &state)
                 .of_joints(C::keeps_equations)
                 .over(&self.integrator)
                 .decaying(self.formulation.decay_rate())
@@ -464,7 +470,26 @@ where
             steps: 0,
             counts: Counts::default(),
         };
-        run.go(&self.integrator, companion, (start, end), last_good)
+        run.go(&self.integrator, companion, (start, end), last_good, past)
+    }
+
+    /// The start of a run over an interval (s) from a state, assembled where that is asked.
+    fn start(
+        &self,
+        constants: &M::Constants<S>,
+        (start, end): (S, S),
+        mut state: M::State<S>,
+        described: impl Fn() -> M::State<S>,
+    ) -> Result<M::State<S>, Fault> {
+        M::rewrap(constants, &mut state);
+        if let Some(projection) = self.assemble {
+            assembled::<S, M>(&projection, constants, start, &mut state, &described())?;
+        }
+        if !self.accepts_any_start || C::IS_RELATIVE {
+            let interval = (start, end - start);
+            check_start::<S, M>(constants, interval, &state, C::IS_RELATIVE)?;
+        }
+        Ok(state)
     }
 
     /// What happens in a run over an interval (s).
@@ -472,15 +497,17 @@ where
         &self,
         list: &'h mut (dyn Happenings<S, M> + 'h),
         interval: (S, S),
+        given: &M::Parameters<S>,
+        past: Option<&Past<'_, S, M>>,
     ) -> Result<Hybrid<'h, S, M>, Fault> {
         if self.is_verified {
             return Err(Fault::NotVerified);
         }
-        let inputs = match self.mechanism {
-            Source::Mechanism(mechanism) => mechanism.inputs(),
-            Source::Parameters(_) => M::Inputs::default(),
-        };
-        Hybrid::new(list, inputs, self.accepts_any_start, interval)
+        let hybrid = Hybrid::new(list, given, self.accepts_any_start, interval)?;
+        Ok(match past {
+            Some(past) => hybrid.resumed(past),
+            None => hybrid,
+        })
     }
 }
 

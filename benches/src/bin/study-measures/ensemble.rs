@@ -51,13 +51,20 @@ pub(crate) fn study(arguments: &Rows) -> Result<(), Box<dyn Error>> {
         };
         let own = rows.shard.rows(rows.all);
         let bar = output::bar(own.end - own.start, "rows")?;
-        let table = ensemble::table(model, &rows, |further| bar.inc(further))?;
+        // An interrupted study goes on where it was.
+        let mut journal = arguments.out.clone().into_os_string();
+        journal.push(".journal");
+        let journal = PathBuf::from(journal);
+        let table = ensemble::table(model, &rows, &journal, |further| bar.inc(further))?;
         bar.finish_and_clear();
+        table.write(&arguments.out)?;
+        std::fs::remove_file(&journal)?;
         table
     } else {
-        merge(&arguments.merge)?
+        let table = merge(&arguments.merge)?;
+        table.write(&arguments.out)?;
+        table
     };
-    table.write(&arguments.out)?;
     output::show(&format!(
         "{} rows\n{}\n",
         table.len(),

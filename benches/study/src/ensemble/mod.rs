@@ -5,8 +5,10 @@
 //! parameters are drawn: a row is the same in whatever shard, lane or thread it is computed. Rows
 //! run [`LANES`] at a time in an [`Ensemble`], on all cores.
 //!
+//! Rows can be kept as they are done ([`fn@resume`]): a computation that was interrupted goes on.
 //! For a cluster, compute each [`Shard`] by a job of its own and join the files by [`merge`].
 
+mod resume;
 mod rows;
 
 use std::ops::Range;
@@ -22,6 +24,7 @@ use rand_chacha::rand_core::SeedableRng as _;
 use rayon::prelude::*;
 
 pub use rand_chacha;
+pub use resume::{Names, resume};
 pub use rows::{Table, merge};
 
 use crate::error::StudyError;
@@ -145,6 +148,36 @@ where
         + Sync,
 {
     let numbers: Vec<u64> = rows.shard.rows(rows.all).collect();
+    let kept = |batch: &[Row<P, R>]| {
+        done(batch.len() as u64);
+        Ok(())
+    };
+    compute_these(
+        rows,
+        &numbers,
+        (formulation, scheme, steps),
+        draw,
+        read,
+        kept,
+    )
+}
+
+/// Computes some rows, and has each batch of them kept.
+fn compute_these<M, F, K, const P: usize, const R: usize>(
+    rows: &Rows,
+    numbers: &[u64],
+    (formulation, scheme, steps): (F, K, Steps),
+    draw: impl Fn(&mut ChaCha8Rng) -> Result<Draw<M, P>, ParameterError> + Sync,
+    read: impl Fn(&mut [f64; R], &View<'_, f64, M>) + Sync,
+    keep: impl Fn(&[Row<P, R>]) -> Result<(), StudyError> + Sync,
+) -> Result<Vec<Row<P, R>>, StudyError>
+where
+    M: Mechanism,
+    F: Formulation<f64> + Sync,
+    K: OneStep<f64, Dynamics<f64, M, F, NoForces, M::Coordinates>>
+        + OneStep<Lanes<f64, LANES>, LaneEquations<f64, M, M::Coordinates, F::Terms, LANES>>
+        + Sync,
+{
     let batches = numbers.par_chunks(LANES).map(|numbers| {
         let mut drawn = Vec::with_capacity(LANES);
         for &number in numbers {
@@ -156,7 +189,7 @@ where
             drawn.push(draw(&mut rows.generator(last)).map_err(refused(last))?);
         }
         let batch = batch(numbers, drawn, (formulation, scheme, steps), &read)?;
-        done(numbers.len() as u64);
+        keep(&batch)?;
         Ok(batch)
     });
     let batches = batches.collect::<Result<Vec<_>, StudyError>>()?;

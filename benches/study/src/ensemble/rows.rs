@@ -30,26 +30,21 @@ impl Table {
         rows: &[Row<P, R>],
     ) -> Self {
         let names = FIRST.iter().chain(&drawn).chain(&read).chain(&LAST);
-        let line = |row: &Row<P, R>| {
-            let mut line = StringRecord::new();
-            for number in [of.seed, of.all, row.number] {
-                line.push_field(&number.to_string());
-            }
-            for number in row.drawn.iter().chain(&row.readings) {
-                line.push_field(&number.to_string());
-            }
-            let (time, fault) = match &row.stopped {
-                Some((time, fault)) => (time.to_string(), fault.as_str()),
-                None => (String::new(), ""),
-            };
-            line.push_field(&time);
-            line.push_field(fault);
-            line
-        };
         Self {
             head: names.collect(),
-            lines: rows.iter().map(line).collect(),
+            lines: rows.iter().map(|row| line(of, row)).collect(),
         }
+    }
+
+    /// The same with rows that are lines already, in their order.
+    pub(super) fn of_lines<const P: usize, const R: usize>(
+        of: &Rows,
+        names: ([&str; P], [&str; R]),
+        lines: impl IntoIterator<Item = StringRecord>,
+    ) -> Self {
+        let mut table = Self::new(of, names, &[]);
+        table.lines.extend(lines);
+        table
     }
 
     /// How many rows there are.
@@ -87,6 +82,24 @@ impl Table {
             lines: lines.map_err(unread(path))?,
         })
     }
+}
+
+/// The line of a row.
+pub(super) fn line<const P: usize, const R: usize>(of: &Rows, row: &Row<P, R>) -> StringRecord {
+    let mut line = StringRecord::new();
+    for number in [of.seed, of.all, row.number] {
+        line.push_field(&number.to_string());
+    }
+    for number in row.drawn.iter().chain(&row.readings) {
+        line.push_field(&number.to_string());
+    }
+    let (time, fault) = match &row.stopped {
+        Some((time, fault)) => (time.to_string(), fault.as_str()),
+        None => (String::new(), ""),
+    };
+    line.push_field(&time);
+    line.push_field(fault);
+    line
 }
 
 fn unread<E: ToString>(path: &Path) -> impl Fn(E) -> StudyError + use<E> {

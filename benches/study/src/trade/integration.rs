@@ -6,7 +6,7 @@ use holonom::{
     integrate::{
         AdamsFixedIntegration, AdamsIntegration, AdaptiveIntegration, Advance, AlphaEnd, AlphaStep,
         BdfIntegration, BogackiShampine3, Counts, DormandPrince5, DormandPrince8, FixedIntegration,
-        GeneralizedAlphaIntegration, Integration, Integrator, Method, RadauIntegration,
+        GeneralizedAlphaIntegration, Integration, Integrator, Memory, Method, RadauIntegration,
         RigidConstraints, SecondOrder, System, TimeSpan,
     },
     state::Vector,
@@ -272,6 +272,10 @@ impl<S: Real, X: Vector<S>> Integration<S, X> for AnyIntegration<S, X> {
 
     fn counts(&self) -> Counts {
         on_integration!(self, integration => integration.counts())
+    }
+
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        on_integration!(self, integration => integration.remember(memory))
     }
 }
 

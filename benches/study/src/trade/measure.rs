@@ -5,7 +5,6 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::grid::{Grid, Planned};
-use super::journal::Journal;
 use super::observation::{Observation, Start};
 use super::record::{Entry, Key, Row, Stopped, Time};
 use super::reference::{Reference, observed};
@@ -13,6 +12,7 @@ use super::setting::{PostStabilisation, Setting};
 use super::subject::{Facts, Subject};
 use crate::compare::Coordinates;
 use crate::error::StudyError;
+use crate::journal::Journal;
 use crate::target::Target;
 use crate::timing::{Candidate, Schedule, race};
 

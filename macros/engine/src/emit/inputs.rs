@@ -42,17 +42,23 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
         #[doc = #documentation]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
     };
-    let with = |value: &dyn Fn(&RunTimeValue) -> TokenStream| {
-        let values = inputs(model).map(|(_, input)| (&input.name, (quote!(__S), value(input))));
+    let with = |value: &dyn Fn(usize, &RunTimeValue) -> TokenStream| {
+        let values = inputs(model);
+        let values =
+            values.map(|(number, input)| (&input.name, (quote!(__S), value(number, input))));
         let structs = Structs::new("__Inputs", head.clone(), quote!(<__S>));
         structs.written(&nested(values))
     };
-    let (declared, zero) = with(&|_| quote!(__S::constant(0.0)));
-    let (_, read) = with(&|input| {
+    let (declared, zero) = with(&|_, _| quote!(__S::constant(0.0)));
+    let (_, read) = with(&|_, input| {
         let value = read(model, &input.name, facade);
         quote!(__S::constant(#value))
     });
     let [given, parameters, values] = ["inputs", "parameters", "values"].map(local);
+    let (_, held) = with(&|number, _| {
+        let number = Literal::usize_unsuffixed(number);
+        quote!(#parameters[#number])
+    });
     let place = inputs(model).map(|(number, value)| {
         let (at, name) = (value.name.place(), value.name.to_string());
         let number = Literal::usize_unsuffixed(number);
@@ -83,6 +89,11 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
             ) -> ::core::result::Result<(), #facade::ParameterError> {
                 let #values: [(usize, &'static str, __S); #count] = [#(#place),*];
                 #facade::__private::put_inputs(&#values, #parameters)
+            }
+
+            #[inline]
+            fn inputs_of<__S: #facade::Scalar>(#parameters: &Self::Parameters<__S>) -> Self::Inputs<__S> {
+                #held
             }
         },
     }

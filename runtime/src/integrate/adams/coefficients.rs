@@ -4,6 +4,7 @@
 
 use core::ops::{Index, IndexMut};
 
+use crate::integrate::Memory;
 use crate::math::scalar::Real;
 
 /// The highest order of a predictor.
@@ -22,6 +23,11 @@ impl<T> Row<T> {
         T: Clone,
     {
         Self(core::array::from_fn(|_| value.clone()))
+    }
+
+    /// Visits the places, in order.
+    pub(super) fn each(&mut self, visit: impl FnMut(&mut T)) {
+        self.0.iter_mut().for_each(visit);
     }
 }
 
@@ -148,6 +154,31 @@ impl<S: Real> Coefficients<S> {
         for i in 2..=order {
             self.psi[i - 1] = self.psi[i] - step;
         }
+    }
+
+    /// Its part of [`Integration::remember`](crate::integrate::Integration::remember).
+    pub(super) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        let Self {
+            alpha,
+            beta,
+            psi,
+            sigma,
+            g,
+            v,
+            w,
+            equal,
+            last_step,
+            last_order,
+        } = self;
+        for row in [alpha, beta, psi, sigma, g, v, w] {
+            row.each(|number| memory.number(number));
+        }
+        memory.count(equal);
+        memory.number(last_step);
+        memory.count(last_order);
+        // A file may hold any number.
+        *equal = (*equal).min(HIGHEST + 1);
+        *last_order = (*last_order).min(HIGHEST);
     }
 
     /// The weights of the differences at a time from the end of the last step, negative within it:

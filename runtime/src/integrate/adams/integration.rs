@@ -8,7 +8,7 @@ use super::coefficients::{Coefficients, HIGHEST, Row};
 use crate::error::Fault;
 use crate::integrate::controller::Controller;
 use crate::integrate::record::{Reached, reached};
-use crate::integrate::{Advance, Counts, Integration, Slopes, System, TimeSpan, named};
+use crate::integrate::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, named};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
@@ -208,6 +208,19 @@ impl<S: Real, X: Vector<S>> AdamsIntegration<S, X> {
 
 impl<S: Real, X: Vector<S>> Integration<S, X> for AdamsIntegration<S, X> {
     reached!();
+
+    fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool {
+        self.reached.remember(memory);
+        memory.number(&mut self.next_step);
+        memory.count(&mut self.order);
+        memory.flag(&mut self.is_starting);
+        self.coefficients.remember(memory);
+        self.differences
+            .each(|difference| memory.vector(difference));
+        // A file may hold any number.
+        self.order = self.order.clamp(1, HIGHEST);
+        true
+    }
 }
 
 impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsIntegration<S, Y::State> {

@@ -68,6 +68,25 @@ where
         Ok(())
     }
 
+    /// Calls the controllers of the instant from which a run goes on, if they were not: at the
+    /// former end of its interval.
+    pub(crate) fn go_on_with_events(
+        &mut self,
+        (time, state): &mut (S, M::State<S>),
+    ) -> Result<(), Fault> {
+        let Some(mut hybrid) = self.hybrid.take() else {
+            return Ok(());
+        };
+        if *time < hybrid.end {
+            let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
+            if done.stops {
+                self.log.stop();
+            }
+        }
+        self.hybrid = Some(hybrid);
+        Ok(())
+    }
+
     /// Reports an event that was found, calls its handler and the controllers of the instant that
     /// was reached. The state is the one with which the run goes on.
     pub(crate) fn happen<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
@@ -155,6 +174,7 @@ where
         let Hybrid {
             list,
             inputs,
+            taken,
             accepts_any_state,
             end,
             ..
@@ -180,6 +200,7 @@ where
             let (next, held, parameters) = (event.state, event.inputs, event.parameters);
             if let Some(parameters) = parameters {
                 self.dynamics.take_parameters(parameters)?;
+                *taken = Some(parameters);
             }
             if held != *inputs || parameters.is_some() {
                 self.dynamics.set_inputs(&held)?;

@@ -11,13 +11,18 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{InputsOf, Mechanism};
+#[cfg(feature = "std")]
+use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
 use crate::run::events::list::{Controlled, Handled, Happenings, NothingHappens};
 use crate::run::events::watch::{Crossing, Period, Watch};
 use crate::run::output::{IntoFlow, Reporting};
+use crate::run::past::Planned;
 use crate::run::report::RunResult;
 use crate::run::sample::Sample;
 use crate::run::simulation::{Runs, Simulation};
+#[cfg(feature = "std")]
+use crate::run::trajectory::{Recorded, Trajectory};
 
 /// What a handler or a controller may return: nothing, `ControlFlow<()>`, whose `Break(())` stops
 /// the run, or a `Result` of either with a [`Fault`], which ends the run.
@@ -190,6 +195,49 @@ where
         self.without_events().every_period(period, controller)
     }
 
+    /// Calls a closure with a [`Checkpoint`] after every so many steps, and at the end of the run,
+    /// so that a run that is stopped can go on: see [`Simulation::resume`]. Say it after everything
+    /// else that is said of the simulation.
+    ///
+    /// A closure that returns `ControlFlow::Break(())` stops the run, and nothing is lost. Where
+    /// something else stops it, what came after the last checkpoint is computed again.
+    ///
+    /// A checkpoint costs one evaluation, which is not counted, and as many numbers as the method
+    /// remembers: some states, with implicit methods the Jacobian as well.
+    ///
+    /// # Errors of the run
+    /// [`Fault::Setting`] of zero steps, [`Fault::Checkpoint`] with a method of your own that does
+    /// not hand over what it remembers, and the fault that the closure returns.
+    /// [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub fn checkpoints<K, R>(
+        self,
+        steps: usize,
+        keep: K,
+    ) -> HybridSimulation<Self, (NothingHappens, Keeping<K>)>
+    where
+        K: FnMut(&Checkpoint<M, S>) -> R,
+        R: Handling,
+    {
+        self.without_events().checkpoints(steps, keep)
+    }
+
+    /// Records the motion, to be asked at any time when the run is over: see [`Trajectory`]. What
+    /// the trajectory knew is forgotten, but for a run that goes on from a checkpoint. Say it after
+    /// everything else that is said of the simulation.
+    ///
+    /// It takes 5 to 17 states a step, and 7 to 15 interpolations; with
+    /// [`RadauIIA`](crate::RadauIIA) each of these is a step of its own.
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub fn trajectory(
+        self,
+        trajectory: &mut Trajectory<M, S>,
+    ) -> HybridSimulation<Self, (NothingHappens, Recorded<'_, M, S>)> {
+        self.without_events().trajectory(trajectory)
+    }
+
     /// Runs until a reading first passes zero, or to the end:
     /// [`RunReport::stopped`](crate::RunReport::stopped) says which,
     /// [`RunReport::time`](crate::RunReport::time) when. For reports on the way use
@@ -289,6 +337,27 @@ impl<T: Simulated, E> HybridSimulation<T, E> {
             controller,
         })
     }
+
+    /// See [`Simulation::checkpoints`].
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub fn checkpoints<K, R>(self, steps: usize, keep: K) -> With<T, E, Keeping<K>>
+    where
+        K: FnMut(&Checkpoint<T::Mechanism, T::Number>) -> R,
+        R: Handling,
+    {
+        self.and(Keeping { steps, keep })
+    }
+
+    /// See [`Simulation::trajectory`].
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub fn trajectory(
+        self,
+        trajectory: &mut Trajectory<T::Mechanism, T::Number>,
+    ) -> With<T, E, Recorded<'_, T::Mechanism, T::Number>> {
+        self.and(Recorded(trajectory))
+    }
 }
 
 impl<S, M, F, I, A, C, E> HybridSimulation<Simulation<'_, S, M, F, I, A, C>, E>
@@ -318,6 +387,32 @@ where
     {
         let happenings = Some(&mut self.happenings as &mut dyn Happenings<S, M>);
         self.simulation
-            .run_with(happenings, interval, reporting, observe)
+            .run_with(happenings, Planned(interval, reporting), observe)
+    }
+
+    /// Goes on from a [`Checkpoint`] as [`Simulation::resume`] does, with events and controllers:
+    /// the same ones as in its run, in the same order. Closures begin with what they remember, so
+    /// put it back first.
+    ///
+    /// # Errors
+    /// Those of [`HybridSimulation::run`], and [`Fault::Checkpoint`] where the simulation is not
+    /// that of the checkpoint.
+    #[cfg(feature = "std")]
+    pub fn resume<O, R>(
+        &mut self,
+        checkpoint: &Checkpoint<M, S>,
+        observe: O,
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
+    where
+        F: Formulation<S>,
+        I: Runs<S, M, F, C, A>,
+        E: Happenings<S, M>,
+        A: AppliedForces<S, M>,
+        C: Coordinates<M>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
+    {
+        let list: &mut dyn Happenings<S, M> = &mut self.happenings;
+        self.simulation.run_with(Some(list), checkpoint, observe)
     }
 }

@@ -4,12 +4,18 @@ use core::ops::ControlFlow;
 
 use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+#[cfg(feature = "std")]
+use crate::run::checkpoint::Checkpoint;
 use crate::run::events::context::Event;
 use crate::run::events::watch::{Period, Watch, is_same};
 use crate::run::output::IntoFlow;
+use crate::run::past::Past;
 use crate::run::sample::Sample;
+#[cfg(feature = "std")]
+use crate::run::trajectory::Trajectory;
 
 /// Something that happens in a run.
 #[doc(hidden)]
@@ -24,6 +30,29 @@ pub trait Happening<S: Real, M: Mechanism> {
         None
     }
 
+    /// After how many steps a checkpoint is kept.
+    fn steps_to_keep(&self) -> Option<usize> {
+        None
+    }
+
+    /// Takes a checkpoint.
+    ///
+    /// # Errors
+    /// That of the closure.
+    #[cfg(feature = "std")]
+    fn keep(&mut self, _checkpoint: &Checkpoint<M, S>) -> Result<ControlFlow<()>, Fault> {
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Whether it records the motion.
+    fn records(&self) -> bool {
+        false
+    }
+
+    /// Shows the trajectory that is recorded.
+    #[cfg(feature = "std")]
+    fn record(&mut self, _visit: &mut dyn FnMut(&mut Trajectory<M, S>)) {}
+
     /// The reading of an event.
     fn read(&self, _sample: &Sample<'_, S, M>) -> S {
         S::zero()
@@ -33,7 +62,9 @@ pub trait Happening<S: Real, M: Mechanism> {
     ///
     /// # Errors
     /// That of the closure.
-    fn act(&mut self, event: &mut Event<'_, S, M>) -> Result<ControlFlow<()>, Fault>;
+    fn act(&mut self, _event: &mut Event<'_, S, M>) -> Result<ControlFlow<()>, Fault> {
+        Ok(ControlFlow::Continue(()))
+    }
 }
 
 /// What is done with everything that happens.
@@ -127,13 +158,23 @@ where
 
 /// What happens in a run under way.
 pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
-    pub(super) list: &'h mut (dyn Happenings<S, M> + 'h),
+    pub(crate) list: &'h mut (dyn Happenings<S, M> + 'h),
     /// Inputs that are held.
     pub(super) inputs: M::Inputs<S>,
+    /// Parameters and inputs at the start of the run, and those that a handler has set last.
+    pub(crate) given: M::Parameters<S>,
+    pub(crate) taken: Option<M::Parameters<S>>,
+    /// After how many steps, at the most, a checkpoint may be due.
+    pub(crate) keeps: Option<usize>,
+    /// Whether the motion is recorded.
+    pub(crate) records: bool,
+    /// Warnings from before a restart from a file.
+    #[cfg(feature = "std")]
+    pub(crate) former: std::vec::Vec<std::string::String>,
     /// Whether states that handlers set may violate the constraints.
     pub(super) accepts_any_state: bool,
     /// The end of the run (s).
-    pub(super) end: S,
+    pub(crate) end: S,
     /// The longest step so far (s).
     pub(super) longest: S,
     /// Whether there are conditions.
@@ -145,16 +186,21 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
 }
 
 impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
-    /// Begins a run over an interval (s) with the inputs of the mechanism.
+    /// Begins a run over an interval (s) with parameters and inputs.
     pub(crate) fn new(
         list: &'h mut (dyn Happenings<S, M> + 'h),
-        inputs: M::Inputs<S>,
+        given: &M::Parameters<S>,
         accepts_any_state: bool,
         (start, end): (S, S),
     ) -> Result<Self, Fault> {
-        let mut watches = false;
+        let (mut watches, mut records, mut keeps) = (false, false, None);
         list.each(&mut |happening| {
+            if let Some(steps) = happening.steps_to_keep() {
+                positive("steps between checkpoints", steps as f64)?;
+                keeps = Some(keeps.map_or(steps, |other| common(steps, other)));
+            }
             watches |= happening.watch().is_some();
+            records |= happening.records();
             let Some(period) = happening.period() else {
                 return Ok(());
             };
@@ -171,7 +217,13 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
         })?;
         Ok(Self {
             list,
-            inputs,
+            inputs: M::inputs_of(given),
+            given: *given,
+            taken: None,
+            keeps,
+            records,
+            #[cfg(feature = "std")]
+            former: std::vec::Vec::new(),
             accepts_any_state,
             end,
             longest: S::zero(),
@@ -179,6 +231,34 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             is_fresh: true,
             is_found: false,
         })
+    }
+
+    /// The same of a run that goes on.
+    pub(crate) fn resumed(mut self, past: &Past<'_, S, M>) -> Self {
+        self.inputs = M::inputs_of(past.present);
+        self.taken = past.taken.copied();
+        #[cfg(feature = "std")]
+        if past.monitor.is_none() {
+            self.former = past.warnings.to_vec();
+        }
+        self
+    }
+
+    /// Hands over what events and controllers remember.
+    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        if self.watches {
+            memory.number(&mut self.longest);
+            memory.flag(&mut self.is_fresh);
+        }
+        let _ = self.list.each(&mut |happening| {
+            if let Some(watch) = happening.watch() {
+                watch.remember(memory);
+            }
+            if let Some(period) = happening.period() {
+                period.remember(memory);
+            }
+            Ok(())
+        });
     }
 
     /// The next instant (s) of a controller up to a time.
@@ -195,4 +275,12 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
         });
         next
     }
+}
+
+/// The largest number of which both are multiples.
+fn common(mut a: usize, mut b: usize) -> usize {
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a
 }

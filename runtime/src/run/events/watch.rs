@@ -1,6 +1,7 @@
 //! The sign of a reading over a run.
 
 use crate::error::Fault;
+use crate::integrate::Memory;
 use crate::math::scalar::Real;
 
 /// In which direction a reading passes zero, for a condition of [`Simulation::on`].
@@ -80,6 +81,27 @@ impl<S: Real> Watch<S> {
 
     pub(crate) fn name(&self) -> &'static str {
         self.name
+    }
+
+    /// Hands over what it remembers between two steps, with its name.
+    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        let mut side = match self.side {
+            Side::Below => 0,
+            Side::Above => 1,
+            Side::Unknown => 2,
+        };
+        memory.label(self.name);
+        memory.count(&mut side);
+        self.side = match side {
+            0 => Side::Below,
+            1 => Side::Above,
+            _ => Side::Unknown,
+        };
+        for number in [&mut self.zero, &mut self.reading, &mut self.scale] {
+            memory.number(number);
+        }
+        memory.optional(&mut self.last);
+        memory.count(&mut self.at_once);
     }
 
     /// Begins a run with this reading, and one a little ahead on the way of the motion.
@@ -243,6 +265,13 @@ impl<S: Real> Period<S> {
     /// Begins a run at a time (s).
     pub(crate) fn begin(&mut self, start: S) {
         (self.start, self.calls) = (start, 0);
+    }
+
+    /// Hands over what it remembers, with its period.
+    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        memory.same(self.period);
+        memory.number(&mut self.start);
+        memory.count(&mut self.calls);
     }
 
     /// The next instant (s).

@@ -1,0 +1,113 @@
+//! A step of a [`Stepper`] that can be asked at any time within it.
+
+use core::fmt::{self, Debug};
+
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{OneStep, Scheme, StepWithin};
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::with_unit_orientations;
+use crate::run::stepper::Stepper;
+
+/// A step that was taken by [`Stepper::step_dense`], for [`Stepper::within`].
+pub struct DenseStep<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> {
+    step: StepWithin<S, C::State<S>, K>,
+    start: S,
+    end: S,
+    near: M::State<S>,
+}
+
+/// The interval.
+impl<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> Debug for DenseStep<S, M, K, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("DenseStep")
+            .field("start", &self.start)
+            .field("end", &self.end)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K: OneStep<S, Dynamics<S, M, F, A, C>>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Moves the state by one step of `dt` (s), and hands over the step, to be asked by
+    /// [`Stepper::within`]. It needs no heap.
+    ///
+    /// It costs one evaluation more than [`Stepper::step`]
+    /// ([`DormandPrince8`](crate::integrate::DormandPrince8) four).
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// # struct Rod {
+    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    /// #     rod: Body,
+    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     hinge: Revolute,
+    /// # }
+    /// let rod = Rod::default();
+    /// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
+    /// let mut state = stepper.initial_state()?;
+    /// let step = stepper.step_dense(&mut state, 0.01)?;
+    /// let [early, late] = [stepper.within(&step, 0.002)?, stepper.within(&step, 0.008)?];
+    /// let velocity = |bodies| Rod::velocity(bodies, Rod::HANDLES.rod).z;
+    /// assert!(velocity(&late) < velocity(&early) && velocity(&early) < 0.0);
+    /// assert!(stepper.within(&step, 0.02).is_err());
+    /// # Ok::<(), Fault>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Stepper::step`]. State and time are then as before.
+    pub fn step_dense(
+        &mut self,
+        state: &mut C::State<S>,
+        dt: S,
+    ) -> Result<DenseStep<S, M, K, C>, Fault> {
+        let start = self.time();
+        self.checked(state, dt)?;
+        let from = (start, &*state);
+        let step = StepWithin::take(self.scheme, &mut self.dynamics, from, dt)?;
+        let near = self.dynamics.bodies(state);
+        self.end_step(state, *step.end(), dt)?;
+        Ok(DenseStep {
+            step,
+            start,
+            end: self.time(),
+            near,
+        })
+    }
+
+    /// The bodies at a time (s) within a step of this stepper, by the interpolant of the method:
+    /// before a projection, which the end of the step has.
+    ///
+    /// # Errors
+    /// [`Fault::OutsideTrajectory`].
+    pub fn within(&self, step: &DenseStep<S, M, K, C>, time: S) -> Result<M::State<S>, Fault> {
+        if !(step.start <= time && time <= step.end) {
+            return Err(Fault::OutsideTrajectory {
+                time: time.to_f64(),
+                start: step.start.to_f64(),
+                end: step.end.to_f64(),
+            });
+        }
+        let state = if time == step.end {
+            *step.step.end()
+        } else {
+            let part = (time - step.start).quotient(step.end - step.start);
+            step.step.at(part)
+        };
+        let bodies = self.dynamics.bodies_near(&state, &step.near);
+        Ok(with_unit_orientations::<S, M>(&bodies))
+    }
+}
