@@ -58,6 +58,10 @@ pub mod monitor;
 pub mod run;
 pub mod sensitivity;
 pub mod state;
+/// Functions from tables: what goes with [`Spline`].
+pub mod spline {
+    pub use crate::math::spline::{Spline, SplineFault, uniform_knots};
+}
 
 #[cfg(test)]
 mod tests;
@@ -156,7 +160,8 @@ pub mod joints;
 ///
 /// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a
 /// number may, by the name of the field. `#[input]`: one that may change at every step, in forces
-/// and gravity only.
+/// and gravity only. `#[input(order = 2)]` on a field of type [`Setpoint`]: one with its derivatives,
+/// for the motion of a driver. `#[param]` on a field of type [`Spline`]: a table, which laws call.
 ///
 /// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of
 /// the element, and `links[k - 1]` names an element of another array, see
@@ -168,7 +173,7 @@ pub mod joints;
 /// to radians), `PI`, `TAU`, paths of constants of type `f64`, entries of constants that are arrays
 /// of it, parameters and inputs. The macro evaluates what it can see; a path is a value that it
 /// cannot see: it is checked by the compiler or in [`Mechanism::parameters`](trait@Mechanism), and
-/// does not fold. Laws are expressions of `time`, too.
+/// does not fold. Laws are expressions of `time`, too, and call splines: [`guide::data`].
 ///
 /// # What is generated
 ///
@@ -189,6 +194,7 @@ pub use integrate::{
     Tolerance,
 };
 pub use math::scalar::{Real, Scalar};
+pub use math::spline::Spline;
 pub use measure::access::{MechanismExt, Pose};
 pub use measure::load::Loads;
 pub use measure::reaction::Wrench;
@@ -198,6 +204,7 @@ pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};
 pub use mechanism::joint_kernels::JointCoordinates;
 pub use mechanism::kernels::Mechanism;
 pub use mechanism::report::Report;
+pub use mechanism::setpoint::Setpoint;
 pub use monitor::{Monitor, Warning, Warnings};
 pub use nalgebra;
 pub use run::kinematics::{KinematicAnalysis, KinematicReport};
@@ -220,14 +227,14 @@ pub mod prelude {
     pub use crate::independent::{IndependentCoordinates, IndependentExt, Motion};
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
-    pub use crate::mechanism::{Assembly, InputsOf, Point, StateOf};
+    pub use crate::mechanism::{Assembly, InputsOf, Point, Setpoint, StateOf};
     pub use crate::run::{Crossing, Simulate};
     pub use crate::sensitivity::SensitivityExt;
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
         KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
         Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation, SimulationError,
-        StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
+        Spline, StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }
 

@@ -19,6 +19,7 @@ pub(crate) mod point;
 pub(crate) mod readout;
 pub(crate) mod relative;
 pub(crate) mod report;
+pub(crate) mod setpoint;
 
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
@@ -46,3 +47,4 @@ pub use report::{
     Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
     Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind, ValueInfo,
 };
+pub use setpoint::Setpoint;

@@ -12,6 +12,7 @@
 //!   expressions: one in `f64` for checks, one over the scalar type for kernels.
 //! - `linear.rs`: linear functions of such numbers.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
+//! - `tables.rs`: splines and inputs with derivatives, in laws.
 //! - `values.rs`: parameters and inputs. A reader that meets an input where none may be is given
 //!   the reason.
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
@@ -49,6 +50,7 @@ mod parts;
 mod placement;
 mod points;
 mod redundant;
+mod tables;
 mod values;
 
 use crate::diag::Faults;

@@ -32,7 +32,11 @@ impl Writer<'_> {
             let value = quote!(#facade::__private::PointHandle::new(#place));
             (&point.name, (kind, value))
         });
-        let values = self.model.values.iter().enumerate().map(|(place, value)| {
+        // A spline is no number that something depends on.
+        let values = self.model.values.iter().enumerate();
+        let values =
+            values.filter(|(_, value)| !matches!(value.kind, crate::model::ValueKind::Spline(_)));
+        let values = values.map(|(place, value)| {
             let kind = quote!(#facade::__private::ValueHandle<#name>);
             let handle = quote!(#facade::__private::ValueHandle::new(#place));
             (&value.name, (kind, handle))

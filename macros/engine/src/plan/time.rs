@@ -30,18 +30,21 @@ impl ExplicitTime {
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         Self {
-            constraints: has_time(&kernels.constraints),
-            forces: has_time(&kernels.forces),
-            potential: has_time(&kernels.potential_energy),
+            // No other input stands in constraints than one that changes with time.
+            constraints: reads(&kernels.constraints, |input| {
+                matches!(input, Input::Time | Input::Varying(_))
+            }),
+            forces: reads(&kernels.forces, |input| input == Input::Time),
+            potential: reads(&kernels.potential_energy, |input| input == Input::Time),
             breaks,
         }
     }
 }
 
-fn has_time(kernel: &Kernel) -> bool {
+fn reads(kernel: &Kernel, is_wanted: impl Fn(Input) -> bool) -> bool {
     let live = kernel.arena.live(&kernel.outputs, Stage::Literal);
     live.into_iter()
-        .any(|place| kernel.arena.node(place) == Node::Input(Input::Time))
+        .any(|place| matches!(kernel.arena.node(place), Node::Input(input) if is_wanted(input)))
 }
 
 /// Where the argument of a smooth step, held between 0 and 1, comes to either end.

@@ -301,6 +301,9 @@ fn expand(arena: &mut Arena, law: &LawTerm, arguments: &[ScalarExpr]) -> ScalarE
             let inner = expand(arena, inner, arguments);
             of(arena, *function, inner)
         }
+        LawTerm::Setpoint(numbers) => {
+            ScalarExpr::Setpoint(numbers.map(|value| number(arena, value)))
+        }
     }
 }
 

@@ -86,7 +86,7 @@ pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Exp
             function.value(arena, inner)
         }
         ScalarExpr::Angle(_) => Arena::ZERO,
-        ScalarExpr::Time | ScalarExpr::Rate(_) => {
+        ScalarExpr::Time | ScalarExpr::Setpoint(_) | ScalarExpr::Rate(_) => {
             unreachable!("the language refuses time and rates in the reference configuration")
         }
     }
