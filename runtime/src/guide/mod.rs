@@ -13,6 +13,7 @@
 //! | [`mod@reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
 //! | [`joint`] | how to define your own joint |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
+//! | [`data`] | cams, recorded motions and curves of forces from tables; joints driven from outside |
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
 //! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
 //! | [`results`] | what can be read, with units, frames and signs; state and restart |
@@ -122,6 +123,9 @@ pub mod joint {}
 
 #[doc = include_str!("forces.md")]
 pub mod forces {}
+
+#[doc = include_str!("data.md")]
+pub mod data {}
 
 #[doc = include_str!("events.md")]
 pub mod events {}
