@@ -160,8 +160,9 @@ pub mod joints;
 ///
 /// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a
 /// number may, by the name of the field. `#[input]`: one that may change at every step, in forces
-/// and gravity only. `#[input(order = 2)]` on a field of type [`Setpoint`]: one with its derivatives,
-/// for the motion of a driver. `#[param]` on a field of type [`Spline`]: a table, which laws call.
+/// and gravity only. `#[input(order = 2)]` on a field of type [`Setpoint`]: one with its
+/// derivatives, for the motion of a driver. `#[param]` on a field of type [`Spline`]: a table, which
+/// laws call.
 ///
 /// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of
 /// the element, and `links[k - 1]` names an element of another array, see

@@ -141,8 +141,8 @@ impl<const N: usize> Spline<N> {
     /// nowhere. Its second derivative jumps at the knots.
     ///
     /// Its slopes are those of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984) with the
-    /// weights of Brodlie for knots of unequal distances. They satisfy the conditions of Fritsch and
-    /// Carlson (SIAM J. Numer. Anal. 17, 1980). Take it for forces: a driver with it has
+    /// weights of Brodlie for knots of unequal distances. They satisfy the conditions of Fritsch
+    /// and Carlson (SIAM J. Numer. Anal. 17, 1980). Take it for forces: a driver with it has
     /// accelerations that jump.
     #[must_use]
     pub const fn monotone(knots: [f64; N], values: [f64; N]) -> Self {
