@@ -185,14 +185,13 @@ fn a_run_follows_a_record_past_its_end() {
         relative: 1e-9,
         absolute: 1e-9,
     };
-    // At the end of the record the acceleration jumps to zero: steps end there.
-    let end = [1.5];
+    // At the end of the record the acceleration jumps to zero: steps end at the knots.
     Simulation::new(
         &Turned::default(),
         StandardLagrange,
         DormandPrince::new(tolerance),
     )
-    .breaks(&end)
+    .breaks(RECORD.knots())
     .run(0.0..=2.0, every(0.25), |sample| {
         let (time, angle): (f64, f64) = (sample.time(), sample.angle(handles.bearing));
         assert!((angle - RECORD.value(time)).abs() < 1e-6, "{time}: {angle}");
