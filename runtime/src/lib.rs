@@ -58,7 +58,7 @@ pub mod monitor;
 pub mod run;
 pub mod sensitivity;
 pub mod state;
-/// Functions from tables: what goes with [`Spline`].
+/// Functions from tables.
 pub mod spline {
     pub use crate::math::spline::{Spline, SplineFault, uniform_knots};
 }
@@ -160,9 +160,9 @@ pub mod joints;
 ///
 /// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a
 /// number may, by the name of the field. `#[input]`: one that may change at every step, in forces
-/// and gravity only. `#[input(order = 2)]` on a field of type [`Setpoint`]: one with its
-/// derivatives, for the motion of a driver. `#[param]` on a field of type [`Spline`]: a table, which
-/// laws call.
+/// and gravity only. `#[input(order = 2)]` on a field of type [`Setpoint`](mechanism::Setpoint):
+/// one with its derivatives, for the motion of a driver. `#[param]` on a field of type
+/// [`Spline`](spline::Spline): a table, which laws call.
 ///
 /// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of
 /// the element, and `links[k - 1]` names an element of another array, see
@@ -195,7 +195,6 @@ pub use integrate::{
     Tolerance,
 };
 pub use math::scalar::{Real, Scalar};
-pub use math::spline::Spline;
 pub use measure::access::{MechanismExt, Pose};
 pub use measure::load::Loads;
 pub use measure::reaction::Wrench;
@@ -205,7 +204,6 @@ pub use mechanism::handle::{BodyHandle, ForceHandle, JointHandle};
 pub use mechanism::joint_kernels::JointCoordinates;
 pub use mechanism::kernels::Mechanism;
 pub use mechanism::report::Report;
-pub use mechanism::setpoint::Setpoint;
 pub use monitor::{Monitor, Warning, Warnings};
 pub use nalgebra;
 pub use run::kinematics::{KinematicAnalysis, KinematicReport};
@@ -231,11 +229,12 @@ pub mod prelude {
     pub use crate::mechanism::{Assembly, InputsOf, Point, Setpoint, StateOf};
     pub use crate::run::{Crossing, Simulate};
     pub use crate::sensitivity::SensitivityExt;
+    pub use crate::spline::Spline;
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
         KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
         Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation, SimulationError,
-        Spline, StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
+        StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }
 

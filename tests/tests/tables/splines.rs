@@ -1,8 +1,8 @@
 //! The function itself.
 
 use holonom::lanes::Lanes;
-use holonom::spline::{SplineFault, uniform_knots};
-use holonom::{Forward, Scalar, Spline};
+use holonom::spline::{Spline, SplineFault, uniform_knots};
+use holonom::{Forward, Scalar};
 
 use super::data::{AT, CLAMPED, KNOTS, MONOTONE, NATURAL, PERIODIC, THREE_POINTS, VALUES};
 

@@ -68,7 +68,7 @@ impl Numbers<'_> {
                 let number = crate::wire::fingerprint([path]);
                 quote!(<#owner as #facade::__private::TableOf<#number>>::TABLE)
             }
-            None => quote!(#facade::Spline::table(&#path)),
+            None => quote!(#facade::spline::Spline::table(&#path)),
         }
     }
 

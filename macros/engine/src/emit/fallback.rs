@@ -46,7 +46,7 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
             let kind = if is_number(field) {
                 quote!(__S)
             } else {
-                quote!(#facade::Setpoint<__S>)
+                quote!(#facade::mechanism::Setpoint<__S>)
             };
             match array(&field.written).map(|array| &array.len) {
                 Some(length) => quote!(pub #name: [#kind; #length]),

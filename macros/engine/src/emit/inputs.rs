@@ -45,7 +45,7 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
     let with = |value: &dyn Fn(&RunTimeValue) -> TokenStream| {
         let values = inputs(model).map(|(_, input)| {
             let kind = match input.kind {
-                ValueKind::Setpoint => quote!(#facade::Setpoint<__S>),
+                ValueKind::Setpoint => quote!(#facade::mechanism::Setpoint<__S>),
                 _ => quote!(__S),
             };
             (&input.name, (kind, value(input)))
@@ -54,13 +54,13 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
         structs.written(&nested(values))
     };
     let (declared, zero) = with(&|input| match input.kind {
-        ValueKind::Setpoint => quote!(#facade::Setpoint::at_rest(__S::constant(0.0))),
+        ValueKind::Setpoint => quote!(#facade::mechanism::Setpoint::at_rest(__S::constant(0.0))),
         _ => quote!(__S::constant(0.0)),
     });
     let (_, read) = with(&|input| {
         if input.kind == ValueKind::Setpoint {
             let at = input.name.place();
-            return quote!(#facade::Setpoint::map(self.#at, __S::constant));
+            return quote!(#facade::mechanism::Setpoint::map(self.#at, __S::constant));
         }
         let value = read(model, &input.name, facade);
         quote!(__S::constant(#value))

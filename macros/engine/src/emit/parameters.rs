@@ -127,7 +127,7 @@ fn local_values(model: &Model, value: &RunTimeValue, facade: &TokenStream) -> To
         ValueKind::Setpoint => {
             let [rate, acceleration] = super::splines::derivatives(&name);
             quote! {
-                let #facade::Setpoint {
+                let #facade::mechanism::Setpoint {
                     value: #name, rate: #rate, acceleration: #acceleration,
                 } = self.#at;
             }
@@ -183,7 +183,7 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
             ValueKind::Spline(_) => {
                 let at = value.name.place();
                 splines.extend(quote! {
-                    if let ::core::option::Option::Some(__fault) = #facade::Spline::fault(&self.#at) {
+                    if let ::core::option::Option::Some(__fault) = #facade::spline::Spline::fault(&self.#at) {
                         return ::core::result::Result::Err(#facade::ParameterError {
                             field: #field,
                             attribute: "spline",

@@ -103,7 +103,7 @@ pub(super) fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
             }
             ValueKind::Spline(_) => {
                 let end = first + value.kind.further();
-                quote!(#facade::Spline::table(&self.#at).put(&mut #given[#first..#end]);)
+                quote!(#facade::spline::Spline::table(&self.#at).put(&mut #given[#first..#end]);)
             }
         }
     });

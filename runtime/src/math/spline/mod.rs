@@ -20,11 +20,11 @@ use crate::math::scalar::Scalar;
 /// constructor is `const`, so that a table lies in the program itself:
 ///
 /// ```
-/// use holonom::{Spline, spline};
+/// use holonom::spline::{Spline, uniform_knots};
 ///
 /// /// A lift (m) over an angle (rad).
 /// const LIFT: Spline<5> = Spline::periodic(
-///     spline::uniform_knots(0.0, core::f64::consts::TAU),
+///     uniform_knots(0.0, core::f64::consts::TAU),
 ///     [0.0, 0.01, 0.02, 0.01, 0.0],
 /// );
 ///
