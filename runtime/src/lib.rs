@@ -59,6 +59,10 @@ pub mod monitor;
 pub mod run;
 pub mod sensitivity;
 pub mod state;
+/// Functions from tables.
+pub mod spline {
+    pub use crate::math::spline::{Spline, SplineFault, uniform_knots};
+}
 
 #[cfg(test)]
 mod tests;
@@ -157,7 +161,9 @@ pub mod joints;
 ///
 /// `#[param]` on a field of type `f64`: a number that is known at run time and may stand wherever a
 /// number may, by the name of the field. `#[input]`: one that may change at every step, in forces
-/// and gravity only.
+/// and gravity only. `#[input(order = 2)]` on a field of type [`Setpoint`](mechanism::Setpoint):
+/// one with its derivatives, for the motion of a driver. `#[param]` on a field of type
+/// [`Spline`](spline::Spline): a table, which laws call.
 ///
 /// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of
 /// the element, and `links[k - 1]` names an element of another array, see
@@ -169,7 +175,7 @@ pub mod joints;
 /// to radians), `PI`, `TAU`, paths of constants of type `f64`, entries of constants that are arrays
 /// of it, parameters and inputs. The macro evaluates what it can see; a path is a value that it
 /// cannot see: it is checked by the compiler or in [`Mechanism::parameters`](trait@Mechanism), and
-/// does not fold. Laws are expressions of `time`, too.
+/// does not fold. Laws are expressions of `time`, too, and call splines: [`guide::data`].
 ///
 /// # What is generated
 ///
@@ -221,9 +227,10 @@ pub mod prelude {
     pub use crate::independent::{IndependentCoordinates, IndependentExt, Motion};
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
-    pub use crate::mechanism::{Assembly, InputsOf, Point, StateOf};
+    pub use crate::mechanism::{Assembly, InputsOf, Point, Setpoint, StateOf};
     pub use crate::run::{Crossing, Simulate};
     pub use crate::sensitivity::SensitivityExt;
+    pub use crate::spline::Spline;
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
         KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,

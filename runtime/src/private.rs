@@ -6,6 +6,7 @@ pub use holonom_urdf_macros::urdf_impl;
 
 pub use crate::dynamics::likes::{Like, check_likes};
 pub use crate::error::ParameterFault;
+pub use crate::math::spline::{Order, SplineFault, Table, evaluate_numbers};
 pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
@@ -317,6 +318,12 @@ pub trait Assembly {
 pub trait ConstantOf<const FINGERPRINT: u64> {
     /// Its value.
     const VALUE: f64;
+}
+
+/// A spline that an assembly names by its path, by the fingerprint of that.
+pub trait TableOf<const FINGERPRINT: u64> {
+    /// Its table.
+    const TABLE: Table<'static>;
 }
 
 /// The type of a field of an assembly, of an element if it is an array, by its number.

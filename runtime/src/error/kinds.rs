@@ -4,6 +4,7 @@
 use core::fmt::Display;
 
 use crate::error::checkpoint::CheckpointFault;
+use crate::math::spline::SplineFault;
 
 /// A number of the description that the macro could not see is not acceptable.
 ///
@@ -30,6 +31,8 @@ pub enum ParameterFault {
     TriangleInequality,
     /// A vector of length zero where a direction is needed.
     ZeroLength,
+    /// A table that makes no spline.
+    Spline(SplineFault),
     /// With this parameter no configuration was found that satisfies all equations: neither from
     /// the described one and near it, nor by continuation from the typical values of parameters.
     NotAssembled {

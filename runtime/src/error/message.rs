@@ -18,6 +18,9 @@ impl fmt::Display for ParameterError {
                 "must satisfy the triangle inequality: no principal moment exceeds the sum of the others"
             }
             ParameterFault::ZeroLength => "must not be the zero vector",
+            ParameterFault::Spline(fault) => {
+                return write!(f, "`{}` is {}", self.field, fault.sentence());
+            }
             ParameterFault::NotAssembled { joint } => {
                 return write!(
                     f,

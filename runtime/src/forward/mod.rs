@@ -227,6 +227,11 @@ impl<S: Scalar, const N: usize> Scalar for Forward<S, N> {
     }
 
     #[inline]
+    fn bounds_passed(self, count: usize, bound: impl Fn(usize) -> Self) -> Option<usize> {
+        self.value.bounds_passed(count, |place| bound(place).value)
+    }
+
+    #[inline]
     fn sines_and_versines<const K: usize>(angles: &[Self; K]) -> [[Self; 2]; K] {
         let values = S::sines_and_versines(&angles.map(|angle| angle.value));
         from_fn(|k| {

@@ -13,6 +13,7 @@
 //! | [`mod@reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
 //! | [`joint`] | how to define your own joint |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
+//! | [`data`] | cams, recorded motions and curves of forces from tables; joints driven from outside |
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
 //! | [`states`] | numbers with a rate of their own: motor currents, filters, hydraulic pressures, integrals of controllers |
 //! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
@@ -124,6 +125,9 @@ pub mod joint {}
 
 #[doc = include_str!("forces.md")]
 pub mod forces {}
+
+#[doc = include_str!("data.md")]
+pub mod data {}
 
 #[doc = include_str!("events.md")]
 pub mod events {}

@@ -185,6 +185,18 @@ impl<T: Real, const L: usize> Scalar for Lanes<T, L> {
         self.each(T::round)
     }
 
+    #[inline]
+    fn bounds_passed(self, count: usize, bound: impl Fn(usize) -> Self) -> Option<usize> {
+        let mut agreed = None;
+        for (k, lane) in self.0.iter().enumerate() {
+            let passed = lane.bounds_passed(count, |place| bound(place).0[k])?;
+            if *agreed.get_or_insert(passed) != passed {
+                return None;
+            }
+        }
+        agreed
+    }
+
     #[inline(always)]
     fn are_within<const N: usize>(numbers: &[Self; N], bound: f64) -> bool {
         let bound = T::constant(bound);

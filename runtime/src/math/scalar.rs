@@ -101,6 +101,15 @@ pub trait Scalar:
         false
     }
 
+    /// How many of `count` increasing bounds are not above this number; all of them for NaN. `None`
+    /// where a number is several that disagree, and of a type that cannot tell: then every bound is
+    /// compared by [`Scalar::select`].
+    #[must_use]
+    fn bounds_passed(self, count: usize, bound: impl Fn(usize) -> Self) -> Option<usize> {
+        let _ = (count, bound);
+        None
+    }
+
     /// Zero.
     fn zero() -> Self {
         Self::constant(0.0)
@@ -288,6 +297,20 @@ macro_rules! real {
             #[inline]
             fn round(self) -> Self {
                 elementary::$round(self)
+            }
+
+            #[inline]
+            fn bounds_passed(self, count: usize, bound: impl Fn(usize) -> Self) -> Option<usize> {
+                let (mut passed, mut above) = (0, count);
+                while passed < above {
+                    let middle = passed + (above - passed) / 2;
+                    if self < bound(middle) {
+                        above = middle;
+                    } else {
+                        passed = middle + 1;
+                    }
+                }
+                Some(passed)
             }
 
             const SEVEN_DIGITS: bool = size_of::<Self>() == 4;

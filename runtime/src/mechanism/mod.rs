@@ -19,6 +19,7 @@ pub(crate) mod point;
 pub(crate) mod readout;
 pub(crate) mod relative;
 pub(crate) mod report;
+pub(crate) mod setpoint;
 
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
@@ -48,3 +49,4 @@ pub use report::{
     Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind, StateInfo,
     ValueInfo,
 };
+pub use setpoint::Setpoint;

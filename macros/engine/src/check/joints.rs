@@ -147,9 +147,9 @@ impl JointChecker<'_> {
             }
             let expr = pairs.required(&key, parameter.kind.example(), faults);
             numbers.no_inputs = match (self.kind, parameter.kind) {
-                (ElementKind::Joint, ParameterKind::Law) => {
-                    Some("a joint's law is a function of the time; make it a `#[param]`")
-                }
+                (ElementKind::Joint, ParameterKind::Law) => Some(
+                    "a driver needs its rate and acceleration, too; make it a `Setpoint` with `#[input(order = 2)]`, or a `#[param]`",
+                ),
                 (ElementKind::Joint, _) => {
                     Some("a joint is what it is for the whole run; make it a `#[param]`")
                 }

@@ -8,8 +8,9 @@ use syn::{BinOp, Expr, UnOp};
 use super::elements::Found;
 use super::number::Numbers;
 use super::states::Readings;
+use super::tables::Called;
 use crate::diag::{Faults, code, did_you_mean, list};
-use crate::model::{Function, LawTerm};
+use crate::model::{Curve, Function, LawTerm};
 use crate::syntax::ungroup;
 
 /// Reads a law.
@@ -43,9 +44,16 @@ impl LawReader<'_, '_, '_> {
                 let readings = self.readings?;
                 readings.read(field, &self.numbers.field, faults)
             }
+            Expr::Index(_) | Expr::Field(_) if self.numbers.setpoint(expr).is_some() => {
+                let input = self.numbers.setpoint(expr)?;
+                Some(LawTerm::Setpoint(self.numbers.derivatives(input, expr)))
+            }
             Expr::Path(path) => {
                 let name = path.path.get_ident()?;
                 let place = self.arguments.iter().position(|argument| argument == name);
+                if let (None, Some(input)) = (place, self.numbers.setpoint(expr)) {
+                    return Some(LawTerm::Setpoint(self.numbers.derivatives(input, expr)));
+                }
                 let scope = self.numbers.field.parts();
                 let mut fields = self.numbers.values.iter().map(|value| &value.name);
                 if fields.any(|field| field.field() == name && field.parts() == scope) {
@@ -124,7 +132,18 @@ impl LawReader<'_, '_, '_> {
 
     fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<LawTerm> {
         let name = code(&call.func);
-        let Some(function) = Function::named(&name) else {
+        let function = match Function::named(&name) {
+            Some(function) => Some(function),
+            None => match self.numbers.spline(&call.func, faults) {
+                Called::Spline(spline) => Some(Function::Curve(Curve {
+                    spline,
+                    derivative: 0,
+                })),
+                Called::Nothing => None,
+                Called::Refused => return None,
+            },
+        };
+        let Some(function) = function else {
             let known = Function::NAMED.map(|(name, _)| name);
             let near = did_you_mean(&name, known);
             faults.at(
@@ -158,10 +177,12 @@ impl LawReader<'_, '_, '_> {
             return true;
         }
         match ungroup(expr) {
-            Expr::Path(path) => path
-                .path
-                .get_ident()
-                .is_some_and(|name| name == "time" || self.arguments.contains(name)),
+            Expr::Path(path) => {
+                let name = path.path.get_ident();
+                let is_word = |name| name == "time" || self.arguments.contains(name);
+                name.is_some_and(is_word) || self.numbers.setpoint(expr).is_some()
+            }
+            Expr::Index(_) | Expr::Field(_) if self.numbers.setpoint(expr).is_some() => true,
             Expr::Unary(unary) => self.varies(&unary.expr),
             Expr::Binary(binary) => self.varies(&binary.left) || self.varies(&binary.right),
             Expr::Call(call) => {

@@ -58,7 +58,7 @@ pub fn check<'a>(
             );
         }
     }
-    described(syntax, types, definitions, facade, faults)
+    described(syntax, types, definitions, (facade, false), faults)
 }
 
 /// Checks an assembly by itself: its ports are bodies of which nothing is known. What numbers tell
@@ -103,19 +103,19 @@ pub fn check_assembly(
             );
         }
     }
-    described(syntax, types, definitions, facade, faults).map(|checked| checked.model)
+    described(syntax, types, definitions, (facade, true), faults).map(|checked| checked.model)
 }
 
 fn described<'a>(
     syntax: &'a MechanismSyntax,
     types: &Definitions,
     definitions: Vec<ElementDef>,
-    facade: &TokenStream,
+    (facade, is_assembly): (&TokenStream, bool),
     faults: &mut Faults,
 ) -> Option<Checked<'a>> {
     let owner = Name::from(syntax.name.clone());
     let mut numbers = Numbers::new(owner, &syntax.unmeasured, facade);
-    numbers.values = super::values::values(syntax, facade, faults);
+    numbers.values = super::values::values(syntax, is_assembly, facade, faults);
     refuse_index(syntax, faults);
     let Attributes {
         gravity,
@@ -264,6 +264,7 @@ fn described<'a>(
     let points: Vec<_> = points.collect::<Option<_>>()?;
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
+    let splines = std::mem::take(&mut numbers.splines);
     let mut known = HashSet::new();
     let mut constants = std::mem::take(&mut numbers.constants);
     constants.retain(|constant| known.insert(constant.to_string()));
@@ -279,6 +280,7 @@ fn described<'a>(
         values,
         definitions,
         symbols,
+        splines,
         independence: Independence::default(),
         coordinates,
         asked,

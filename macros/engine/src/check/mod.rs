@@ -13,6 +13,7 @@
 //! - `linear.rs`: linear functions of such numbers.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
 //! - `states.rs`: rates of the user's own states, and what they read of joints and forces.
+//! - `tables.rs`: splines and inputs with derivatives, in laws.
 //! - `values.rs`: parameters, inputs and starts of states. A reader that meets an input where none may be is given
 //!   the reason.
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
@@ -51,6 +52,7 @@ mod placement;
 mod points;
 mod redundant;
 mod states;
+mod tables;
 mod values;
 
 use crate::diag::Faults;

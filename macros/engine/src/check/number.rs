@@ -12,7 +12,7 @@ use super::later::{Later, Value};
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::name::Step;
 use crate::model::number::literals;
-use crate::model::{Name, Number, RunTimeValue, Symbol};
+use crate::model::{Name, Number, RunTimeValue, Spline, Symbol, ValueKind};
 use crate::syntax::array::is_index;
 use crate::syntax::integer::integer;
 use crate::syntax::ungroup;
@@ -37,7 +37,7 @@ const FUNCTIONS: [(&str, Function); 6] = [
 #[derive(Debug)]
 pub struct Numbers<'a> {
     /// Where the private support of the run-time crate lives.
-    facade: &'a TokenStream,
+    pub(super) facade: &'a TokenStream,
     /// The run-time values of the mechanism.
     pub values: Vec<RunTimeValue>,
     /// What else may stand here, for messages: the words of a law.
@@ -46,6 +46,8 @@ pub struct Numbers<'a> {
     pub no_inputs: Option<&'static str>,
     /// Symbols met so far.
     pub symbols: Vec<Symbol>,
+    /// Splines met so far.
+    pub splines: Vec<Spline>,
     /// Constants by their paths, met so far outside parts.
     pub constants: Vec<TokenStream>,
     /// The types of parts by the way to each: the constants of an assembly have their meaning
@@ -78,6 +80,7 @@ impl<'a> Numbers<'a> {
             words: Vec::new(),
             no_inputs: None,
             symbols: Vec::new(),
+            splines: Vec::new(),
             constants: Vec::new(),
             scopes: Vec::new(),
             unmeasured,
@@ -299,7 +302,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// A constant by its path, or an entry of one that is an array.
-    fn constant(&self, expr: &Expr, faults: &mut Faults) -> Option<TokenStream> {
+    pub(super) fn constant(&self, expr: &Expr, faults: &mut Faults) -> Option<TokenStream> {
         match ungroup(expr) {
             Expr::Path(path) => (!self.is_unknown(path, faults)).then(|| path.to_token_stream()),
             Expr::Index(entry) => {
@@ -313,6 +316,11 @@ impl<'a> Numbers<'a> {
                         format!("the entries of `{found}` are counted from 0; this is `{found}[{index}]`"),
                     );
                     return None;
+                };
+                // A block that begins with a block would be two statements.
+                let array = match ungroup(&entry.expr) {
+                    Expr::Index(_) => quote!((#array)),
+                    _ => array,
                 };
                 // Whether there is such an entry is found by the compiler, and not when the program
                 // runs.
@@ -373,6 +381,14 @@ impl<'a> Numbers<'a> {
             faults.at(
                 at,
                 format!("`{name}` is a state, which changes in time: it stands in laws of forces and in rates of states alone"),
+            );
+            return None;
+        }
+        if matches!(value.kind, ValueKind::Spline(_)) {
+            let name = &value.name;
+            faults.at(
+                at,
+                format!("`{name}` is a spline; a law reads it, as in `{name}(time)`"),
             );
             return None;
         }

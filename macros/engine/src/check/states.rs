@@ -258,7 +258,11 @@ pub(super) fn tell(states: &[UserState], elements: &mut [&mut Element]) {
                 visit(b, elements);
             }
             LawTerm::Function(_, inner) => visit(inner, elements),
-            LawTerm::Number(_) | LawTerm::Time | LawTerm::Argument(_) | LawTerm::State(_) => {}
+            LawTerm::Number(_)
+            | LawTerm::Time
+            | LawTerm::Argument(_)
+            | LawTerm::Setpoint(_)
+            | LawTerm::State(_) => {}
         }
     }
     for state in states {

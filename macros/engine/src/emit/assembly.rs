@@ -6,7 +6,7 @@ use syn::{Attribute, Data, DeriveInput, Field};
 
 use super::construction::of_assembly;
 use super::parameters::{lengths, read};
-use crate::model::Model;
+use crate::model::{Model, Table};
 use crate::syntax::array::element_type;
 use crate::syntax::mechanism::{MechanismSyntax, carrier_path};
 use crate::wire::{self, Delivery};
@@ -79,6 +79,18 @@ pub fn emit(
             }
         }
     });
+    let splines = model.splines.iter().filter_map(|spline| {
+        let Table::Constant(path, table) = &spline.table else {
+            return None;
+        };
+        let number = wire::fingerprint([path]);
+        Some(quote! {
+            #[automatically_derived]
+            impl #facade::__private::TableOf<#number> for #name {
+                const TABLE: #facade::__private::Table<'static> = #table;
+            }
+        })
+    });
     let (lengths, construction) = (lengths(model), of_assembly(model));
     quote! {
         const _: () = {
@@ -102,6 +114,7 @@ pub fn emit(
 
             #(#types)*
             #(#constants)*
+            #(#splines)*
             #lengths
 
             #construction

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::model::name::fields;
-use crate::model::{Model, Name};
+use crate::model::{Model, Name, RunTimeValue, ValueKind};
 use crate::syntax::words::local;
 
 /// `Default` without parameters, else `new` with one argument for each, which checks them.
@@ -66,10 +66,17 @@ fn construction(
         .collect();
     let inputs = model.values.iter().filter(|value| value.is_input);
     let inputs = inputs.filter(|value| value.name.parts().is_empty());
+    let is_number = |name: &Name| {
+        let is_other = |value: &&RunTimeValue| value.kind != ValueKind::Number;
+        let mut others = model.values.iter().filter(is_other);
+        !others.any(|value| value.name.text() == name.text())
+    };
     let inputs = fields(inputs.map(|value| &value.name)).into_iter();
     let inputs = inputs.map(|(input, length)| match length {
-        Some(length) => quote!(#input: [0.0; #length],),
-        None => quote!(#input: 0.0,),
+        Some(length) if is_number(input) => quote!(#input: [0.0; #length],),
+        None if is_number(input) => quote!(#input: 0.0,),
+        Some(length) => quote!(#input: [::core::default::Default::default(); #length],),
+        None => quote!(#input: ::core::default::Default::default(),),
     });
     let inputs: Vec<_> = inputs.chain(starts(model)).collect();
     let has_inputs = model.values.iter().any(|value| value.is_input);
@@ -188,15 +195,19 @@ fn given(model: &Model) -> Vec<Given> {
                 likes.push(other.like);
             }
         }
+        let kind = match value.kind {
+            ValueKind::Number => quote!(f64),
+            _ => value.written.clone(),
+        };
         let length = likes.len();
         let likes: Option<Vec<f64>> = likes.into_iter().collect();
         let is_array = value.name.index().is_some();
         given.push(Given {
             name: value.name.field().clone(),
             kind: if is_array {
-                quote!([f64; #length])
+                quote!([#kind; #length])
             } else {
-                quote!(f64)
+                kind
             },
             like: likes.map(|likes| {
                 if is_array {

@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::inputs::taken;
 use super::parts::{Frame, write_in_parts};
+use super::splines::prepared;
 use super::store;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
@@ -44,9 +45,8 @@ impl Writer<'_, JointKernels> {
         let joint_rates = self.joint_rates();
         let coefficients = self.store.write_coefficients();
         let taken = taken(model, &mut self.store);
-        let prepared = self.store.write_constants(&model.symbols);
+        let prepared = prepared(model, self.store.write_constants(&model.symbols));
         let (c, k) = (self.store.constants(), self.store.coefficients());
-        let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
         let (coefficient_statements, coefficient_outputs) =
             (coefficients.statements, coefficients.outputs);
         let (constants, stabilisation) = (local("constants"), local("stabilisation"));
@@ -71,8 +71,7 @@ impl Writer<'_, JointKernels> {
                 fn prepare_joints<__S: #facade::Scalar>(
                     #given: &Self::Parameters<__S>,
                 ) -> Self::JointConstants<__S> {
-                    #constant_statements
-                    [#(#constant_outputs),*]
+                    #prepared
                 }
 
                 #[inline]

@@ -43,9 +43,14 @@ pub fn emit(syntax: &MechanismSyntax, types: &Definitions, facade: &TokenStream)
         .filter(|field| matches!(field.role, Some((Role::Input, _))))
         .map(|field| {
             let name = &field.name;
+            let kind = if is_number(field) {
+                quote!(__S)
+            } else {
+                quote!(#facade::mechanism::Setpoint<__S>)
+            };
             match array(&field.written).map(|array| &array.len) {
-                Some(length) => quote!(pub #name: [__S; #length]),
-                None => quote!(pub #name: __S),
+                Some(length) => quote!(pub #name: [#kind; #length]),
+                None => quote!(pub #name: #kind),
             }
         })
         .collect();
@@ -101,17 +106,34 @@ fn own_fields(syntax: &MechanismSyntax) -> impl Iterator<Item = &Field> {
     own.filter(move |field| before.insert(field.name.field().unraw()))
 }
 
+/// Whether a run-time value is a number; one of an unknown type is taken for one.
+fn is_number(field: &Field) -> bool {
+    let ty = field.ty.to_token_stream().to_string();
+    !["Setpoint", "Spline"]
+        .iter()
+        .any(|other| ty.contains(other))
+}
+
+/// The type of a parameter.
+fn kind(field: &Field) -> TokenStream {
+    if is_number(field) {
+        quote!(::core::primitive::f64)
+    } else {
+        field.ty.to_token_stream()
+    }
+}
+
 /// The arguments of `new`.
 fn parameters(syntax: &MechanismSyntax) -> Vec<TokenStream> {
     let own = own_fields(syntax).filter(|field| matches!(field.role, Some((Role::Param, _))));
     let own = own.map(|field| match array(&field.written) {
         Some(array) => {
-            let (name, length) = (&field.name, &array.len);
-            quote!(#name: [::core::primitive::f64; #length])
+            let (name, length, kind) = (&field.name, &array.len, kind(field));
+            quote!(#name: [#kind; #length])
         }
         None => {
-            let name = &field.name;
-            quote!(#name: ::core::primitive::f64)
+            let (name, kind) = (&field.name, kind(field));
+            quote!(#name: #kind)
         }
     });
     let has_parameters = |part: &&PartSyntax| {

@@ -37,8 +37,11 @@ impl Writer<'_> {
             let handle = quote!(#facade::__private::StateHandle::new(#place));
             (&state.name, (kind, handle))
         });
+        // A spline is no number that something depends on.
         let values = self.model.values.iter().enumerate();
-        let values = values.filter(|(_, value)| !value.is_start);
+        let values = values.filter(|(_, value)| {
+            !value.is_start && !matches!(value.kind, crate::model::ValueKind::Spline(_))
+        });
         let values = values.map(|(place, value)| {
             let kind = quote!(#facade::__private::ValueHandle<#name>);
             let handle = quote!(#facade::__private::ValueHandle::new(#place));

@@ -8,7 +8,7 @@ use super::nested::{Structs, nested};
 use super::parameters::read;
 use super::store::Store;
 use super::straight_line::StraightLine;
-use crate::model::{Model, RunTimeValue};
+use crate::model::{Model, RunTimeValue, ValueKind, first_further};
 use crate::syntax::words::local;
 
 /// The type of the inputs, and the functions that read and place them.
@@ -43,28 +43,70 @@ pub(super) fn inputs_of(model: &Model, facade: &TokenStream) -> Inputs {
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
     };
     let with = |value: &dyn Fn(usize, &RunTimeValue) -> TokenStream| {
-        let values = inputs(model);
-        let values =
-            values.map(|(number, input)| (&input.name, (quote!(__S), value(number, input))));
+        let values = inputs(model).map(|(number, input)| {
+            let kind = match input.kind {
+                ValueKind::Setpoint => quote!(#facade::mechanism::Setpoint<__S>),
+                _ => quote!(__S),
+            };
+            (&input.name, (kind, value(number, input)))
+        });
         let structs = Structs::new("__Inputs", head.clone(), quote!(<__S>));
         structs.written(&nested(values))
     };
-    let (declared, zero) = with(&|_, _| quote!(__S::constant(0.0)));
+    let (declared, zero) = with(&|_, input| match input.kind {
+        ValueKind::Setpoint => quote!(#facade::mechanism::Setpoint::at_rest(__S::constant(0.0))),
+        _ => quote!(__S::constant(0.0)),
+    });
     let (_, read) = with(&|_, input| {
+        if input.kind == ValueKind::Setpoint {
+            let at = input.name.place();
+            return quote!(#facade::mechanism::Setpoint::map(self.#at, __S::constant));
+        }
         let value = read(model, &input.name, facade);
         quote!(__S::constant(#value))
     });
     let [given, parameters, values] = ["inputs", "parameters", "values"].map(local);
-    let (_, held) = with(&|number, _| {
+    let at = |number: usize| {
         let number = Literal::usize_unsuffixed(number);
         quote!(#parameters[#number])
+    };
+    let (_, held) = with(&|number, input| match input.kind {
+        ValueKind::Setpoint => {
+            let further = first_further(&model.values, number);
+            let [value, rate, acceleration] = [number, further, further + 1].map(at);
+            quote! {
+                #facade::mechanism::Setpoint {
+                    value: #value,
+                    rate: #rate,
+                    acceleration: #acceleration,
+                }
+            }
+        }
+        _ => at(number),
     });
-    let place = inputs(model).map(|(number, value)| {
-        let (at, name) = (value.name.place(), value.name.to_string());
-        let number = Literal::usize_unsuffixed(number);
-        quote!((#number, #name, #given.#at))
-    });
-    let count = inputs(model).count();
+    let place: Vec<TokenStream> = inputs(model)
+        .flat_map(|(number, value)| {
+            let (at, name) = (value.name.place(), value.name.to_string());
+            let numbers = match value.kind {
+                ValueKind::Setpoint => {
+                    let further = first_further(&model.values, number);
+                    let of = |part: TokenStream| quote!(.#part);
+                    vec![
+                        (number, of(quote!(value))),
+                        (further, of(quote!(rate))),
+                        (further + 1, of(quote!(acceleration))),
+                    ]
+                }
+                _ => vec![(number, TokenStream::new())],
+            };
+            let numbers = numbers.into_iter().map(|(number, part)| {
+                let number = Literal::usize_unsuffixed(number);
+                quote!((#number, #name, #given.#at #part))
+            });
+            numbers.collect::<Vec<_>>()
+        })
+        .collect();
+    let count = place.len();
     Inputs {
         declared: quote! {
             #declared

@@ -19,7 +19,7 @@ impl Writer<'_> {
         if model.independence.likes.is_empty() {
             return TokenStream::new();
         }
-        let count = model.values.len();
+        let count = model.parameters();
         let likes = model.independence.likes.iter().filter_map(|&place| {
             let value = &model.values[place];
             let (name, like) = (value.name.to_string(), value.like?);

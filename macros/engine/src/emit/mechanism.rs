@@ -11,6 +11,7 @@ use super::parameters;
 use super::parts::Frame;
 use super::report::report;
 use super::solver::is_short;
+use super::splines;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
@@ -70,6 +71,7 @@ impl Writer<'_> {
             documentation(model, kernels),
         );
         let assertions = parameters::assertions(model, facade);
+        let splines = splines::functions(model, facade);
         let parameters = parameters::parameters(model, facade);
         let construction = of_mechanism(model, facade);
         let vector_rows = &kernels.vector_rows;
@@ -95,6 +97,7 @@ impl Writer<'_> {
                 #handles_type
                 #inputs_type
                 #assertions
+                #splines
 
                 #[automatically_derived]
                 #documentation
@@ -134,7 +137,7 @@ impl Writer<'_> {
         let facade = self.facade;
         let layout = self.model.layout();
         let (q, u, m) = (layout.stored(), layout.velocities, layout.rows);
-        let values = self.model.values.len();
+        let values = self.model.parameters();
         let jacobian_size = self.kernels.jacobian.outputs.len();
         let (c, k) = (self.store.constants(), self.store.coefficients());
         quote! {
@@ -157,16 +160,14 @@ impl Writer<'_> {
         let (coefficient_statements, coefficient_outputs) =
             (coefficients.statements, coefficients.outputs);
         let taken = taken(model, &mut self.store);
-        let prepared = self.store.write_constants(&model.symbols);
-        let (constant_statements, constant_outputs) = (prepared.statements, prepared.outputs);
+        let prepared = splines::prepared(model, self.store.write_constants(&model.symbols));
         let names = ["constants", "stabilisation", "compliances", "parameters"];
         let [constants, stabilisation, compliances, given] = names.map(local);
         quote! {
             fn prepare<__S: #facade::Scalar>(
                 #given: &Self::Parameters<__S>,
             ) -> Self::Constants<__S> {
-                #constant_statements
-                [#(#constant_outputs),*]
+                #prepared
             }
 
             #[inline]

@@ -16,6 +16,9 @@
 //! any scalar, and `take_inputs` computes what depends on them (`Store::write_inputs`). A
 //! controller's loop touches no `f64`.
 //!
+//! `splines.rs` writes what kernels call of a spline, and puts the numbers of those that are given
+//! at run time before the other constants.
+//!
 //! `likes.rs` writes the omitted equations as a kernel. `joint.rs` writes type, traits, carrier
 //! and documentation of a definition.
 
@@ -40,6 +43,7 @@ pub mod report;
 mod rows;
 mod solution;
 mod solver;
+mod splines;
 mod states;
 pub mod store;
 pub mod straight_line;

@@ -8,7 +8,7 @@ use quote::quote;
 
 use super::construction::{given_parts, parts};
 use crate::check::number::value_name;
-use crate::model::{ElementKind, Model, Name, Number, Symbol};
+use crate::model::{ElementKind, Model, Name, Number, RunTimeValue, Symbol, ValueKind};
 
 /// Numbers that the macro could not see are checked by the compiler where it can evaluate them.
 pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
@@ -35,6 +35,7 @@ pub fn assertions(model: &Model, facade: &TokenStream) -> TokenStream {
         });
     }
     tokens.extend(lengths(model));
+    tokens.extend(super::splines::assertions(model, facade));
     let mut known = HashSet::new();
     for part in &model.parts {
         let (path, fingerprint) = (&part.path, Literal::u64_suffixed(part.fingerprint));
@@ -98,18 +99,40 @@ pub fn parameters(model: &Model, facade: &TokenStream) -> TokenStream {
     let given: Vec<_> = given.collect();
     let parts = parts.chain(&given);
     let checks = checks(model, facade);
-    let names = model.values.iter().map(|value| &value.name);
-    let read = names.clone().map(|name| read(model, name, facade));
-    let values: Vec<_> = names.map(value_name).collect();
+    let values = model
+        .values
+        .iter()
+        .map(|value| local_values(model, value, facade));
+    let given = super::splines::parameters(model, facade);
     quote! {
         fn parameters<__S: #facade::Scalar>(
             &self,
         ) -> ::core::result::Result<Self::Parameters<__S>, #facade::ParameterError> {
             #( let _ = &self.#parts; )*
-            #( let #values: f64 = #read; )*
+            #(#values)*
             #checks
-            ::core::result::Result::Ok([#(__S::constant(#values)),*])
+            ::core::result::Result::Ok(#given)
         }
+    }
+}
+
+/// The local variables of a run-time value.
+fn local_values(model: &Model, value: &RunTimeValue, facade: &TokenStream) -> TokenStream {
+    let (name, at) = (value_name(&value.name), value.name.place());
+    match value.kind {
+        ValueKind::Number => {
+            let read = read(model, &value.name, facade);
+            quote!(let #name: f64 = #read;)
+        }
+        ValueKind::Setpoint => {
+            let [rate, acceleration] = super::splines::derivatives(&name);
+            quote! {
+                let #facade::mechanism::Setpoint {
+                    value: #name, rate: #rate, acceleration: #acceleration,
+                } = self.#at;
+            }
+        }
+        ValueKind::Spline(_) => TokenStream::new(),
     }
 }
 
@@ -131,7 +154,7 @@ pub(super) fn read(model: &Model, name: &Name, facade: &TokenStream) -> TokenStr
 
 /// The checks of `parameters`.
 fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
-    let mut tokens = TokenStream::new();
+    let (mut tokens, mut splines) = (TokenStream::new(), TokenStream::new());
     let mut refuse = |condition: TokenStream, field: &str, attribute: &str, fault: TokenStream| {
         tokens.extend(quote! {
             if #condition {
@@ -144,14 +167,32 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
         });
     };
     for value in &model.values {
-        let name = value_name(&value.name);
-        let condition = quote!(!f64::is_finite(#name));
-        refuse(
-            condition,
-            &value.name.to_string(),
-            "value",
-            quote!(NotFinite),
-        );
+        let (name, field) = (value_name(&value.name), value.name.to_string());
+        let mut finite = |name: &proc_macro2::Ident, attribute: &str| {
+            let condition = quote!(!f64::is_finite(#name));
+            refuse(condition, &field, attribute, quote!(NotFinite));
+        };
+        match value.kind {
+            ValueKind::Number => finite(&name, "value"),
+            ValueKind::Setpoint => {
+                let [rate, acceleration] = super::splines::derivatives(&name);
+                finite(&name, "value");
+                finite(&rate, "rate");
+                finite(&acceleration, "acceleration");
+            }
+            ValueKind::Spline(_) => {
+                let at = value.name.place();
+                splines.extend(quote! {
+                    if let ::core::option::Option::Some(__fault) = #facade::spline::Spline::fault(&self.#at) {
+                        return ::core::result::Result::Err(#facade::ParameterError {
+                            field: #field,
+                            attribute: "spline",
+                            fault: #facade::__private::ParameterFault::Spline(__fault),
+                        });
+                    }
+                });
+            }
+        }
     }
     for symbol in &model.symbols {
         let expression = &symbol.expression;
@@ -182,6 +223,7 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
         let condition = quote!(#facade::__private::is_zero([#(#vector),*]));
         refuse(condition, &field, &attribute, quote!(ZeroLength));
     }
+    tokens.extend(splines);
     tokens
 }
 

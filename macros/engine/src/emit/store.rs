@@ -16,8 +16,9 @@ use crate::syntax::words::local;
 #[derive(Debug, Default)]
 pub struct Store {
     arena: Arena,
-    /// What `prepare` computes.
+    /// What `prepare` computes, behind the numbers of splines.
     constants: Vec<Expr>,
+    spline_numbers: usize,
     /// What `coefficients` computes.
     coefficients: Vec<Expr>,
     /// The places of either, behind whether it is a coefficient.
@@ -25,22 +26,31 @@ pub struct Store {
 }
 
 impl Store {
+    /// Constants that begin with so many numbers of splines.
+    #[must_use]
+    pub fn new(spline_numbers: usize) -> Self {
+        Self {
+            spline_numbers,
+            ..Self::default()
+        }
+    }
+
     /// The expression that loads a value of a kernel's arena.
     pub fn load(&mut self, arena: &Arena, value: Expr) -> TokenStream {
         let stage = arena.stage(value);
         let value = self.import(arena, value);
         let is_coefficient = stage == Stage::Coefficient;
-        let (slots, array) = if is_coefficient {
-            (&mut self.coefficients, local("coefficients"))
+        let (slots, array, first) = if is_coefficient {
+            (&mut self.coefficients, local("coefficients"), 0)
         } else {
-            (&mut self.constants, local("constants"))
+            (&mut self.constants, local("constants"), self.spline_numbers)
         };
         let place = *self
             .places
             .entry((is_coefficient, value.abs()))
             .or_insert_with(|| {
                 slots.push(value.abs());
-                slots.len() - 1
+                first + slots.len() - 1
             });
         if value.is_negative() {
             quote!(-#array[#place])
@@ -68,7 +78,7 @@ impl Store {
     /// The number of constants. Complete only when every kernel is written.
     #[must_use]
     pub fn constants(&self) -> usize {
-        self.constants.len()
+        self.spline_numbers + self.constants.len()
     }
 
     /// The number of coefficients. Complete only when every kernel is written.
@@ -92,7 +102,7 @@ impl Store {
     /// places. May ask for further constants.
     pub fn write_inputs(&mut self, symbols: &[Symbol]) -> (StraightLine, Vec<usize>) {
         let arena = self.arena.clone();
-        let constants = self.constants.iter().copied().enumerate();
+        let constants = (self.spline_numbers..).zip(self.constants.iter().copied());
         let (places, outputs): (Vec<usize>, Vec<Expr>) = constants
             .filter(|(_, value)| arena.stage(*value) == Stage::Input)
             .unzip();

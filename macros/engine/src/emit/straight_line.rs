@@ -8,6 +8,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::rows::{ArrayElement, unpack};
+use crate::model::Curve;
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
 use crate::syntax::words::local;
 
@@ -123,6 +124,11 @@ impl Lines {
         }
         last
     }
+}
+
+/// The function that evaluates a spline or a derivative of it.
+pub(super) fn of_spline(Curve { spline, derivative }: Curve) -> Ident {
+    quote::format_ident!("__spline_{spline}_{derivative}")
 }
 
 struct Writer<'a, E> {
@@ -321,6 +327,11 @@ impl<E: Environment> Writer<'_, E> {
             Node::Sine(a) => self.function("sin", a),
             Node::Cosine(a) => self.function("cos", a),
             Node::Exponential(a) => self.function("exp", a),
+            Node::Curve(curve, a) => {
+                let (function, constants) = (of_spline(curve), local("constants"));
+                let a = self.reference(a);
+                quote!(#function(&#constants[..], #a))
+            }
             Node::Angle(sine, cosine) => {
                 let (sine, cosine) = (self.reference(sine), self.reference(cosine));
                 quote!(__S::atan2(#sine, #cosine))

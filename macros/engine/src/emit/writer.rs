@@ -33,7 +33,7 @@ impl<'a, K> Writer<'a, K> {
             model,
             kernels,
             facade,
-            store: Store::default(),
+            store: Store::new(model.all_spline_numbers()),
             parts: TokenStream::new(),
         }
     }

@@ -94,6 +94,28 @@ pub enum Function {
     Exponential,
     /// 0 below 0, 1 above 1, `6 x^5 - 15 x^4 + 10 x^3` between: twice continuously differentiable.
     SmoothStep,
+    /// A spline, or a derivative of it.
+    Curve(Curve),
+}
+
+/// A spline by its place in the model, and which derivative of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Curve {
+    /// The place in [`Model::splines`](super::Model::splines).
+    pub spline: u32,
+    /// 0 for the value, at most 2.
+    pub derivative: u8,
+}
+
+impl Curve {
+    /// The next derivative.
+    #[must_use]
+    pub const fn derived(self) -> Self {
+        Self {
+            derivative: self.derivative + 1,
+            ..self
+        }
+    }
 }
 
 impl Function {
@@ -106,7 +128,7 @@ impl Function {
         ("smooth_step", Self::SmoothStep),
     ];
 
-    /// The value of the function.
+    /// The value of the function; NaN of a spline, whose table the macro does not see.
     #[must_use]
     pub fn of(self, x: f64) -> f64 {
         match self {
@@ -119,6 +141,7 @@ impl Function {
                 let x = x.clamp(0.0, 1.0);
                 x * x * x * (x * (6.0 * x - 15.0) + 10.0)
             }
+            Self::Curve(_) => f64::NAN,
         }
     }
 

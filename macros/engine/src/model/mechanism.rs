@@ -1,6 +1,7 @@
 //! A mechanism: bodies, joints, gravity.
 
 use std::cmp::Reverse;
+use std::ops::Range;
 
 use proc_macro2::{Ident, TokenStream};
 
@@ -10,6 +11,7 @@ use super::name::Name;
 use super::number::{Number, Symbol, literals};
 use super::rank::Independence;
 use super::shape::Shape;
+use super::value::{RunTimeValue, Spline, first_further};
 
 /// Whether a body has an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +108,8 @@ pub enum LawTerm {
         /// A scalar of its definition.
         term: Box<Term>,
     },
+    /// An input with its first and second derivative.
+    Setpoint([Number; 3]),
 }
 
 impl LawTerm {
@@ -113,7 +117,7 @@ impl LawTerm {
     #[must_use]
     pub fn extent(&self, arguments: &[Extent]) -> Extent {
         match self {
-            Self::Number(_) | Self::Time | Self::State(_) => Extent::ONE,
+            Self::Number(_) | Self::Time | Self::State(_) | Self::Setpoint(_) => Extent::ONE,
             Self::Argument(place) => arguments[*place],
             Self::Sum(terms) => Extent::sum(terms.iter().map(|(_, term)| term.extent(arguments))),
             Self::Product(a, b) => a.extent(arguments).product(b.extent(arguments)),
@@ -178,28 +182,6 @@ pub struct Part {
     pub path: TokenStream,
     /// The fingerprint of its description.
     pub fingerprint: u64,
-}
-
-/// A field, or an element of one, that holds a number for run time.
-#[derive(Clone, Debug)]
-pub struct RunTimeValue {
-    /// The field, or its element.
-    pub name: Name,
-    /// Whether it may change at every step; if not, it is set on construction.
-    pub is_input: bool,
-    /// Whether it is where a state of the user's own starts.
-    pub is_start: bool,
-    /// The typical value of a parameter (`like`): the rank is decided there, and it is the default.
-    /// The default of a start.
-    pub like: Option<f64>,
-}
-
-impl RunTimeValue {
-    /// Whether it is given on construction.
-    #[must_use]
-    pub const fn is_parameter(&self) -> bool {
-        !self.is_input && !self.is_start
-    }
 }
 
 /// An angle over many turns: an auxiliary variable of the state.
@@ -270,6 +252,8 @@ pub struct Model {
     pub definitions: Vec<ElementDef>,
     /// Numbers that the macro cannot see.
     pub symbols: Vec<Symbol>,
+    /// The splines that laws read.
+    pub splines: Vec<Spline>,
     /// Whether the equations depend on each other.
     pub independence: Independence,
     /// By what the bodies are described.
@@ -323,6 +307,26 @@ impl Model {
             let body = &self.bodies[place];
             (Reverse(joints(place)), !body.free, &body.name)
         })
+    }
+
+    /// The number of parameters.
+    #[must_use]
+    pub fn parameters(&self) -> usize {
+        first_further(&self.values, self.values.len())
+    }
+
+    /// The places of a spline's numbers among the constants, which begin with those of splines.
+    #[must_use]
+    pub fn spline_numbers(&self, spline: usize) -> Range<usize> {
+        let before = self.splines.iter().take(spline);
+        let first = before.map(Spline::numbers).sum();
+        first..first + self.splines.get(spline).map_or(0, Spline::numbers)
+    }
+
+    /// How many constants are numbers of splines.
+    #[must_use]
+    pub fn all_spline_numbers(&self) -> usize {
+        self.splines.iter().map(Spline::numbers).sum()
     }
 
     /// Joints, then forces.

@@ -12,18 +12,20 @@ pub mod name;
 pub mod number;
 pub mod rank;
 pub mod shape;
+pub mod value;
 
 pub use asked::Asked;
 pub use comparison::Comparison;
 pub use joint::{
-    Action, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term, Turn,
+    Action, Curve, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term,
+    Turn,
 };
 pub use mechanism::{
-    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, NamedPoint, Part, RunTimeValue,
-    UserState,
+    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, NamedPoint, Part, UserState,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};
 pub use shape::{Shape, ShapeKind};
+pub use value::{RunTimeValue, Spline, Table, ValueKind, first_further};

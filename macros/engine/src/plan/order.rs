@@ -476,6 +476,7 @@ fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>
         ScalarExpr::Constant(_)
         | ScalarExpr::Product(..)
         | ScalarExpr::Time
+        | ScalarExpr::Setpoint(_)
         | ScalarExpr::Function(..)
         | ScalarExpr::Angle(_)
         | ScalarExpr::Rate(_)

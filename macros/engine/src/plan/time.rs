@@ -29,12 +29,14 @@ impl ExplicitTime {
         }
         // They stand behind all other coordinates.
         let first = kernels.coordinate_rates.outputs.len() - kernels.state_rates.outputs.len();
-        let is_state =
-            |node| matches!(node, Node::Input(Input::Coordinate(place)) if place as usize >= first);
+        let is_state = |input| matches!(input, Input::Coordinate(place) if place as usize >= first);
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         Self {
-            constraints: has_time(&kernels.constraints),
+            // No other input stands in constraints than one that changes with time.
+            constraints: reads(&kernels.constraints, |input| {
+                matches!(input, Input::Time | Input::Varying(_))
+            }),
             forces: has_time(&kernels.forces) || has_time(&kernels.state_rates),
             potential: has_time(&kernels.potential_energy)
                 || reads(&kernels.potential_energy, is_state),
@@ -44,13 +46,13 @@ impl ExplicitTime {
 }
 
 fn has_time(kernel: &Kernel) -> bool {
-    reads(kernel, |node| node == Node::Input(Input::Time))
+    reads(kernel, |input| input == Input::Time)
 }
 
-fn reads(kernel: &Kernel, wanted: impl Fn(Node) -> bool) -> bool {
+fn reads(kernel: &Kernel, is_wanted: impl Fn(Input) -> bool) -> bool {
     let live = kernel.arena.live(&kernel.outputs, Stage::Literal);
     live.into_iter()
-        .any(|place| wanted(kernel.arena.node(place)))
+        .any(|place| matches!(kernel.arena.node(place), Node::Input(input) if is_wanted(input)))
 }
 
 /// Where the argument of a smooth step, held between 0 and 1, comes to either end.

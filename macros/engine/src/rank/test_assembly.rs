@@ -185,6 +185,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         values: Vec::new(),
         definitions: vec![joint.clone()],
         symbols: Vec::new(),
+        splines: Vec::new(),
         independence: Independence::default(),
         asked: Vec::new(),
         coordinates: Coordinates::Bodies,

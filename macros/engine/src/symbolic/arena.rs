@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 
 use super::index::Index;
 pub use super::node::{Expr, Input, Node, Stage};
+use crate::model::Curve;
 
 /// A place in the history of an arena, to come back to.
 #[derive(Clone, Copy, Debug)]
@@ -182,6 +183,9 @@ impl Arena {
         let (first, second) = node.pair();
         see(first);
         see(second);
+        if matches!(node, Node::Curve(..)) {
+            return (latest.with(Stage::State), without_number);
+        }
         match latest {
             // An operation on literals that did not fold is left to the kernels, whose results show
             // it.
@@ -415,6 +419,11 @@ impl Arena {
             .with_sign_of(sine.is_negative())
     }
 
+    /// A spline, or a derivative of it. It is left to the evaluation, whatever its argument is.
+    pub fn curve(&mut self, curve: Curve, a: Expr) -> Expr {
+        self.intern(Node::Curve(curve, a))
+    }
+
     /// The sum of some terms, from left to right.
     pub fn sum(&mut self, terms: impl IntoIterator<Item = Expr>) -> Expr {
         terms
@@ -438,6 +447,7 @@ impl Arena {
             Node::Cosine(a) => self.cos(operand(a)),
             Node::Exponential(a) => self.exp(operand(a)),
             Node::Angle(a, b) => self.atan2(operand(a), operand(b)),
+            Node::Curve(curve, a) => self.curve(curve, operand(a)),
         }
     }
 

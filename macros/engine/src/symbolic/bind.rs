@@ -330,6 +330,9 @@ impl Law<'_> {
                 let inner = self.expand(arena, inner);
                 of(arena, *function, inner)
             }
+            LawTerm::Setpoint(numbers) => {
+                ScalarExpr::Setpoint(numbers.map(|value| number(arena, value)))
+            }
         }
     }
 }

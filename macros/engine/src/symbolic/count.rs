@@ -14,7 +14,7 @@ pub struct Count {
     pub divisions: usize,
     /// Square roots.
     pub square_roots: usize,
-    /// Calls of `sin`, `cos`, `exp` and `atan2`.
+    /// Calls of `sin`, `cos`, `exp` and `atan2`, and readings of splines.
     pub functions: usize,
     /// The longest chain of dependent operations.
     pub depth: usize,

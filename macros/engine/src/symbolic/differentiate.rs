@@ -180,6 +180,7 @@ impl ScalarExpr {
                 space.arena.mul(a, b)
             }
             Self::Time => motion.time,
+            Self::Setpoint([value, ..]) => *value,
             Self::Function(function, inner) => {
                 let inner = inner.value(space, motion);
                 function.value(&mut space.arena, inner)
@@ -208,6 +209,7 @@ impl ScalarExpr {
                 space.arena.add(first, second)
             }
             Self::Time => Arena::ONE,
+            Self::Setpoint([_, rate, _]) => *rate,
             Self::Function(function, inner) => {
                 let (x, dx) = (inner.value(space, motion), inner.rate(space, motion));
                 let slope = function.slope(&mut space.arena, x);
@@ -244,6 +246,7 @@ impl ScalarExpr {
                 arena.sum([first, twice, last])
             }
             Self::Time => Arena::ZERO,
+            Self::Setpoint([.., acceleration]) => *acceleration,
             Self::Function(function, inner) => {
                 let (x, dx) = (inner.value(space, motion), inner.rate(space, motion));
                 let ddx = inner.bias(space, motion);
@@ -286,7 +289,7 @@ impl ScalarExpr {
                 a.pull_back(space, motion, on_a, gradient);
                 b.pull_back(space, motion, on_b, gradient);
             }
-            Self::Time | Self::State { .. } => {}
+            Self::Time | Self::Setpoint(_) | Self::State { .. } => {}
             Self::Function(function, inner) => {
                 let x = inner.value(space, motion);
                 let slope = function.slope(&mut space.arena, x);

@@ -2,7 +2,7 @@
 
 use super::arena::{Arena, Expr, Input, Node, Stage};
 
-/// The values of the outputs; `None` where an input is not known.
+/// The values of the outputs; `None` where an input is not known, or a spline.
 pub fn evaluate(
     arena: &Arena,
     outputs: &[Expr],
@@ -15,6 +15,7 @@ pub fn evaluate(
     for place in arena.live(outputs, Stage::Literal) {
         values[place] = match arena.node(place) {
             Node::Input(known) => input(known),
+            Node::Curve(..) => None,
             node => {
                 let is_known = |operand: Expr| values[operand.node()].is_some();
                 let value = |operand| signed(&values, operand).unwrap_or(f64::NAN);

@@ -36,6 +36,8 @@ pub enum ScalarExpr {
     Function(Function, Box<ScalarExpr>),
     /// An angle over many turns.
     Angle(Box<AngleExpr>),
+    /// An input with its first and second derivative.
+    Setpoint([Expr; 3]),
     /// The time derivative, which has no derivative of its own.
     Rate(Box<ScalarExpr>),
     /// A state of the user's own.

@@ -23,6 +23,7 @@ impl Function {
                 let cube = arena.mul(square, u);
                 arena.mul(cube, inner)
             }
+            Self::Curve(curve) => arena.curve(curve, x),
         }
     }
 
@@ -49,6 +50,7 @@ impl Function {
                 let thirty = arena.constant(30.0);
                 arena.mul(thirty, square)
             }
+            Self::Curve(curve) => arena.curve(curve.derived(), x),
         }
     }
 
@@ -80,6 +82,7 @@ impl Function {
                 let slope = arena.sub(rest, u);
                 arena.mul(scaled, slope)
             }
+            Self::Curve(curve) => arena.curve(curve.derived().derived(), x),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! What every operation asks for is inlined always: that is done without optimisation, too.
 
 use super::index::Key;
+use crate::model::Curve;
 
 /// A signed reference to a node: its value, or the value with the other sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -175,6 +176,8 @@ pub enum Node {
     Exponential(Expr),
     /// The angle of a point, from sine and cosine.
     Angle(Expr, Expr),
+    /// A spline or a derivative of it, whose numbers are known when the generated code runs.
+    Curve(Curve, Expr),
 }
 
 impl Node {
@@ -197,7 +200,8 @@ impl Node {
             | Self::Round(a)
             | Self::Sine(a)
             | Self::Cosine(a)
-            | Self::Exponential(a) => (Some(a), None),
+            | Self::Exponential(a)
+            | Self::Curve(_, a) => (Some(a), None),
         }
     }
 
@@ -224,6 +228,10 @@ impl Node {
             Self::Cosine(a) => Key::new(10, a.0 as u64),
             Self::Exponential(a) => Key::new(11, a.0 as u64),
             Self::Angle(a, b) => Key::new(12, two(a, b)),
+            Self::Curve(curve, a) => {
+                let kind = 13 + curve.derivative as u64;
+                Key::new(kind, (curve.spline as u64) << 32 | a.0 as u64)
+            }
         }
     }
 
@@ -242,10 +250,11 @@ impl Node {
             Self::Sine(a) => Self::Sine(other(a)),
             Self::Cosine(a) => Self::Cosine(other(a)),
             Self::Exponential(a) => Self::Exponential(other(a)),
+            Self::Curve(curve, a) => Self::Curve(curve, other(a)),
         }
     }
 
-    /// The value, by the values of the operands.
+    /// The value, by the values of the operands; NaN of a spline.
     ///
     /// # Panics
     /// If it is an input, which has none by itself.
@@ -270,6 +279,7 @@ impl Node {
             Self::Cosine(a) => of(a).cos(),
             Self::Exponential(a) => of(a).exp(),
             Self::Angle(sine, cosine) => of(sine).atan2(of(cosine)),
+            Self::Curve(..) => f64::NAN,
         }
     }
 

@@ -86,7 +86,10 @@ pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Exp
             function.value(arena, inner)
         }
         ScalarExpr::Angle(_) => Arena::ZERO,
-        ScalarExpr::Time | ScalarExpr::Rate(_) | ScalarExpr::State { .. } => {
+        ScalarExpr::Time
+        | ScalarExpr::Setpoint(_)
+        | ScalarExpr::Rate(_)
+        | ScalarExpr::State { .. } => {
             unreachable!("the language refuses time, rates and laws in the reference configuration")
         }
     }

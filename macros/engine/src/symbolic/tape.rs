@@ -36,12 +36,13 @@ impl Tape {
             .any(|node| matches!(*node, Node::Input(input) if property(input)))
     }
 
-    /// The outputs; `None` where an input that they need is not known.
+    /// The outputs; `None` where they need a spline, or an input that is not known.
     pub fn evaluate(&self, input: impl Fn(Input) -> Option<f64>) -> Option<Vec<f64>> {
         let mut values = Vec::with_capacity(self.nodes.len());
         for &node in &self.nodes {
             let value = match node {
                 Node::Input(known) => input(known)?,
+                Node::Curve(..) => return None,
                 _ => node.value(|operand| signed(&values, operand)),
             };
             values.push(value);

@@ -232,7 +232,13 @@ fn placed(expr: &Expr, words: Words<'_>, faults: &mut Faults) -> Option<Expr> {
             }
         }
         Expr::Array(array) => every(array.elems.iter_mut().map(inner))?,
-        Expr::Call(call) => every(call.args.iter_mut().map(inner))?,
+        Expr::Call(call) => {
+            // A spline among several.
+            if let Expr::Index(_) | Expr::Field(_) = ungroup(&call.func) {
+                inner(&mut call.func)?;
+            }
+            every(call.args.iter_mut().map(inner))?;
+        }
         // An argument by its name, such as the radius of a shape.
         Expr::Assign(argument) => inner(&mut argument.right)?,
         Expr::Index(found) => {

@@ -58,19 +58,16 @@ pub(super) fn parse_field(name: Ident, field: &syn::Field, faults: &mut Faults) 
             continue;
         }
         result.role = Some((role, attribute.path().clone()));
-        if role.has_carrier() || matches!(role, Role::Param | Role::Point | Role::State) {
+        let has_list = matches!(role, Role::Param | Role::Input | Role::Point | Role::State);
+        if role.has_carrier() || has_list {
             result.list = super::list(attribute, faults);
         } else if !matches!(attribute.meta, syn::Meta::Path(_)) {
             let word = attribute.path().to_token_stream();
-            let what = match role {
-                Role::Port => {
-                    "it stands above a `Body`, which is named where the assembly is a part"
-                }
-                _ => "it stands above a field of type `f64`, and it is 0 until the field is set",
-            };
             faults.at(
                 attribute,
-                format!("`#[{word}]` takes nothing besides: {what}"),
+                format!(
+                    "`#[{word}]` takes nothing besides: it stands above a `Body`, which is named where the assembly is a part"
+                ),
             );
         }
     }

@@ -1,5 +1,7 @@
 use super::{Arena, Input, Node, Stage};
+use crate::model::{Curve, Function};
 use crate::symbolic::evaluate::evaluate;
+use crate::symbolic::tape::Tape;
 
 fn two_inputs(arena: &mut Arena) -> (super::Expr, super::Expr) {
     (
@@ -126,4 +128,30 @@ fn inputs_and_coefficients_change_by_themselves() {
     assert_eq!(arena.stage(known), Stage::Coefficient);
     let both = arena.mul(moment, gain);
     assert_eq!(arena.stage(both), Stage::State);
+}
+
+#[test]
+fn a_spline_is_left_to_the_evaluation() {
+    let mut arena = Arena::new();
+    let spline = Function::Curve(Curve {
+        spline: 3,
+        derivative: 0,
+    });
+    let half = arena.constant(0.5);
+    let all = [Function::value, Function::slope, Function::curvature]
+        .map(|order| order(spline, &mut arena, half));
+    for (place, &expr) in all.iter().enumerate() {
+        assert_eq!(arena.stage(expr), Stage::State);
+        assert!(
+            matches!(arena.get(expr), Node::Curve(curve, x) if usize::from(curve.derivative) == place && x == half)
+        );
+    }
+    let again = spline.slope(&mut arena, half);
+    assert_eq!(again, all[1], "one node for what is read twice");
+    assert_eq!(
+        evaluate(&arena, &[all[0], half], |_| None),
+        [None, Some(0.5)]
+    );
+    let tape = Tape::new(&arena, &all);
+    assert_eq!(tape.evaluate(|_| Some(1.0)), None);
 }
