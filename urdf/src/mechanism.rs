@@ -61,7 +61,8 @@ pub struct Body {
     /// Boxes, cylinders and spheres that the file gives for its links. They are drawn, and have no
     /// mass.
     pub shapes: Vec<Shape>,
-    /// Files of meshes, and other geometries, that the file gives for its links. They are not drawn.
+    /// Files of meshes, and other geometries, that the file gives for its links. They are not
+    /// drawn.
     pub visuals: Vec<String>,
     /// No joint of the mechanism names the body.
     pub is_free: bool,

@@ -19,8 +19,8 @@ const LEFT: f64 = 1e-12;
 /// number not finite.
 ///
 /// From the discrete algebraic Riccati equation by structured doubling (Chu, Fan, Lin and Wang,
-/// *Structure-preserving algorithms for periodic discrete-time algebraic Riccati equations*, Int. J.
-/// Control 77 (2004), 767-788).
+/// *Structure-preserving algorithms for periodic discrete-time algebraic Riccati equations*,
+/// International Journal of Control 77 (2004), 767-788).
 ///
 /// ```
 /// use holonom::independent::{discrete_lqr, to_discrete};

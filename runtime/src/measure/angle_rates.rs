@@ -105,8 +105,8 @@ rates! {
 /// The sine and cosine of an angle.
 type Turn<S> = [S; 2];
 
-/// Along which axes an outer angle turns the axes of the others, and by what the outer and the inner
-/// axis are apart: the sine between them, and their product.
+/// The turn of the outer angle, by which the axes of the others are turned, and how far apart the
+/// outer and the inner axis are.
 struct Axes<S> {
     /// The outer angle.
     outer: Turn<S>,

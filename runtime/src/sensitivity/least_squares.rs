@@ -9,6 +9,7 @@ use core::fmt;
 use nalgebra::{SMatrix, SVector};
 
 use crate::forward::Forward;
+use crate::math::scalar::Scalar;
 
 /// Rounds after which the search is given up.
 const ROUNDS: usize = 100;
@@ -68,7 +69,7 @@ impl<const N: usize> Squares<N> {
 
     /// The matrix in the scales of the unknowns: ones on its diagonal, but for the damping.
     fn scaled(&self, damping: f64) -> (SMatrix<f64, N, N>, SVector<f64, N>) {
-        let scales = self.normal.diagonal().map(f64::sqrt);
+        let scales = self.normal.diagonal().map(<f64 as Scalar>::sqrt);
         let matrix = SMatrix::from_fn(|row, column| {
             let entry = self.normal[(row, column)] / (scales[row] * scales[column]);
             if row == column { 1.0 + damping } else { entry }
@@ -243,7 +244,8 @@ fn found<const N: usize, E>(
     } else {
         here.sum / free as f64
     };
-    let deviations = variances.zip_map(&scales, |own, scale| (own * variance).sqrt() / scale);
+    let size = |own: f64| <f64 as Scalar>::sqrt(own * variance);
+    let deviations = variances.zip_map(&scales, |own, scale| size(own) / scale);
     Ok(Fit {
         values: (*at).into(),
         deviations: deviations.into(),
