@@ -70,3 +70,8 @@ mod subject;
 pub use fault::FilmError;
 pub use record::Film;
 pub use reference::Sketch;
+
+/// The example of the README is compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

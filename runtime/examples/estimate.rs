@@ -8,61 +8,8 @@
 use std::error::Error;
 
 use holonom::Forward;
-use holonom::nalgebra::{SMatrix, SVector};
 use holonom::prelude::*;
-
-/// A sum of squares, its gradient, and the matrix of Gauss and Newton.
-#[derive(Clone, Copy)]
-pub struct Squares<const N: usize> {
-    sum: f64,
-    gradient: SVector<f64, N>,
-    normal: SMatrix<f64, N, N>,
-}
-
-impl<const N: usize> Squares<N> {
-    fn none() -> Self {
-        Self {
-            sum: 0.0,
-            gradient: SVector::zeros(),
-            normal: SMatrix::zeros(),
-        }
-    }
-
-    fn add(&mut self, residual: Forward<f64, N>) {
-        let slopes = SVector::from(residual.derivatives());
-        self.sum += residual.value() * residual.value();
-        self.gradient += slopes * residual.value();
-        self.normal += slopes * slopes.transpose();
-    }
-}
-
-/// The parameters with the least squares, after Levenberg and Marquardt, and how many rounds it
-/// took. Parameters that are refused count as too far.
-pub fn fit<const N: usize>(
-    mut at: [f64; N],
-    squares: impl Fn([f64; N]) -> Result<Squares<N>, Box<dyn Error>>,
-) -> Result<([f64; N], usize), Box<dyn Error>> {
-    let (mut here, mut damping) = (squares(at)?, 1e-3);
-    for round in 1..=50 {
-        let mut normal = here.normal;
-        for k in 0..N {
-            normal[(k, k)] *= 1.0 + damping;
-        }
-        let inverse = normal.try_inverse().ok_or("a parameter changes nothing")?;
-        let step = -inverse * here.gradient;
-        let next = core::array::from_fn(|k| at[k] + step[k]);
-        match squares(next) {
-            Ok(there) if there.sum <= here.sum => {
-                (at, here, damping) = (next, there, 0.1 * damping);
-            }
-            _ => damping *= 10.0,
-        }
-        if step.norm() < 1e-9 * SVector::from(at).norm() {
-            return Ok((at, round));
-        }
-    }
-    Ok((at, 50))
-}
+use holonom::sensitivity::{Fit, fit};
 
 /// A rod that swings, with a damper in its hinge.
 #[derive(Mechanism)]
@@ -97,22 +44,23 @@ pub fn measured() -> Result<Vec<f64>, Box<dyn Error>> {
 }
 
 /// Damping and inertia from such angles.
-pub fn pendulum(angles: &[f64], guess: [f64; 2]) -> Result<([f64; 2], usize), Box<dyn Error>> {
+pub fn pendulum(angles: &[f64], guess: [f64; 2]) -> Result<Fit<2>, Box<dyn Error>> {
     let h = Pendulum::HANDLES;
-    fit(guess, |[damping, inertia]| {
-        let (mut squares, mut angles) = (Squares::none(), angles.iter());
-        Pendulum::new(damping, inertia)?
-            .sensitivities([h.damping, h.inertia])?
-            .simulation(StandardLagrange, Rk4::every(0.01))
-            .run(0.0..=3.0, every(0.02), |sample| {
-                let measured = angles
-                    .next()
-                    .copied()
-                    .map_or(sample.angle(h.hinge), Forward::fixed);
-                squares.add(sample.angle(h.hinge) - measured);
-            })?;
-        Ok(squares)
-    })
+    let found = fit(
+        guess,
+        |[damping, inertia], squares| -> Result<(), Box<dyn Error>> {
+            let mut angles = angles.iter();
+            Pendulum::new(damping, inertia)?
+                .sensitivities([h.damping, h.inertia])?
+                .simulation(StandardLagrange, Rk4::every(0.01))
+                .run(0.0..=3.0, every(0.02), |sample| {
+                    let measured = angles.next().expect("an angle for each sample");
+                    squares.compare(sample.angle(h.hinge), *measured);
+                })?;
+            Ok(())
+        },
+    )?;
+    Ok(found)
 }
 
 /// A four-bar whose coupler carries a pen.
@@ -164,23 +112,28 @@ fn curve([crank, coupler, rocker]: [f64; 3]) -> Result<Vec<[Forward<f64, 3>; 2]>
 }
 
 /// The lengths of crank, coupler and rocker (m) from the curve that these draw.
-pub fn four_bar(drawn: [f64; 3], guess: [f64; 3]) -> Result<([f64; 3], usize), Box<dyn Error>> {
+pub fn four_bar(drawn: [f64; 3], guess: [f64; 3]) -> Result<Fit<3>, Box<dyn Error>> {
     let drawn = curve(drawn)?;
-    fit(guess, |lengths| {
-        let mut squares = Squares::none();
-        for (point, drawn) in curve(lengths)?.into_iter().zip(&drawn) {
-            for (number, drawn) in point.into_iter().zip(drawn) {
-                squares.add(number - Forward::fixed(drawn.value()));
-            }
+    let found = fit(guess, |lengths, squares| -> Result<(), Box<dyn Error>> {
+        let numbers = curve(lengths)?.into_iter().flatten();
+        for (number, drawn) in numbers.zip(drawn.iter().flatten()) {
+            squares.compare(number, drawn.value());
         }
-        Ok(squares)
-    })
+        Ok(())
+    })?;
+    Ok(found)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let ([damping, inertia], rounds) = pendulum(&measured()?, [0.05, 0.4])?;
-    println!("damping {damping:.4} N m s for 0.2, {inertia:.4} kg m^2 for 0.34: {rounds} rounds");
-    let (lengths, rounds) = four_bar([0.3, 1.0, 0.7], [0.25, 0.9, 0.6])?;
-    println!("lengths {lengths:.9?} m for 0.3, 1.0 and 0.7: {rounds} rounds");
+    let found = pendulum(&measured()?, [0.05, 0.4])?;
+    let ([damping, inertia], [first, second]) = (found.values, found.deviations);
+    println!("damping {damping:.4} +/- {first:.4} N m s for 0.2");
+    println!("inertia {inertia:.4} +/- {second:.5} kg m^2 for 0.34");
+    assert!((damping - 0.2).abs() < 4.0 * first && (inertia - 0.34).abs() < 4.0 * second);
+    let found = four_bar([0.3, 1.0, 0.7], [0.25, 0.9, 0.6])?;
+    println!(
+        "lengths {:.9?} m for 0.3, 1.0 and 0.7: {} rounds",
+        found.values, found.rounds
+    );
     Ok(())
 }

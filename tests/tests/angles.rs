@@ -251,6 +251,151 @@ fn what_is_singular_is_refused_with_a_sentence() -> Result<(), Box<dyn std::erro
     Ok(())
 }
 
+/// The rates of angles by their functions, and the angular velocity by theirs.
+fn rates(set: AngleSet, angles: [f64; 3], turning: Vector3<f64>) -> Option<Rates> {
+    match set {
+        AngleSet::EulerZxz => {
+            let angles = EulerAngles::from(angles);
+            let rates = angles.rates(&turning)?;
+            Some((rates.into(), angles.angular_velocity(&rates)))
+        }
+        AngleSet::BryantXyz => {
+            let angles = BryantAngles::from(angles);
+            let rates = angles.rates(&turning)?;
+            Some((rates.into(), angles.angular_velocity(&rates)))
+        }
+        AngleSet::RollPitchYaw => {
+            let angles = RollPitchYaw::from(angles);
+            let rates = angles.rates(&turning)?;
+            Some((rates.into(), angles.angular_velocity(&rates)))
+        }
+        _ => unreachable!("there are three"),
+    }
+}
+
+type Rates = ([f64; 3], Vector3<f64>);
+
+/// Rates that are chosen make an angular velocity: by nalgebra, each turns about its axis as those
+/// before have turned it.
+#[test]
+fn rates_make_up_the_angular_velocity() {
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    for (set, made, [least, most]) in SETS {
+        for _ in 0..2000 {
+            let angles = [-PI..PI, least..most, -PI..PI].map(|range| rng.random_range(range));
+            let chosen = [0.0; 3].map(|_| rng.random_range(-5.0..5.0));
+            let axis = |place: usize| match (set, place) {
+                (AngleSet::EulerZxz, 0) | (_, 2) => Vector3::z(),
+                (AngleSet::EulerZxz, _) | (_, 0) => Vector3::x(),
+                _ => Vector3::y(),
+            };
+            // The turn of an angle is left out, and those inside it: what turns its axis is left.
+            let before = |place: usize| {
+                let mut outer = angles;
+                for (other, angle) in outer.iter_mut().enumerate() {
+                    let is_inside = match set {
+                        AngleSet::RollPitchYaw => other <= place,
+                        _ => other >= place,
+                    };
+                    *angle = if is_inside { 0.0 } else { *angle };
+                }
+                made(outer)
+            };
+            let parts = [0, 1, 2].map(|place| before(place) * axis(place) * chosen[place]);
+            let turning = parts[0] + parts[1] + parts[2];
+            let (found, back) = rates(set, angles, turning).expect("regular");
+            let gap = gap(set, angles[1]);
+            are_within(found, chosen, 2e-14 / gap);
+            are_within(back.into(), turning.into(), 2e-14);
+        }
+    }
+}
+
+/// Against central differences of order four of the angles, of bodies that turn steadily.
+#[test]
+fn rates_are_differences_of_the_angles() {
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    for (set, made, [least, most]) in SETS {
+        for _ in 0..200 {
+            let range = least + 0.3..most - 0.3;
+            let angles = [-2.5..2.5, range, -2.5..2.5].map(|range| rng.random_range(range));
+            let turning = Vector3::from([0.0; 3].map(|_| rng.random_range(-2.0..2.0)));
+            let at = |time: f64| {
+                let q = UnitQuaternion::from_scaled_axis(turning * time) * made(angles);
+                read(set, &q).expect("regular").0
+            };
+            let step = 3e-4;
+            let [far, near, ahead, on] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(k * step));
+            let (found, _) = rates(set, angles, turning).expect("regular");
+            for k in 0..3 {
+                let slope = 8.0 * (ahead[k] - near[k]) - (on[k] - far[k]);
+                let slope = slope / (12.0 * step);
+                assert!((found[k] - slope).abs() < 1e-8, "{set:?} {found:?} {slope}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rates_are_singular_where_the_angles_are() {
+    let turning = Vector3::new(0.3, -0.7, 0.2);
+    for (set, _, ends) in SETS {
+        for (end, into) in [(ends[0], 1.0), (ends[1], -1.0)] {
+            let at = |distance: f64, turning: Vector3<f64>| {
+                rates(set, [0.7, end + into * distance, -2.1], turning)
+            };
+            let ([first, second, third], back) = at(1e-6, turning).expect("regular");
+            // Both rates are large, and nearly take each other back.
+            assert!(second.abs() < 1.0 && first.abs().min(third.abs()) > 1e5);
+            are_within(back.into(), turning.into(), 1e-9);
+            for distance in [1e-8, 0.0] {
+                assert_eq!(at(distance, turning), None);
+            }
+            for bad in [f64::NAN, f64::INFINITY, f64::MAX] {
+                assert_eq!(at(1e-6, Vector3::new(bad, bad, bad)), None, "{set:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rates_of_bodies_are_read_and_refused() -> Result<(), Box<dyn std::error::Error>> {
+    let (words, h) = (Words::default(), Words::HANDLES);
+    let mut state = words.described_state::<f64>()?;
+    let chosen = [0.4, -0.9, 1.3];
+    // Of the body whose inertia has axes of its own, then of one against another that turns too.
+    let turning = EulerAngles::from([0.3, 0.8, -1.9]).angular_velocity(&chosen.into());
+    Words::set_angular_velocity_global(&mut state, h.euler, turning);
+    let own = Vector3::new(0.5, -0.2, 0.8);
+    Words::set_angular_velocity(&mut state, h.rpy, own);
+    let against = EulerAngles::from([0.4, 1.2, 0.5]).angular_velocity(&chosen.into());
+    let base = rpy([-0.3, 1.1, 2.9]);
+    Words::set_angular_velocity_global(&mut state, h.second, base * (own + against));
+    let against = BryantAngles::from([0.4, -1.2, 0.5]).angular_velocity(&chosen.into());
+    Words::set_angular_velocity_global(&mut state, h.third, base * (own + against));
+    let view = words.view(0.0, &state)?;
+    let tolerance = 2e-14;
+    are_within(view.euler_angle_rates(h.euler)?.into(), chosen, tolerance);
+    let found = view.relative_euler_angle_rates(h.second, h.rpy)?;
+    are_within(found.into(), chosen, tolerance);
+    let found = view.relative_bryant_angle_rates(h.third, h.rpy)?;
+    are_within(found.into(), chosen, tolerance);
+    let found = view.relative_roll_pitch_yaw_rates(h.rpy, h.straight)?;
+    assert_eq!(found, view.roll_pitch_yaw_rates(h.rpy)?);
+    are_within(view.bryant_angle_rates(h.point)?.into(), [0.0; 3], 1e-300);
+
+    let (body, angles) = ("straight", AngleSet::EulerZxz);
+    let fault = view.euler_angle_rates(h.straight).expect_err("parallel");
+    assert_eq!(fault, Fault::SingularAngles { body, angles });
+    assert!(view.bryant_angle_rates(h.straight).is_ok());
+    assert!(view.roll_pitch_yaw_rates(h.upright).is_err());
+    Words::set_angular_velocity(&mut state, h.rpy, Vector3::new(f64::NAN, 0.0, 0.0));
+    let view = words.view(0.0, &state)?;
+    let fault = view.roll_pitch_yaw_rates(h.rpy).expect_err("not finite");
+    assert_eq!(fault, Fault::StateNotFinite);
+    Ok(())
+}
+
 /// The mass of the top (kg) and the distance of its centre of mass from its tip (m).
 const MASS: f64 = 0.5;
 const ARM: f64 = 0.04;
@@ -304,6 +449,8 @@ fn a_top_precesses_steadily() -> Result<(), Box<dyn std::error::Error>> {
                 (found.nutation - NUTATION).abs() < 1e-7,
                 "{time}: {found:?}"
             );
+            let rates = sample.euler_angle_rates(h.top)?;
+            are_within(rates.into(), [PRECESSION, 0.0, spin], 1e-6);
             let ahead = found.precession - PRECESSION * time;
             assert!((ahead - whole(ahead)).abs() < 1e-6, "{time}: {found:?}");
             let ahead = found.spin - spin * time;
@@ -345,9 +492,11 @@ fn a_thrown_disc_wobbles_as_euler_says() -> Result<(), Box<dyn std::error::Error
         .initial_state(state)
         .run(0.0..=0.25, every(0.01), |sample| -> Result<(), Fault> {
             let found = sample.euler_angles(h.disc)?;
-            let precession = 0.2 + momentum / 0.01 * sample.time();
-            let spin = 0.4 + along * (1.0 / 0.02 - 1.0 / 0.01) * sample.time();
+            let rates = [momentum / 0.01, 0.0, along * (1.0 / 0.02 - 1.0 / 0.01)];
+            let precession = 0.2 + rates[0] * sample.time();
+            let spin = 0.4 + rates[2] * sample.time();
             are_within(found.into(), [precession, nutation, spin], 1e-9);
+            are_within(sample.euler_angle_rates(h.disc)?.into(), rates, 1e-8);
             Ok(())
         })?;
     Ok(())

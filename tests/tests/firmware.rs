@@ -1,9 +1,6 @@
 //! What the firmware computes, computed here: the references that it is compared with on a
 //! controller (`tests/firmware/run`).
 
-#[allow(dead_code, unreachable_pub, reason = "it is a program of its own")]
-#[path = "../../runtime/examples/lqr.rs"]
-mod lqr;
 #[allow(unreachable_pub, reason = "the firmware is a crate of its own")]
 #[path = "../firmware/src/reference.rs"]
 mod reference;
@@ -106,6 +103,7 @@ fn the_guide_shows_what_runs() {
 /// The gain of the regulator on the controller is that of its struct, and balances here as well.
 #[test]
 fn the_regulator_has_the_gain_of_its_struct() -> Result<(), holonom::Fault> {
+    use holonom::independent::{discrete_lqr, to_discrete};
     use holonom::prelude::*;
     use nalgebra::{Matrix1, Matrix4, Vector4};
     use regulator::{CartPole, GAIN, PERIOD};
@@ -114,9 +112,9 @@ fn the_regulator_has_the_gain_of_its_struct() -> Result<(), holonom::Fault> {
     let space = cart_pole.coordinates((h.rail, h.pin))?;
     let upright = space.state([0.0, 0.0], [0.0, 0.0])?;
     let linear = space.linearise(&upright, [h.push], |_| [])?;
-    let (a, b) = holonom::independent::to_discrete(&linear.a(), &linear.b(), PERIOD);
+    let (a, b) = to_discrete(&linear.a(), &linear.b(), PERIOD);
     let q = Matrix4::from_diagonal(&Vector4::new(10.0, 100.0, 1.0, 1.0));
-    let gain = lqr::gain(&a, &b, &q, &Matrix1::new(0.1)).expect("it can be controlled");
+    let gain = discrete_lqr(&a, &b, &q, &Matrix1::new(0.1)).expect("it can be controlled");
     for (found, written) in gain.iter().zip(GAIN) {
         assert!((found - written).abs() < 1e-7, "{gain}");
     }

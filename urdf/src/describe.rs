@@ -9,6 +9,7 @@ use crate::names::{Names, snake_case, type_name};
 use crate::robot::Robot;
 use crate::spatial::euler_parameters;
 use crate::tree::Group;
+use crate::visuals::Visual;
 
 pub(crate) fn mechanism(robot: &Robot, options: &Options) -> Mechanism {
     let (document, tree) = (&robot.document, &robot.tree);
@@ -53,16 +54,28 @@ fn body(robot: &Robot, group: &Group, names: &mut Names) -> Body {
     let links = group.links.iter().map(|link| &robot.document.links[*link]);
     let frame = robot.tree.places[group.links[0]].global;
     let inertia = group.inertia.expect("a body that moves was checked");
+    let (mut shapes, mut visuals) = (Vec::new(), Vec::new());
+    for &link in &group.links {
+        let place = &robot.tree.places[link];
+        for visual in &robot.document.links[link].visuals {
+            match visual {
+                Visual::Solid(frame, solid) => {
+                    let within = place.within.compose(frame);
+                    shapes.push(solid.on_body(&within, &place.global.compose(frame)));
+                }
+                Visual::Named(name) => visuals.push(name.clone()),
+            }
+        }
+    }
     Body {
         field: names.field(&robot.document.links[group.links[0]].name, "link"),
-        links: links.clone().map(|link| link.name.clone()).collect(),
+        links: links.map(|link| link.name.clone()).collect(),
         mass: inertia.mass,
         position: clean(frame.origin + frame.rotation * inertia.centre),
         orientation: orientation(&frame.rotation),
         inertia: rows(&inertia.tensor),
-        visuals: links
-            .flat_map(|link| link.visuals.iter().cloned())
-            .collect(),
+        shapes,
+        visuals,
         is_free: false,
     }
 }
@@ -163,7 +176,7 @@ fn number(x: f64) -> f64 {
     if x.abs() < LEAST { 0.0 } else { x }
 }
 
-fn clean(vector: Vector3<f64>) -> [f64; 3] {
+pub(crate) fn clean(vector: Vector3<f64>) -> [f64; 3] {
     [vector.x, vector.y, vector.z].map(number)
 }
 

@@ -6,6 +6,7 @@ use roxmltree::Node;
 use crate::elements::{Lines, Reader};
 use crate::faults::Collector;
 use crate::spatial::{Frame, Inertia};
+use crate::visuals::{self, Visual};
 
 /// The joints of URDF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +69,8 @@ pub(crate) struct Link {
     pub(crate) line: usize,
     /// In the link's frame. Nothing where it was refused.
     pub(crate) inertia: Option<Inertia>,
-    /// What it looks like, in a word each.
-    pub(crate) visuals: Vec<String>,
+    /// What it looks like.
+    pub(crate) visuals: Vec<Visual>,
 }
 
 #[derive(Debug)]
@@ -184,26 +185,13 @@ fn link(reader: &mut Reader<'_>, node: Node<'_, '_>, name: &str) -> Link {
         Some(inertial) => inertia(reader, inertial),
         None => Some(Inertia::ZERO),
     };
-    let visuals = node.children().filter(|child| child.has_tag_name("visual"));
+    let visuals = visuals::read(reader, node);
     Link {
         name: name.to_owned(),
         line: reader.lines.of_node(node),
         inertia,
-        visuals: visuals.filter_map(visual).collect(),
+        visuals,
     }
-}
-
-fn visual(node: Node<'_, '_>) -> Option<String> {
-    let geometry = node
-        .children()
-        .find(|child| child.has_tag_name("geometry"))?;
-    let shape = geometry.children().find(Node::is_element)?;
-    let file = shape.attribute("filename");
-    let file = file.map(|path| path.rsplit(['/', '\\']).next().unwrap_or(path));
-    Some(
-        file.unwrap_or(shape.tag_name().name())
-            .replace(char::is_whitespace, " "),
-    )
 }
 
 fn inertia(reader: &mut Reader<'_>, node: Node<'_, '_>) -> Option<Inertia> {

@@ -61,7 +61,8 @@
 //! | `limit` | constants `POSITION_LIMITS`, `RATE_LIMITS`, `EFFORT_LIMITS`; nothing enforces them |
 //! | `friction` | a comment and the constant `FRICTION`; the equations do not have it |
 //! | frames of links | constants `.._ORIGIN` and `.._AXES`, for `View::point` |
-//! | `visual` | a comment |
+//! | `visual` with `box`, `cylinder` or `sphere` | a shape of the body, drawn in films: no mass follows from it; nothing on the ground |
+//! | `visual` with a mesh | a comment with the name of its file |
 //! | `collision`, `transmission`, `gazebo`, `safety_controller` and the like | nothing |
 //!
 //! All joints are at zero in the reference configuration. The frame of the root link gives the
@@ -106,10 +107,11 @@ mod print;
 mod robot;
 mod spatial;
 mod tree;
+mod visuals;
 
 pub use document::{JointKind, Limits};
 pub use faults::{Fault, Faults};
-pub use mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options};
+pub use mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options, Shape};
 pub use robot::Robot;
 
 /// The example of the README is compiled.

@@ -58,10 +58,56 @@ pub struct Body {
     pub orientation: [f64; 4],
     /// About the centre of mass, body axes (kg m^2).
     pub inertia: [[f64; 3]; 3],
-    /// Shapes and files of meshes that the file gives for its links.
+    /// Boxes, cylinders and spheres that the file gives for its links. They are drawn, and have no
+    /// mass.
+    pub shapes: Vec<Shape>,
+    /// Files of meshes, and other geometries, that the file gives for its links. They are not
+    /// drawn.
     pub visuals: Vec<String>,
     /// No joint of the mechanism names the body.
     pub is_free: bool,
+}
+
+/// A shape of a body: sizes in m, points in global axes (m).
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Shape {
+    /// A box along the axes of its body.
+    Block {
+        /// Lengths along x, y and z.
+        size: [f64; 3],
+        /// Its centre.
+        at: [f64; 3],
+    },
+    /// Any other box.
+    Bar {
+        /// Its size across `up`.
+        width: f64,
+        /// Its size along `up`.
+        height: f64,
+        /// The centre of one end.
+        from: [f64; 3],
+        /// The centre of the other end.
+        to: [f64; 3],
+        /// A direction across the bar, of length 1.
+        up: [f64; 3],
+    },
+    /// A cylinder.
+    Cylinder {
+        /// Its radius.
+        radius: f64,
+        /// The centre of one end.
+        from: [f64; 3],
+        /// The centre of the other end.
+        to: [f64; 3],
+    },
+    /// A sphere.
+    Ball {
+        /// Its radius.
+        radius: f64,
+        /// Its centre.
+        at: [f64; 3],
+    },
 }
 
 /// A joint that moves.

@@ -8,7 +8,8 @@
 //!   states and back.
 //! - `directions.rs`: derivatives along coordinates, rates and values.
 //! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
-//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions.
+//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
+//!   `lqr.rs`: the gain of a regulator.
 //! - `equilibrium.rs`: states without accelerations, over `balance.rs`; `trim.rs`: with inputs and
 //!   parameters as unknowns (`varied.rs`).
 //! - `continuation.rs`: equilibria along a parameter; `walk.rs`: points and steps, `folds.rs`:
@@ -36,6 +37,7 @@ mod folds;
 mod identification;
 mod linear;
 mod linearised;
+mod lqr;
 #[cfg(feature = "std")]
 mod modes;
 mod partition;
@@ -58,6 +60,7 @@ pub(crate) use directions::vary;
 #[cfg(feature = "std")]
 pub use identification::{Identification, Identified};
 pub use linearised::{Linearised, to_discrete};
+pub use lqr::discrete_lqr;
 #[cfg(feature = "std")]
 pub use modes::Mode;
 pub use regressor::INERTIAL_PARAMETERS;

@@ -19,7 +19,12 @@ use crate::state::vector::{Array, StateParts};
 
 /// Whether the first and the third angle are known: to half of the digits of the numbers, at least.
 fn is_regular<S: Real>((_, sine): &Angles<S>) -> bool {
-    *sine > S::EPSILON.sqrt()
+    is_apart(*sine)
+}
+
+/// The same by the sine between the first and the third axis.
+pub(super) fn is_apart<S: Real>(sine: S) -> bool {
+    sine > S::EPSILON.sqrt()
 }
 
 /// Scalar first.

@@ -5,6 +5,7 @@
 
 mod acceleration;
 pub(crate) mod access;
+mod angle_rates;
 pub(crate) mod angles;
 pub(crate) mod load;
 #[cfg(feature = "serde")]
@@ -19,6 +20,7 @@ pub(crate) mod viewed;
 #[cfg(feature = "serde")]
 pub(crate) mod written;
 
+pub use angle_rates::{BryantAngleRates, EulerAngleRates, RollPitchYawRates};
 pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
 pub use load::{AppliedForces, ForceLaw, NoForces};
 #[cfg(feature = "serde")]

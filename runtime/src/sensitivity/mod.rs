@@ -7,16 +7,18 @@
 //! derivatives are one iteration behind, so implicit methods are not among that.
 //!
 //! `start.rs` looks whether the derivatives of a start satisfy those of the constraints, which
-//! nothing in a run would notice.
+//! nothing in a run would notice. `least_squares.rs` fits unknowns to measurements.
 
 mod chosen;
 mod differentiable;
+mod least_squares;
 mod simulation;
 mod start;
 
 use core::fmt::{self, Debug};
 
 pub use differentiable::Differentiable;
+pub use least_squares::{Fit, FitError, Squares, fit};
 pub use simulation::SensitivitySimulation;
 
 use crate::dynamics::{Dynamics, parameters};

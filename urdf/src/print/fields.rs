@@ -2,7 +2,7 @@
 
 use super::couplings::Coupling;
 use super::page::{Page, name, names, number, tensor, vector};
-use super::points;
+use super::{points, shapes};
 use crate::document::JointKind;
 use crate::mechanism::{Body, Joint, Mechanism};
 
@@ -102,7 +102,8 @@ fn body(page: &mut Page, body: &Body) {
     };
     page.comment(1, "///", &text);
     if !body.visuals.is_empty() {
-        page.comment(1, "//", &format!("Visuals: {}.", names(&body.visuals)));
+        let text = format!("Visuals that are not drawn: {}.", names(&body.visuals));
+        page.comment(1, "//", &text);
     }
     let mut pairs = vec![
         ("mass", number(body.mass)),
@@ -112,6 +113,7 @@ fn body(page: &mut Page, body: &Body) {
     if body.orientation != [1.0, 0.0, 0.0, 0.0] {
         pairs.push(("orientation", vector(&body.orientation)));
     }
+    pairs.extend(shapes::pair(&body.shapes));
     if body.is_free {
         pairs.push(("free", String::new()));
     }

@@ -1,12 +1,13 @@
 //! The mechanism as Rust source for a reader.
 //!
 //! `page` lays out lines, `couplings` says how joints mimic, `fields` writes the struct with
-//! `points` of fixed links, and `tables` the constants behind it.
+//! `points` of fixed links and `shapes`, and `tables` the constants behind it.
 
 mod couplings;
 mod fields;
 mod page;
 mod points;
+mod shapes;
 mod tables;
 
 use std::fmt;

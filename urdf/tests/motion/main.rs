@@ -7,6 +7,7 @@ mod equations;
 mod in_place;
 mod regressor;
 mod robots;
+mod shapes;
 
 use std::collections::{BTreeMap, HashMap};
 use std::fs;

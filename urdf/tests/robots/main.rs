@@ -6,6 +6,7 @@ mod merged;
 mod numbers;
 mod printed;
 mod refusals;
+mod visuals;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -13,7 +13,7 @@ use holonom::prelude::*;
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 pub struct Robot2dofPlanar {
     /// Link `link1`.
-    // Visuals: `link1.stl`.
+    // Visuals that are not drawn: `link1.stl`.
     #[body(
         mass = 0.26703,
         inertia = [
@@ -37,7 +37,7 @@ pub struct Robot2dofPlanar {
     )]
     joint1_motor: TorsionalActuator,
     /// Link `link2`.
-    // Visuals: `link2.stl`.
+    // Visuals that are not drawn: `link2.stl`.
     #[body(
         mass = 0.33238,
         inertia = [

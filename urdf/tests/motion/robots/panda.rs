@@ -41,7 +41,7 @@ holonom::joint! {
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 pub struct Panda {
     /// Link `panda_link1`.
-    // Visuals: `link1.dae`.
+    // Visuals that are not drawn: `link1.dae`.
     #[body(
         mass = 4.970684,
         inertia = [
@@ -66,7 +66,7 @@ pub struct Panda {
     )]
     panda_joint1_motor: TorsionalActuator,
     /// Link `panda_link2`.
-    // Visuals: `link2.dae`.
+    // Visuals that are not drawn: `link2.dae`.
     #[body(
         mass = 0.646926,
         inertia = [
@@ -96,7 +96,7 @@ pub struct Panda {
     )]
     panda_joint2_motor: TorsionalActuator,
     /// Link `panda_link3`.
-    // Visuals: `link3.dae`.
+    // Visuals that are not drawn: `link3.dae`.
     #[body(
         mass = 3.228604,
         inertia = [
@@ -125,7 +125,7 @@ pub struct Panda {
     )]
     panda_joint3_motor: TorsionalActuator,
     /// Link `panda_link4`.
-    // Visuals: `link4.dae`.
+    // Visuals that are not drawn: `link4.dae`.
     #[body(
         mass = 3.587895,
         inertia = [
@@ -155,7 +155,7 @@ pub struct Panda {
     )]
     panda_joint4_motor: TorsionalActuator,
     /// Link `panda_link5`.
-    // Visuals: `link5.dae`.
+    // Visuals that are not drawn: `link5.dae`.
     #[body(
         mass = 1.225946,
         inertia = [
@@ -184,7 +184,7 @@ pub struct Panda {
     )]
     panda_joint5_motor: TorsionalActuator,
     /// Link `panda_link6`.
-    // Visuals: `link6.dae`.
+    // Visuals that are not drawn: `link6.dae`.
     #[body(
         mass = 1.666555,
         inertia = [
@@ -215,7 +215,7 @@ pub struct Panda {
     panda_joint6_motor: TorsionalActuator,
     /// Link `panda_link7`, with `panda_link8`, `panda_hand` and `panda_hand_tcp` fixed to it: mass,
     /// centre of mass and inertia are those of all.
-    // Visuals: `link7.dae` and `hand.dae`.
+    // Visuals that are not drawn: `link7.dae` and `hand.dae`.
     #[body(
         mass = 1.465522,
         inertia = [
@@ -254,7 +254,7 @@ pub struct Panda {
     )]
     panda_joint7_motor: TorsionalActuator,
     /// Link `panda_leftfinger`.
-    // Visuals: `finger.dae`.
+    // Visuals that are not drawn: `finger.dae`.
     #[body(
         mass = 0.015,
         inertia = [2.3749999999999997e-6, 2.3749999999999997e-6, 7.5e-7],
@@ -280,7 +280,7 @@ pub struct Panda {
     )]
     panda_finger_joint1_motor: SlideActuator,
     /// Link `panda_rightfinger`.
-    // Visuals: `finger.dae`.
+    // Visuals that are not drawn: `finger.dae`.
     #[body(
         mass = 0.015,
         inertia = [2.3749999999999997e-6, 2.3749999999999997e-6, 7.5e-7],

@@ -13,7 +13,7 @@ use holonom::prelude::*;
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 pub struct SoArm100 {
     /// Link `shoulder`.
-    // Visuals: `Rotation_Pitch.stl` and `Rotation_Pitch_Motor.stl`.
+    // Visuals that are not drawn: `Rotation_Pitch.stl` and `Rotation_Pitch_Motor.stl`.
     #[body(
         mass = 0.119226,
         inertia = [5.94278e-5, 5.89975e-5, 3.13712e-5],
@@ -38,7 +38,7 @@ pub struct SoArm100 {
     )]
     shoulder_pan_motor: TorsionalActuator,
     /// Link `upper_arm`.
-    // Visuals: `Upper_Arm.stl` and `Upper_Arm_Motor.stl`.
+    // Visuals that are not drawn: `Upper_Arm.stl` and `Upper_Arm_Motor.stl`.
     #[body(
         mass = 0.162409,
         inertia = [0.000213312, 0.000167164, 7.01522e-5],
@@ -59,7 +59,7 @@ pub struct SoArm100 {
     #[force(between = [shoulder, upper_arm], axis = [1.0, 0.0, 0.0], moment = shoulder_lift_torque)]
     shoulder_lift_motor: TorsionalActuator,
     /// Link `lower_arm`.
-    // Visuals: `Lower_Arm.stl` and `Lower_Arm_Motor.stl`.
+    // Visuals that are not drawn: `Lower_Arm.stl` and `Lower_Arm_Motor.stl`.
     #[body(
         mass = 0.147968,
         inertia = [0.000138803, 0.000107748, 4.84242e-5],
@@ -80,7 +80,7 @@ pub struct SoArm100 {
     #[force(between = [upper_arm, lower_arm], axis = [1.0, 0.0, 0.0], moment = elbow_flex_torque)]
     elbow_flex_motor: TorsionalActuator,
     /// Link `wrist`.
-    // Visuals: `Wrist_Pitch_Roll.stl` and `Wrist_Pitch_Roll_Motor.stl`.
+    // Visuals that are not drawn: `Wrist_Pitch_Roll.stl` and `Wrist_Pitch_Roll_Motor.stl`.
     #[body(
         mass = 0.0661321,
         inertia = [3.45403e-5, 2.39041e-5, 1.94704e-5],
@@ -101,7 +101,7 @@ pub struct SoArm100 {
     #[force(between = [lower_arm, wrist], axis = [1.0, 0.0, 0.0], moment = wrist_flex_torque)]
     wrist_flex_motor: TorsionalActuator,
     /// Link `gripper`.
-    // Visuals: `Fixed_Jaw.stl` and `Fixed_Jaw_Motor.stl`.
+    // Visuals that are not drawn: `Fixed_Jaw.stl` and `Fixed_Jaw_Motor.stl`.
     #[body(
         mass = 0.0929859,
         inertia = [5.03136e-5, 4.64098e-5, 2.72961e-5],
@@ -126,7 +126,7 @@ pub struct SoArm100 {
     )]
     wrist_roll_motor: TorsionalActuator,
     /// Link `jaw`.
-    // Visuals: `Moving_Jaw.stl`.
+    // Visuals that are not drawn: `Moving_Jaw.stl`.
     #[body(
         mass = 0.0202444,
         inertia = [1.11265e-5, 8.99651e-6, 2.99548e-6],

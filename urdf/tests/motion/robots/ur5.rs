@@ -13,7 +13,7 @@ use holonom::prelude::*;
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 pub struct Ur5 {
     /// Link `shoulder_link`.
-    // Visuals: `shoulder.dae`.
+    // Visuals that are not drawn: `shoulder.dae`.
     #[body(
         mass = 3.7,
         inertia = [0.010267495893, 0.010267495893, 0.00666],
@@ -38,7 +38,7 @@ pub struct Ur5 {
     )]
     shoulder_pan_motor: TorsionalActuator,
     /// Link `upper_arm_link`.
-    // Visuals: `upperarm.dae`.
+    // Visuals that are not drawn: `upperarm.dae`.
     #[body(
         mass = 8.393,
         inertia = [0.22689067591, 0.22689067591, 0.0151074],
@@ -64,7 +64,7 @@ pub struct Ur5 {
     )]
     shoulder_lift_motor: TorsionalActuator,
     /// Link `forearm_link`.
-    // Visuals: `forearm.dae`.
+    // Visuals that are not drawn: `forearm.dae`.
     #[body(
         mass = 2.275,
         inertia = [0.049443313556, 0.049443313556, 0.004095],
@@ -90,7 +90,7 @@ pub struct Ur5 {
     )]
     elbow_motor: TorsionalActuator,
     /// Link `wrist_1_link`.
-    // Visuals: `wrist1.dae`.
+    // Visuals that are not drawn: `wrist1.dae`.
     #[body(
         mass = 1.219,
         inertia = [0.111172755531, 0.111172755531, 0.21942],
@@ -116,7 +116,7 @@ pub struct Ur5 {
     )]
     wrist_1_motor: TorsionalActuator,
     /// Link `wrist_2_link`.
-    // Visuals: `wrist2.dae`.
+    // Visuals that are not drawn: `wrist2.dae`.
     #[body(
         mass = 1.219,
         inertia = [0.111172755531, 0.111172755531, 0.21942],
@@ -143,7 +143,7 @@ pub struct Ur5 {
     wrist_2_motor: TorsionalActuator,
     /// Link `wrist_3_link`, with `ee_link` and `tool0` fixed to it: mass, centre of mass and
     /// inertia are those of all.
-    // Visuals: `wrist3.dae`.
+    // Visuals that are not drawn: `wrist3.dae`.
     #[body(
         mass = 0.1879,
         inertia = [0.0171364731454, 0.0171364731454, 0.033822],

@@ -138,7 +138,8 @@ impl Reader<'_, '_> {
     fn unseen(&mut self, at: impl quote::ToTokens) {
         self.faults.at(
             at,
-            "a rotation needs numbers that the macro can see; give four Euler parameters instead",
+            "a rotation needs numbers that the macro can see: literals, their arithmetic, `PI` and `TAU`; parameters and constants may be in an \
+             `orientation` of four Euler parameters or by `along`, and in `at` of a part",
         );
     }
 
