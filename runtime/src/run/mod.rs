@@ -21,6 +21,7 @@
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
+mod deferred;
 pub(crate) mod direct;
 pub(crate) mod events;
 pub(crate) mod kinematics;
