@@ -85,6 +85,12 @@ impl<S: Scalar, const N: usize> Forward<S, N> {
         self.derivatives
     }
 
+    /// The derivative along one direction, to be written.
+    #[inline]
+    pub(crate) fn derivative_mut(&mut self, direction: usize) -> Option<&mut S> {
+        self.derivatives.get_mut(direction)
+    }
+
     /// A function of this number, by its value and its slope here.
     #[inline]
     fn with(self, value: S, slope: S) -> Self {

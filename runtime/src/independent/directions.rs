@@ -4,7 +4,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use super::choice::Coordinate;
-use super::elimination::{at, set};
+use super::elimination::set;
 use super::partition::Partition;
 use super::points::moved;
 use super::states::{put_velocities, write_rates};
@@ -19,7 +19,7 @@ use crate::mechanism::joint_kernels::JointParts as _;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::relative::{bodies_by, bodies_of, rates_of_motion};
-use crate::state::vector::{Array as _, StateParts};
+use crate::state::vector::{Array as _, StateParts, Vector as _};
 
 /// What derivatives are taken by: a parameter or an input, or a chosen coordinate or its rate at
 /// the start.
@@ -122,8 +122,8 @@ type Start<M, const K: usize, S> = (
 /// A state along directions, and what the kernels take there.
 pub(super) struct StateAlong<M: JointRates, const N: usize, const K: usize, S: Scalar> {
     pub(super) parameters: M::Parameters<Forward<S, K>>,
-    /// In absolute coordinates.
-    pub(super) constants: M::Constants<Forward<S, K>>,
+    /// Whether a parameter or an input varies.
+    pub(super) is_varied: bool,
     pub(super) equations: Equations<M, N, Forward<S, K>>,
     pub(super) state: M::JointState<Forward<S, K>>,
 }
@@ -137,18 +137,19 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         directions: &[Option<Along>; K],
     ) -> Result<StateAlong<M, N, K, S>, Fault> {
         let mut equations = self.equations.lifted::<K>();
-        let mut constants: M::Constants<Forward<S, K>> = lifted(&self.constants);
         let mut parameters: M::Parameters<Forward<S, K>> = lifted(&self.parameters);
-        let mut ways = [M::JointVelocities::<S>::zeros(); K];
+        let mut ways = M::JointVelocities::<Forward<S, K>>::zeros();
         let rates: [S; N] = self.rates(state).into();
         let mut rates_along = rates.map(Forward::fixed);
-        let mut is_varied = false;
+        let (mut is_varied, mut is_moved) = (false, false);
         for (lane, direction) in directions.iter().enumerate() {
             match *direction {
                 Some(Along::Position(column)) => {
-                    let way = partition.columns.get(column);
-                    if let (Some(place), Some(way)) = (ways.get_mut(lane), way) {
-                        *place = *way;
+                    is_moved = true;
+                    let way = partition.columns.get(column).into_iter();
+                    let way = way.flat_map(|way| way.as_slice().iter());
+                    for (number, &slope) in ways.as_mut_slice().iter_mut().zip(way) {
+                        add(number, lane, slope);
                     }
                 }
                 Some(Along::Rate(column)) => vary(rates_along.get_mut(column), lane),
@@ -159,27 +160,31 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 None => {}
             }
         }
-        let here = |ways: &[M::JointVelocities<S>; K]| {
-            let slopes = ways.map(|way| {
-                let mut turned = *state;
-                put_velocities::<M, S>(&way, &mut turned);
-                rates_of_motion::<S, M>(&self.equations.constants, self.equations.time, &turned)
-            });
-            moved::<M, S, K>(state, &slopes)
+        let still = moved::<M, S, K>(state, |_| [S::zero(); K]);
+        let here = |equations: &Equations<M, N, Forward<S, K>>, ways: &_| {
+            // The rates of coordinates are linear in velocities, and these begin at zero.
+            let mut turned = still;
+            put_velocities::<M, Forward<S, K>>(ways, &mut turned);
+            let slope =
+                rates_of_motion::<Forward<S, K>, M>(&equations.constants, equations.time, &turned);
+            moved::<M, S, K>(state, |place| slope.element(place).derivatives())
         };
         if is_varied {
-            constants = M::prepare(&parameters);
             equations.constants = M::prepare_joints(&parameters);
-            // What closes a loop again that a parameter opens.
-            let closing = equations.partition(&here(&ways))?.closing;
-            for (place, number) in closing.as_slice().iter().enumerate() {
-                for (way, slope) in ways.iter_mut().zip(number.derivatives()) {
-                    let known = at(way.as_slice(), place);
-                    set(way, place, known + slope);
+            if !M::JOINT_REPORT.closing.is_empty() {
+                // What closes a loop again that a parameter opens.
+                let closing = equations.partition(&here(&equations, &ways))?.closing;
+                is_moved = true;
+                for (way, number) in ways.as_mut_slice().iter_mut().zip(closing.as_slice()) {
+                    *way = *way + Forward::new(S::zero(), number.derivatives());
                 }
             }
         }
-        let mut there = here(&ways);
+        let mut there = if is_moved {
+            here(&equations, &ways)
+        } else {
+            still
+        };
         // The start of a state of the user's own is its value here.
         for (lane, direction) in directions.iter().enumerate() {
             let is_varied =
@@ -201,7 +206,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         }
         Ok(StateAlong {
             parameters,
-            constants,
+            is_varied,
             equations,
             state: there,
         })
@@ -241,12 +246,16 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
 
 /// Lets a number vary along a direction, beside those along which it does.
 pub(crate) fn vary<S: Scalar, const K: usize>(number: Option<&mut Forward<S, K>>, lane: usize) {
-    let Some(number) = number else { return };
-    let mut slopes = number.derivatives();
-    if let Some(slope) = slopes.get_mut(lane) {
-        *slope = *slope + S::one();
+    if let Some(number) = number {
+        add(number, lane, S::one());
     }
-    *number = Forward::new(number.value(), slopes);
+}
+
+/// Adds to the derivative along a direction.
+fn add<S: Scalar, const K: usize>(number: &mut Forward<S, K>, lane: usize, slope: S) {
+    if let Some(place) = number.derivative_mut(lane) {
+        *place = *place + slope;
+    }
 }
 
 /// Euler parameters along directions, by those and the rotation matrix: with `R' = R w~` the rate

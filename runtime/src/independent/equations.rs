@@ -191,17 +191,35 @@ impl<S: Scalar, const N: usize> Factors<S, N> {
     }
 
     pub(super) fn solve(&self, right: [S; N]) -> [S; N] {
-        let mut solution = right;
-        for k in 0..N {
-            let row = self.rows[k].iter().zip(&solution).take(k);
-            solution[k] = row.fold(right[k], |value, (&entry, &known)| value - entry * known);
+        let mut right = right.map(|number| [number]);
+        self.solve_each(&mut right);
+        right.map(|[number]| number)
+    }
+
+    /// The same of several right-hand sides, side by side in each row.
+    pub(super) fn solve_each<const K: usize>(&self, sides: &mut [[S; K]; N]) {
+        let subtract = |from: &mut [S; K], factor: S, known: &[S; K]| {
+            for (number, &known) in from.iter_mut().zip(known) {
+                *number = *number - factor * known;
+            }
+        };
+        for k in 1..N {
+            let (done, here) = sides.split_at_mut(k);
+            let Some(here) = here.first_mut() else { break };
+            for (&entry, known) in self.rows[k].iter().zip(done.iter()) {
+                subtract(here, entry, known);
+            }
         }
         for k in (0..N).rev() {
-            let value = solution[k] * self.inverses[k];
-            let rows = self.rows.iter().zip(&solution).skip(k + 1);
-            solution[k] = rows.fold(value, |value, (row, &above)| value - row[k] * above);
+            let (here, above) = sides.split_at_mut(k + 1);
+            let Some(here) = here.last_mut() else { break };
+            for number in here.iter_mut() {
+                *number = *number * self.inverses[k];
+            }
+            for (row, above) in self.rows.iter().skip(k + 1).zip(above.iter()) {
+                subtract(here, row[k], above);
+            }
         }
-        solution
     }
 }
 

@@ -6,12 +6,13 @@ use nalgebra::SMatrix;
 
 use super::IndependentCoordinates;
 use super::directions::Along;
+use super::elimination::at;
 use super::equations::Factors;
 use super::linearised::Linearised;
 use super::partition::{Partition, joint_rates};
 use super::varied::Adjusted;
 use crate::error::{Fault, LeavesOut, NotFinite};
-use crate::forward::{Forward, Lifted};
+use crate::forward::{Forward, Lifted, lifted};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
 use crate::measure::view::View;
@@ -29,7 +30,7 @@ const LANES: usize = 4;
 enum Outcome {
     /// Without efforts.
     Accelerations,
-    /// Those that are not balanced, `-h`, at rest.
+    /// Those that are not balanced, `-h`, without accelerations.
     Efforts,
 }
 
@@ -113,7 +114,7 @@ where
     }
 
     /// How the efforts that are not balanced, `-h`, change with coordinates, rates and quantities,
-    /// in the place of accelerations.
+    /// in the place of accelerations. The inverse of the mass matrix is left at zero.
     pub(super) fn efforts_by<const K: usize>(
         &self,
         state: &M::JointState<S>,
@@ -132,21 +133,27 @@ where
         bodies_alone::<M>(LeavesOut::Linearisation)?;
         let mut linear = Linearised::<N, K, P, S>::zeros();
         let partition = self.equations.partition(state)?;
-        let rates = joint_rates::<M, S>(state);
-        linear.rates_by_positions = SMatrix::from_fn(|row, column| {
-            let place = self.equations.places.get(row).copied().unwrap_or(0);
-            let column = partition.columns.get(column);
-            column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
-        });
+        if (M::JOINT_REPORT.motions.iter()).any(|motion| motion.freedom == Freedom::Ball) {
+            let rates = joint_rates::<M, S>(state);
+            linear.rates_by_positions = SMatrix::from_fn(|row, column| {
+                let place = self.equations.places.get(row).copied().unwrap_or(0);
+                let column = partition.columns.get(column);
+                column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
+            });
+        }
         // With `M a = -h`, `M da = -(d(M) a + dh)`: what changes the efforts of these
         // accelerations.
         let equations = &self.equations;
         let following = (!M::JOINT_REPORT.closing.is_empty()).then_some(&partition);
-        let mass = Factors::of(equations.mass_with(following, state));
-        let bias = equations.inverse_with(following, state, &[S::zero(); N]);
-        let accelerations = match outcome {
-            Outcome::Accelerations => mass.solve(bias.map(|bias| -bias)),
-            Outcome::Efforts => [S::zero(); N],
+        let mut accelerations = [S::zero(); N];
+        let mass = match outcome {
+            Outcome::Accelerations => {
+                let bias = equations.inverse_with(following, state, &accelerations);
+                let mass = Factors::of(equations.mass_with(following, state));
+                accelerations = mass.solve(bias.map(|bias| -bias));
+                Some(mass)
+            }
+            Outcome::Efforts => None,
         };
         let positions = (0..N).map(|number| (Part::Positions, number, Along::Position(number)));
         let rates = (0..N).map(|number| (Part::Rates, number, Along::Rate(number)));
@@ -159,35 +166,35 @@ where
             let directions = columns.map(|column| column.map(|(.., direction)| direction));
             let moving = (state, &accelerations);
             let (efforts, readings) = self.along(moving, &partition, &directions, &read)?;
+            let mut outcomes = efforts.map(|effort| effort.derivatives().map(|slope| -slope));
+            if let Some(mass) = &mass {
+                mass.solve_each(&mut outcomes);
+            }
+            let readings = readings.map(|reading| reading.derivatives());
             for (lane, (part, column, _)) in columns.into_iter().flatten().enumerate() {
-                let slope = |number: &Lifted<S>| {
-                    number.derivatives().get(lane).copied().unwrap_or(S::zero())
-                };
-                let efforts = efforts.each_ref().map(|effort| -slope(effort));
-                let accelerations = match outcome {
-                    Outcome::Accelerations => mass.solve(efforts),
-                    Outcome::Efforts => efforts,
-                };
-                let readings = readings.each_ref().map(slope);
                 match part {
                     Part::Positions => {
-                        put(&mut linear.by_positions, column, accelerations);
-                        put(&mut linear.readings_by_positions, column, readings);
+                        put(&mut linear.by_positions, column, &outcomes, lane);
+                        put(&mut linear.readings_by_positions, column, &readings, lane);
                     }
                     Part::Rates => {
-                        put(&mut linear.by_rates, column, accelerations);
-                        put(&mut linear.readings_by_rates, column, readings);
+                        put(&mut linear.by_rates, column, &outcomes, lane);
+                        put(&mut linear.readings_by_rates, column, &readings, lane);
                     }
                     Part::Values => {
-                        put(&mut linear.by_values, column, accelerations);
-                        put(&mut linear.readings_by_values, column, readings);
+                        put(&mut linear.by_values, column, &outcomes, lane);
+                        put(&mut linear.readings_by_values, column, &readings, lane);
                     }
                 }
             }
         }
-        for column in 0..N {
-            let unit = from_fn(|row| S::constant(f64::from(u8::from(row == column))));
-            put(&mut linear.by_efforts, column, mass.solve(unit));
+        if let Some(mass) = &mass {
+            let one = |row: usize, column: usize| S::constant(f64::from(u8::from(row == column)));
+            let mut inverse = from_fn(|row| from_fn(|column| one(row, column)));
+            mass.solve_each::<N>(&mut inverse);
+            for column in 0..N {
+                put(&mut linear.by_efforts, column, &inverse, column);
+            }
         }
         if linear.is_finite() {
             Ok(linear)
@@ -214,21 +221,27 @@ where
         if P == 0 {
             return Ok((efforts, [Forward::zero(); P]));
         }
+        let constants = if there.is_varied {
+            M::prepare(&there.parameters)
+        } else {
+            lifted(&self.constants)
+        };
         let bodies = self.bodies_along(state, &there);
-        let view = View::new(&there.constants, there.equations.time, &bodies);
+        let view = View::new(&constants, there.equations.time, &bodies);
         Ok((efforts, read(&view)))
     }
 }
 
-/// Writes a column, without a place where it could panic.
-fn put<S, const R: usize, const C: usize>(
+/// Writes what the rows have in a lane as a column, without a place where it could panic.
+fn put<S: Scalar, const R: usize, const C: usize, const K: usize>(
     matrix: &mut SMatrix<S, R, C>,
     column: usize,
-    values: [S; R],
+    rows: &[[S; K]; R],
+    lane: usize,
 ) {
-    for (row, value) in values.into_iter().enumerate() {
-        if let Some(entry) = matrix.get_mut((row, column)) {
-            *entry = value;
+    if let Some(entries) = matrix.as_mut_slice().chunks_mut(R.max(1)).nth(column) {
+        for (entry, row) in entries.iter_mut().zip(rows) {
+            *entry = at(row, lane);
         }
     }
 }

@@ -53,12 +53,17 @@ impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P
     }
 
     pub(super) fn is_finite(&self) -> bool {
-        let square = self.rates_by_positions.iter().chain(&self.by_positions);
-        let square = square.chain(&self.by_rates).chain(&self.by_efforts);
-        let readings = self.readings_by_positions.iter();
-        let readings = readings.chain(&self.readings_by_rates);
-        let values = self.by_values.iter().chain(&self.readings_by_values);
-        square.chain(readings).chain(values).all(|x| x.is_finite())
+        let square = [&self.rates_by_positions, &self.by_positions];
+        let more = [&self.by_rates, &self.by_efforts];
+        let readings = [&self.readings_by_positions, &self.readings_by_rates];
+        let mut parts = square.into_iter().chain(more).map(SMatrix::as_slice);
+        let mut readings = readings.into_iter().map(SMatrix::as_slice);
+        let values = [
+            self.by_values.as_slice(),
+            self.readings_by_values.as_slice(),
+        ];
+        let is_finite = |part: &[S]| part.iter().all(|x| x.is_finite());
+        parts.all(is_finite) && readings.all(is_finite) && values.into_iter().all(is_finite)
     }
 
     /// `A`, for `X = 2 N`; another `X` does not compile.

@@ -10,6 +10,7 @@ use crate::error::Fault;
 use crate::forward::Forward;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, minus, plus, read, times};
+use crate::mechanism::joint_kernels::JointParts as _;
 use crate::mechanism::joint_rates::{HasJacobian, HasMassMatrix, JointRates};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::{Located, Place};
@@ -124,19 +125,23 @@ impl<M: JointRates, const N: usize, S: Scalar> Equations<M, N, S> {
     }
 }
 
-/// A state that moves along slopes, one for each derivative.
+/// A state that moves along slopes, one for each derivative, of the element at a place. The slope
+/// of a pair is the rate of its angle.
 pub(super) fn moved<M: JointRates, S: Scalar, const K: usize>(
     state: &M::JointState<S>,
-    slopes: &[M::JointState<S>; K],
+    slopes: impl Fn(usize) -> [S; K],
 ) -> M::JointState<Forward<S, K>> {
     let mut here = M::JointState::<Forward<S, K>>::zeros();
-    let mut direction = here;
-    for place in 0..state.length() {
-        here.set_element(place, Forward::fixed(state.element(place)));
-        let slopes = slopes.map(|slope| slope.element(place));
-        direction.set_element(place, Forward::new(S::zero(), slopes));
+    let pairs = state.pairs_slice();
+    for (number, &[c, s]) in pairs.iter().enumerate() {
+        let (place, turns) = (2 * number, slopes(2 * number));
+        here.set_element(place, Forward::new(c, turns.map(|turn| -(s * turn))));
+        here.set_element(place + 1, Forward::new(s, turns.map(|turn| c * turn)));
     }
-    here.plus([(Forward::one(), &direction)])
+    for place in 2 * pairs.len()..state.length() {
+        here.set_element(place, Forward::new(state.element(place), slopes(place)));
+    }
+    here
 }
 
 impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
@@ -170,7 +175,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             constants, time, ..
         } = &self.equations;
         let slope = rates_of_motion::<S, M>(constants, *time, state);
-        let moved = moved::<M, S, 1>(state, &[slope]);
+        let moved = moved::<M, S, 1>(state, |place| [slope.element(place)]);
         let mut equations = self.equations.lifted::<1>();
         equations.time = Forward::new(*time, [S::one()]);
         let point = Fixed::of::<M>(&self.constants, at).lifted();

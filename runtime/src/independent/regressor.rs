@@ -16,7 +16,7 @@ use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::joint_rates::{HasJacobian, JointRates};
 use crate::mechanism::relative::{BodyMotion, each_body, rates_of_motion};
 use crate::mechanism::report::BodyKind;
-use crate::state::vector::Array;
+use crate::state::vector::{Array, Vector as _};
 
 /// The inertial parameters of a body, in the order of the columns of
 /// [`IndependentCoordinates::regressor`]: mass (kg), first moments (kg m), inertia (kg m^2).
@@ -135,7 +135,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let all = equations.accelerations(Some(&partition), &accelerations);
         let mut slope = rates_of_motion::<S, M>(&equations.constants, equations.time, state);
         put_velocities::<M, S>(&all, &mut slope);
-        let moving = moved::<M, S, 1>(state, &[slope]);
+        let moving = moved::<M, S, 1>(state, |place| [slope.element(place)]);
         let motions = M::body_motions(&equations.lifted::<1>().constants, &moving);
         let axes = M::joint_axes(&equations.constants, equations.time, state);
         let gravity = self.gravity_field(state);

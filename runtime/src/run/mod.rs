@@ -27,6 +27,7 @@ pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
+mod deferred;
 pub(crate) mod dense_step;
 pub(crate) mod direct;
 pub(crate) mod events;

@@ -15,6 +15,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::{Monitor, fastest};
 use crate::run::companion::Companion;
+use crate::run::deferred::Deferred;
 use crate::run::events::list::Hybrid;
 use crate::run::output::Schedule;
 use crate::run::past::Past;
@@ -40,6 +41,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     /// Steps so far.
     pub(crate) steps: usize,
     pub(crate) counts: Counts,
+    /// A state that was reached since the bodies of the last good one.
+    pub(crate) deferred: Deferred<C::State<S>>,
 }
 
 /// A step that was taken, and looked into for the monitor.
@@ -141,6 +144,7 @@ where
                 companion.restart(&span, self.stabilisation);
             }
             let reached = self.segment(integrator, &mut companion, span, last_good, past.take());
+            self.convert(last_good);
             reached
                 .and_then(|()| self.happen(last_good, &mut companion))
                 .and_then(|()| self.keep_between(integrator, last_good, end))
@@ -275,6 +279,7 @@ where
             self.record_end(last_good);
             let is_event = event.is_some();
             if !is_event && self.schedule.at(last_good.0, self.log.unseen) {
+                self.convert(last_good);
                 self.show(last_good.0, &last_good.1, companion);
                 if self.log.flow.is_break() {
                     break;
@@ -356,6 +361,7 @@ where
                 state = self.stabilised(stabilisation, time, state)?;
             }
             *last_good = (time, state);
+            self.deferred.clear();
             self.show(time, &last_good.1, companion);
             if self.log.flow.is_break() {
                 break;
@@ -383,6 +389,12 @@ where
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         let time = integration.time();
+        if self.may_defer() && self.deferred.defer(integration.state(), time - last_good.0) {
+            last_good.0 = time;
+            self.steps = self.steps.saturating_add(1);
+            self.log.unseen += 1;
+            return Ok(());
+        }
         let mut state = self.dynamics.bodies_near(integration.state(), &last_good.1);
         if let Some(stabilisation) = self.stabilisation {
             state = self.stabilised(stabilisation, time, state)?;
@@ -394,6 +406,21 @@ where
         }
         let estimate = integration.estimate();
         self.accept((time, integration.state()), state, estimate, last_good)
+    }
+
+    /// Whether bodies are of no use before somebody looks: nothing reads the end of each step.
+    #[inline]
+    fn may_defer(&self) -> bool {
+        let reads = self.monitor.is_some() || self.stabilisation.is_some() || self.hybrid.is_some();
+        C::IS_RELATIVE && !A::PRESENT && !reads
+    }
+
+    /// Converts the last good state to bodies, if that was deferred.
+    #[inline]
+    fn convert(&mut self, last_good: &mut (S, M::State<S>)) {
+        if let Some(state) = self.deferred.take() {
+            last_good.1 = self.dynamics.bodies_near(&state, &last_good.1);
+        }
     }
 
     /// The same of an event within the last step, with the bodies there.

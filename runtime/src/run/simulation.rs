@@ -19,6 +19,7 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
 use crate::run::companion::Companion;
+use crate::run::deferred::Deferred;
 use crate::run::events::list::{Happenings, Hybrid};
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::past::{Past, Plan, Planned};
@@ -469,6 +470,7 @@ where
             hybrid,
             steps: 0,
             counts: Counts::default(),
+            deferred: Deferred::new(),
         };
         run.go(&self.integrator, companion, (start, end), last_good, past)
     }
