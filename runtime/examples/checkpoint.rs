@@ -59,7 +59,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         Err(_) => run.run(0.0..=1000.0, every(1.0), |_| ())?,
     };
-    drop(run);
     if let Some(error) = failed {
         return Err(error);
     }

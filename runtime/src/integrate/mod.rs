@@ -101,7 +101,9 @@ pub use slopes::{Checking, Counting, Look, Slopes, Unlooked};
 use core::fmt::Debug;
 
 pub(crate) use self::looked_into::StepWithin;
-pub(crate) use self::memory::{Reader, Tape};
+pub(crate) use self::memory::Reader;
+#[cfg(feature = "std")]
+pub(crate) use self::memory::Tape;
 pub(crate) use self::newton::by_differences;
 
 use self::slopes::named;

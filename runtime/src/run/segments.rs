@@ -64,6 +64,10 @@ const ASKED_TWICE: usize = 1024;
 #[derive(Clone, Copy)]
 pub(crate) struct Begun<S, X> {
     /// When (s), and in which state.
+    #[cfg_attr(
+        not(feature = "std"),
+        expect(dead_code, reason = "checkpoints and trajectories need a heap")
+    )]
     pub(crate) start: S,
     pub(crate) state: X,
     /// What interpolants have evaluated for the monitor, which is no part of the run.

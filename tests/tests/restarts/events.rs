@@ -76,7 +76,6 @@ where
         Some((checkpoint, ..)) => simulation.resume(checkpoint, observe),
     };
     let report = report.expect("it runs");
-    drop(simulation);
     (report, shown.into_inner(), met.get(), kept)
 }
 

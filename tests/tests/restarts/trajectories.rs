@@ -92,7 +92,7 @@ fn a_trajectory_is_what_observers_are_shown() {
         ];
         // A state within its step is solved for, up to 0.03 of what a step may leave, which is
         // `0.1 rtol^(2/3)`.
-        let method = RadauIIA::default();
+        let method = RadauIIA::<f64>::default();
         let allowed = 0.03 * 0.1 * method.tolerance.relative.powf(2.0 / 3.0);
         let radau = [
             apart::<_, Relative>(method, false),
