@@ -35,7 +35,9 @@ impl LawReader<'_, '_, '_> {
         if is_number && !self.varies(expr) {
             return self.numbers.scalar(expr, faults).map(LawTerm::Number);
         }
-        if let Some(state) = self.numbers.state(expr, faults) {
+        if !self.is_own(expr)
+            && let Some(state) = self.numbers.state(expr, faults)
+        {
             return self.state(state, expr, faults);
         }
         match ungroup(expr) {
@@ -101,6 +103,15 @@ impl LawReader<'_, '_, '_> {
         }
     }
 
+    /// Whether it is the time or an argument, whatever else has that name.
+    fn is_own(&self, expr: &Expr) -> bool {
+        let Expr::Path(path) = ungroup(expr) else {
+            return false;
+        };
+        let name = path.path.get_ident();
+        name.is_some_and(|name| name == "time" || self.arguments.contains(name))
+    }
+
     /// A state of the user's own.
     fn state(&self, found: Found, expr: &Expr, faults: &mut Faults) -> Option<LawTerm> {
         let Found::At(place) = found else { return None };
@@ -158,10 +169,7 @@ impl LawReader<'_, '_, '_> {
             return true;
         }
         match ungroup(expr) {
-            Expr::Path(path) => path
-                .path
-                .get_ident()
-                .is_some_and(|name| name == "time" || self.arguments.contains(name)),
+            Expr::Path(_) => self.is_own(expr),
             Expr::Unary(unary) => self.varies(&unary.expr),
             Expr::Binary(binary) => self.varies(&binary.left) || self.varies(&binary.right),
             Expr::Call(call) => {
