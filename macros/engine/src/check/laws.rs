@@ -36,7 +36,9 @@ impl LawReader<'_, '_, '_> {
         if is_number && !self.varies(expr) {
             return self.numbers.scalar(expr, faults).map(LawTerm::Number);
         }
-        if let Some(state) = self.numbers.state(expr, faults) {
+        if !self.is_own(expr)
+            && let Some(state) = self.numbers.state(expr, faults)
+        {
             return self.state(state, expr, faults);
         }
         match ungroup(expr) {
@@ -109,6 +111,15 @@ impl LawReader<'_, '_, '_> {
         }
     }
 
+    /// Whether it is the time or an argument, whatever else has that name.
+    fn is_own(&self, expr: &Expr) -> bool {
+        let Expr::Path(path) = ungroup(expr) else {
+            return false;
+        };
+        let name = path.path.get_ident();
+        name.is_some_and(|name| name == "time" || self.arguments.contains(name))
+    }
+
     /// A state of the user's own.
     fn state(&self, found: Found, expr: &Expr, faults: &mut Faults) -> Option<LawTerm> {
         let Found::At(place) = found else { return None };
@@ -177,11 +188,7 @@ impl LawReader<'_, '_, '_> {
             return true;
         }
         match ungroup(expr) {
-            Expr::Path(path) => {
-                let name = path.path.get_ident();
-                let is_word = |name| name == "time" || self.arguments.contains(name);
-                name.is_some_and(is_word) || self.numbers.setpoint(expr).is_some()
-            }
+            Expr::Path(_) => self.is_own(expr) || self.numbers.setpoint(expr).is_some(),
             Expr::Index(_) | Expr::Field(_) if self.numbers.setpoint(expr).is_some() => true,
             Expr::Unary(unary) => self.varies(&unary.expr),
             Expr::Binary(binary) => self.varies(&binary.left) || self.varies(&binary.right),

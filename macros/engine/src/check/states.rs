@@ -68,12 +68,12 @@ impl Readings<'_> {
         let names: Vec<&str> = readings.iter().map(|(name, _)| name.as_str()).collect();
         let near = did_you_mean(&word.to_string(), names.iter().copied());
         let there = match (names.is_empty(), definition.kind) {
-            (false, _) => format!("of a `{kind}` it reads {}{near}", list(&names)),
+            (false, _) => format!("`{kind}` has {}{near}", list(&names)),
             (true, ElementKind::Joint) => {
-                format!("a `{kind}` has no angle and no displacement to be read")
+                format!("`{kind}` has no angle and no displacement to be read")
             }
             (true, ElementKind::Force) => {
-                format!("a `{kind}` has no law, whose arguments are what is read of a force")
+                format!("`{kind}` has no law, whose arguments are what is read of a force")
             }
         };
         faults.at(
