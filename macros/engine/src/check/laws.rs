@@ -156,7 +156,9 @@ impl LawReader<'_, '_, '_> {
         };
         let Some(function) = function else {
             let known = Function::NAMED.map(|(name, _)| name);
-            let near = did_you_mean(&name, known);
+            let splines = self.numbers.spline_names();
+            let all = known.into_iter().chain(splines.iter().map(String::as_str));
+            let near = did_you_mean(&name, all);
             faults.at(
                 &call.func,
                 format!(

@@ -1,7 +1,7 @@
 //! What laws read besides numbers: splines, and inputs with their derivatives.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 use syn::Expr;
 use syn::spanned::Spanned;
 
@@ -60,6 +60,14 @@ impl Numbers<'_> {
         u32::try_from(place).map_or(Called::Refused, Called::Spline)
     }
 
+    /// The names of splines for run time, for messages.
+    pub(super) fn spline_names(&self) -> Vec<String> {
+        let is_spline = |kind| matches!(kind, ValueKind::Spline(_));
+        let values = self.values.iter();
+        let splines = values.filter(|value| is_spline(value.kind));
+        splines.map(|value| value.name.text().to_owned()).collect()
+    }
+
     /// The table of a constant, as it is read from the mechanism.
     fn table(&self, path: &TokenStream) -> TokenStream {
         let (scope, facade) = (self.field.parts(), self.facade);
@@ -68,7 +76,8 @@ impl Numbers<'_> {
                 let number = crate::wire::fingerprint([path]);
                 quote!(<#owner as #facade::__private::TableOf<#number>>::TABLE)
             }
-            None => quote!(#facade::spline::Spline::table(&#path)),
+            // One of another type is refused where it is named.
+            None => quote_spanned!(path.span()=> #facade::spline::Spline::table(&#path)),
         }
     }
 
