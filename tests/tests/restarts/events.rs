@@ -55,7 +55,7 @@ where
             |event| {
                 met.set(met.get() + 1);
                 event.set_angle_rate(h.pin, 0.95 * event.angle_rate(h.pin))?;
-                if met.get() % 2 == 0 {
+                if usize::is_multiple_of(met.get(), 2) {
                     let mut other = Flap::new(0.9)?;
                     other.torque = event.inputs_mut().torque;
                     event.update(&other)?;
