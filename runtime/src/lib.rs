@@ -56,6 +56,7 @@ mod math;
 pub mod measure;
 pub mod mechanism;
 pub mod monitor;
+mod nonsmooth;
 pub mod run;
 pub mod sensitivity;
 pub mod state;
@@ -228,7 +229,7 @@ pub mod prelude {
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
     pub use crate::mechanism::{Assembly, InputsOf, Point, Setpoint, StateOf};
-    pub use crate::run::{Crossing, Simulate};
+    pub use crate::run::{Crossing, Interaction, Simulate};
     pub use crate::sensitivity::SensitivityExt;
     pub use crate::spline::Spline;
     pub use crate::{

@@ -37,6 +37,8 @@ pub enum CheckpointFault {
     Memory,
     /// The method does not hand over what it remembers.
     Forgetful,
+    /// The run has [`Interaction`](crate::run::Interaction)s, whose modes no checkpoint keeps.
+    Interactions,
 }
 
 impl fmt::Display for CheckpointFault {
@@ -80,6 +82,10 @@ impl fmt::Display for CheckpointFault {
             ),
             Self::Forgetful => f.write_str(
                 "the method does not hand over what it remembers, so no checkpoint can be made; implement `Integration::remember`",
+            ),
+            Self::Interactions => f.write_str(
+                "the run has interactions, whose modes no checkpoint keeps; let the runs end where it matters, and begin each with the state of \
+                 the last",
             ),
         }
     }

@@ -16,6 +16,7 @@
 //! | [`data`] | cams, recorded motions and curves of forces from tables; joints driven from outside |
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
 //! | [`states`] | numbers with a rate of their own: motor currents, filters, hydraulic pressures, integrals of controllers |
+//! | [`contact`] | limits with impacts, dry friction, brakes and clutches |
 //! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
 //! | [`results`] | what can be read, with units, frames and signs; states in files |
 //! | [`restart`] | checkpoints of a run, from which it goes on exactly; a motion that can be asked at any time |
@@ -134,6 +135,9 @@ pub mod events {}
 
 #[doc = include_str!("states.md")]
 pub mod states {}
+
+#[doc = include_str!("contact.md")]
+pub mod contact {}
 
 #[doc = include_str!("parameters.md")]
 pub mod parameters {}

@@ -7,6 +7,7 @@ mod acceleration;
 pub(crate) mod access;
 mod angle_rates;
 pub(crate) mod angles;
+pub(crate) mod interacting;
 pub(crate) mod load;
 #[cfg(feature = "serde")]
 pub(crate) mod named_state;
@@ -22,6 +23,7 @@ pub(crate) mod written;
 
 pub use angle_rates::{BryantAngleRates, EulerAngleRates, RollPitchYawRates};
 pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
+pub use interacting::Interacting;
 pub use load::{AppliedForces, ForceLaw, NoForces};
 #[cfg(feature = "serde")]
 pub use named_state::NamedState;

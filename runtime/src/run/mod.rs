@@ -52,13 +52,18 @@ pub(crate) mod within;
 #[cfg(feature = "serde")]
 mod written;
 
+pub use crate::nonsmooth::interaction::Interaction;
+pub use crate::nonsmooth::place::Plane;
+pub use crate::nonsmooth::quantity::JointQuantity;
+pub use crate::nonsmooth::status::{Impact, InteractionMode};
 #[cfg(feature = "std")]
 pub use checkpoint::Checkpoint;
 pub use companion::{BodyError, Verification};
 pub use dense_step::DenseStep;
 pub use events::context::Event;
-pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
+pub use events::hybrid::{Handling, HybridSimulation, Simulated, With, WithInteractions};
 pub use events::list::{Happenings, NothingHappens};
+pub use events::stepper_modes::InteractingStepper;
 pub use events::watch::Crossing;
 pub use kinematics::KinematicResult;
 pub use output::{IntoFlow, Reporting};

@@ -86,6 +86,9 @@ where
         I: Integrator<S, Dynamics<S, M, F, A, C>>,
         K: Integration<S, C::State<S>>,
     {
+        if A::INTERACTS {
+            return Err(Fault::Checkpoint(CheckpointFault::Interactions));
+        }
         let (seen, iterations) = (self.dynamics.seen(), self.dynamics.iterations());
         let of_integration = match &under_way {
             Some((integration, _)) => *integration.state(),

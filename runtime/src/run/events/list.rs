@@ -9,6 +9,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::Checkpoint;
+use crate::run::events::changes::Changes;
 use crate::run::events::context::Event;
 use crate::run::events::watch::{Period, Watch, is_same};
 use crate::run::output::IntoFlow;
@@ -195,6 +196,8 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     pub(super) is_fresh: bool,
     /// Whether the last step ended at an event.
     pub(super) is_found: bool,
+    /// How often modes of interactions changed at once.
+    pub(super) changes: Changes<S>,
 }
 
 impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
@@ -242,6 +245,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             watches,
             is_fresh: true,
             is_found: false,
+            changes: Changes::none(),
         })
     }
 

@@ -10,6 +10,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::run::events::list::{Happening, Hybrid};
+use crate::run::events::looked::Looked;
 use crate::run::events::root::{MOST, locate};
 use crate::run::events::watch::{is_same, looks};
 use crate::run::sample::Sample;
@@ -34,7 +35,8 @@ where
         integration: &mut K,
         (start, near): (S, &M::State<S>),
     ) -> Result<Found<S, M>, Fault> {
-        let Some(hybrid) = self.hybrid.as_mut().filter(|hybrid| hybrid.watches) else {
+        let watches = |hybrid: &&mut Hybrid<'_, S, M>| hybrid.watches || A::INTERACTS;
+        let Some(hybrid) = self.hybrid.as_mut().filter(watches) else {
             return Ok(None);
         };
         let seen = self.dynamics.seen();
@@ -76,8 +78,8 @@ where
         hybrid.longest = hybrid.longest.max(self.end - start);
         let mut before = start;
         for time in looks(start, self.end, hybrid.is_fresh) {
-            let bodies = self.bodies(time)?;
-            let mut first: Option<S> = None;
+            let bodies = self.bodies_at(time)?;
+            let mut first = self.first_end_of_a_mode(before, (time, &bodies))?;
             hybrid.list.each(&mut |happening| {
                 let root = self.look(happening, before, (time, &bodies))?;
                 first = match (first, root) {
@@ -93,12 +95,13 @@ where
                     }
                     Ok(())
                 })?;
+                self.modes_go_on();
                 before = time;
                 continue;
             };
             // The end of an interval where it is there to round-off.
             let root = if is_same(root, time) { time } else { root };
-            let bodies = self.bodies(root)?;
+            let bodies = self.bodies_at(root)?;
             let longest = hybrid.longest;
             hybrid.list.each(&mut |happening| {
                 let reading = self.read(happening, root, &bodies)?;
@@ -106,6 +109,7 @@ where
                     .watch()
                     .map_or(Ok(()), |watch| watch.take(root, reading, longest))
             })?;
+            self.take_ends_of_modes(root, &bodies)?;
             hybrid.is_found = true;
             return Ok(Some((root, bodies)));
         }
@@ -127,7 +131,7 @@ where
         let mut root = None;
         if watch.is_met(reading) {
             let read = |time: S| {
-                let bodies = self.bodies(time)?;
+                let bodies = self.bodies_at(time)?;
                 let reading = self.read(happening, time, &bodies)?;
                 Ok::<S, Fault>(watch.upwards(reading))
             };
@@ -154,8 +158,22 @@ where
             None => Ok(reading),
         }
     }
+}
 
-    fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
+impl<S, M, F, A, C, K> Looked<S, M, F, A, C> for Step<'_, S, M, F, A, C, K>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+    K: Advance<S, Dynamics<S, M, F, A, C>>,
+{
+    fn looked(&self) -> &Dynamics<S, M, F, A, C> {
+        self.dynamics
+    }
+
+    fn bodies_at(&mut self, time: S) -> Result<M::State<S>, Fault> {
         let bodies = if time == self.end {
             let state = self.integration.state();
             self.dynamics.bodies_near(state, self.near)
