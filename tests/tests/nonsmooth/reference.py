@@ -58,7 +58,7 @@ def four_bar():
     """Crank 1, coupler 2, rocker 1.5, ground 2 m; slender, 1 kg a metre; a stop of the rocker.
 
     The crank `a` from (0, 0) is let go at 70 degrees from the x axis; the rocker turns about
-    (2, 0), its stop is where it stands when the crank is at 20 degrees.
+    (2, 0), its stop is where it stands when the crank is at 45 degrees.
     """
     crank, coupler, rocker, ground = mpf(1), mpf(2), mpf("1.5"), mpf(2)
 
@@ -90,7 +90,7 @@ def four_bar():
         first, _, second, third = places(a)
         return G * (crank * first + coupler * second + rocker * third)
 
-    start, stop = pi * 70 / 180, pi * 20 / 180
+    start, stop = pi * 70 / 180, pi * 45 / 180
     times = bounces(mass, potential, start, stop, mpf("0.5"), 4)
     b, c = coupler_and_rocker(start)
     _, held = coupler_and_rocker(stop)

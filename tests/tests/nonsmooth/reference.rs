@@ -11,14 +11,14 @@ pub(super) const PENDULUM: [f64; 6] = [
 ];
 /// Times of the impacts of a four-bar's rocker (s).
 pub(super) const FOUR_BAR: [f64; 4] = [
-    0.5961030748832378,
-    0.9588603981383366,
-    1.1490273688995023,
-    1.2484218756668708,
+    0.4724755047255281,
+    0.7893483014547434,
+    0.939230738675156,
+    1.0132295301281788,
 ];
 /// Its coupler and its rocker at the start, and the stop against that (rad).
 pub(super) const FOUR_BAR_ANGLES: [f64; 3] =
-    [0.27132513712191536, 1.3905869587221644, -0.284635457053943];
+    [0.27132513712191536, 1.3905869587221644, -0.2247599978703779];
 /// Gravity (m/s^2), a crank's angle (rad) and rate (rad/s) after 2 s, friction by the load.
 pub(super) const SLIDER_CRANK: [[f64; 3]; 2] = [
     [0.0, 13.47673986537319, 5.909070564444864],
