@@ -55,6 +55,7 @@ mod math;
 pub mod measure;
 pub mod mechanism;
 pub mod monitor;
+mod nonsmooth;
 pub mod run;
 pub mod sensitivity;
 pub mod state;
@@ -221,7 +222,7 @@ pub mod prelude {
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
     pub use crate::mechanism::{Assembly, InputsOf, Point, StateOf};
-    pub use crate::run::{Crossing, Simulate};
+    pub use crate::run::{Crossing, Interaction, Simulate};
     pub use crate::sensitivity::SensitivityExt;
     pub use crate::{
         AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,

@@ -12,7 +12,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 type Module = Vec<String>;
 
 /// The rooms of the run time, each behind those that it may use.
-const RUNTIME: [&str; 16] = [
+const RUNTIME: [&str; 17] = [
     "math",
     "error",
     "state",
@@ -23,6 +23,7 @@ const RUNTIME: [&str; 16] = [
     "formulation",
     "monitor",
     "assembly",
+    "nonsmooth",
     "measure",
     "independent",
     "dynamics",

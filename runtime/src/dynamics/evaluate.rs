@@ -12,6 +12,9 @@ use crate::mechanism::coordinates::{
     Absolute, Coordinates, EquationsIn, Evaluation, First, Prepared,
 };
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
+use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, MovingState, StateParts};
 
 /// The equations of motion in some coordinates, with a formulation and forces of a closure.
@@ -23,6 +26,12 @@ pub(crate) struct Evaluator<'d, S: Real, M: Mechanism, F, A, C: Coordinates<M>> 
     pub(super) formulation: &'d F,
     pub(super) forces: &'d A,
 }
+
+/// A solution, and the system that it solves.
+type Solved<'s, S, M, F, C> = (
+    Saddle<'s, S, M, C, <F as Formulation<S>>::Terms>,
+    Solution<S, M, C>,
+);
 
 /// What an evaluation from its parts tells besides rates and multipliers.
 pub(super) struct Parts<S> {
@@ -161,8 +170,20 @@ where
         rates: &mut C::State<S>,
         multipliers: &mut C::Multipliers<S>,
     ) -> Result<Parts<S>, Fault> {
+        self.parts(time, state, rates, multipliers, false)
+    }
+
+    /// The same; leaves the efforts of interactions in their statuses where they are wanted.
+    pub(super) fn parts(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        rates: &mut C::State<S>,
+        multipliers: &mut C::Multipliers<S>,
+        wants_efforts: bool,
+    ) -> Result<Parts<S>, Fault> {
         let (parts, applied_power) = self.begin(time, state, rates, |first, rates| {
-            self.finish(time, state, first, rates, multipliers)
+            self.finish((time, state), first, rates, multipliers, wants_efforts)
         });
         let parts = parts?;
         Ok(Parts {
@@ -171,16 +192,61 @@ where
         })
     }
 
-    /// What follows a first solution: the formulation's own, rates and multipliers.
-    #[inline(always)]
-    fn finish(
+    /// Calls with the factorised equations, and with the accelerations that the forces of the
+    /// description and of closures give.
+    pub(super) fn set_up(
         &self,
         time: S,
         state: &C::State<S>,
+        then: impl FnOnce(&Setting<'_, S, M, F, C>, &C::Velocities<S>) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let mut place = C::State::zeros();
+        let (result, _) = self.begin(time, state, &mut place, |first, rates| {
+            let (saddle, solution) = self.solution((time, state), first, rates)?;
+            then(&self.setting(saddle, rates), &solution.accelerations)
+        });
+        match result {
+            Err(Fault::StateNotFinite) => Err(self.fault(time, state)),
+            result => result,
+        }
+    }
+
+    /// What follows a first solution: the formulation's own, efforts of interactions, rates and
+    /// multipliers.
+    #[inline(always)]
+    fn finish(
+        &self,
+        (time, state): (S, &C::State<S>),
         first: &First<'_, S, M, C>,
         rates: &mut C::State<S>,
         multipliers: &mut C::Multipliers<S>,
+        wants_efforts: bool,
     ) -> Result<Parts<S>, Fault> {
+        let (saddle, mut solution) = self.solution((time, state), first, rates)?;
+        if A::INTERACTS {
+            let task = Task::Complete(&mut solution, wants_efforts);
+            let completed = self.forces.interact(&self.setting(saddle, rates), task);
+            completed.map_err(explained_later)?;
+        }
+        let constants = &self.equations.constants;
+        C::finish(constants, state, rates, &solution.accelerations);
+        *multipliers = solution.multipliers;
+        Ok(Parts {
+            pivot: first.pivot,
+            iterations: solution.iterations,
+            unconverged: solution.unconverged,
+            applied_power: S::zero(),
+        })
+    }
+
+    /// The formulation's own solution, and the system that it solves.
+    #[inline(always)]
+    fn solution<'s>(
+        &'s self,
+        (time, state): (S, &'s C::State<S>),
+        first: &First<'s, S, M, C>,
+        rates: &'s C::State<S>,
+    ) -> Result<Solved<'s, S, M, F, C>, Fault> {
         if vanishes::<S, F::Terms>(first.pivot.relative) {
             return Err(Fault::StateNotFinite);
         }
@@ -200,20 +266,23 @@ where
             state: C::as_read(state, rates),
             terms: PhantomData,
         };
-        match self.formulation.refine(&saddle, &mut solution) {
-            Ok(()) => {}
-            Err(Fault::RatesNotFinite { .. }) => return Err(Fault::StateNotFinite),
-            Err(fault) => return Err(fault),
+        let refined = self.formulation.refine(&saddle, &mut solution);
+        refined.map_err(explained_later)?;
+        Ok((saddle, solution))
+    }
+
+    /// What interactions ask for.
+    fn setting<'s>(
+        &'s self,
+        saddle: Saddle<'s, S, M, C, F::Terms>,
+        rates: &'s C::State<S>,
+    ) -> Setting<'s, S, M, F, C> {
+        Setting {
+            saddle,
+            rates,
+            absolute: self.absolute,
+            formulation: self.formulation,
         }
-        let constants = &self.equations.constants;
-        C::finish(constants, state, rates, &solution.accelerations);
-        *multipliers = solution.multipliers;
-        Ok(Parts {
-            pivot: first.pivot,
-            iterations: solution.iterations,
-            unconverged: solution.unconverged,
-            applied_power: S::zero(),
-        })
     }
 
     /// Forces and moments of the closure alone on bodies whose Euler parameters have length 1.
@@ -246,6 +315,14 @@ where
     }
 }
 
+/// Why rates are not finite is found once the evaluation has given its stack back.
+fn explained_later(fault: Fault) -> Fault {
+    match fault {
+        Fault::RatesNotFinite { .. } => Fault::StateNotFinite,
+        fault => fault,
+    }
+}
+
 /// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of
 /// the multiplier is left.
 ///
@@ -259,6 +336,12 @@ fn sound<S: Real, X: MovingState<S>, T: Terms>(rates: &X, pivot: &Pivot<S>) -> b
 /// [`Dynamics`] without its formulation, forces and coordinates in the type.
 pub(crate) trait Evaluate<S: Real, M: Mechanism> {
     fn evaluation(&self, time: S, bodies: &M::State<S>) -> Result<Evaluation<S, M>, Fault>;
+
+    /// The interactions, with their statuses.
+    fn interactions(&self) -> &[Tracked<S, M>];
+
+    /// Leaves the efforts of interactions in their statuses.
+    fn find_efforts(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault>;
 }
 
 impl<S, M, F, A, C> Evaluate<S, M> for Dynamics<S, M, F, A, C>
@@ -272,5 +355,14 @@ where
     #[inline(never)]
     fn evaluation(&self, time: S, bodies: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
         self.evaluate_bodies(time, bodies)
+    }
+
+    fn interactions(&self) -> &[Tracked<S, M>] {
+        self.forces.interactions()
+    }
+
+    #[inline(never)]
+    fn find_efforts(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
+        self.efforts(time, &self.nearest(bodies))
     }
 }

@@ -18,6 +18,7 @@
 
 pub(crate) mod evaluate;
 mod faults;
+mod interacting;
 mod jacobian;
 mod kept;
 pub(crate) mod likes;

@@ -51,6 +51,9 @@ where
         &mut self,
         asked: AlphaStep<'_, S, M::State<S>>,
     ) -> Result<AlphaEnd<M::State<S>>, Fault> {
+        if A::INTERACTS {
+            return Err(Fault::NoInteractions);
+        }
         self.solved_on_constraints(&asked)
     }
 }

@@ -64,8 +64,8 @@ where
 
     /// Exact, by the kernels over [`Forward`](crate::Forward) numbers: a law that is a closure
     /// enters by differences of its forces. By differences of the rates for an
-    /// [`AugmentedLagrangian`](crate::AugmentedLagrangian), which iterates, and where a derivative
-    /// is not finite.
+    /// [`AugmentedLagrangian`](crate::AugmentedLagrangian), which iterates, with interactions, and
+    /// where a derivative is not finite.
     ///
     /// A column takes longer than a difference would, by bodies more than by joints.
     fn jacobian(
@@ -76,6 +76,7 @@ where
         columns: &mut <C::State<S> as Vector<S>>::Each<C::State<S>>,
     ) -> Result<usize, Fault> {
         if !F::ITERATED
+            && !A::INTERACTS
             && let Some(evaluations) = self.differentiated(time, state, columns)
         {
             return Ok(evaluations);

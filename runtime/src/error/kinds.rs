@@ -148,6 +148,57 @@ pub enum Fault {
         /// The time (s).
         time: f64,
     },
+    /// A setting of an [`Interaction`](crate::run::Interaction) that is not acceptable.
+    InteractionSetting {
+        /// The joint's field.
+        joint: &'static str,
+        /// Which one.
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A setting that this kind of [`Interaction`](crate::run::Interaction) does not have.
+    MisplacedSetting {
+        /// The joint's field.
+        joint: &'static str,
+        /// Which one.
+        setting: &'static str,
+    },
+    /// There is no [`Interaction`](crate::run::Interaction) with this number in the run.
+    NoSuchInteraction {
+        /// The number, from 0.
+        number: usize,
+        /// How many there are.
+        interactions: usize,
+    },
+    /// An angle or a displacement was put beyond its limit.
+    BeyondLimit {
+        /// The joint's field.
+        joint: &'static str,
+        /// The value (rad, m).
+        value: f64,
+        /// The limit (rad, m).
+        limit: f64,
+    },
+    /// No modes of interactions fit together at an instant.
+    NoMode {
+        /// The field of the joint of one of them.
+        joint: &'static str,
+        /// The time (s).
+        time: f64,
+    },
+    /// The modes of interactions change again and again at once.
+    EndlessModes {
+        /// The field of the joint of the last one.
+        joint: &'static str,
+        /// How often at once.
+        changes: usize,
+        /// The time (s).
+        time: f64,
+    },
+    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha) does not move a mechanism with
+    /// [`Interaction`](crate::run::Interaction)s.
+    NoInteractions,
     /// A run with events or controllers was to be
     /// [`verified`](crate::Simulation::verified).
     NotVerified,

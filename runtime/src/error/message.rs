@@ -183,6 +183,58 @@ impl fmt::Display for Fault {
                  rest, take a smoothed law, or stop the run",
                 Given(time)
             ),
+            Self::InteractionSetting {
+                joint,
+                setting,
+                value,
+            } => write!(
+                f,
+                "the {setting} of the interaction on joint `{joint}` is {}: limits are in order, those of an angle that does not count turns \
+                 are from -pi to pi; a restitution is from 0 to 1, a capacity is zero or more, a stiction is not below the capacity, and rates are \
+                 finite",
+                Given(value)
+            ),
+            Self::MisplacedSetting { joint, setting } => write!(
+                f,
+                "the interaction on joint `{joint}` has no `{setting}`: `restitution` and `rest_below` are of limits, `stiction`, `stribeck` \
+                 and `released` of friction, brakes and clutches"
+            ),
+            Self::NoSuchInteraction {
+                number,
+                interactions,
+            } => write!(
+                f,
+                "there is no interaction {number}: the run has {interactions}, and they count from 0"
+            ),
+            Self::BeyondLimit {
+                joint,
+                value,
+                limit,
+            } => write!(
+                f,
+                "joint `{joint}` is at {}, beyond its limit of {}: start between the limits, and let no handler leave them",
+                Given(value),
+                Given(limit)
+            ),
+            Self::NoMode { joint, time } => write!(
+                f,
+                "at {} s no choice of modes satisfies all interactions, that on joint `{joint}` among them: an engaged dog may hold what is driven, \
+                 or numbers are out of range",
+                Given(time)
+            ),
+            Self::EndlessModes {
+                joint,
+                changes,
+                time,
+            } => write!(
+                f,
+                "the modes of interactions changed {changes} times within a moment at {} s, last on joint `{joint}`: take a stiction that is nearer \
+                 to the capacity, a smoother curve, or a tighter tolerance",
+                Given(time)
+            ),
+            Self::NoInteractions => f.write_str(
+                "`GeneralizedAlpha` does not move a mechanism with interactions; every other method does, `RadauIIA` where the system is stiff",
+            ),
             Self::NotVerified => write!(
                 f,
                 "a run with events or controllers has no companion that `verified()` could compare it with; compare with a second run of \

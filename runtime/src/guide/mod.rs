@@ -14,6 +14,7 @@
 //! | [`joint`] | how to define your own joint |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
+//! | [`contact`] | limits with impacts, dry friction, brakes and clutches |
 //! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
 //! | [`results`] | what can be read, with units, frames and signs; state and restart |
 //! | [`trust`] | whether to trust a result: the warnings of a run, starts, steps and budgets |
@@ -125,6 +126,9 @@ pub mod forces {}
 
 #[doc = include_str!("events.md")]
 pub mod events {}
+
+#[doc = include_str!("contact.md")]
+pub mod contact {}
 
 #[doc = include_str!("parameters.md")]
 pub mod parameters {}

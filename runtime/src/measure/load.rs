@@ -1,13 +1,19 @@
 //! Forces that a user applies at run time.
 
+use crate::error::Fault;
+use crate::formulation::Formulation;
 use crate::math::quaternion::{normalised, rotate, rotate_back};
-use crate::math::scalar::Scalar;
+use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
 use crate::measure::access::MechanismExt;
 use crate::measure::view::View;
+use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
+use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, StateParts};
 
 /// Forces and moments beyond those of the description, as a function of time and state.
@@ -15,8 +21,35 @@ pub trait AppliedForces<S: Scalar, M: Mechanism> {
     /// Whether there are any: `false` keeps the fused evaluation.
     const PRESENT: bool;
 
+    /// Whether there are efforts that the equations of motion find.
+    #[doc(hidden)]
+    const INTERACTS: bool = false;
+
     /// Adds the forces at a time and a state.
     fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>);
+
+    /// The interactions, with their statuses.
+    #[doc(hidden)]
+    fn interactions(&self) -> &[Tracked<S, M>] {
+        &[]
+    }
+
+    /// Does what is asked for with the efforts of the interactions.
+    ///
+    /// # Errors
+    /// A fault of a formulation that iterates, modes that do not fit together.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn interact<F: Formulation<S>, C: Coordinates<M>>(
+        &self,
+        _setting: &Setting<'_, S, M, F, C>,
+        _task: Task<'_, S, M, C>,
+    ) -> Result<(), Fault>
+    where
+        S: Real,
+    {
+        Ok(())
+    }
 }
 
 /// No forces beyond those of the description; costs nothing.
@@ -32,10 +65,27 @@ impl<S: Scalar, M: Mechanism> AppliedForces<S, M> for NoForces {
 
 impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for &A {
     const PRESENT: bool = A::PRESENT;
+    const INTERACTS: bool = A::INTERACTS;
 
     #[inline(always)]
     fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
         A::apply(self, time, state, loads);
+    }
+
+    fn interactions(&self) -> &[Tracked<S, M>] {
+        A::interactions(self)
+    }
+
+    #[inline(always)]
+    fn interact<F: Formulation<S>, C: Coordinates<M>>(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        task: Task<'_, S, M, C>,
+    ) -> Result<(), Fault>
+    where
+        S: Real,
+    {
+        A::interact(self, setting, task)
     }
 }
 
@@ -58,7 +108,7 @@ where
 /// Where a user adds forces (N) and moments (N m) on bodies. Contributions add up.
 pub struct Loads<'a, S: Scalar, M: Mechanism> {
     view: View<'a, S, M>,
-    forces: &'a mut M::Velocities<S>,
+    pub(super) forces: &'a mut M::Velocities<S>,
 }
 
 impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {

@@ -6,6 +6,7 @@
 mod acceleration;
 pub(crate) mod access;
 pub(crate) mod angles;
+pub(crate) mod interacting;
 pub(crate) mod load;
 #[cfg(feature = "serde")]
 pub(crate) mod named_state;
@@ -20,6 +21,7 @@ pub(crate) mod viewed;
 pub(crate) mod written;
 
 pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
+pub use interacting::Interacting;
 pub use load::{AppliedForces, ForceLaw, NoForces};
 #[cfg(feature = "serde")]
 pub use named_state::NamedState;

@@ -116,6 +116,17 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         M::solve::<S, T>(constants, coefficients, factors, upper, &lower)
     }
 
+    fn solve_loads<S: Scalar, T: Terms, R>(
+        (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
+        factors: &M::Factors<S>,
+        loads: &M::Velocities<S>,
+        then: impl FnOnce(RightSide<'_, S, M, Self>, (M::Velocities<S>, M::Multipliers<S>)) -> R,
+    ) -> R {
+        let lower = Array::zeros();
+        let solution = M::solve::<S, T>(constants, coefficients, factors, loads, &lower);
+        then((loads, &lower), solution)
+    }
+
     #[inline(always)]
     fn finish<S: Scalar>(
         constants: &M::Constants<S>,

@@ -158,6 +158,16 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
         yielded: &Self::Multipliers<S>,
     ) -> (Self::Velocities<S>, Self::Multipliers<S>);
 
+    /// Calls with the solution for forces and moments on the bodies alone, and with what solutions
+    /// with multipliers before start from.
+    #[doc(hidden)]
+    fn solve_loads<S: Scalar, T: Terms, R>(
+        prepared: (&Self::Constants<S>, &Self::Coefficients<S>),
+        factors: &Self::Factors<S>,
+        loads: &M::Velocities<S>,
+        then: impl FnOnce(RightSide<'_, S, M, Self>, (Self::Velocities<S>, Self::Multipliers<S>)) -> R,
+    ) -> R;
+
     /// Completes the rates of a state by accelerations.
     #[doc(hidden)]
     fn finish<S: Scalar>(

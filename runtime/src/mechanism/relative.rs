@@ -160,6 +160,20 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         solution
     }
 
+    fn solve_loads<S: Scalar, T: Terms, R>(
+        (constants, coefficients): (&M::JointConstants<S>, &M::JointCoefficients<S>),
+        factors: &M::JointFactors<S>,
+        loads: &M::Velocities<S>,
+        then: impl FnOnce(
+            RightSide<'_, S, M, Self>,
+            (M::JointVelocities<S>, M::ClosingMultipliers<S>),
+        ) -> R,
+    ) -> R {
+        let lower = Array::zeros();
+        let solution = M::solve_joints::<S, T>(constants, coefficients, factors, loads, &lower);
+        then((&solution.0, &solution.1), solution)
+    }
+
     #[inline(always)]
     fn finish<S: Scalar>(
         _constants: &M::JointConstants<S>,

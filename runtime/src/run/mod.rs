@@ -40,9 +40,12 @@ pub(crate) mod within;
 #[cfg(feature = "serde")]
 mod written;
 
+pub use crate::nonsmooth::interaction::Interaction;
+pub use crate::nonsmooth::quantity::JointQuantity;
+pub use crate::nonsmooth::status::{Impact, InteractionMode};
 pub use companion::{BodyError, Verification};
 pub use events::context::Event;
-pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
+pub use events::hybrid::{Handling, HybridSimulation, Simulated, With, WithInteractions};
 pub use events::list::{Happenings, NothingHappens};
 pub use events::watch::Crossing;
 pub use kinematics::KinematicResult;

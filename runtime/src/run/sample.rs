@@ -15,6 +15,7 @@ use crate::mechanism::coordinates::Evaluation;
 use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
+use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
 use crate::state::vector::StateParts;
 
 /// A state at a reporting time: a [`View`], and what takes an evaluation.
@@ -200,6 +201,41 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     ) -> Result<S, Fault> {
         let rates = &self.evaluation()?.rates;
         Ok(self.view.displacement_acceleration(rates, joint))
+    }
+
+    /// The mode of an interaction by its place in the list of
+    /// [`Simulation::interactions`](crate::Simulation::interactions).
+    ///
+    /// # Errors
+    /// [`Fault::NoSuchInteraction`].
+    pub fn mode(&self, number: usize) -> Result<InteractionMode, Fault> {
+        Ok(self.tracked(number)?.mode())
+    }
+
+    /// The effort of an interaction (N m, N) along its quantity, positive upwards. One evaluation.
+    ///
+    /// # Errors
+    /// [`Fault::NoSuchInteraction`], the fault of the evaluation.
+    pub fn effort(&self, number: usize) -> Result<S, Fault> {
+        let tracked = self.tracked(number)?;
+        self.dynamics.find_efforts(self.time(), self.state())?;
+        Ok(tracked.status.get().effort)
+    }
+
+    /// The last impulse of an interaction in the run so far, if there was one.
+    ///
+    /// # Errors
+    /// [`Fault::NoSuchInteraction`].
+    pub fn impact(&self, number: usize) -> Result<Option<Impact<S>>, Fault> {
+        Ok(self.tracked(number)?.status.get().impact)
+    }
+
+    pub(super) fn tracked(&self, number: usize) -> Result<&'a Tracked<S, M>, Fault> {
+        let list = self.dynamics.interactions();
+        list.get(number).ok_or(Fault::NoSuchInteraction {
+            number,
+            interactions: list.len(),
+        })
     }
 
     /// The violation of the constraints by the accelerations: the square of `D u' - gamma`.

@@ -184,7 +184,7 @@ where
                 integration.counts().evaluations == taken.evaluations
             } else {
                 // Or as the slope at the start of the next step.
-                taken.looks <= 1 && self.stabilisation.is_none()
+                taken.looks <= 1 && self.stabilisation.is_none() && !A::INTERACTS
             };
             if !is_shared {
                 of_monitor = of_monitor.saturating_add(taken.looks);
@@ -300,6 +300,12 @@ where
             state = self.stabilised(stabilisation, time, state)?;
             let state = self.dynamics.nearest_to(&state, integration.state());
             integration.replace(state);
+        }
+        if A::INTERACTS
+            && let Some(held) = self.dynamics.held(time, integration.state())?
+        {
+            state = self.dynamics.bodies_near(&held, &state);
+            integration.replace(held);
         }
         if let (Some(monitor), Some(better)) = (&mut self.monitor, better) {
             monitor.judge([&state, &better]);

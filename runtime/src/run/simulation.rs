@@ -238,7 +238,10 @@ where
         self
     }
 
-    fn exchange<A2, C2>(self, forces: impl FnOnce(A) -> A2) -> Simulation<'a, S, M, F, I, A2, C2> {
+    pub(super) fn exchange<A2, C2>(
+        self,
+        forces: impl FnOnce(A) -> A2,
+    ) -> Simulation<'a, S, M, F, I, A2, C2> {
         Simulation {
             mechanism: self.mechanism,
             formulation: self.formulation,

@@ -84,6 +84,27 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
         Ok(())
     }
 
+    /// Engages a brake or a clutch by its place in the list of
+    /// [`Simulation::interactions`](crate::Simulation::interactions).
+    ///
+    /// # Errors
+    /// [`Fault::NoSuchInteraction`].
+    pub fn engage(&mut self, number: usize) -> Result<(), Fault> {
+        let tracked = self.sample.tracked(number)?;
+        tracked.update(|status| status.is_engaged = true);
+        Ok(())
+    }
+
+    /// Releases it.
+    ///
+    /// # Errors
+    /// [`Fault::NoSuchInteraction`].
+    pub fn release(&mut self, number: usize) -> Result<(), Fault> {
+        let tracked = self.sample.tracked(number)?;
+        tracked.update(|status| status.is_engaged = false);
+        Ok(())
+    }
+
     /// Sets the angle of a joint (rad), see
     /// [`MechanismExt::set_angle`](crate::MechanismExt::set_angle).
     ///

@@ -56,7 +56,11 @@ where
         let Some(mut hybrid) = self.hybrid.take() else {
             return Ok(());
         };
+        self.begin_interactions(*time, state)?;
+        let before = self.monitor.is_some().then(|| self.energies(*time, state));
         let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
+        self.switch(&mut hybrid, *time, state, true)?;
+        self.account(before, *time, state);
         self.read_all(&mut hybrid, *time, state, |watch, readings| {
             watch.begin(readings);
         })?;
@@ -115,10 +119,17 @@ where
             self.read_all(hybrid, time, state, |watch, [reading, _]| {
                 watch.correct(reading);
             })?;
-            done = self.call(hybrid, Called::Handlers, time, state)?;
+        }
+        done.moved = self.switch(hybrid, time, state, false)?;
+        if is_found {
+            let handled = self.call(hybrid, Called::Handlers, time, state)?;
+            self.switch(hybrid, time, state, true)?;
+            done.moved |= handled.moved;
+            done.stops = handled.stops;
         }
         if !done.stops && time < hybrid.end {
             done.stops = self.call(hybrid, Called::Controllers, time, state)?.stops;
+            self.switch(hybrid, time, state, true)?;
         }
         if is_found {
             hybrid.is_fresh = true;
@@ -126,11 +137,16 @@ where
                 watch.settle(readings, done.moved);
             })?;
         }
+        self.account(before, time, state);
+        Ok(done)
+    }
+
+    /// Tells the monitor what energy (J) an instant has put in, if it was known before.
+    fn account(&mut self, before: Option<S>, time: S, state: &M::State<S>) {
         let after = before.map(|_| self.energies(time, state));
         if let (Some(monitor), Some(before), Some(after)) = (&mut self.monitor, before, after) {
             monitor.jump(after - before);
         }
-        Ok(done)
     }
 
     /// Kinetic and potential energy (J).

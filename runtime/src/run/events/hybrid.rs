@@ -8,9 +8,11 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
+use crate::measure::interacting::Interacting;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{InputsOf, Mechanism};
+use crate::nonsmooth::interaction::Interaction;
 use crate::run::events::context::Event;
 use crate::run::events::list::{Controlled, Handled, Happenings, NothingHappens};
 use crate::run::events::watch::{Crossing, Period, Watch};
@@ -50,6 +52,10 @@ impl<T: Debug, E> Debug for HybridSimulation<T, E> {
 /// A simulation in which something more happens.
 pub type With<T, E, H> = HybridSimulation<T, (E, H)>;
 
+/// A simulation with interactions.
+pub type WithInteractions<'a, S, M, F, I, A, C, const K: usize> =
+    HybridSimulation<Simulation<'a, S, M, F, I, Interacting<S, M, A, K>, C>, NothingHappens>;
+
 /// What a simulation computes with, and what it simulates.
 pub trait Simulated {
     /// Its numbers.
@@ -72,7 +78,7 @@ impl<T, E> HybridSimulation<T, E> {
     }
 }
 
-impl<S, M, F, I, A, C> Simulation<'_, S, M, F, I, A, C>
+impl<'a, S, M, F, I, A, C> Simulation<'a, S, M, F, I, A, C>
 where
     S: Real,
     M: Mechanism,
@@ -241,6 +247,48 @@ where
             .without_events()
             .on("the end", crossing, reading, stop);
         { hybrid }.run(interval, reporting, |_| ())
+    }
+
+    /// Adds limits, dry friction, brakes and clutches, which handlers and observers call by their
+    /// place in the list. Say it after everything else that is said of the simulation, but before
+    /// events and controllers. See [`guide::contact`](mod@crate::guide::contact).
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// # struct Rod {
+    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    /// #     rod: Body,
+    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     hinge: Revolute,
+    /// # }
+    /// let (rod, h) = (Rod::default(), Rod::HANDLES);
+    /// let report = rod
+    ///     .simulation(StandardLagrange, DormandPrince::default())
+    ///     .interactions([
+    ///         Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.4),
+    ///         Interaction::friction(h.hinge.angle(), 0.2),
+    ///     ])
+    ///     .run(0.0..=10.0, every(0.01), |sample| {
+    ///         assert!(sample.angle(h.hinge) > -1.0 - 1e-9);
+    ///     })?;
+    /// # Ok::<(), SimulationError<StateOf<Rod>>>(())
+    /// ```
+    ///
+    /// # Errors of the run
+    /// [`Fault::InteractionSetting`] and [`Fault::MisplacedSetting`] of what is not acceptable;
+    /// [`Fault::BeyondLimit`] of a start or a handler; [`Fault::NoMode`] and
+    /// [`Fault::EndlessModes`] where no modes are found; [`Fault::NoInteractions`] with
+    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha). [`Fault::NotVerified`] of a run that is to be
+    /// [`Simulation::verified`].
+    #[must_use]
+    pub fn interactions<const K: usize>(
+        self,
+        interactions: [Interaction<S, M>; K],
+    ) -> WithInteractions<'a, S, M, F, I, A, C, K> {
+        self.exchange(|forces| Interacting::new(forces, interactions))
+            .without_events()
     }
 
     fn without_events(self) -> HybridSimulation<Self, NothingHappens> {

@@ -7,6 +7,7 @@ use crate::error::setting::positive;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::events::context::Event;
+use crate::run::events::modes::Changes;
 use crate::run::events::watch::{Period, Watch, is_same};
 use crate::run::output::IntoFlow;
 use crate::run::sample::Sample;
@@ -142,6 +143,8 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     pub(super) is_fresh: bool,
     /// Whether the last step ended at an event.
     pub(super) is_found: bool,
+    /// How often modes of interactions changed at once.
+    pub(super) changes: Changes<S>,
 }
 
 impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
@@ -178,6 +181,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             watches,
             is_fresh: true,
             is_found: false,
+            changes: Changes::none(),
         })
     }
 

@@ -4,7 +4,7 @@
 //! what happens in a run, behind one pointer, so that a run is compiled once for all of it.
 //! `search.rs` looks into a step, on the dense output of the method. `handling.rs` calls handlers
 //! and controllers between two segments. `hybrid.rs` is what a user writes, `single_step.rs` the
-//! same for a `Stepper`.
+//! same for a `Stepper`. `modes.rs` finds the modes of interactions anew at every such instant.
 //!
 //! A sign, not a value, says that a reading has passed: it is right whatever a correction after the
 //! step does to the last digits. Where a run starts at a zero, or a handler leaves a reading there,
@@ -15,6 +15,7 @@ pub(crate) mod context;
 mod handling;
 pub(crate) mod hybrid;
 pub(crate) mod list;
+pub(crate) mod modes;
 pub(crate) mod root;
 mod search;
 mod single_step;

@@ -34,7 +34,8 @@ where
         integration: &mut K,
         (start, near): (S, &M::State<S>),
     ) -> Result<Found<S, M>, Fault> {
-        let Some(hybrid) = self.hybrid.as_mut().filter(|hybrid| hybrid.watches) else {
+        let watches = |hybrid: &&mut Hybrid<'_, S, M>| hybrid.watches || A::INTERACTS;
+        let Some(hybrid) = self.hybrid.as_mut().filter(watches) else {
             return Ok(None);
         };
         let seen = self.dynamics.seen();
@@ -77,7 +78,7 @@ where
         let mut before = start;
         for time in looks(start, self.end, hybrid.is_fresh) {
             let bodies = self.bodies(time)?;
-            let mut first: Option<S> = None;
+            let mut first = self.first_end_of_a_mode(before, (time, &bodies))?;
             hybrid.list.each(&mut |happening| {
                 let root = self.look(happening, before, (time, &bodies))?;
                 first = match (first, root) {
@@ -93,6 +94,7 @@ where
                     }
                     Ok(())
                 })?;
+                self.modes_go_on(time, &bodies)?;
                 before = time;
                 continue;
             };
@@ -106,6 +108,7 @@ where
                     .watch()
                     .map_or(Ok(()), |watch| watch.take(root, reading, longest))
             })?;
+            self.take_ends_of_modes(root, &bodies)?;
             hybrid.is_found = true;
             return Ok(Some((root, bodies)));
         }
@@ -164,5 +167,54 @@ where
             self.dynamics.bodies_near(&state, self.near)
         };
         Ok(with_unit_orientations::<S, M>(&bodies))
+    }
+
+    /// Where the first mode of an interaction ends between two times, of which the bodies at the
+    /// second are known.
+    fn first_end_of_a_mode(
+        &mut self,
+        before: S,
+        (time, bodies): (S, &M::State<S>),
+    ) -> Result<Option<S>, Fault> {
+        let mut first: Option<S> = None;
+        for number in 0..self.dynamics.tracked().len() {
+            let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
+            let Some(status) = self.dynamics.status(number) else {
+                continue;
+            };
+            if !status.is_met(reading) {
+                continue;
+            }
+            let read = |time: S| {
+                let bodies = self.bodies(time)?;
+                let reading = self.dynamics.reading_of_mode(number, time, &bodies)?;
+                Ok::<S, Fault>(status.upwards(reading))
+            };
+            let root = locate((before, time), status.upwards(reading), read, MOST)?.plain();
+            first = Some(first.map_or(root, |first| first.min(root)));
+        }
+        Ok(first)
+    }
+
+    /// No mode has ended up to a time.
+    fn modes_go_on(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
+        for number in 0..self.dynamics.tracked().len() {
+            let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
+            if let Some(tracked) = self.dynamics.tracked().get(number) {
+                tracked.update(|status| status.pass(reading));
+            }
+        }
+        Ok(())
+    }
+
+    /// Marks the modes that end at a time.
+    fn take_ends_of_modes(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
+        for number in 0..self.dynamics.tracked().len() {
+            let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
+            if let Some(tracked) = self.dynamics.tracked().get(number) {
+                tracked.update(|status| status.is_found = status.is_met(reading));
+            }
+        }
+        Ok(())
     }
 }

@@ -1,0 +1,123 @@
+//! Efforts, impulses and modes of interactions.
+
+use super::Dynamics;
+use crate::error::Fault;
+use crate::formulation::{Formulation, add};
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::status::{Status, Tracked};
+use crate::nonsmooth::task::Task;
+use crate::state::vector::{Array, MovingState, Vector as _};
+
+impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// The interactions, with their statuses.
+    pub(crate) fn tracked(&self) -> &[Tracked<S, M>] {
+        self.forces.interactions()
+    }
+
+    /// The status of an interaction.
+    pub(crate) fn status(&self, number: usize) -> Option<Status<S>> {
+        let tracked = self.tracked().get(number);
+        tracked.map(|tracked| tracked.status.get())
+    }
+
+    /// The reading of the condition under which the mode of an interaction ends.
+    pub(crate) fn reading_of_mode(
+        &self,
+        number: usize,
+        time: S,
+        bodies: &M::State<S>,
+    ) -> Result<S, Fault> {
+        let Some(tracked) = self.tracked().get(number) else {
+            return Ok(S::one());
+        };
+        if tracked.asks_for_effort() {
+            self.efforts(time, &self.nearest(bodies))?;
+        }
+        let scene = Scene::<S, M> {
+            constants: self.constants(),
+            time,
+            bodies,
+        };
+        let reading = tracked.reading(&scene);
+        if reading.to_f64().is_nan() {
+            return Err(Fault::EventNotANumber {
+                event: tracked.interaction.name(),
+                time: time.to_f64(),
+            });
+        }
+        Ok(reading)
+    }
+
+    /// Leaves the efforts of interactions in their statuses.
+    pub(crate) fn efforts(&self, time: S, state: &C::State<S>) -> Result<(), Fault> {
+        if !A::INTERACTS {
+            return Ok(());
+        }
+        let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
+        let evaluator = self.evaluator();
+        match evaluator.parts(time, state, &mut rates, &mut multipliers, true) {
+            Ok(_) => Ok(()),
+            Err(Fault::StateNotFinite) => Err(evaluator.fault(time, state)),
+            Err(fault) => Err(fault),
+        }
+    }
+
+    /// The state with what is held brought back to where it is held, at rest; `None` where nothing
+    /// is.
+    pub(crate) fn held(&self, time: S, state: &C::State<S>) -> Result<Option<C::State<S>>, Fault> {
+        let holds = |tracked: &Tracked<S, M>| tracked.mode().holds();
+        if !A::INTERACTS || !self.tracked().iter().any(holds) {
+            return Ok(None);
+        }
+        let mut faster = C::Velocities::<S>::zeros();
+        let mut farther = C::Velocities::<S>::zeros();
+        let evaluator = self.evaluator();
+        evaluator.set_up(time, state, |setting, _| {
+            let task = Task::Correct([&mut faster, &mut farther]);
+            evaluator.forces.interact(setting, task)
+        })?;
+        let mut still = *state;
+        still.rates_slice_mut().fill(S::zero());
+        let mut way = C::State::zeros();
+        add(way.rates_slice_mut(), S::one(), farther.as_slice());
+        C::with_new_velocities(self.own_constants(), time, &still, S::one(), &mut way);
+        way.rates_slice_mut().fill(S::zero());
+        let mut next = state.plus([(S::one(), &way)]);
+        add(next.rates_slice_mut(), S::one(), faster.as_slice());
+        Ok(Some(next))
+    }
+
+    /// The state after the impulses of an instant; the statuses have the modes that follow.
+    #[inline(never)]
+    pub(crate) fn switched(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        is_moved: bool,
+    ) -> Result<C::State<S>, Fault> {
+        let mut change = C::Velocities::<S>::zeros();
+        let evaluator = self.evaluator();
+        evaluator.set_up(time, state, |setting, _| {
+            let task = Task::Strike(&mut change, is_moved);
+            evaluator.forces.interact(setting, task)
+        })?;
+        let mut next = *state;
+        add(next.rates_slice_mut(), S::one(), change.as_slice());
+        evaluator.set_up(time, &next, |setting, accelerations| {
+            let task = Task::Choose(accelerations);
+            evaluator.forces.interact(setting, task)
+        })?;
+        Ok(next)
+    }
+}

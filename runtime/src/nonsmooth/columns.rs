@@ -1,0 +1,237 @@
+//! What unit efforts do to a mechanism: further solutions of its factorised equations of motion.
+
+use crate::error::Fault;
+use crate::formulation::{Formulation, Saddle, Solution};
+use crate::forward::{Forward, lifted};
+use crate::math::scalar::Real;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::status::Tracked;
+use crate::state::vector::{Array, MovingState, Vector};
+
+/// The equations of motion at one time and state, factorised, with what reads the bodies.
+pub struct Setting<'a, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>> {
+    pub(crate) saddle: Saddle<'a, S, M, C, F::Terms>,
+    /// What [`Coordinates::begin`] left.
+    pub(crate) rates: &'a C::State<S>,
+    pub(crate) absolute: &'a M::Constants<S>,
+    pub(crate) formulation: &'a F,
+}
+
+/// The part of its compliance without constraints below which a quantity has no freedom.
+const NO_FREEDOM: f64 = 1e3;
+
+/// The numbers of a state that moves.
+type Moving<S> = Forward<S, 1>;
+
+impl<S, M, F, C> Setting<'_, S, M, F, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    /// Calls with the bodies at other velocities.
+    pub(crate) fn with_velocities<R>(
+        &self,
+        velocities: &C::Velocities<S>,
+        then: impl FnOnce(&Scene<'_, S, M>) -> R,
+    ) -> R {
+        let mut state = *self.saddle.state;
+        let places = state.rates_slice_mut().iter_mut();
+        places
+            .zip(velocities.as_slice())
+            .for_each(|(place, &velocity)| *place = velocity);
+        self.with_scene(&state, then)
+    }
+
+    /// Calls with the bodies of the state.
+    pub(crate) fn here<R>(&self, then: impl FnOnce(&Scene<'_, S, M>) -> R) -> R {
+        self.with_scene(self.saddle.state, then)
+    }
+
+    fn with_scene<R>(&self, state: &C::State<S>, then: impl FnOnce(&Scene<'_, S, M>) -> R) -> R {
+        C::with_bodies(self.saddle.constants, state, |bodies| {
+            then(&Scene {
+                constants: self.absolute,
+                time: self.saddle.time,
+                bodies,
+            })
+        })
+    }
+
+    /// The rates of all quantities at other velocities.
+    fn rates_at<const K: usize>(
+        &self,
+        list: &[Tracked<S, M>; K],
+        velocities: &C::Velocities<S>,
+    ) -> [S; K] {
+        self.with_velocities(velocities, |scene| rates(list, scene))
+    }
+
+    /// The accelerations of all quantities at these rates of the velocities, exact to round-off.
+    #[inline(never)]
+    pub(crate) fn accelerations<const K: usize>(
+        &self,
+        list: &[Tracked<S, M>; K],
+        accelerations: &C::Velocities<S>,
+    ) -> [S; K] {
+        let mut rates = *self.rates;
+        let (constants, state) = (self.saddle.constants, self.saddle.state);
+        C::finish(constants, state, &mut rates, accelerations);
+        let mut moving = C::State::<Moving<S>>::zeros();
+        let mut along = moving;
+        for index in 0..state.length() {
+            moving.set_element(index, Forward::fixed(state.element(index)));
+            along.set_element(index, Forward::fixed(rates.element(index)));
+        }
+        let instant = Forward::new(S::zero(), [S::one()]);
+        let moving = moving.plus([(instant, &along)]);
+        let constants: C::Constants<Moving<S>> = lifted(constants);
+        let absolute: M::Constants<Moving<S>> = lifted(self.absolute);
+        C::with_bodies(&constants, &moving, |bodies| {
+            let scene = Scene::<Moving<S>, M> {
+                constants: &absolute,
+                time: Forward::new(self.saddle.time, [S::one()]),
+                bodies,
+            };
+            let rate = |tracked: &Tracked<S, M>| {
+                let quantity = tracked.interaction.quantity.lifted::<1>();
+                let [acceleration] = quantity.rate(&scene).derivatives();
+                acceleration
+            };
+            list.each_ref().map(rate)
+        })
+    }
+}
+
+/// The rates of all quantities.
+pub(crate) fn rates<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    scene: &Scene<'_, S, M>,
+) -> [S; K] {
+    list.each_ref()
+        .map(|tracked| tracked.interaction.quantity.rate(scene))
+}
+
+/// What a unit effort along each quantity does.
+pub(crate) struct Columns<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> {
+    velocities: [C::Velocities<S>; K],
+    multipliers: [C::Multipliers<S>; K],
+    /// What it does to the rate of every quantity: symmetric, positive semidefinite.
+    pub(crate) delassus: [[S; K]; K],
+}
+
+impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, K> {
+    /// The columns of those that are chosen; zeros of the others, and of those without freedom.
+    #[inline(never)]
+    pub(crate) fn of<F: Formulation<S>>(
+        setting: &Setting<'_, S, M, F, C>,
+        list: &[Tracked<S, M>; K],
+        chosen: &[bool; K],
+    ) -> Result<Self, Fault> {
+        let mut columns = Self {
+            velocities: [Array::zeros(); K],
+            multipliers: [Array::zeros(); K],
+            delassus: [[S::zero(); K]; K],
+        };
+        let offset = setting.rates_at(list, &Array::zeros());
+        let mass = M::mass::<S>(setting.absolute);
+        let zero = S::zero();
+        for (index, tracked) in list.iter().enumerate() {
+            if !chosen[index] {
+                continue;
+            }
+            let mut loads = M::Velocities::<S>::zeros();
+            setting.here(|scene| {
+                let quantity = &tracked.interaction.quantity;
+                quantity.add_effort(scene, S::one(), &mut loads);
+            });
+            let free = loads.as_slice().iter().zip(mass.as_slice());
+            let free = free.fold(zero, |sum, (&load, &mass)| {
+                (load * load).fused(mass.reciprocal(), sum)
+            });
+            let (velocities, multipliers) = solved(setting, &loads)?;
+            let rates = setting.rates_at(list, &velocities);
+            let compliance = rates[index] - offset[index];
+            if compliance <= S::constant(NO_FREEDOM) * S::EPSILON * free {
+                continue;
+            }
+            for (row, (&rate, &offset)) in rates.iter().zip(&offset).enumerate() {
+                columns.delassus[row][index] = rate - offset;
+            }
+            columns.velocities[index] = velocities;
+            columns.multipliers[index] = multipliers;
+        }
+        columns.symmetrise(chosen);
+        Ok(columns)
+    }
+
+    /// Both halves are the same to round-off; rows of what was not chosen are those of its columns.
+    fn symmetrise(&mut self, chosen: &[bool; K]) {
+        for i in 0..K {
+            for j in 0..i {
+                if chosen[i] && chosen[j] {
+                    let sum = self.delassus[i][j] + self.delassus[j][i];
+                    let mean = S::constant(0.5) * sum;
+                    (self.delassus[i][j], self.delassus[j][i]) = (mean, mean);
+                }
+            }
+        }
+    }
+
+    /// Adds what efforts do to velocities or accelerations.
+    pub(crate) fn add_velocities(&self, efforts: &[S; K], velocities: &mut C::Velocities<S>) {
+        for (column, &effort) in self.velocities.iter().zip(efforts) {
+            add(effort, column.as_slice(), velocities.as_mut_slice());
+        }
+    }
+
+    /// Adds what they do to a solution.
+    pub(crate) fn add_to(&self, efforts: &[S; K], solution: &mut Solution<S, M, C>) {
+        self.add_velocities(efforts, &mut solution.accelerations);
+        for (column, &effort) in self.multipliers.iter().zip(efforts) {
+            let multipliers = solution.multipliers.as_mut_slice();
+            add(effort, column.as_slice(), multipliers);
+        }
+    }
+}
+
+/// `y = y + factor x`, and nothing where the factor is zero.
+fn add<S: Real>(factor: S, x: &[S], y: &mut [S]) {
+    if factor != S::zero() {
+        y.iter_mut()
+            .zip(x)
+            .for_each(|(y, &x)| *y = x.fused(factor, *y));
+    }
+}
+
+/// Velocities and multipliers by loads.
+type ByLoads<S, M, C> = (
+    <C as Coordinates<M>>::Velocities<S>,
+    <C as Coordinates<M>>::Multipliers<S>,
+);
+
+/// The solution for loads on the bodies alone.
+fn solved<S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>>(
+    setting: &Setting<'_, S, M, F, C>,
+    loads: &M::Velocities<S>,
+) -> Result<ByLoads<S, M, C>, Fault> {
+    let saddle = &setting.saddle;
+    let prepared = (saddle.constants, saddle.coefficients);
+    C::solve_loads::<S, F::Terms, _>(prepared, saddle.factors, loads, |right, solution| {
+        let (accelerations, multipliers) = solution;
+        let mut solution = Solution::<S, M, C> {
+            accelerations,
+            multipliers,
+            iterations: 1,
+            unconverged: false,
+        };
+        if F::ITERATED {
+            let of_loads = Saddle { right, ..*saddle };
+            setting.formulation.refine(&of_loads, &mut solution)?;
+        }
+        Ok((solution.accelerations, solution.multipliers))
+    })
+}

@@ -1,0 +1,291 @@
+//! Limits, friction, brakes and clutches, as a user writes them.
+
+use core::fmt::{self, Debug};
+use core::marker::PhantomData;
+
+use crate::error::Fault;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::quantity::{JointQuantity, Quantity};
+
+/// What holds a quantity of a mechanism by turns, and lets it go by turns: a limit, dry friction, a
+/// brake or a clutch. For [`Simulation::interactions`](crate::Simulation::interactions), see
+/// [`guide::contact`](mod@crate::guide::contact).
+pub struct Interaction<S, M> {
+    pub(crate) quantity: Quantity<S>,
+    pub(crate) law: Law<S>,
+    /// A setting that its kind does not have.
+    misplaced: Option<&'static str>,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+impl<S: Copy, M> Clone for Interaction<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Copy, M> Copy for Interaction<S, M> {}
+
+impl<S: Debug, M> Debug for Interaction<S, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Interaction")
+            .field("quantity", &self.quantity)
+            .field("law", &self.law)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The efforts that are possible.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Law<S> {
+    Limits(Limits<S>),
+    Friction(Friction<S>),
+}
+
+/// Two ends that a quantity does not pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limits<S> {
+    pub(crate) bounds: [S; 2],
+    pub(crate) restitution: S,
+    /// An approach below this rate, or below a part of the fastest one, has no restitution.
+    pub(crate) rest: Rest<S>,
+}
+
+/// From which approach on there is no restitution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rest<S> {
+    /// Below a rate.
+    Below(S),
+    /// Below a part of the fastest approach so far.
+    Part(S),
+}
+
+/// Dry friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Friction<S> {
+    /// The largest effort while it slides.
+    pub(crate) capacity: S,
+    /// The largest effort while it sticks, where it is another.
+    pub(crate) stiction: Option<S>,
+    /// The rate at which the one has fallen towards the other.
+    pub(crate) stribeck: Option<S>,
+    pub(crate) is_engaged: bool,
+}
+
+impl<S: Real> Friction<S> {
+    /// The largest effort while it sticks.
+    pub(crate) fn at_rest(&self) -> S {
+        self.stiction.unwrap_or(self.capacity)
+    }
+
+    /// The effort against sliding at a rate.
+    pub(crate) fn sliding(&self, rate: S) -> S {
+        let (Some(stiction), Some(stribeck)) = (self.stiction, self.stribeck) else {
+            return self.capacity;
+        };
+        let part = rate.quotient(stribeck);
+        (stiction - self.capacity).fused((-(part * part)).exp(), self.capacity)
+    }
+}
+
+fn is_nan<S: Real>(number: S) -> bool {
+    number.to_f64().is_nan()
+}
+
+/// What an approach below the part of the fastest one has of restitution: none.
+const REST: f64 = 1e-4;
+
+impl<S: Real, M: Mechanism> Interaction<S, M> {
+    fn new(quantity: Quantity<S>, law: Law<S>) -> Self {
+        Self {
+            quantity,
+            law,
+            misplaced: None,
+            mechanism: PhantomData,
+        }
+    }
+
+    /// Stops at the lower and at the upper end of a quantity (rad, m), which it does not pass;
+    /// infinite where there is none. A stop pushes with whatever effort that takes, and does not
+    /// pull.
+    ///
+    /// An impact has no restitution if none is given. Impulses act in the metric of the mass, on the
+    /// whole mechanism, and all impacts of an instant are one problem.
+    ///
+    /// Both ends of an angle that does not count turns lie from `-pi` to `pi`.
+    #[must_use]
+    pub fn limits(quantity: JointQuantity<M>, bounds: [S; 2]) -> Self {
+        let limits = Limits {
+            bounds,
+            restitution: S::zero(),
+            rest: Rest::Part(S::constant(REST)),
+        };
+        Self::new(Quantity::Joint(quantity.reading), Law::Limits(limits))
+    }
+
+    /// Dry friction (Coulomb) along a quantity: while it slides, an effort of `capacity` (N m for
+    /// an angle, N for a displacement) against the rate; while it sticks, whatever effort up to
+    /// that keeps it.
+    ///
+    /// The capacity is known: it does not depend on the load of the joint. Friction of a finite
+    /// capacity gives no impulse.
+    #[must_use]
+    pub fn friction(quantity: JointQuantity<M>, capacity: S) -> Self {
+        Self::dry(Quantity::Joint(quantity.reading), capacity)
+    }
+
+    /// A brake on a quantity: [`Interaction::friction`] that handlers engage and release,
+    /// [`Event::engage`](crate::run::Event::engage). With an infinite capacity it is a dog, which
+    /// stops the quantity by an impulse where it is engaged.
+    #[must_use]
+    pub fn brake(quantity: JointQuantity<M>, capacity: S) -> Self {
+        Self::friction(quantity, capacity)
+    }
+
+    /// A clutch between two quantities: dry friction along the rate of the first less `ratio` times
+    /// the rate of the second. The capacity is an effort along the first. With an infinite one it
+    /// is a dog clutch.
+    ///
+    /// What it transmits acts on the joints: an effort `f` along the first, and `-ratio f` along
+    /// the second.
+    #[must_use]
+    pub fn clutch(
+        first: JointQuantity<M>,
+        second: JointQuantity<M>,
+        ratio: S,
+        capacity: S,
+    ) -> Self {
+        Self::dry(
+            Quantity::Difference(first.reading, second.reading, ratio),
+            capacity,
+        )
+    }
+
+    fn dry(quantity: Quantity<S>, capacity: S) -> Self {
+        let friction = Friction {
+            capacity,
+            stiction: None,
+            stribeck: None,
+            is_engaged: true,
+        };
+        Self::new(quantity, Law::Friction(friction))
+    }
+
+    /// Newton's coefficient of restitution of [`Interaction::limits`], from 0 to 1: the rate after
+    /// an impact over the one before it, with the sign turned.
+    #[must_use]
+    pub fn restitution(mut self, restitution: S) -> Self {
+        match &mut self.law {
+            Law::Limits(limits) => limits.restitution = restitution,
+            Law::Friction(_) => self.misplaced = Some("restitution"),
+        }
+        self
+    }
+
+    /// The rate (rad/s, m/s) of approach below which there is no restitution, so that what bounces
+    /// comes to rest instead of bouncing without end. If it is not said, it is 1e-4 of the fastest
+    /// approach to this limit in the run so far.
+    #[must_use]
+    pub fn rest_below(mut self, rate: S) -> Self {
+        match &mut self.law {
+            Law::Limits(limits) => limits.rest = Rest::Below(rate),
+            Law::Friction(_) => self.misplaced = Some("rest_below"),
+        }
+        self
+    }
+
+    /// A higher capacity while it sticks (N m, N).
+    #[must_use]
+    pub fn stiction(self, capacity: S) -> Self {
+        self.with_friction("stiction", |friction| friction.stiction = Some(capacity))
+    }
+
+    /// The rate `v0` (rad/s, m/s) by which friction falls from that of [`Interaction::stiction`] to
+    /// that of sliding: `capacity + (stiction - capacity) exp(-(rate / v0)^2)` (Stribeck's curve;
+    /// Armstrong-Helouvry, Dupont and Canudas de Wit, *A survey of models, analysis tools and
+    /// compensation methods for the control of machines with friction*, 1994).
+    #[must_use]
+    pub fn stribeck(self, rate: S) -> Self {
+        self.with_friction("stribeck", |friction| friction.stribeck = Some(rate))
+    }
+
+    /// Not engaged at the start.
+    #[must_use]
+    pub fn released(self) -> Self {
+        self.with_friction("released", |friction| friction.is_engaged = false)
+    }
+
+    fn with_friction(mut self, setting: &'static str, set: impl FnOnce(&mut Friction<S>)) -> Self {
+        match &mut self.law {
+            Law::Friction(friction) => set(friction),
+            Law::Limits(_) => self.misplaced = Some(setting),
+        }
+        self
+    }
+
+    /// The name of the joint that it is told by.
+    pub(crate) fn name(&self) -> &'static str {
+        self.quantity.name::<M>()
+    }
+
+    /// Refuses settings that are not acceptable; `wraps` of an angle that does not count turns.
+    pub(crate) fn check(&self, wraps: bool) -> Result<(), Fault> {
+        let joint = self.name();
+        let refuse = |setting: &'static str, value: S| {
+            Err(Fault::InteractionSetting {
+                joint,
+                setting,
+                value: value.to_f64(),
+            })
+        };
+        if let Some(setting) = self.misplaced {
+            return Err(Fault::MisplacedSetting { joint, setting });
+        }
+        let zero = S::zero();
+        match self.law {
+            Law::Limits(limits) => {
+                let [lower, upper] = limits.bounds;
+                if lower >= upper || is_nan(lower) || is_nan(upper) {
+                    return refuse("lower limit", lower);
+                }
+                let turn = S::constant(core::f64::consts::PI) + S::constant(4.0) * S::EPSILON;
+                let within = |bound: S| bound.abs() <= turn;
+                if wraps && !within(lower) {
+                    return refuse("lower limit", lower);
+                }
+                if wraps && !within(upper) {
+                    return refuse("upper limit", upper);
+                }
+                if !(limits.restitution >= zero && limits.restitution <= S::one()) {
+                    return refuse("restitution", limits.restitution);
+                }
+                let (Rest::Below(rate) | Rest::Part(rate)) = limits.rest;
+                if !(rate >= zero && rate.is_finite()) {
+                    return refuse("rate of rest", rate);
+                }
+            }
+            Law::Friction(friction) => {
+                if friction.capacity < zero || is_nan(friction.capacity) {
+                    return refuse("capacity", friction.capacity);
+                }
+                if let Some(stiction) = friction.stiction
+                    && (stiction < friction.capacity || is_nan(stiction))
+                {
+                    return refuse("stiction", stiction);
+                }
+                if let Some(rate) = friction.stribeck
+                    && !(rate > zero && rate.is_finite())
+                {
+                    return refuse("stribeck", rate);
+                }
+                if let Quantity::Difference(_, _, ratio) = self.quantity
+                    && !ratio.is_finite()
+                {
+                    return refuse("ratio", ratio);
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,22 @@
+//! Limits, dry friction, brakes and clutches: efforts that are found by complementarity.
+//!
+//! An unknown effort along a quantity of the mechanism (`quantity.rs`) costs one further solution
+//! of the factorised system of the equations of motion (`columns.rs`). What a unit of it does to
+//! the rates of all quantities is a column of the Delassus matrix: in the metric of the mass, with
+//! the constraints kept. It is the same for accelerations by efforts and for velocities by
+//! impulses. Every choice of modes is then a small problem with bounds (`box_problem.rs`, which
+//! knows no mechanism).
+//!
+//! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
+//! modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of each of them.
+//!
+//! The reasons are in `docs/decisions/027-interactions.md`.
+
+mod box_problem;
+pub(crate) mod columns;
+mod efforts;
+pub(crate) mod interaction;
+pub(crate) mod quantity;
+pub(crate) mod status;
+mod switch;
+pub(crate) mod task;

@@ -1,0 +1,255 @@
+//! Quantities of a mechanism along which an effort acts.
+
+use core::f64::consts::TAU;
+use core::marker::PhantomData;
+
+use crate::forward::Forward;
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::report::BodyKind;
+use crate::state::vector::{Array, StateParts};
+
+/// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
+/// [`JointHandle::displacement`], with the signs of [`View::angle`](crate::View::angle) and
+/// [`View::displacement`](crate::View::displacement).
+pub struct JointQuantity<M> {
+    pub(crate) reading: JointReading,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+impl<M> Clone for JointQuantity<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for JointQuantity<M> {}
+
+/// Which of both, and the index of the joint.
+impl<M> core::fmt::Debug for JointQuantity<M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.reading.fmt(f)
+    }
+}
+
+impl<M: Mechanism, J: HasAngle> JointHandle<M, J> {
+    /// The angle of the joint (rad), as a quantity along which an effort (N m) acts: what an
+    /// [`Interaction`](crate::run::Interaction) takes.
+    #[must_use]
+    pub const fn angle(self) -> JointQuantity<M> {
+        JointQuantity {
+            reading: JointReading::Angle(self.index()),
+            mechanism: PhantomData,
+        }
+    }
+}
+
+impl<M: Mechanism, J: HasDisplacement> JointHandle<M, J> {
+    /// The displacement of the joint (m), as a quantity along which an effort (N) acts: what an
+    /// [`Interaction`](crate::run::Interaction) takes.
+    #[must_use]
+    pub const fn displacement(self) -> JointQuantity<M> {
+        JointQuantity {
+            reading: JointReading::Displacement(self.index()),
+            mechanism: PhantomData,
+        }
+    }
+}
+
+/// A reading of a joint by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum JointReading {
+    Angle(usize),
+    Displacement(usize),
+}
+
+impl JointReading {
+    pub(crate) fn joint(self) -> usize {
+        match self {
+            Self::Angle(joint) | Self::Displacement(joint) => joint,
+        }
+    }
+}
+
+/// Along what an effort acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Quantity<S> {
+    /// An angle or a displacement.
+    Joint(JointReading),
+    /// The first less so many times the second.
+    Difference(JointReading, JointReading, S),
+}
+
+/// Where and how a mechanism is, to be read.
+pub(crate) struct Scene<'a, S: Scalar, M: Mechanism> {
+    pub(crate) constants: &'a M::Constants<S>,
+    pub(crate) time: S,
+    pub(crate) bodies: &'a M::State<S>,
+}
+
+impl<S: Scalar> Quantity<S> {
+    /// The same over numbers that carry derivatives.
+    pub(crate) fn lifted<const N: usize>(self) -> Quantity<Forward<S, N>> {
+        match self {
+            Self::Joint(reading) => Quantity::Joint(reading),
+            Self::Difference(first, second, ratio) => {
+                Quantity::Difference(first, second, Forward::fixed(ratio))
+            }
+        }
+    }
+
+    /// The joints whose readings it is made of.
+    fn joints(&self) -> [Option<usize>; 2] {
+        match self {
+            Self::Joint(reading) => [Some(reading.joint()), None],
+            Self::Difference(first, second, _) => [Some(first.joint()), Some(second.joint())],
+        }
+    }
+
+    /// The name of the joint that it is told by.
+    pub(crate) fn name<M: Mechanism>(&self) -> &'static str {
+        let [joint, _] = self.joints();
+        let info = joint.and_then(|joint| M::REPORT.joints.get(joint));
+        info.map_or("", |info| info.name)
+    }
+
+    /// The value (rad, m); not that of a difference, which no law asks for.
+    pub(crate) fn value<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
+        match *self {
+            Self::Joint(reading) => scene.value(reading),
+            Self::Difference(..) => S::zero(),
+        }
+    }
+
+    /// Whether it is an angle, and no length.
+    pub(crate) fn is_angle(&self) -> bool {
+        matches!(self, Self::Joint(JointReading::Angle(_)))
+    }
+
+    /// Whether it has a value that a law asks for, or a rate alone.
+    pub(crate) fn has_value(&self) -> bool {
+        matches!(self, Self::Joint(_))
+    }
+
+    /// Its rate.
+    pub(crate) fn rate<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
+        match *self {
+            Self::Joint(reading) => scene.rate(reading),
+            Self::Difference(first, second, ratio) => {
+                scene.rate(first) - ratio * scene.rate(second)
+            }
+        }
+    }
+
+    /// Calls with every velocity of its bodies, and its part in the rate.
+    pub(crate) fn each_part<M: Mechanism>(
+        &self,
+        scene: &Scene<'_, S, M>,
+        mut each: impl FnMut(usize, S),
+    ) {
+        let mut still = *scene.bodies;
+        *still.velocities_mut() = Array::zeros();
+        let read = |still: &M::State<S>| {
+            let bodies = still;
+            self.rate(&Scene::<S, M> { bodies, ..*scene })
+        };
+        let offset = read(&still);
+        let set = |still: &mut M::State<S>, place: usize, value| {
+            if let Some(velocity) = still.velocities_mut().as_mut_slice().get_mut(place) {
+                *velocity = value;
+            }
+        };
+        let joints = self.joints();
+        for (body, info) in M::REPORT.bodies.iter().enumerate() {
+            let is_of = |joint: &usize| {
+                let joint = M::REPORT.joints.get(*joint);
+                joint.is_some_and(|joint| joint.bodies.contains(&Some(body)))
+            };
+            if !joints.iter().flatten().any(is_of) {
+                continue;
+            }
+            let velocities = if info.kind == BodyKind::Rigid { 6 } else { 3 };
+            for place in info.velocity..info.velocity + velocities {
+                set(&mut still, place, S::one());
+                let part = read(&still) - offset;
+                set(&mut still, place, S::zero());
+                each(place, part);
+            }
+        }
+    }
+
+    /// Adds an effort to the forces on the bodies, by its power.
+    pub(crate) fn add_effort<M: Mechanism>(
+        &self,
+        scene: &Scene<'_, S, M>,
+        effort: S,
+        forces: &mut M::Velocities<S>,
+    ) {
+        self.each_part(scene, |place, part| {
+            if let Some(force) = forces.as_mut_slice().get_mut(place) {
+                *force = *force + effort * part;
+            }
+        });
+    }
+}
+
+impl<S: Real> Quantity<S> {
+    /// How far it is from a value, the short way round for an angle that does not count turns.
+    pub(crate) fn beyond<M: Mechanism>(&self, scene: &Scene<'_, S, M>, from: S) -> S {
+        let difference = self.value(scene) - from;
+        let Self::Joint(JointReading::Angle(joint)) = *self else {
+            return difference;
+        };
+        let turn = S::constant(TAU);
+        let counts = M::joint_angle(scene.constants, scene.bodies, joint).turns;
+        if counts.is_some() || difference.abs() <= S::constant(0.5) * turn {
+            return difference;
+        }
+        if difference > S::zero() {
+            difference - turn
+        } else {
+            difference + turn
+        }
+    }
+
+    /// Whether it is an angle that does not count turns.
+    pub(crate) fn wraps<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> bool {
+        let Self::Joint(JointReading::Angle(joint)) = *self else {
+            return false;
+        };
+        M::joint_angle(scene.constants, scene.bodies, joint)
+            .turns
+            .is_none()
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Clone for Scene<'_, S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Scene<'_, S, M> {}
+
+impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
+    fn value(&self, reading: JointReading) -> S {
+        match reading {
+            JointReading::Angle(joint) => {
+                M::joint_angle(self.constants, self.bodies, joint).angle()
+            }
+            JointReading::Displacement(joint) => {
+                M::joint_displacement(self.constants, self.time, self.bodies, joint).value
+            }
+        }
+    }
+
+    fn rate(&self, reading: JointReading) -> S {
+        match reading {
+            JointReading::Angle(joint) => M::joint_angle(self.constants, self.bodies, joint).rate,
+            JointReading::Displacement(joint) => {
+                M::joint_displacement(self.constants, self.time, self.bodies, joint).rate
+            }
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! In which mode interactions are, and the conditions under which they leave it.
+
+use core::cell::Cell;
+
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::interaction::{Interaction, Law};
+use crate::nonsmooth::quantity::Scene;
+
+/// The mode of an [`Interaction`](crate::run::Interaction).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum InteractionMode {
+    /// Between two limits: no effort.
+    Free,
+    /// On the lower limit, which pushes upwards.
+    AtLower,
+    /// On the upper limit, which pushes downwards.
+    AtUpper,
+    /// Held by friction.
+    Sticking,
+    /// Friction against a positive rate.
+    SlidingUp,
+    /// Friction against a negative rate.
+    SlidingDown,
+    /// A brake or a clutch that is not engaged.
+    Released,
+}
+
+impl InteractionMode {
+    /// Whether it keeps the quantity where it is.
+    pub(crate) fn holds(self) -> bool {
+        matches!(self, Self::AtLower | Self::AtUpper | Self::Sticking)
+    }
+
+    /// The sign of the rate at which it slides.
+    pub(crate) fn sliding<S: Real>(self) -> Option<S> {
+        match self {
+            Self::SlidingUp => Some(S::one()),
+            Self::SlidingDown => Some(-S::one()),
+            _ => None,
+        }
+    }
+}
+
+/// An impact or another impulse on a quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Impact<S> {
+    /// When (s).
+    pub time: S,
+    /// The impulse along the quantity (N m s, N s), positive upwards.
+    pub impulse: S,
+    /// The rates of the quantity before and after (rad/s, m/s).
+    pub rates: [S; 2],
+    /// The kinetic energy (J) that the mechanism lost by all impulses of the instant.
+    pub lost_energy: S,
+}
+
+/// What may follow at an instant, once impulses are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Next<S> {
+    /// No effort: away from limits, or not engaged.
+    Without,
+    /// At rest on the lower limit (a positive sign) or the upper one.
+    On(S),
+    /// Friction at rest.
+    Still,
+    /// Friction that slides at a rate of this sign.
+    Moving(S),
+}
+
+/// An interaction in a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Status<S> {
+    pub(crate) mode: InteractionMode,
+    pub(crate) is_engaged: bool,
+    /// The value that is held.
+    pub(crate) held: S,
+    /// The effort when it was last asked for.
+    pub(crate) effort: S,
+    /// The reading of the condition has left its zero.
+    has_left: bool,
+    /// Until it has, readings down to this below zero are at zero.
+    band: S,
+    /// Whether it is the one that was found.
+    pub(crate) is_found: bool,
+    /// The fastest approach to a limit so far.
+    pub(crate) fastest: S,
+    /// The largest sum of the sizes of the terms of its rate so far.
+    pub(crate) largest: S,
+    pub(crate) impact: Option<Impact<S>>,
+    /// What may follow, and the mode before.
+    pub(crate) next: Next<S>,
+    pub(crate) before: InteractionMode,
+}
+
+/// An interaction with its status, which a run changes between steps.
+#[derive(Clone, Debug)]
+pub struct Tracked<S: Scalar, M: Mechanism> {
+    pub(crate) interaction: Interaction<S, M>,
+    pub(crate) status: Cell<Status<S>>,
+}
+
+impl<S: Real, M: Mechanism> Tracked<S, M> {
+    pub(crate) fn new(interaction: Interaction<S, M>) -> Self {
+        let tracked = Self {
+            interaction,
+            status: Cell::new(Status::new()),
+        };
+        tracked.begin();
+        tracked
+    }
+
+    /// As at the start of a run.
+    pub(crate) fn begin(&self) {
+        let mut status = Status::new();
+        if let Law::Friction(friction) = self.interaction.law {
+            status.is_engaged = friction.is_engaged;
+            status.mode = InteractionMode::Released;
+        }
+        self.status.set(status);
+    }
+
+    /// Changes the status.
+    pub(crate) fn update(&self, change: impl FnOnce(&mut Status<S>)) {
+        let mut status = self.status.get();
+        change(&mut status);
+        self.status.set(status);
+    }
+
+    /// The mode.
+    pub(crate) fn mode(&self) -> InteractionMode {
+        self.status.get().mode
+    }
+
+    /// Whether the condition of the present mode asks for efforts.
+    pub(crate) fn asks_for_effort(&self) -> bool {
+        self.mode().holds()
+    }
+
+    /// The reading of the condition under which the present mode ends: positive as long as it is
+    /// right. Infinite of a mode that does not end by itself.
+    pub(crate) fn reading(&self, scene: &Scene<'_, S, M>) -> S {
+        let never = S::constant(f64::INFINITY);
+        let status = self.status.get();
+        let Interaction { quantity, law, .. } = &self.interaction;
+        match (status.mode, law) {
+            (InteractionMode::Free, Law::Limits(limits)) => {
+                let [lower, upper] = limits.bounds;
+                let value = quantity.value(scene);
+                (value - lower).min(upper - value)
+            }
+            (InteractionMode::AtLower, _) => status.effort,
+            (InteractionMode::AtUpper, _) => -status.effort,
+            (InteractionMode::Sticking, Law::Friction(friction)) => {
+                let capacity = friction.at_rest();
+                if capacity.is_finite() {
+                    capacity - status.effort.abs()
+                } else {
+                    never
+                }
+            }
+            (mode, _) => match mode.sliding::<S>() {
+                Some(sign) => sign * quantity.rate(scene),
+                None => never,
+            },
+        }
+    }
+}
+
+impl<S: Real> Status<S> {
+    fn new() -> Self {
+        Self {
+            mode: InteractionMode::Free,
+            is_engaged: true,
+            held: S::zero(),
+            effort: S::zero(),
+            has_left: true,
+            band: S::zero(),
+            is_found: false,
+            fastest: S::zero(),
+            largest: S::zero(),
+            impact: None,
+            next: Next::Without,
+            before: InteractionMode::Free,
+        }
+    }
+
+    /// Begins a mode with the reading of its condition, which resolves no more than `floor`.
+    pub(crate) fn stand(&mut self, reading: S, floor: S) {
+        let two = S::constant(2.0);
+        self.is_found = false;
+        self.has_left = reading > two * floor;
+        self.band = floor.max(two * reading.abs());
+    }
+
+    /// Whether the mode ends where the next reading is this one.
+    pub(crate) fn is_met(&self, reading: S) -> bool {
+        self.upwards(reading) >= S::zero()
+    }
+
+    /// A reading that is negative as long as the mode is right.
+    pub(crate) fn upwards(&self, reading: S) -> S {
+        if self.has_left {
+            -reading
+        } else {
+            -(reading + self.band)
+        }
+    }
+
+    /// Goes on with a reading by which the mode does not end.
+    pub(crate) fn pass(&mut self, reading: S) {
+        self.has_left |= reading > self.band;
+    }
+}

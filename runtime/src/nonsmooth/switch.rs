@@ -1,0 +1,446 @@
+//! Impulses, then modes, where a mode ends or something else has changed.
+
+use crate::constraints::extent::farthest;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::math::scalar::Real;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
+use crate::nonsmooth::columns::{Columns, Setting};
+use crate::nonsmooth::interaction::{Friction, Law, Limits, Rest};
+use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::status::{Impact, InteractionMode, Next, Tracked};
+use crate::state::vector::{Array, StateParts};
+
+/// A quantity within this part of its size of a limit is on it.
+const ON_LIMIT: f64 = 1e-9;
+
+/// Beyond a limit by more than this part of its size, it was put there.
+const BEYOND: f64 = 1e-6;
+
+/// A rate of less than this part of what it is the sum of is none.
+const AT_REST: f64 = 1e-11;
+
+/// Round-off of a reading, in `EPSILON` of what it is made of.
+const ROUND_OFF: f64 = 64.0;
+
+/// The part of the capacity, or of the efforts at hand, below which an effort is at its bound.
+const AT_BOUND: f64 = 1e-10;
+
+/// How a quantity moves at an instant.
+struct Motion<S> {
+    rate: S,
+    /// The sum of the sizes of the terms of the rate; the largest one so far.
+    size: S,
+}
+
+impl<S: Real> Motion<S> {
+    fn of<M: Mechanism>(tracked: &Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
+        let quantity = &tracked.interaction.quantity;
+        let velocities = scene.bodies.velocities().as_slice();
+        let mut size = S::zero();
+        quantity.each_part(scene, |place, part| {
+            let velocity = velocities.get(place).copied().unwrap_or(S::zero());
+            size = size + (part * velocity).abs();
+        });
+        tracked.update(|status| status.largest = status.largest.max(size));
+        Self {
+            rate: quantity.rate(scene),
+            size: tracked.status.get().largest,
+        }
+    }
+
+    /// A rate up to this is none.
+    fn none(&self) -> S {
+        S::constant(AT_REST) * self.size
+    }
+}
+
+impl<S: Real, M: Mechanism> Tracked<S, M> {
+    /// The size of what its value is compared with.
+    fn size(&self, scene: &Scene<'_, S, M>) -> S {
+        let quantity = &self.interaction.quantity;
+        let coordinates = scene.bodies.coordinates().as_slice();
+        let lengths = farthest(M::REPORT.bodies, coordinates);
+        let size = quantity.value(scene).abs();
+        if quantity.is_angle() {
+            size.max(S::one())
+        } else {
+            size.max(lengths)
+        }
+    }
+
+    /// The limit that the quantity is on, by its sign; the fault where it is beyond.
+    fn limit(&self, limits: &Limits<S>, scene: &Scene<'_, S, M>) -> Result<Option<S>, Fault> {
+        let status = self.status.get();
+        let value = self.interaction.quantity.value(scene);
+        let [lower, upper] = limits.bounds;
+        let gaps = [value - lower, upper - value];
+        let size = self.size(scene);
+        let is_lower = gaps[0] <= gaps[1];
+        let gap = gaps[0].min(gaps[1]);
+        if gap < -(S::constant(BEYOND) * size) {
+            return Err(Fault::BeyondLimit {
+                joint: self.interaction.name(),
+                value: value.to_f64(),
+                limit: if is_lower { lower } else { upper }.to_f64(),
+            });
+        }
+        let is_held = match status.mode {
+            InteractionMode::AtLower => is_lower,
+            InteractionMode::AtUpper => !is_lower,
+            _ => status.is_found,
+        };
+        let near = if is_held { BEYOND } else { ON_LIMIT };
+        let is_on = gap <= S::constant(near) * size;
+        let sign = if is_lower { S::one() } else { -S::one() };
+        Ok(is_on.then_some(sign))
+    }
+}
+
+/// Impulses of limits and dogs at an instant: writes what they change of the velocities, and what
+/// may follow into the statuses. Brings to rest what comes to rest: what was held is, unless a
+/// handler has moved it.
+pub(crate) fn impulses<S, M, F, C, const K: usize>(
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+    is_moved: bool,
+    change: &mut C::Velocities<S>,
+) -> Result<(), Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let mut at_limit = [None; K];
+    let mut is_engaged = [false; K];
+    let mut motions: [Motion<S>; K] =
+        setting.here(|scene| list.each_ref().map(|tracked| Motion::of(tracked, scene)));
+    for (index, tracked) in list.iter().enumerate() {
+        match &tracked.interaction.law {
+            Law::Limits(limits) => {
+                at_limit[index] = setting.here(|scene| tracked.limit(limits, scene))?;
+            }
+            Law::Friction(_) => is_engaged[index] = tracked.status.get().is_engaged,
+        }
+    }
+    let mut chosen = is_engaged;
+    for (chosen, at_limit) in chosen.iter_mut().zip(&at_limit) {
+        *chosen |= at_limit.is_some();
+    }
+    let columns = Columns::of(setting, list, &chosen)?;
+    let before = motions.each_ref().map(|motion| motion.rate);
+    let mut problem = BoxProblem::at_rest(columns.delassus, before);
+    let infinite = S::constant(f64::INFINITY);
+    let mut is_struck = false;
+    for (index, tracked) in list.iter().enumerate() {
+        let motion = &motions[index];
+        match &tracked.interaction.law {
+            Law::Limits(limits) => {
+                let Some(sign) = at_limit[index] else {
+                    continue;
+                };
+                let approach = -(sign * motion.rate);
+                if sign > S::zero() {
+                    problem.upper[index] = infinite;
+                } else {
+                    problem.lower[index] = -infinite;
+                }
+                if approach > motion.none() {
+                    is_struck = true;
+                    let restitution = tracked.restitution(limits, approach);
+                    problem.offset[index] = (S::one() + restitution) * motion.rate;
+                }
+            }
+            Law::Friction(friction) => {
+                if is_engaged[index] && !friction.capacity.is_finite() {
+                    (problem.lower[index], problem.upper[index]) = (-infinite, infinite);
+                    is_struck |= motion.rate.abs() > motion.none();
+                }
+            }
+        }
+    }
+    let mut impulses = [S::zero(); K];
+    if is_struck {
+        let solution = solved(&problem, setting, list)?;
+        impulses = solution.efforts;
+        for motion in motions.iter_mut().zip(&columns.delassus) {
+            let (motion, row) = motion;
+            let terms = row.iter().zip(&impulses);
+            motion.rate = terms.fold(motion.rate, |sum, (&w, &x)| w.fused(x, sum));
+        }
+        report(setting, list, &impulses, &before, &motions);
+    }
+    // What is at rest now, to round-off.
+    let mut rests = [false; K];
+    for (index, tracked) in list.iter().enumerate() {
+        let (status, motion) = (tracked.status.get(), &motions[index]);
+        let was_at_rest = !is_struck && !is_moved && (status.mode.holds() || status.is_found);
+        let is_slow = motion.rate.abs() <= motion.none();
+        let rest = is_slow || was_at_rest && status.mode != InteractionMode::Free;
+        rests[index] = chosen[index] && rest;
+    }
+    let last = Factors::of(&columns.delassus, &rests);
+    let last = last.solve(&motions.each_ref().map(|motion| motion.rate));
+    for (index, impulse) in impulses.iter_mut().enumerate() {
+        *impulse = *impulse - last[index];
+    }
+    *change = Array::zeros();
+    columns.add_velocities(&impulses, change);
+    for (index, tracked) in list.iter().enumerate() {
+        let rate = motions[index].rate;
+        if let Some(friction) = tracked.friction()
+            && is_engaged[index]
+            && !rests[index]
+            && !friction.capacity.is_finite()
+        {
+            return Err(no_mode(setting, tracked));
+        }
+        let next = match at_limit[index] {
+            Some(sign) if rests[index] => Next::On(sign),
+            _ if !is_engaged[index] => Next::Without,
+            _ if rests[index] => Next::Still,
+            _ if rate > S::zero() => Next::Moving(S::one()),
+            _ => Next::Moving(-S::one()),
+        };
+        tracked.update(|status| {
+            status.before = status.mode;
+            status.next = next;
+            // Without an effort until the next one is known.
+            status.mode = InteractionMode::Free;
+        });
+    }
+    Ok(())
+}
+
+impl<S: Real, M: Mechanism> Tracked<S, M> {
+    /// The restitution of an approach.
+    fn restitution(&self, limits: &Limits<S>, approach: S) -> S {
+        let fastest = self.status.get().fastest.max(approach);
+        self.update(|status| status.fastest = fastest);
+        let least = match limits.rest {
+            Rest::Below(rate) => rate,
+            Rest::Part(part) => part * fastest,
+        };
+        if approach < least {
+            S::zero()
+        } else {
+            limits.restitution
+        }
+    }
+}
+
+/// Leaves the impulses in the statuses.
+fn report<S, M, F, C, const K: usize>(
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+    impulses: &[S; K],
+    before: &[S; K],
+    after: &[Motion<S>; K],
+) where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let half = S::constant(0.5);
+    let mut lost = S::zero();
+    for (index, &impulse) in impulses.iter().enumerate() {
+        lost = lost - half * impulse * (before[index] + after[index].rate);
+    }
+    for (index, tracked) in list.iter().enumerate() {
+        let impulse = impulses[index];
+        if impulse != S::zero() {
+            let impact = Impact {
+                time: setting.saddle.time,
+                impulse,
+                rates: [before[index], after[index].rate],
+                lost_energy: lost,
+            };
+            tracked.update(|status| status.impact = Some(impact));
+        }
+    }
+}
+
+/// The modes that follow, after impulses, from accelerations without any effort of the interactions.
+pub(crate) fn modes<S, M, F, C, const K: usize>(
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+    accelerations: &C::Velocities<S>,
+) -> Result<(), Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let chosen = list.each_ref().map(|tracked| {
+        let next = tracked.status.get().next;
+        !matches!(next, Next::Without)
+    });
+    let columns = Columns::of(setting, list, &chosen)?;
+    let offset = setting.accelerations(list, accelerations);
+    let mut problem = BoxProblem::at_rest(columns.delassus, offset);
+    let motions: [Motion<S>; K] =
+        setting.here(|scene| list.each_ref().map(|tracked| Motion::of(tracked, scene)));
+    let infinite = S::constant(f64::INFINITY);
+    // The sign of the rate at which friction slides, or begins to.
+    let mut sliding = [None; K];
+    for (index, tracked) in list.iter().enumerate() {
+        let (lower, upper) = match (tracked.status.get().next, tracked.friction()) {
+            (Next::On(sign), _) if sign > S::zero() => (S::zero(), infinite),
+            (Next::On(_), _) => (-infinite, S::zero()),
+            (Next::Still, Some(friction)) => (-friction.at_rest(), friction.at_rest()),
+            (Next::Moving(sign), Some(friction)) => {
+                sliding[index] = Some(sign);
+                let effort = -sign * friction.sliding(motions[index].rate);
+                (effort, effort)
+            }
+            _ => (S::zero(), S::zero()),
+        };
+        (problem.lower[index], problem.upper[index]) = (lower, upper);
+    }
+    let mut solution = solved(&problem, setting, list)?;
+    // What begins to slide has the friction of sliding: others may follow.
+    for _ in 0..K {
+        let mut is_changed = false;
+        for (index, tracked) in list.iter().enumerate() {
+            let (Next::Still, None) = (tracked.status.get().next, sliding[index]) else {
+                continue;
+            };
+            let Some(friction) = tracked.friction() else {
+                continue;
+            };
+            let Some(sign) = begins_to_slide(friction, &solution, index) else {
+                continue;
+            };
+            sliding[index] = Some(sign);
+            let effort = -sign * friction.sliding(S::zero());
+            is_changed |= problem.lower[index] != effort && problem.upper[index] != effort;
+            (problem.lower[index], problem.upper[index]) = (effort, effort);
+        }
+        if !is_changed {
+            break;
+        }
+        solution = solved(&problem, setting, list)?;
+    }
+    for (index, tracked) in list.iter().enumerate() {
+        let is_inside = solution.places[index] == Place::Inside;
+        let mode = match (tracked.status.get().next, sliding[index]) {
+            (Next::On(sign), _) if is_inside && sign > S::zero() => InteractionMode::AtLower,
+            (Next::On(_), _) if is_inside => InteractionMode::AtUpper,
+            (_, Some(sign)) if sign > S::zero() => InteractionMode::SlidingUp,
+            (_, Some(_)) => InteractionMode::SlidingDown,
+            (Next::Still, None) => InteractionMode::Sticking,
+            _ if tracked.friction().is_some() => InteractionMode::Released,
+            _ => InteractionMode::Free,
+        };
+        let effort = solution.efforts[index];
+        let diagonal = columns.delassus[index][index];
+        let alone = if diagonal > S::zero() {
+            offset[index].abs().quotient(diagonal)
+        } else {
+            S::zero()
+        };
+        setting.here(|scene| tracked.enter(mode, scene, (effort, alone), &motions[index]));
+    }
+    Ok(())
+}
+
+/// The sign of the rate at which friction begins to slide; `None` where it sticks.
+fn begins_to_slide<S: Real, const K: usize>(
+    friction: &Friction<S>,
+    solution: &BoxSolution<S, K>,
+    index: usize,
+) -> Option<S> {
+    let residual = solution.residuals[index];
+    if friction.at_rest() > S::zero() {
+        return match solution.places[index] {
+            Place::Lower => Some(S::one()),
+            Place::Upper => Some(-S::one()),
+            Place::Inside => None,
+        };
+    }
+    // Without a capacity the acceleration says it.
+    if residual > S::zero() {
+        Some(S::one())
+    } else if residual < S::zero() {
+        Some(-S::one())
+    } else {
+        None
+    }
+}
+
+impl<S: Real, M: Mechanism> Tracked<S, M> {
+    fn friction(&self) -> Option<&Friction<S>> {
+        match &self.interaction.law {
+            Law::Friction(friction) => Some(friction),
+            Law::Limits(_) => None,
+        }
+    }
+
+    /// Enters a mode with its effort, and the one that would hold it alone.
+    fn enter(
+        &self,
+        mode: InteractionMode,
+        scene: &Scene<'_, S, M>,
+        (effort, alone): (S, S),
+        motion: &Motion<S>,
+    ) {
+        self.update(|status| {
+            if mode == InteractionMode::Sticking && status.before != InteractionMode::Sticking {
+                status.held = self.interaction.quantity.value(scene);
+            }
+            status.mode = mode;
+            status.effort = effort;
+        });
+        let reading = self.reading(scene);
+        let round_off = S::constant(ROUND_OFF) * S::EPSILON;
+        let floor = match mode {
+            InteractionMode::Free => round_off * self.size(scene),
+            InteractionMode::AtLower | InteractionMode::AtUpper => {
+                S::constant(AT_BOUND) * effort.abs().max(alone)
+            }
+            InteractionMode::Sticking => S::constant(AT_BOUND) * effort.abs(),
+            _ => round_off * motion.size,
+        };
+        self.update(|status| status.stand(reading, floor));
+    }
+}
+
+/// The solution of a problem, or the fault where there is none.
+fn solved<S, M, F, C, const K: usize>(
+    problem: &BoxProblem<S, K>,
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+) -> Result<BoxSolution<S, K>, Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let asked = |index: &usize| problem.lower[*index] < problem.upper[*index];
+    let first = (0..K).find(asked).and_then(|index| list.get(index));
+    problem.solved().ok_or_else(|| {
+        let fault = first.map(|tracked| no_mode(setting, tracked));
+        fault.unwrap_or(Fault::StateNotFinite)
+    })
+}
+
+/// No modes fit together.
+#[cold]
+fn no_mode<S, M, F, C>(setting: &Setting<'_, S, M, F, C>, tracked: &Tracked<S, M>) -> Fault
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    Fault::NoMode {
+        joint: tracked.interaction.name(),
+        time: setting.saddle.time.to_f64(),
+    }
+}

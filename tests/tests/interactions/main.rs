@@ -1,0 +1,70 @@
+//! Limits, dry friction, brakes and clutches, against closed forms.
+
+#![forbid(unsafe_code)]
+
+mod block;
+mod bounces;
+mod shafts;
+
+use holonom::prelude::*;
+
+const GRAVITY: f64 = 9.81;
+
+/// A block of 2 kg on a slide along x, pushed by an input.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Block {
+    #[input]
+    push: f64,
+    #[param]
+    stiffness: f64,
+    #[body(mass = 2.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
+    block: Body,
+    #[joint(between = [ground, block], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    slide: Prismatic,
+    #[force(between = [ground, block], head = [-9.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], force = push)]
+    motor: Actuator,
+    #[force(between = [ground, block], head = [-5.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], stiffness = stiffness, free_length = 5.0)]
+    spring: SpringDamper,
+}
+
+/// A ball of 1 kg on a vertical rail, at the height 1 m.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Ball {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 1.0])]
+    ball: Body,
+    #[joint(between = [ground, ball], point = [0.0, 0.0, 1.0], axis = [0.0, 0.0, 1.0])]
+    rail: Prismatic,
+}
+
+/// A rod of 1 m on a hinge about x, released from the horizontal.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Rod {
+    #[body(mass = 2.0, inertia = [1.0 / 6.0, 0.001, 1.0 / 6.0], position = [0.0, 0.5, 0.0])]
+    rod: Body,
+    #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    hinge: Revolute,
+}
+
+/// Two links in a plane without gravity.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Arm {
+    #[body(mass = 3.0, inertia = [0.25, 0.01, 0.25], position = [0.0, 0.5, 0.0])]
+    upper: Body,
+    #[body(mass = 2.0, inertia = [0.1, 0.01, 0.1], position = [0.0, 1.4, 0.0])]
+    lower: Body,
+    #[joint(between = [ground, upper], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    shoulder: Revolute,
+    #[joint(between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    elbow: Revolute,
+}
+
+fn tight() -> Tolerance<f64> {
+    Tolerance {
+        relative: 1e-12,
+        absolute: 1e-12,
+    }
+}

@@ -1,0 +1,73 @@
+//! Brakes and clutches.
+
+use core::cell::Cell;
+
+use holonom::mechanism::{Absolute, Coordinates, Relative};
+use holonom::prelude::*;
+use holonom::run::InteractionMode;
+
+use super::{Arm, tight};
+
+/// Rates of both joints.
+fn moving(arm: &Arm, rates: [f64; 2]) -> StateOf<Arm> {
+    let mut state = arm.described_state().expect("it is described");
+    let h = Arm::HANDLES;
+    arm.set_angle(&mut state, h.elbow, 0.7).expect("it is free");
+    arm.set_angle_rate(&mut state, h.shoulder, rates[0])
+        .expect("it is free");
+    arm.set_angle_rate(&mut state, h.elbow, rates[1])
+        .expect("it is free");
+    state
+}
+
+fn locks<C: Coordinates<Arm>>() {
+    let (arm, h) = (Arm::default(), Arm::HANDLES);
+    let rates = [1.0, -2.5];
+    let seen = Cell::new([0.0; 2]);
+    let mut lost = None;
+    Simulation::new(&arm, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .initial_state(moving(&arm, rates))
+        .interactions([Interaction::brake(h.elbow.angle(), f64::INFINITY).released()])
+        .on(
+            "lock",
+            Crossing::Rising,
+            |sample| sample.time() - 0.3,
+            |event| {
+                // The metric of the mass in joint rates, by hand.
+                let (q, r) = (event.angle(h.elbow), event.angle_rate(h.elbow));
+                let w = event.angle_rate(h.shoulder);
+                let (m1, m2, i1, i2, l, c1, c2) = (3.0, 2.0, 0.25, 0.1, 1.0, 0.5, 0.4);
+                let a = i1 + m1 * c1 * c1 + i2 + m2 * (l * l + c2 * c2 + 2.0 * l * c2 * q.cos());
+                let b = i2 + m2 * (c2 * c2 + l * c2 * q.cos());
+                let d = i2 + m2 * c2 * c2;
+                let before = 0.5 * (a * w * w + 2.0 * b * w * r + d * r * r);
+                assert!((before - event.kinetic_energy()).abs() < 1e-12 * before);
+                let after = w + b / a * r;
+                seen.set([0.5 * a * after * after, after]);
+                event.engage(0)
+            },
+        )
+        .run(0.0..=1.0, every(0.1), |sample| {
+            if let Some(impact) = sample.impact(0).expect("one interaction") {
+                let energy = sample.kinetic_energy();
+                assert!(
+                    (energy / seen.get()[0] - 1.0).abs() < 1e-12,
+                    "{energy} {}",
+                    seen.get()[0]
+                );
+                assert_eq!(sample.mode(0), Ok(InteractionMode::Sticking));
+                assert!(sample.angle_rate(h.elbow).abs() < 1e-14);
+                lost.get_or_insert(impact.lost_energy);
+                assert!(impact.lost_energy > 0.0);
+            }
+        })
+        .expect("it locks");
+    assert!(lost.is_some());
+}
+
+#[test]
+fn a_dog_takes_the_energy_of_a_projection_in_the_metric_of_the_mass() {
+    locks::<Relative>();
+    locks::<Absolute>();
+}
