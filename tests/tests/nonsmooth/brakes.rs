@@ -4,7 +4,7 @@ use core::cell::Cell;
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::{Interaction, Mode};
+use holonom::run::InteractionMode as Mode;
 
 use super::tight;
 
@@ -32,11 +32,7 @@ struct Arm {
 fn mass(elbow: f64) -> [f64; 3] {
     let (upper, fore) = (2.0 / 3.0, 1.5 * 0.49 / 3.0);
     let coupled = 1.5 * 0.35 * elbow.cos();
-    [
-        upper + 1.5 + fore + 2.0 * coupled,
-        fore + coupled,
-        fore,
-    ]
+    [upper + 1.5 + fore + 2.0 * coupled, fore + coupled, fore]
 }
 
 fn kinetic([first, mixed, second]: [f64; 3], [shoulder, elbow]: [f64; 2]) -> f64 {
@@ -63,6 +59,7 @@ fn locked<C: Coordinates<Arm>>(end: f64) -> f64 {
                 event.engage(0)
             },
         )
+        .on("after", Crossing::Rising, |sample| sample.time() - 0.4 - 1e-9, |_| ())
         .run(0.0..=end, every(0.05), |sample| -> Result<(), Fault> {
             let elbow_rate = sample.angle_rate(h.elbow);
             if sample.mode(0)? != Mode::Sticking {
@@ -75,19 +72,21 @@ fn locked<C: Coordinates<Arm>>(end: f64) -> f64 {
             let impact = sample.impact(0)?.expect("it was stopped");
             assert!((impact.rates[0] / rates[1] - 1.0).abs() < 1e-13);
             assert!(impact.rates[1].abs() < 1e-13);
-            if sample.time() == impact.time {
+            let matrix = mass(elbow);
+            let shoulder = rates[0] + matrix[1] / matrix[0] * rates[1];
+            let after = kinetic(matrix, [shoulder, 0.0]);
+            let lost = kinetic(matrix, rates) - after;
+            assert!((impact.lost_energy / lost - 1.0).abs() < 1e-12);
+            let impulse = (matrix[2] - matrix[1] * matrix[1] / matrix[0]) * -rates[1];
+            assert!((impact.impulse / impulse - 1.0).abs() < 1e-12);
+            // Soon after it, all that has changed is what gravity did.
+            let since = sample.time() - impact.time;
+            if since < 1e-8 {
                 checked += 1;
-                let matrix = mass(elbow);
-                let shoulder = rates[0] + matrix[1] / matrix[0] * rates[1];
                 let found = sample.angle_rate(h.shoulder);
-                assert!((found / shoulder - 1.0).abs() < 1e-13, "{found}");
-                let after = kinetic(matrix, [shoulder, 0.0]);
+                assert!((found / shoulder - 1.0).abs() < 1e-13 + 20.0 * since, "{found}");
                 let found = sample.kinetic_energy();
-                assert!((found / after - 1.0).abs() < 1e-13, "{found} {after}");
-                let lost = kinetic(matrix, rates) - after;
-                assert!((impact.lost_energy / lost - 1.0).abs() < 1e-12);
-                let impulse = (matrix[2] - matrix[1] * matrix[1] / matrix[0]) * -rates[1];
-                assert!((impact.impulse / impulse - 1.0).abs() < 1e-12);
+                assert!((found / after - 1.0).abs() < 1e-13 + 40.0 * since, "{found} {after}");
             }
             Ok(())
         })
@@ -143,22 +142,31 @@ fn driven([first, second]: [f64; 2], ratio: f64, time: f64) -> [f64; 2] {
 
 fn gears<C: Coordinates<GearBox>>(capacity: f64) -> Vec<(f64, [f64; 2], [Mode; 2])> {
     let (gears, h) = (GearBox::default(), GearBox::HANDLES);
-    let clutch = |ratio| {
-        Interaction::clutch(h.first.angle(), h.second.angle(), ratio, capacity).released()
-    };
+    let clutch =
+        |ratio| Interaction::clutch(h.first.angle(), h.second.angle(), ratio, capacity).released();
     let mut seen = Vec::new();
     gears
         .simulation(StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .interactions([clutch(2.0), clutch(3.0)])
-        .on("low", Crossing::Rising, |s| s.time() - 1.0, |event| event.engage(1))
+        .on(
+            "low",
+            Crossing::Rising,
+            |s| s.time() - 1.0,
+            |event| event.engage(1),
+        )
         .on(
             "high",
             Crossing::Rising,
             |s| s.time() - 2.0,
             |event| event.release(1).and_then(|()| event.engage(0)),
         )
-        .on("both", Crossing::Rising, |s| s.time() - 3.0, |event| event.engage(1))
+        .on(
+            "both",
+            Crossing::Rising,
+            |s| s.time() - 3.0,
+            |event| event.engage(1),
+        )
         .on(
             "neutral",
             Crossing::Rising,
@@ -184,8 +192,16 @@ fn a_gear_box_of_two_dogs_has_four_modes() {
     let half = [0.5 * MOTOR / INPUT, -0.5 * LOAD / OUTPUT];
     let wanted = [
         (0.5, [100.0 + half[0], half[1]], [Released, Released]),
-        (1.5, driven(engaged(neutral, 3.0), 3.0, 0.5), [Released, Sticking]),
-        (2.5, driven(engaged(low, 2.0), 2.0, 0.5), [Sticking, Released]),
+        (
+            1.5,
+            driven(engaged(neutral, 3.0), 3.0, 0.5),
+            [Released, Sticking],
+        ),
+        (
+            2.5,
+            driven(engaged(low, 2.0), 2.0, 0.5),
+            [Sticking, Released],
+        ),
         (3.5, [0.0, 0.0], [Sticking, Sticking]),
         (4.5, half, [Released, Released]),
     ];
@@ -225,6 +241,9 @@ fn a_clutch_slips_until_both_shafts_agree() {
             assert!((x - y).abs() < 1e-9, "{found:?} {wanted:?}");
         }
         let at = |(time, ..): &&(f64, _, _)| (time - 1.0 - closes).abs() < 1e-9;
-        assert!(seen.iter().any(|seen| at(&seen)), "the end of slipping is reported");
+        assert!(
+            seen.iter().any(|seen| at(&seen)),
+            "the end of slipping is reported"
+        );
     }
 }

@@ -2,7 +2,6 @@
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::Interaction;
 use nalgebra::{Matrix4, Vector4};
 
 use super::{GRAVITY, tight};
@@ -130,11 +129,7 @@ fn touching_balls_leave_together() {
     let rate = arrives(0.0);
     let wanted = struck(1.0, 1.0);
     near(wanted, [-0.6, 0.4, 0.4, 0.4, 0.4], 1e-14);
-    for (restitution, after) in [
-        (1.0, wanted),
-        (0.5, struck(1.0, 0.5)),
-        (0.0, [0.2; 5]),
-    ] {
+    for (restitution, after) in [(1.0, wanted), (0.5, struck(1.0, 0.5)), (0.0, [0.2; 5])] {
         near(struck(1.0, restitution), after, 1e-14);
         let moment = quarter();
         let (joints, times) = let_go::<Relative>(0.0, restitution, moment + 1e-9, false);

@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod brakes;
+mod clock;
 mod cradle;
 mod extremes;
 mod reference;
@@ -11,10 +12,10 @@ mod rest;
 mod stick_slip;
 mod stops;
 
+use holonom::Runs;
 use holonom::measure::{Interacting, NoForces};
 use holonom::mechanism::Coordinates;
 use holonom::prelude::*;
-use holonom::Runs;
 
 /// An integrator that moves a mechanism with so many interactions.
 trait Moves<M: Mechanism, C: Coordinates<M>, const K: usize>:

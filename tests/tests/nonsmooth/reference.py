@@ -209,6 +209,28 @@ def rocking():
     return times, ratio
 
 
+def clock():
+    """Andronov's clock: both amplitudes and the period of the swing that all starts lead to.
+
+    From an amplitude `a` to the next one, `b`, friction takes `T (a + b)` from `V`, the energy of
+    the weight; where the pendulum passes the vertical the one way, `E` is added.
+    """
+    rod, bob = 7800 * pi * mpf("0.005") ** 2 * mpf("0.92"), 7800 * pi * mpf("0.08") ** 2 * mpf("0.03")
+    inertia = rod * mpf("0.92") ** 2 / 3 + bob * (1 + mpf("0.08") ** 2 / 2)
+    weight = G * (rod * mpf("0.46") + bob)
+    friction = mpf("0.04")
+    path = mpf("0.15") * 2 * pi / 30 / (2 * friction)
+    energy = lambda q: -weight * cos(q)
+    a = mp.findroot(lambda a: energy(a) - energy(path - a) - friction * path, path / 2 * mpf("1.02"))
+    b = path - a
+    period = mpf(0)
+    # Away from the vertical, and back to it: friction is part of the potential of that way.
+    for top, sign in [(a, 1), (a, -1), (b, 1), (b, -1)]:
+        slope = lambda q: energy(q) + sign * friction * q
+        period += between(lambda q: inertia, slope, slope(top), top, mpf(0))
+    return [a, b, period]
+
+
 def numbers(values):
     return ", ".join(repr(float(value)) for value in values)
 
@@ -235,6 +257,8 @@ def main():
     print("/// Times of the impacts of a rocking block (s), and the ratio of its rates.")
     print(f"pub(super) const ROCKING: [f64; {len(times)}] = [{numbers(times)}];")
     print(f"pub(super) const ROCKING_RATIO: f64 = {numbers([ratio])};")
+    print("/// Amplitudes of a clock's pendulum after a beat and before one (rad), its period (s).")
+    print(f"pub(super) const CLOCK: [f64; 3] = [{numbers(clock())}];")
 
 
 main()

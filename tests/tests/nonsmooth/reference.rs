@@ -32,3 +32,5 @@ pub(super) const ROCKING: [f64; 4] = [
     2.2380097746162937,
 ];
 pub(super) const ROCKING_RATIO: f64 = 0.9117647058823529;
+/// Amplitudes of a clock's pendulum after a beat and before one (rad), its period (s).
+pub(super) const CLOCK: [f64; 3] = [0.19717623365031062, 0.19552284804841355, 1.993604050959789];

@@ -2,10 +2,10 @@
 
 use core::f64::consts::PI;
 
+use holonom::DormandPrince853;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::{Interaction, Mode};
-use holonom::DormandPrince853;
+use holonom::run::InteractionMode as Mode;
 
 use super::{Moves, tight};
 
@@ -70,16 +70,21 @@ where
         .coordinates::<C>()
         .interactions([friction])
         .run(0.0..=7.003, every(0.013), |sample| -> Result<(), Fault> {
-            let (place, sticks) = exact(sample.time());
-            let mode = if sticks {
-                let speed = sample.velocity(h.block).x;
-                assert!((speed - BELT).abs() < 1e-12, "{speed}");
-                Mode::Sticking
-            } else {
-                assert!((sample.effort(0)? - SLIDING).abs() < 1e-12);
-                Mode::SlidingDown
-            };
-            assert_eq!(sample.mode(0)?, mode, "{}", sample.time());
+            let time = sample.time();
+            let (place, sticks) = exact(time);
+            // Where a mode ends, both are right.
+            let is_between = exact(time - 1e-8).1 != exact(time + 1e-8).1;
+            match sample.mode(0)? {
+                Mode::Sticking if sticks || is_between => {
+                    let speed = sample.velocity(h.block).x;
+                    assert!((speed - BELT).abs() < 1e-12, "{speed} at {time}");
+                }
+                Mode::SlidingDown if !sticks || is_between => {
+                    let effort = sample.effort(0)?;
+                    assert!((effort - SLIDING).abs() < 1e-12, "{effort} at {time}");
+                }
+                mode => panic!("{mode:?} at {time}"),
+            }
             seen[usize::from(sticks)] += 1;
             let error = sample.pose(h.block).position.x - place;
             largest = largest.max(error.abs());

@@ -4,10 +4,10 @@ use core::f64::consts::PI;
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::{Interaction, JointQuantity, Mode};
+use holonom::run::{InteractionMode as Mode, JointQuantity};
 use holonom::{Adams, DormandPrince853, RadauIIA};
 
-use super::{Moves, GRAVITY, assert_times, reference, tight};
+use super::{GRAVITY, Moves, assert_times, reference, tight};
 
 /// A rod of 1 m on a hinge, 60 degrees from the vertical.
 #[derive(Mechanism)]
