@@ -8,7 +8,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::quantity::Scene;
-use crate::nonsmooth::status::{Status, Tracked};
+use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, MovingState, Vector as _};
 
@@ -25,13 +25,16 @@ where
         self.forces.interactions()
     }
 
-    /// The status of an interaction.
-    pub(crate) fn status(&self, number: usize) -> Option<Status<S>> {
-        let tracked = self.tracked().get(number);
-        tracked.map(|tracked| tracked.status.get())
+    /// Leaves the efforts that conditions of modes ask for in the statuses.
+    pub(crate) fn look_at_modes(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
+        let mut list = self.tracked().iter();
+        if list.any(|tracked| tracked.mode().holds()) {
+            self.efforts(time, &self.nearest(bodies))?;
+        }
+        Ok(())
     }
 
-    /// The reading of the condition under which the mode of an interaction ends.
+    /// The reading of the condition under which the mode of an interaction ends, after a look.
     pub(crate) fn reading_of_mode(
         &self,
         number: usize,
@@ -41,9 +44,6 @@ where
         let Some(tracked) = self.tracked().get(number) else {
             return Ok(S::one());
         };
-        if tracked.asks_for_effort() {
-            self.efforts(time, &self.nearest(bodies))?;
-        }
         let scene = Scene::<S, M> {
             constants: self.constants(),
             time,

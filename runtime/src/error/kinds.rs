@@ -150,7 +150,7 @@ pub enum Fault {
     },
     /// A setting of an [`Interaction`](crate::run::Interaction) that is not acceptable.
     InteractionSetting {
-        /// The joint's field.
+        /// The field of the joint or the point.
         joint: &'static str,
         /// Which one.
         setting: &'static str,
@@ -159,7 +159,7 @@ pub enum Fault {
     },
     /// A setting that this kind of [`Interaction`](crate::run::Interaction) does not have.
     MisplacedSetting {
-        /// The joint's field.
+        /// The field of the joint or the point.
         joint: &'static str,
         /// Which one.
         setting: &'static str,
@@ -173,7 +173,7 @@ pub enum Fault {
     },
     /// An angle or a displacement was put beyond its limit.
     BeyondLimit {
-        /// The joint's field.
+        /// The field of the joint or the point.
         joint: &'static str,
         /// The value (rad, m).
         value: f64,
@@ -182,14 +182,14 @@ pub enum Fault {
     },
     /// No modes of interactions fit together at an instant.
     NoMode {
-        /// The field of the joint of one of them.
+        /// The field of the joint or the point of one of them.
         joint: &'static str,
         /// The time (s).
         time: f64,
     },
     /// The modes of interactions change again and again at once.
     EndlessModes {
-        /// The field of the joint of the last one.
+        /// The field of the joint or the point of the last one.
         joint: &'static str,
         /// How often at once.
         changes: usize,

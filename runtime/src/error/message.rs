@@ -189,14 +189,14 @@ impl fmt::Display for Fault {
                 value,
             } => write!(
                 f,
-                "the {setting} of the interaction on joint `{joint}` is {}: limits are in order, those of an angle that does not count turns \
+                "the {setting} of the interaction on `{joint}` is {}: limits are in order, those of an angle that does not count turns \
                  are from -pi to pi; a restitution is from 0 to 1, a capacity is zero or more, a stiction is not below the capacity, and rates are \
-                 finite",
+                 finite; a normal has a length",
                 Given(value)
             ),
             Self::MisplacedSetting { joint, setting } => write!(
                 f,
-                "the interaction on joint `{joint}` has no `{setting}`: `restitution` and `rest_below` are of limits, `stiction`, `stribeck` \
+                "the interaction on `{joint}` has no `{setting}`: `restitution` and `rest_below` are of limits, `radius` of a point and a plane, `stiction`, `stribeck` \
                  and `released` of friction, brakes and clutches"
             ),
             Self::NoSuchInteraction {
@@ -212,13 +212,13 @@ impl fmt::Display for Fault {
                 limit,
             } => write!(
                 f,
-                "joint `{joint}` is at {}, beyond its limit of {}: start between the limits, and let no handler leave them",
+                "`{joint}` is at {}, beyond its limit of {}: start between the limits, and let no handler leave them",
                 Given(value),
                 Given(limit)
             ),
             Self::NoMode { joint, time } => write!(
                 f,
-                "at {} s no choice of modes satisfies all interactions, that on joint `{joint}` among them: an engaged dog may hold what is driven, \
+                "at {} s no choice of modes satisfies all interactions, that on `{joint}` among them: an engaged dog may hold what is driven, \
                  or numbers are out of range",
                 Given(time)
             ),
@@ -228,7 +228,7 @@ impl fmt::Display for Fault {
                 time,
             } => write!(
                 f,
-                "the modes of interactions changed {changes} times within a moment at {} s, last on joint `{joint}`: take a stiction that is nearer \
+                "the modes of interactions changed {changes} times within a moment at {} s, last on `{joint}`: take a stiction that is nearer \
                  to the capacity, a smoother curve, or a tighter tolerance",
                 Given(time)
             ),

@@ -67,8 +67,8 @@ where
     Ok(())
 }
 
-/// The changes of velocities and of coordinates (as velocities over a unit of time) that bring what
-/// is held back to where it is held, to rest, by the least movement in the metric of the mass.
+/// What brings back what is held, to where it is held and to rest: changes of velocities, and of
+/// coordinates as velocities over a unit of time. The least ones in the metric of the mass.
 pub(crate) fn corrections<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &[Tracked<S, M>; K],

@@ -6,6 +6,8 @@ use core::marker::PhantomData;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::point::Located;
+use crate::nonsmooth::place::{At, Plane};
 use crate::nonsmooth::quantity::{JointQuantity, Quantity};
 
 /// What holds a quantity of a mechanism by turns, and lets it go by turns: a limit, dry friction, a
@@ -110,8 +112,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// infinite where there is none. A stop pushes with whatever effort that takes, and does not
     /// pull.
     ///
-    /// An impact has no restitution if none is given. Impulses act in the metric of the mass, on the
-    /// whole mechanism, and all impacts of an instant are one problem.
+    /// An impact has no restitution if none is given. Impulses act in the metric of the mass, on
+    /// the whole mechanism, and all impacts of an instant are one problem.
     ///
     /// Both ends of an angle that does not count turns lie from `-pi` to `pi`.
     #[must_use]
@@ -124,9 +126,45 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         Self::new(Quantity::Joint(quantity.reading), Law::Limits(limits))
     }
 
-    /// Dry friction (Coulomb) along a quantity: while it slides, an effort of `capacity` (N m for
-    /// an angle, N for a displacement) against the rate; while it sticks, whatever effort up to
-    /// that keeps it.
+    /// A point of a body, or a centre of mass, that does not pass a plane: a limit on its distance
+    /// from it (m), without friction. With [`Interaction::radius`] it is the centre of a ball.
+    #[must_use]
+    pub fn contact(point: impl Located<M>, plane: Plane<S, M>) -> Self {
+        Self::apart(Quantity::Gap(At::of(point), plane.place), S::zero())
+    }
+
+    /// Two points whose distance is at least this one (m), without friction: two balls, with the
+    /// sum of their radii.
+    #[must_use]
+    pub fn contact_of_balls(first: impl Located<M>, second: impl Located<M>, distance: S) -> Self {
+        Self::apart(Quantity::Distance(At::of(first), At::of(second)), distance)
+    }
+
+    fn apart(quantity: Quantity<S>, least: S) -> Self {
+        let limits = Limits {
+            bounds: [least, S::constant(f64::INFINITY)],
+            restitution: S::zero(),
+            rest: Rest::Part(S::constant(REST)),
+        };
+        Self::new(quantity, Law::Limits(limits))
+    }
+
+    /// The least distance (m) of a point from the plane of [`Interaction::contact`].
+    #[must_use]
+    pub fn radius(mut self, radius: S) -> Self {
+        match (&mut self.law, &self.quantity) {
+            (Law::Limits(limits), Quantity::Gap(..)) => {
+                let [least, _] = &mut limits.bounds;
+                *least = radius;
+            }
+            _ => self.misplaced = Some("radius"),
+        }
+        self
+    }
+
+    /// Dry friction (Coulomb) along a quantity. While it slides, an effort of `capacity` (N m for an
+    /// angle, N for a displacement) acts against the rate. While it sticks, it has whatever effort
+    /// up to that keeps it.
     ///
     /// The capacity is known: it does not depend on the load of the joint. Friction of a finite
     /// capacity gives no impulse.
@@ -224,7 +262,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self
     }
 
-    /// The name of the joint that it is told by.
+    /// The name of the joint or the point that it is told by.
     pub(crate) fn name(&self) -> &'static str {
         self.quantity.name::<M>()
     }
@@ -241,6 +279,11 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         };
         if let Some(setting) = self.misplaced {
             return Err(Fault::MisplacedSetting { joint, setting });
+        }
+        if let Quantity::Gap(_, plane) = self.quantity
+            && !plane.is_finite()
+        {
+            return refuse("normal", S::zero());
         }
         let zero = S::zero();
         match self.law {

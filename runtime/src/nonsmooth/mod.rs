@@ -7,6 +7,8 @@
 //! impulses. Every choice of modes is then a small problem with bounds (`box_problem.rs`, which
 //! knows no mechanism).
 //!
+//! `impulse.rs` is the impact of an event of the user's own. Points and planes are in `place.rs`.
+//!
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
 //! modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of each of them.
 //!
@@ -15,7 +17,9 @@
 mod box_problem;
 pub(crate) mod columns;
 mod efforts;
+pub(crate) mod impulse;
 pub(crate) mod interaction;
+pub(crate) mod place;
 pub(crate) mod quantity;
 pub(crate) mod status;
 mod switch;

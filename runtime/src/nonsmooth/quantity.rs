@@ -8,6 +8,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
+use crate::nonsmooth::place::{At, PlaceOfPlane};
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -79,6 +80,10 @@ pub(crate) enum Quantity<S> {
     Joint(JointReading),
     /// The first less so many times the second.
     Difference(JointReading, JointReading, S),
+    /// The distance of a point from a plane.
+    Gap(At, PlaceOfPlane<S>),
+    /// The distance of two points.
+    Distance(At, At),
 }
 
 /// Where and how a mechanism is, to be read.
@@ -96,22 +101,35 @@ impl<S: Scalar> Quantity<S> {
             Self::Difference(first, second, ratio) => {
                 Quantity::Difference(first, second, Forward::fixed(ratio))
             }
+            Self::Gap(at, plane) => Quantity::Gap(at, plane.lifted()),
+            Self::Distance(a, b) => Quantity::Distance(a, b),
         }
     }
 
-    /// The joints whose readings it is made of.
-    fn joints(&self) -> [Option<usize>; 2] {
+    /// Whether the velocities of a body count.
+    fn is_of<M: Mechanism>(&self, body: usize) -> bool {
+        let of_joint = |reading: &JointReading| {
+            let joint = M::REPORT.joints.get(reading.joint());
+            joint.is_some_and(|joint| joint.bodies.contains(&Some(body)))
+        };
+        let body_of = |at: &At| at.body::<M>() == Some(body);
         match self {
-            Self::Joint(reading) => [Some(reading.joint()), None],
-            Self::Difference(first, second, _) => [Some(first.joint()), Some(second.joint())],
+            Self::Joint(reading) => of_joint(reading),
+            Self::Difference(first, second, _) => of_joint(first) || of_joint(second),
+            Self::Gap(at, plane) => body_of(at) || plane.body == Some(body),
+            Self::Distance(a, b) => body_of(a) || body_of(b),
         }
     }
 
-    /// The name of the joint that it is told by.
+    /// The name of the joint or the point that it is told by.
     pub(crate) fn name<M: Mechanism>(&self) -> &'static str {
-        let [joint, _] = self.joints();
-        let info = joint.and_then(|joint| M::REPORT.joints.get(joint));
-        info.map_or("", |info| info.name)
+        match self {
+            Self::Joint(reading) | Self::Difference(reading, ..) => {
+                let info = M::REPORT.joints.get(reading.joint());
+                info.map_or("", |info| info.name)
+            }
+            Self::Gap(at, _) | Self::Distance(at, _) => at.name::<M>(),
+        }
     }
 
     /// The value (rad, m); not that of a difference, which no law asks for.
@@ -119,6 +137,14 @@ impl<S: Scalar> Quantity<S> {
         match *self {
             Self::Joint(reading) => scene.value(reading),
             Self::Difference(..) => S::zero(),
+            Self::Gap(at, ref plane) => {
+                let [value, _] = scene.gap(at, plane);
+                value
+            }
+            Self::Distance(a, b) => {
+                let [value, _] = scene.distance(a, b);
+                value
+            }
         }
     }
 
@@ -129,7 +155,7 @@ impl<S: Scalar> Quantity<S> {
 
     /// Whether it has a value that a law asks for, or a rate alone.
     pub(crate) fn has_value(&self) -> bool {
-        matches!(self, Self::Joint(_))
+        !matches!(self, Self::Difference(..))
     }
 
     /// Its rate.
@@ -138,6 +164,14 @@ impl<S: Scalar> Quantity<S> {
             Self::Joint(reading) => scene.rate(reading),
             Self::Difference(first, second, ratio) => {
                 scene.rate(first) - ratio * scene.rate(second)
+            }
+            Self::Gap(at, ref plane) => {
+                let [_, rate] = scene.gap(at, plane);
+                rate
+            }
+            Self::Distance(a, b) => {
+                let [_, rate] = scene.distance(a, b);
+                rate
             }
         }
     }
@@ -160,13 +194,8 @@ impl<S: Scalar> Quantity<S> {
                 *velocity = value;
             }
         };
-        let joints = self.joints();
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
-            let is_of = |joint: &usize| {
-                let joint = M::REPORT.joints.get(*joint);
-                joint.is_some_and(|joint| joint.bodies.contains(&Some(body)))
-            };
-            if !joints.iter().flatten().any(is_of) {
+            if !self.is_of::<M>(body) {
                 continue;
             }
             let velocities = if info.kind == BodyKind::Rigid { 6 } else { 3 };

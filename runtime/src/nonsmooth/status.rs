@@ -81,7 +81,9 @@ pub(crate) struct Status<S> {
     pub(crate) held: S,
     /// The effort when it was last asked for.
     pub(crate) effort: S,
-    /// The reading of the condition has left its zero.
+    /// The last reading of the condition.
+    pub(crate) reading: S,
+    /// It has left its zero.
     has_left: bool,
     /// Until it has, readings down to this below zero are at zero.
     band: S,
@@ -136,11 +138,6 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.status.get().mode
     }
 
-    /// Whether the condition of the present mode asks for efforts.
-    pub(crate) fn asks_for_effort(&self) -> bool {
-        self.mode().holds()
-    }
-
     /// The reading of the condition under which the present mode ends: positive as long as it is
     /// right. Infinite of a mode that does not end by itself.
     pub(crate) fn reading(&self, scene: &Scene<'_, S, M>) -> S {
@@ -178,6 +175,7 @@ impl<S: Real> Status<S> {
             is_engaged: true,
             held: S::zero(),
             effort: S::zero(),
+            reading: S::zero(),
             has_left: true,
             band: S::zero(),
             is_found: false,
@@ -211,8 +209,8 @@ impl<S: Real> Status<S> {
         }
     }
 
-    /// Goes on with a reading by which the mode does not end.
-    pub(crate) fn pass(&mut self, reading: S) {
-        self.has_left |= reading > self.band;
+    /// Goes on with the last reading, by which the mode does not end.
+    pub(crate) fn go_on(&mut self) {
+        self.has_left |= self.reading > self.band;
     }
 }

@@ -26,7 +26,10 @@ const AT_REST: f64 = 1e-11;
 const ROUND_OFF: f64 = 64.0;
 
 /// The part of the capacity, or of the efforts at hand, below which an effort is at its bound.
-const AT_BOUND: f64 = 1e-10;
+const AT_BOUND: f64 = 1e-12;
+
+/// The least length (m) that a displacement is compared with.
+const LEAST: f64 = 1e-3;
 
 /// How a quantity moves at an instant.
 struct Motion<S> {
@@ -67,7 +70,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         if quantity.is_angle() {
             size.max(S::one())
         } else {
-            size.max(lengths)
+            size.max(lengths).max(S::constant(LEAST))
         }
     }
 
@@ -264,7 +267,7 @@ fn report<S, M, F, C, const K: usize>(
     }
 }
 
-/// The modes that follow, after impulses, from accelerations without any effort of the interactions.
+/// The modes that follow, after impulses, from accelerations without efforts of interactions.
 pub(crate) fn modes<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &[Tracked<S, M>; K],
@@ -292,7 +295,18 @@ where
         let (lower, upper) = match (tracked.status.get().next, tracked.friction()) {
             (Next::On(sign), _) if sign > S::zero() => (S::zero(), infinite),
             (Next::On(_), _) => (-infinite, S::zero()),
-            (Next::Still, Some(friction)) => (-friction.at_rest(), friction.at_rest()),
+            (Next::Still, Some(friction)) => {
+                // What was found at its capacity does not fall back by round-off.
+                let status = tracked.status.get();
+                let slips = status.is_found && status.before == InteractionMode::Sticking;
+                let part = if slips {
+                    S::one() - S::constant(AT_BOUND)
+                } else {
+                    S::one()
+                };
+                let capacity = part * friction.at_rest();
+                (-capacity, capacity)
+            }
             (Next::Moving(sign), Some(friction)) => {
                 sliding[index] = Some(sign);
                 let effort = -sign * friction.sliding(motions[index].rate);

@@ -41,6 +41,7 @@ pub(crate) mod within;
 mod written;
 
 pub use crate::nonsmooth::interaction::Interaction;
+pub use crate::nonsmooth::place::Plane;
 pub use crate::nonsmooth::quantity::JointQuantity;
 pub use crate::nonsmooth::status::{Impact, InteractionMode};
 pub use companion::{BodyError, Verification};

@@ -10,7 +10,7 @@ const MASS: f64 = 2.0;
 
 /// A block that is pushed (N).
 fn pushed(push: f64) -> Block {
-    let mut block = Block::new(0.0).expect("a block");
+    let mut block = Block::new(0.0, 0.0).expect("a block");
     block.push = push;
     block
 }
@@ -36,7 +36,11 @@ fn stops<C: Coordinates<Block>>() {
                 stopped = Some((sample.time(), sample.displacement(h.slide)));
             }
             let effort = sample.effort(0).expect("one interaction");
-            let wanted = if sample.time() < 1.2401 { -capacity } else { 0.0 };
+            let wanted = if sample.time() < 1.2401 {
+                -capacity
+            } else {
+                0.0
+            };
             assert!(
                 (effort - wanted).abs() < 1e-10,
                 "{effort} {}",
@@ -52,7 +56,7 @@ fn stops<C: Coordinates<Block>>() {
     assert!(report.warnings().is_empty(), "{}", report.warnings());
     let end = Block::HANDLES.slide;
     let view = block.view(report.time, &report.state).expect("a view");
-    assert_eq!(view.displacement_rate(end), 0.0);
+    assert!(view.displacement_rate(end).abs() < 1e-15);
 }
 
 #[test]
@@ -99,3 +103,72 @@ fn below_its_capacity_friction_does_not_creep() {
     stays::<Relative>();
     stays::<Absolute>();
 }
+
+fn swings<C: Coordinates<Block>>() {
+    let (stiffness, capacity) = (200.0, 3.0);
+    let (block, h) = (Block::new(stiffness, 0.0).expect("a block"), Block::HANDLES);
+    let mut start = block.described_state().expect("it is described");
+    block
+        .set_displacement(&mut start, h.slide, 0.1)
+        .expect("it is free");
+    // Half swings about `+-capacity / stiffness`, each 0.03 m shorter; the last ends at -0.01 m,
+    // where friction holds.
+    let half = core::f64::consts::PI / (stiffness / MASS).sqrt();
+    let exact = |time: f64| {
+        let swing = (time / half).floor();
+        if swing >= 3.0 {
+            return -0.01;
+        }
+        let sign = if swing == 1.0 { -1.0 } else { 1.0 };
+        let amplitude = 0.1 - 0.03 * swing - 0.015;
+        let phase = core::f64::consts::PI * (time / half - swing);
+        sign * (0.015 + amplitude * phase.cos())
+    };
+    let report = Simulation::new(&block, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .initial_state(start)
+        .interactions([Interaction::friction(h.slide.displacement(), capacity)])
+        .run(0.0_f64..=2.0, every(0.01), |sample| {
+            let (x, wanted) = (sample.displacement(h.slide), exact(sample.time()));
+            assert!((x - wanted).abs() < 1e-11, "{} {x} {wanted}", sample.time());
+            let sticks = sample.mode(0) == Ok(InteractionMode::Sticking);
+            assert_eq!(sticks, sample.time() > 3.0 * half);
+        })
+        .expect("it comes to rest");
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
+}
+
+#[test]
+fn a_spring_swings_between_lines_of_friction_and_sticks_off_its_middle() {
+    swings::<Relative>();
+    swings::<Absolute>();
+}
+
+#[test]
+fn what_sticks_slips_beyond_its_stiction() {
+    let (block, h) = (Block::new(0.0, 2.0).expect("a block"), Block::HANDLES);
+    let run = |friction: Interaction<f64, Block>, end: f64| {
+        let report = Simulation::new(&block, StandardLagrange, DormandPrince::new(tight()))
+            .interactions([friction])
+            .run(0.0_f64..=end, every(end), |_| ())
+            .expect("it slips");
+        let view = block.view(end, &report.state).expect("a view");
+        [view.displacement(h.slide), view.displacement_rate(h.slide)]
+    };
+    // 2 N/s on 2 kg: sticks up to 6 N, at 3 s, then slides against 4 N.
+    let plain = Interaction::friction(h.slide.displacement(), 4.0).stiction(6.0);
+    let [x, v] = run(plain, 5.0);
+    let rate = |t: f64| 0.5 * t * t - 2.0 * t + 1.5;
+    let way = |t: f64| t * t * t / 6.0 - t * t + 1.5 * t;
+    assert!((v - rate(5.0)).abs() < 1e-10, "{v}");
+    assert!((x - (way(5.0) - way(3.0))).abs() < 1e-10, "{x}");
+    // A curve from one to the other delays it.
+    let curve = plain.stribeck(0.5);
+    let [slower, _] = run(curve, 5.0);
+    assert!(slower < x && slower > 0.0, "{slower}");
+    // Solved once by `scipy.integrate.solve_ivp` (DOP853, 1e-13) from 3 s on.
+    assert!((slower - STRIBECK).abs() < 1e-9, "{slower:.12}");
+}
+
+/// See the last test.
+const STRIBECK: f64 = 2.0686151042034;

@@ -4,6 +4,9 @@
 
 mod block;
 mod bounces;
+mod contacts;
+mod descriptions;
+mod faults;
 mod shafts;
 
 use holonom::prelude::*;
@@ -18,11 +21,13 @@ struct Block {
     push: f64,
     #[param]
     stiffness: f64,
+    #[param]
+    ramp: f64,
     #[body(mass = 2.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
     block: Body,
     #[joint(between = [ground, block], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     slide: Prismatic,
-    #[force(between = [ground, block], head = [-9.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], force = push)]
+    #[force(between = [ground, block], head = [-9.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], force = push + ramp * time)]
     motor: Actuator,
     #[force(between = [ground, block], head = [-5.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], stiffness = stiffness, free_length = 5.0)]
     spring: SpringDamper,
@@ -60,6 +65,58 @@ struct Arm {
     shoulder: Revolute,
     #[joint(between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [1.0, 0.0, 0.0])]
     elbow: Revolute,
+}
+
+/// Three balls of 1 kg on a rail along x, the second and the third 0.5 m apart.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Row {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
+    a: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.0, 0.0, 0.0])]
+    b: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.5, 0.0, 0.0])]
+    c: Body,
+    #[joint(between = [ground, a], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    first: Prismatic,
+    #[joint(between = [ground, b], point = [1.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    second: Prismatic,
+    #[joint(between = [ground, c], point = [1.5, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    third: Prismatic,
+}
+
+/// A free rod of 1 m along y, 2 kg, whose end falls on a plane.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Falling {
+    #[body(free, mass = 2.0, inertia = [1.0 / 6.0, 0.01, 1.0 / 6.0], position = [0.0, 0.0, 1.0])]
+    rod: Body,
+    #[point(on = rod, at = [0.0, 0.5, 1.0])]
+    end: Point,
+    #[point(on = rod, at = [0.0, -0.5, 1.0])]
+    other: Point,
+}
+
+/// A motor, and an output with two gears.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Gearbox {
+    #[input]
+    torque: f64,
+    #[input]
+    load: f64,
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.0, 0.0, 0.0])]
+    motor: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
+    output: Body,
+    #[joint(between = [ground, motor], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    input_shaft: Revolute,
+    #[joint(between = [ground, output], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    output_shaft: Revolute,
+    #[force(between = [ground, motor], axis = [0.0, 0.0, 1.0], moment = torque)]
+    drive: TorsionalActuator,
+    #[force(between = [ground, output], axis = [0.0, 0.0, 1.0], moment = -load)]
+    resistance: TorsionalActuator,
 }
 
 fn tight() -> Tolerance<f64> {

@@ -9,6 +9,9 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::impulse::impact;
+use crate::nonsmooth::quantity::JointQuantity;
+use crate::nonsmooth::status::Impact;
 use crate::run::sample::Sample;
 
 /// An event of a run, for the handler of [`Simulation::on`](crate::Simulation::on): the
@@ -103,6 +106,28 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
         let tracked = self.sample.tracked(number)?;
         tracked.update(|status| status.is_engaged = false);
         Ok(())
+    }
+
+    /// Gives an impulse along the angle or the displacement of a joint, after which its rate is
+    /// `-restitution` times the one before (Newton's restitution, from 0 to 1). The constraints are
+    /// kept, and the mechanism changes as little as it can in the metric of its mass. Limits and
+    /// dogs on the way give their own impulses behind it.
+    ///
+    /// This is what an impact does to the whole mechanism; [`Event::set_angle_rate`] changes the
+    /// rates of one joint alone.
+    ///
+    /// # Errors
+    /// [`Fault::InteractionSetting`] of a restitution that is not from 0 to 1;
+    /// [`Fault::NoMode`] where the joint cannot move. The state is then as before.
+    pub fn impact(
+        &mut self,
+        quantity: JointQuantity<M>,
+        restitution: S,
+    ) -> Result<Impact<S>, Fault> {
+        let (constants, time) = (self.sample.constants(), self.sample.time());
+        let found = impact::<S, M>(constants, time, &self.state, quantity, restitution)?;
+        self.state = found.0;
+        Ok(found.1)
     }
 
     /// Sets the angle of a joint (rad), see

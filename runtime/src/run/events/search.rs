@@ -9,6 +9,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
+use crate::nonsmooth::status::Status;
 use crate::run::events::list::{Happening, Hybrid};
 use crate::run::events::root::{MOST, locate};
 use crate::run::events::watch::{is_same, looks};
@@ -94,7 +95,7 @@ where
                     }
                     Ok(())
                 })?;
-                self.modes_go_on(time, &bodies)?;
+                self.modes_go_on();
                 before = time;
                 continue;
             };
@@ -177,38 +178,44 @@ where
         (time, bodies): (S, &M::State<S>),
     ) -> Result<Option<S>, Fault> {
         let mut first: Option<S> = None;
+        self.dynamics.look_at_modes(time, bodies)?;
+        let mut readings_are_old = false;
         for number in 0..self.dynamics.tracked().len() {
+            if core::mem::take(&mut readings_are_old) {
+                self.dynamics.look_at_modes(time, bodies)?;
+            }
             let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
-            let Some(status) = self.dynamics.status(number) else {
+            let Some(tracked) = self.dynamics.tracked().get(number) else {
                 continue;
             };
+            tracked.update(|status| status.reading = reading);
+            let status = tracked.status.get();
             if !status.is_met(reading) {
                 continue;
             }
             let read = |time: S| {
                 let bodies = self.bodies(time)?;
+                self.dynamics.look_at_modes(time, &bodies)?;
                 let reading = self.dynamics.reading_of_mode(number, time, &bodies)?;
                 Ok::<S, Fault>(status.upwards(reading))
             };
+            readings_are_old = true;
             let root = locate((before, time), status.upwards(reading), read, MOST)?.plain();
             first = Some(first.map_or(root, |first| first.min(root)));
         }
         Ok(first)
     }
 
-    /// No mode has ended up to a time.
-    fn modes_go_on(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
-        for number in 0..self.dynamics.tracked().len() {
-            let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
-            if let Some(tracked) = self.dynamics.tracked().get(number) {
-                tracked.update(|status| status.pass(reading));
-            }
+    /// No mode has ended up to the last look.
+    fn modes_go_on(&mut self) {
+        for tracked in self.dynamics.tracked() {
+            tracked.update(Status::go_on);
         }
-        Ok(())
     }
 
     /// Marks the modes that end at a time.
     fn take_ends_of_modes(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
+        self.dynamics.look_at_modes(time, bodies)?;
         for number in 0..self.dynamics.tracked().len() {
             let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
             if let Some(tracked) = self.dynamics.tracked().get(number) {

@@ -1,0 +1,192 @@
+//! Points and planes of a mechanism, and the gaps between them.
+
+use core::marker::PhantomData;
+
+use crate::forward::Forward;
+use crate::math::quaternion::{normalised, rotate};
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::{cross, minus, plus, read};
+use crate::mechanism::handle::BodyHandle;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::point::{Located, Place};
+use crate::nonsmooth::quantity::Scene;
+use crate::state::vector::{Array, StateParts};
+
+/// A plane that is fixed on a body or on the ground, with the side that is free, for
+/// [`Interaction::contact`](crate::run::Interaction::contact).
+pub struct Plane<S, M> {
+    pub(crate) place: PlaceOfPlane<S>,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+impl<S: Copy, M> Clone for Plane<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Copy, M> Copy for Plane<S, M> {}
+
+impl<S: core::fmt::Debug, M> core::fmt::Debug for Plane<S, M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.place.fmt(f)
+    }
+}
+
+impl<S: Real, M: Mechanism> Plane<S, M> {
+    /// A plane on the ground through a point (m, global); the normal (global, of any length but
+    /// zero) points to the free side.
+    #[must_use]
+    pub fn on_ground(point: [S; 3], normal: [S; 3]) -> Self {
+        Self::new(None, point, normal)
+    }
+
+    /// A plane on a body through a point (m) from its centre of mass; point and normal along the
+    /// user's body axes.
+    #[must_use]
+    pub fn on(body: BodyHandle<M>, point: [S; 3], normal: [S; 3]) -> Self {
+        let axes = M::user_axes(body.index()).map(S::constant);
+        let [point, normal] = [point, normal].map(|vector| rotate(&axes, &vector));
+        Self::new(Some(body.index()), point, normal)
+    }
+
+    fn new(body: Option<usize>, point: [S; 3], normal: [S; 3]) -> Self {
+        let [x, y, z] = normal;
+        let length = x.fused(x, y.fused(y, z * z)).sqrt();
+        Self {
+            place: PlaceOfPlane {
+                body,
+                point,
+                normal: normal.map(|component| component.quotient(length)),
+            },
+            mechanism: PhantomData,
+        }
+    }
+}
+
+/// The plane in principal axes of its body; global on the ground. The normal has length 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlaceOfPlane<S> {
+    pub(crate) body: Option<usize>,
+    point: [S; 3],
+    normal: [S; 3],
+}
+
+impl<S: Scalar> PlaceOfPlane<S> {
+    pub(crate) fn lifted<const N: usize>(self) -> PlaceOfPlane<Forward<S, N>> {
+        PlaceOfPlane {
+            body: self.body,
+            point: self.point.map(Forward::fixed),
+            normal: self.normal.map(Forward::fixed),
+        }
+    }
+}
+
+impl<S: Real> PlaceOfPlane<S> {
+    /// Whether there is a normal.
+    pub(crate) fn is_finite(&self) -> bool {
+        let [a, b, c] = self.point;
+        let [x, y, z] = self.normal;
+        [a, b, c, x, y, z].iter().all(|number| number.is_finite())
+    }
+}
+
+/// A centre of mass, or a named point, by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum At {
+    Body(usize),
+    Point(usize),
+}
+
+impl At {
+    pub(crate) fn of<M>(at: impl Located<M>) -> Self {
+        match at.located() {
+            Place::Body(body) => Self::Body(body.index()),
+            Place::Point(point) => Self::Point(point.index()),
+        }
+    }
+
+    /// The body that it is fixed on.
+    pub(crate) fn body<M: Mechanism>(self) -> Option<usize> {
+        match self {
+            Self::Body(body) => Some(body),
+            Self::Point(point) => M::REPORT.points.get(point).and_then(|info| info.body),
+        }
+    }
+
+    pub(crate) fn name<M: Mechanism>(self) -> &'static str {
+        match self {
+            Self::Body(body) => M::REPORT.bodies.get(body).map_or("", |info| info.name),
+            Self::Point(point) => M::REPORT.points.get(point).map_or("", |info| info.name),
+        }
+    }
+
+    /// From the centre of mass of its body, in principal axes; global on the ground.
+    fn arm<S: Scalar, M: Mechanism>(self, constants: &M::Constants<S>) -> [S; 3] {
+        match self {
+            Self::Body(_) => [S::zero(); 3],
+            Self::Point(point) => M::named_point(constants, point),
+        }
+    }
+}
+
+/// A point or a direction, and its rate (global).
+type Moving<S> = [[S; 3]; 2];
+
+impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
+    /// A vector that is fixed in principal axes of a body.
+    fn turned(&self, body: usize, vector: &[S; 3]) -> Moving<S> {
+        let Some((info, place)) = BodyHandle::<M>::new(body).orientation() else {
+            return [*vector, [S::zero(); 3]];
+        };
+        let p = normalised(&read(self.bodies.coordinates().as_slice(), place));
+        let spin = read(self.bodies.velocities().as_slice(), info.velocity + 3);
+        let (vector, spin) = (rotate(&p, vector), rotate(&p, &spin));
+        [vector, cross(&spin, &vector)]
+    }
+
+    /// A point from the centre of mass of a body; global on the ground.
+    fn point(&self, body: Option<usize>, arm: &[S; 3]) -> Moving<S> {
+        let Some(body) = body else {
+            return [*arm, [S::zero(); 3]];
+        };
+        let [arm, turning] = self.turned(body, arm);
+        let info = BodyHandle::<M>::new(body).info();
+        let (coordinate, velocity) = info.map_or((0, 0), |info| (info.coordinate, info.velocity));
+        let centre = read(self.bodies.coordinates().as_slice(), coordinate);
+        let moving = read(self.bodies.velocities().as_slice(), velocity);
+        [plus(&centre, &arm), plus(&moving, &turning)]
+    }
+
+    fn at(&self, at: At) -> Moving<S> {
+        self.point(at.body::<M>(), &at.arm::<S, M>(self.constants))
+    }
+
+    /// The distance (m) of a point from a plane, positive on the free side, and its rate.
+    pub(crate) fn gap(&self, at: At, plane: &PlaceOfPlane<S>) -> [S; 2] {
+        let [point, velocity] = self.at(at);
+        let [base, base_velocity] = self.point(plane.body, &plane.point);
+        let [normal, turning] = match plane.body {
+            Some(body) => self.turned(body, &plane.normal),
+            None => [plane.normal, [S::zero(); 3]],
+        };
+        let (way, faster) = (minus(&point, &base), minus(&velocity, &base_velocity));
+        [
+            dot(&normal, &way),
+            dot(&normal, &faster) + dot(&turning, &way),
+        ]
+    }
+
+    /// The distance (m) of two points, and its rate.
+    pub(crate) fn distance(&self, a: At, b: At) -> [S; 2] {
+        let ([a, a_rate], [b, b_rate]) = (self.at(a), self.at(b));
+        let (way, faster) = (minus(&a, &b), minus(&a_rate, &b_rate));
+        let length = dot(&way, &way).sqrt();
+        [length, dot(&way, &faster) * length.reciprocal()]
+    }
+}
+
+fn dot<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
+    let pairs = a.iter().zip(b);
+    pairs.fold(S::zero(), |sum, (&a, &b)| a.fused(b, sum))
+}
