@@ -59,7 +59,12 @@ fn locked<C: Coordinates<Arm>>(end: f64) -> f64 {
                 event.engage(0)
             },
         )
-        .on("after", Crossing::Rising, |sample| sample.time() - 0.4 - 1e-9, |_| ())
+        .on(
+            "after",
+            Crossing::Rising,
+            |sample| sample.time() - 0.4 - 1e-9,
+            |_| (),
+        )
         .run(0.0..=end, every(0.05), |sample| -> Result<(), Fault> {
             let elbow_rate = sample.angle_rate(h.elbow);
             if sample.mode(0)? != Mode::Sticking {
@@ -84,9 +89,15 @@ fn locked<C: Coordinates<Arm>>(end: f64) -> f64 {
             if since < 1e-8 {
                 checked += 1;
                 let found = sample.angle_rate(h.shoulder);
-                assert!((found / shoulder - 1.0).abs() < 1e-13 + 20.0 * since, "{found}");
+                assert!(
+                    (found / shoulder - 1.0).abs() < 1e-13 + 20.0 * since,
+                    "{found}"
+                );
                 let found = sample.kinetic_energy();
-                assert!((found / after - 1.0).abs() < 1e-13 + 40.0 * since, "{found} {after}");
+                assert!(
+                    (found / after - 1.0).abs() < 1e-13 + 40.0 * since,
+                    "{found} {after}"
+                );
             }
             Ok(())
         })

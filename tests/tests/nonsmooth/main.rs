@@ -9,6 +9,7 @@ mod cradle;
 mod extremes;
 mod reference;
 mod rest;
+mod rocking;
 mod stick_slip;
 mod stops;
 

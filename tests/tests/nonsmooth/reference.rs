@@ -19,18 +19,12 @@ pub(super) const FOUR_BAR: [f64; 4] = [
 /// Its coupler and its rocker at the start, and the stop against that (rad).
 pub(super) const FOUR_BAR_ANGLES: [f64; 3] =
     [0.27132513712191536, 1.3905869587221644, -0.2247599978703779];
-/// Gravity (m/s^2), a crank's angle (rad) and rate (rad/s) after 2 s, friction by the load.
-pub(super) const SLIDER_CRANK: [[f64; 3]; 2] = [
-    [0.0, 13.47673986537319, 5.909070564444864],
-    [9.81, 12.045656361257464, 4.470395113341512],
-];
-/// Times of the impacts of a rocking block (s), and the ratio of its rates.
+/// Times of the impacts of a block that rocks on ice (s).
 pub(super) const ROCKING: [f64; 4] = [
-    0.45486731595255053,
-    1.1564746822023768,
-    1.7389272753962366,
-    2.2380097746162937,
+    0.2348220782448003,
+    0.4701004064777812,
+    0.62153233754746,
+    0.7240259947322709,
 ];
-pub(super) const ROCKING_RATIO: f64 = 0.9117647058823529;
 /// Amplitudes of a clock's pendulum after a beat and before one (rad), its period (s).
 pub(super) const CLOCK: [f64; 3] = [0.19717623365031062, 0.19552284804841355, 1.993604050959789];

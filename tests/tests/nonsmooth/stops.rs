@@ -2,10 +2,11 @@
 
 use core::f64::consts::PI;
 
+use holonom::measure::{Interacting, NoForces};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::{InteractionMode as Mode, JointQuantity};
-use holonom::{Adams, DormandPrince853, RadauIIA};
+use holonom::{Adams, DormandPrince853, Formulation, RadauIIA, Runs};
 
 use super::{GRAVITY, Moves, assert_times, reference, tight};
 
@@ -162,4 +163,48 @@ fn the_rocker_of_a_four_bar_bounces_at_the_times_of_its_energy() {
     four_bar::<_, Absolute>("ode45", DormandPrince::new(tight()), 1e-10);
     four_bar::<_, Relative>("dop853", DormandPrince853::new(tight()), 1e-10);
     four_bar::<_, Absolute>("rk4", Rk4::every(1e-3), 1e-9);
+}
+
+/// The times of the four-bar's impacts by another formulation, and how far the loop opens.
+fn formulated<F, C>(formulation: F) -> (Vec<f64>, f64)
+where
+    F: Formulation<f64>,
+    C: Coordinates<FourBar>,
+    DormandPrince<f64>: Runs<f64, FourBar, F, C, Interacting<f64, FourBar, NoForces, 1>>,
+{
+    let [_, _, stop] = reference::FOUR_BAR_ANGLES;
+    let (four_bar, h) = (FourBar::default(), FourBar::HANDLES);
+    let (mut times, mut opening) = (Vec::new(), 0.0_f64);
+    Simulation::new(&four_bar, formulation, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions([Interaction::limits(h.rocker_foot.angle(), [stop, 3.0]).restitution(0.5)])
+        .run(0.0..=1.03, every(2e-3), |sample| -> Result<(), Fault> {
+            opening = opening.max(sample.violation());
+            if let Some(impact) = sample.impact(0)?
+                && times.last() != Some(&impact.time)
+            {
+                times.push(impact.time);
+            }
+            Ok(())
+        })
+        .expect("it falls");
+    (times, opening)
+}
+
+#[test]
+fn other_formulations_bounce_at_the_same_times() -> Result<(), Fault> {
+    let four_bar = FourBar::default();
+    let baumgarte = Baumgarte::of(&four_bar)?;
+    for (times, opening) in [
+        formulated::<_, Absolute>(baumgarte),
+        formulated::<_, Relative>(baumgarte),
+    ] {
+        assert_times("Baumgarte", &times, &reference::FOUR_BAR, 1e-9);
+        assert!(opening < 1e-9, "{opening:e}");
+    }
+    let penalty = Penalty::of(&four_bar)?;
+    let (times, opening) = formulated::<_, Absolute>(penalty);
+    println!("{times:?} {opening:e}");
+    assert_times("penalty", &times, &reference::FOUR_BAR, 1e-3);
+    Ok(())
 }
