@@ -7,7 +7,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, MovingState, Vector as _};

@@ -212,13 +212,20 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     }
 
     pub(crate) fn with_forces<A2>(self, forces: A2) -> Dynamics<S, M, F, A2, C> {
+        self.exchange_forces(|_| forces)
+    }
+
+    pub(crate) fn exchange_forces<A2>(
+        self,
+        exchange: impl FnOnce(A) -> A2,
+    ) -> Dynamics<S, M, F, A2, C> {
         Dynamics {
             parameters: self.parameters,
             absolute: self.absolute,
             own: self.own,
             stabilisation: self.stabilisation,
             formulation: self.formulation,
-            forces,
+            forces: exchange(self.forces),
             iterations: self.iterations,
             seen: self.seen,
             coordinates: PhantomData,

@@ -8,7 +8,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::interaction::Interaction;
-use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::{Task, perform};
 

@@ -6,7 +6,7 @@ use crate::forward::{Forward, lifted};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::state::vector::{Array, MovingState, Vector};
 

@@ -8,7 +8,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::Factors;
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::Law;
-use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{InteractionMode, Tracked};
 use crate::state::vector::Array;
 

@@ -7,7 +7,8 @@ use crate::formulation::add;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::{Compliant, Mechanism};
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::nonsmooth::quantity::{JointQuantity, Quantity, Scene};
+use crate::nonsmooth::quantity::{JointQuantity, Quantity};
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Impact;
 use crate::state::vector::{Array, StateParts};
 

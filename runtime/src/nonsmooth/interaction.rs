@@ -95,8 +95,16 @@ fn is_nan<S: Real>(number: S) -> bool {
     number.to_f64().is_nan()
 }
 
-/// What an approach below the part of the fastest one has of restitution: none.
+/// An approach below this part of the fastest one has no restitution.
 const REST: f64 = 1e-4;
+
+/// Nor has one that leads to less of a height than so many `EPSILON`, which go with its square.
+const HEIGHT: f64 = 1e3;
+
+fn part_of_rest<S: Real>() -> Rest<S> {
+    let resolved = (S::constant(HEIGHT) * S::EPSILON).sqrt();
+    Rest::Part(S::constant(REST).max(resolved))
+}
 
 impl<S: Real, M: Mechanism> Interaction<S, M> {
     fn new(quantity: Quantity<S>, law: Law<S>) -> Self {
@@ -121,7 +129,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         let limits = Limits {
             bounds,
             restitution: S::zero(),
-            rest: Rest::Part(S::constant(REST)),
+            rest: part_of_rest(),
         };
         Self::new(Quantity::Joint(quantity.reading), Law::Limits(limits))
     }
@@ -144,7 +152,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         let limits = Limits {
             bounds: [least, S::constant(f64::INFINITY)],
             restitution: S::zero(),
-            rest: Rest::Part(S::constant(REST)),
+            rest: part_of_rest(),
         };
         Self::new(quantity, Law::Limits(limits))
     }
@@ -223,7 +231,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
 
     /// The rate (rad/s, m/s) of approach below which there is no restitution, so that what bounces
     /// comes to rest instead of bouncing without end. If it is not said, it is 1e-4 of the fastest
-    /// approach to this limit in the run so far.
+    /// approach to this limit in the run so far (0.01 of it in `f32`).
     #[must_use]
     pub fn rest_below(mut self, rate: S) -> Self {
         match &mut self.law {

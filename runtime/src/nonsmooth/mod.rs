@@ -21,6 +21,7 @@ pub(crate) mod impulse;
 pub(crate) mod interaction;
 pub(crate) mod place;
 pub(crate) mod quantity;
+pub(crate) mod scene;
 pub(crate) mod status;
 mod switch;
 pub(crate) mod task;

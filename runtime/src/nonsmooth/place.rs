@@ -9,7 +9,7 @@ use crate::math::vec3::{cross, minus, plus, read};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::{Located, Place};
-use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::scene::Scene;
 use crate::state::vector::{Array, StateParts};
 
 /// A plane that is fixed on a body or on the ground, with the side that is free, for

@@ -9,6 +9,7 @@ use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::nonsmooth::place::{At, PlaceOfPlane};
+use crate::nonsmooth::scene::Scene;
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -84,13 +85,6 @@ pub(crate) enum Quantity<S> {
     Gap(At, PlaceOfPlane<S>),
     /// The distance of two points.
     Distance(At, At),
-}
-
-/// Where and how a mechanism is, to be read.
-pub(crate) struct Scene<'a, S: Scalar, M: Mechanism> {
-    pub(crate) constants: &'a M::Constants<S>,
-    pub(crate) time: S,
-    pub(crate) bodies: &'a M::State<S>,
 }
 
 impl<S: Scalar> Quantity<S> {
@@ -242,6 +236,23 @@ impl<S: Real> Quantity<S> {
         }
     }
 
+    /// How far it is above a lower and below an upper bound. An angle that does not count turns is
+    /// measured from the middle, the short way round, so that it jumps where it is farthest from
+    /// both.
+    pub(crate) fn gaps<M: Mechanism>(
+        &self,
+        scene: &Scene<'_, S, M>,
+        [lower, upper]: [S; 2],
+    ) -> [S; 2] {
+        if !(lower.is_finite() && upper.is_finite()) {
+            let value = self.value(scene);
+            return [value - lower, upper - value];
+        }
+        let half = S::constant(0.5) * (upper - lower);
+        let beyond = self.beyond(scene, lower + half);
+        [beyond + half, half - beyond]
+    }
+
     /// Whether it is an angle that does not count turns.
     pub(crate) fn wraps<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> bool {
         let Self::Joint(JointReading::Angle(joint)) = *self else {
@@ -252,14 +263,6 @@ impl<S: Real> Quantity<S> {
             .is_none()
     }
 }
-
-impl<S: Scalar, M: Mechanism> Clone for Scene<'_, S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Scene<'_, S, M> {}
 
 impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
     fn value(&self, reading: JointReading) -> S {

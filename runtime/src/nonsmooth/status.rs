@@ -5,7 +5,7 @@ use core::cell::Cell;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::interaction::{Interaction, Law};
-use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::scene::Scene;
 
 /// The mode of an [`Interaction`](crate::run::Interaction).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,9 +146,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let Interaction { quantity, law, .. } = &self.interaction;
         match (status.mode, law) {
             (InteractionMode::Free, Law::Limits(limits)) => {
-                let [lower, upper] = limits.bounds;
-                let value = quantity.value(scene);
-                (value - lower).min(upper - value)
+                let [above, below] = quantity.gaps(scene, limits.bounds);
+                above.min(below)
             }
             (InteractionMode::AtLower, _) => status.effort,
             (InteractionMode::AtUpper, _) => -status.effort,

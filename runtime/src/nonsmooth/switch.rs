@@ -9,7 +9,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::{Friction, Law, Limits, Rest};
-use crate::nonsmooth::quantity::Scene;
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Impact, InteractionMode, Next, Tracked};
 use crate::state::vector::{Array, StateParts};
 
@@ -25,11 +25,19 @@ const AT_REST: f64 = 1e-11;
 /// Round-off of a reading, in `EPSILON` of what it is made of.
 const ROUND_OFF: f64 = 64.0;
 
+/// Round-off of a gap, likewise.
+const OF_GAP: f64 = 16.0;
+
 /// The part of the capacity, or of the efforts at hand, below which an effort is at its bound.
 const AT_BOUND: f64 = 1e-12;
 
 /// The least length (m) that a displacement is compared with.
 const LEAST: f64 = 1e-3;
+
+/// A part of a size, and at least so many `EPSILON` of it.
+fn part<S: Real>(part: f64, digits: f64) -> S {
+    S::constant(part).max(S::constant(digits) * S::EPSILON)
+}
 
 /// How a quantity moves at an instant.
 struct Motion<S> {
@@ -56,7 +64,7 @@ impl<S: Real> Motion<S> {
 
     /// A rate up to this is none.
     fn none(&self) -> S {
-        S::constant(AT_REST) * self.size
+        part::<S>(AT_REST, ROUND_OFF) * self.size
     }
 }
 
@@ -79,11 +87,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let status = self.status.get();
         let value = self.interaction.quantity.value(scene);
         let [lower, upper] = limits.bounds;
-        let gaps = [value - lower, upper - value];
+        let gaps = self.interaction.quantity.gaps(scene, limits.bounds);
         let size = self.size(scene);
         let is_lower = gaps[0] <= gaps[1];
         let gap = gaps[0].min(gaps[1]);
-        if gap < -(S::constant(BEYOND) * size) {
+        if gap < -(part::<S>(BEYOND, 1e4) * size) {
             return Err(Fault::BeyondLimit {
                 joint: self.interaction.name(),
                 value: value.to_f64(),
@@ -95,8 +103,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             InteractionMode::AtUpper => !is_lower,
             _ => status.is_found,
         };
-        let near = if is_held { BEYOND } else { ON_LIMIT };
-        let is_on = gap <= S::constant(near) * size;
+        let near = if is_held {
+            part::<S>(BEYOND, 1e4)
+        } else {
+            part::<S>(ON_LIMIT, ROUND_OFF)
+        };
+        let is_on = gap <= near * size;
         let sign = if is_lower { S::one() } else { -S::one() };
         Ok(is_on.then_some(sign))
     }
@@ -300,7 +312,7 @@ where
                 let status = tracked.status.get();
                 let slips = status.is_found && status.before == InteractionMode::Sticking;
                 let part = if slips {
-                    S::one() - S::constant(AT_BOUND)
+                    S::one() - part::<S>(AT_BOUND, ROUND_OFF)
                 } else {
                     S::one()
                 };
@@ -413,11 +425,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let reading = self.reading(scene);
         let round_off = S::constant(ROUND_OFF) * S::EPSILON;
         let floor = match mode {
-            InteractionMode::Free => round_off * self.size(scene),
+            InteractionMode::Free => S::constant(OF_GAP) * S::EPSILON * self.size(scene),
             InteractionMode::AtLower | InteractionMode::AtUpper => {
-                S::constant(AT_BOUND) * effort.abs().max(alone)
+                part::<S>(AT_BOUND, ROUND_OFF) * effort.abs().max(alone)
             }
-            InteractionMode::Sticking => S::constant(AT_BOUND) * effort.abs(),
+            InteractionMode::Sticking => part::<S>(AT_BOUND, ROUND_OFF) * effort.abs(),
             _ => round_off * motion.size,
         };
         self.update(|status| status.stand(reading, floor));

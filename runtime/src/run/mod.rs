@@ -48,6 +48,7 @@ pub use companion::{BodyError, Verification};
 pub use events::context::Event;
 pub use events::hybrid::{Handling, HybridSimulation, Simulated, With, WithInteractions};
 pub use events::list::{Happenings, NothingHappens};
+pub use events::stepper_modes::InteractingStepper;
 pub use events::watch::Crossing;
 pub use kinematics::KinematicResult;
 pub use output::{IntoFlow, Reporting};

@@ -123,7 +123,7 @@ where
     K: Scheme<S>,
     C: Coordinates<M>,
 {
-    fn exchange<A2, C2: Coordinates<M>>(
+    pub(super) fn exchange<A2, C2: Coordinates<M>>(
         self,
         exchange: impl FnOnce(Dynamics<S, M, F, A, C>) -> Dynamics<S, M, F, A2, C2>,
     ) -> Stepper<S, M, F, K, A2, C2> {

@@ -7,7 +7,9 @@ mod bounces;
 mod contacts;
 mod descriptions;
 mod faults;
+mod loops;
 mod shafts;
+mod steps;
 
 use holonom::prelude::*;
 
@@ -117,6 +119,40 @@ struct Gearbox {
     drive: TorsionalActuator,
     #[force(between = [ground, output], axis = [0.0, 0.0, 1.0], moment = -load)]
     resistance: TorsionalActuator,
+}
+
+/// A crank of 0.3 m about x, and a slider along y on a rod of 1 m: one loop.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Crank {
+    #[body(mass = 2.0, inertia = [0.05, 0.01, 0.05], position = [0.0, 0.0, 0.15])]
+    crank: Body,
+    #[body(mass = 1.0, inertia = [0.01, 0.01, 0.01], position = [0.0, 1.0, 0.0])]
+    slider: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    hinge: Revolute,
+    #[joint(between = [ground, slider], point = [0.0, 1.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    rail: Prismatic,
+    #[joint(between = [crank, slider], head = [0.0, 0.0, 0.3], tail = [0.0, 1.0, 0.0])]
+    rod: Distance,
+}
+
+/// A belt that a driver moves at 1 m/s, and a block of 1 kg on it, held by a spring.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Belt {
+    #[body(mass = 5.0, inertia = [0.1, 0.1, 0.1], velocity = [1.0, 0.0, 0.0])]
+    belt: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], velocity = [1.0, 0.0, 0.0])]
+    block: Body,
+    #[joint(between = [ground, belt], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    rollers: Prismatic,
+    #[joint(between = [belt, block], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    top: Prismatic,
+    #[joint(between = [ground, belt], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0], motion = time)]
+    motor: DisplacementDriver,
+    #[force(between = [ground, block], head = [-5.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], stiffness = 100.0, free_length = 5.0)]
+    spring: SpringDamper,
 }
 
 fn tight() -> Tolerance<f64> {

@@ -9,8 +9,8 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::nonsmooth::status::Status;
 use crate::run::events::list::{Happening, Hybrid};
+use crate::run::events::looked::Looked;
 use crate::run::events::root::{MOST, locate};
 use crate::run::events::watch::{is_same, looks};
 use crate::run::sample::Sample;
@@ -78,7 +78,7 @@ where
         hybrid.longest = hybrid.longest.max(self.end - start);
         let mut before = start;
         for time in looks(start, self.end, hybrid.is_fresh) {
-            let bodies = self.bodies(time)?;
+            let bodies = self.bodies_at(time)?;
             let mut first = self.first_end_of_a_mode(before, (time, &bodies))?;
             hybrid.list.each(&mut |happening| {
                 let root = self.look(happening, before, (time, &bodies))?;
@@ -101,7 +101,7 @@ where
             };
             // The end of an interval where it is there to round-off.
             let root = if is_same(root, time) { time } else { root };
-            let bodies = self.bodies(root)?;
+            let bodies = self.bodies_at(root)?;
             let longest = hybrid.longest;
             hybrid.list.each(&mut |happening| {
                 let reading = self.read(happening, root, &bodies)?;
@@ -131,7 +131,7 @@ where
         let mut root = None;
         if watch.is_met(reading) {
             let read = |time: S| {
-                let bodies = self.bodies(time)?;
+                let bodies = self.bodies_at(time)?;
                 let reading = self.read(happening, time, &bodies)?;
                 Ok::<S, Fault>(watch.upwards(reading))
             };
@@ -158,8 +158,22 @@ where
             None => Ok(reading),
         }
     }
+}
 
-    fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
+impl<S, M, F, A, C, K> Looked<S, M, F, A, C> for Step<'_, S, M, F, A, C, K>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+    K: Advance<S, Dynamics<S, M, F, A, C>>,
+{
+    fn looked(&self) -> &Dynamics<S, M, F, A, C> {
+        self.dynamics
+    }
+
+    fn bodies_at(&mut self, time: S) -> Result<M::State<S>, Fault> {
         let bodies = if time == self.end {
             let state = self.integration.state();
             self.dynamics.bodies_near(state, self.near)
@@ -168,60 +182,5 @@ where
             self.dynamics.bodies_near(&state, self.near)
         };
         Ok(with_unit_orientations::<S, M>(&bodies))
-    }
-
-    /// Where the first mode of an interaction ends between two times, of which the bodies at the
-    /// second are known.
-    fn first_end_of_a_mode(
-        &mut self,
-        before: S,
-        (time, bodies): (S, &M::State<S>),
-    ) -> Result<Option<S>, Fault> {
-        let mut first: Option<S> = None;
-        self.dynamics.look_at_modes(time, bodies)?;
-        let mut readings_are_old = false;
-        for number in 0..self.dynamics.tracked().len() {
-            if core::mem::take(&mut readings_are_old) {
-                self.dynamics.look_at_modes(time, bodies)?;
-            }
-            let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
-            let Some(tracked) = self.dynamics.tracked().get(number) else {
-                continue;
-            };
-            tracked.update(|status| status.reading = reading);
-            let status = tracked.status.get();
-            if !status.is_met(reading) {
-                continue;
-            }
-            let read = |time: S| {
-                let bodies = self.bodies(time)?;
-                self.dynamics.look_at_modes(time, &bodies)?;
-                let reading = self.dynamics.reading_of_mode(number, time, &bodies)?;
-                Ok::<S, Fault>(status.upwards(reading))
-            };
-            readings_are_old = true;
-            let root = locate((before, time), status.upwards(reading), read, MOST)?.plain();
-            first = Some(first.map_or(root, |first| first.min(root)));
-        }
-        Ok(first)
-    }
-
-    /// No mode has ended up to the last look.
-    fn modes_go_on(&mut self) {
-        for tracked in self.dynamics.tracked() {
-            tracked.update(Status::go_on);
-        }
-    }
-
-    /// Marks the modes that end at a time.
-    fn take_ends_of_modes(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
-        self.dynamics.look_at_modes(time, bodies)?;
-        for number in 0..self.dynamics.tracked().len() {
-            let reading = self.dynamics.reading_of_mode(number, time, bodies)?;
-            if let Some(tracked) = self.dynamics.tracked().get(number) {
-                tracked.update(|status| status.is_found = status.is_met(reading));
-            }
-        }
-        Ok(())
     }
 }
