@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .run(0.0..=60.0, every(1.0 / 60.0), |sample| {
             film.record(sample);
             film.reading("pendulum", "rad", sample.angle(h.pivot));
-            film.reading("wheel", "rad", sample.angle(h.arbor));
+            film.reading("kinetic energy", "J", sample.kinetic_energy());
         })?;
     film.warnings(&report.warnings());
     let page = std::env::temp_dir().join("clock.html");

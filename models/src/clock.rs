@@ -14,9 +14,9 @@ use holonom::run::Event;
 /// ```text
 ///     z     ( o )  wheel on its arbor, 30 teeth, driven by a weight
 ///     |
-///     |       o    pivot with dry friction       x towards the reader
+///     |       o    pivot with dry friction       y away from the reader
 ///     |      /
-///     o     O--- y     bob, angle from the vertical towards y
+///     o     O--- x     bob, angle from the vertical towards x
 /// ```
 ///
 /// Andronov, Vitt and Khaikin, *Theory of Oscillators*, 1966, chapter III: Coulomb friction, and a
@@ -47,26 +47,26 @@ use holonom::run::Event;
 pub struct Clock {
     #[body(
         shapes = [
-            rod(radius = 0.005, from = [0.0, 0.0, 0.0], to = [0.0, 0.0, -0.92]),
-            disc(radius = 0.08, thickness = 0.03, at = [0.0, 0.0, -1.0], axis = [1.0, 0.0, 0.0]),
+            rod(radius = 0.005, from = [0.0, 0.0, 0.0], to = [0.0, 0.0, -0.88]),
+            disc(radius = 0.12, thickness = 0.02, at = [0.0, 0.0, -1.0], axis = [0.0, 1.0, 0.0]),
         ],
-        density = 7800.0, velocity = [0.0, 0.8 * 0.20258 / 0.215, 0.0], angular_velocity = [0.8, 0.0, 0.0]
+        density = 7800.0, velocity = [0.8 * 0.29768 / 0.31, 0.0, 0.0], angular_velocity = [0.0, -0.8, 0.0]
     )]
     pendulum: Body,
     #[body(
         shapes = [
-            disc(radius = 0.1, thickness = 0.004, at = [0.0, 0.0, 0.25], axis = [1.0, 0.0, 0.0]),
-            rod(radius = 0.003, from = [0.0, 0.0, 0.25], to = [0.0, 0.0, 0.38]),
-            ball(radius = 0.010449, at = [0.0, 0.0, 0.2]),
+            disc(radius = 0.14, thickness = 0.004, at = [0.0, 0.0, 0.25], axis = [0.0, 1.0, 0.0]),
+            rod(radius = 0.003, from = [0.0, 0.0, 0.25], to = [0.0, 0.0, 0.45]),
+            ball(radius = 0.011906, at = [0.0, 0.0, 0.17]),
         ],
         density = 2700.0
     )]
     wheel: Body,
-    #[joint(between = [ground, pendulum], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    #[joint(between = [ground, pendulum], point = [0.0, 0.0, 0.0], axis = [0.0, -1.0, 0.0])]
     pivot: Revolute,
-    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.25], axis = [-1.0, 0.0, 0.0])]
+    #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.25], axis = [0.0, 1.0, 0.0])]
     arbor: Revolute,
-    #[force(between = [ground, wheel], moment = [-0.15, 0.0, 0.0])]
+    #[force(between = [ground, wheel], moment = [0.0, 0.15, 0.0])]
     weight: ConstantMoment,
 }
 

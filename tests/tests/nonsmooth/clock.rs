@@ -122,7 +122,7 @@ fn a_clock_comes_to_its_swing() {
     let arm = -view.pose(h.pendulum).position.z;
     let kinetic = view.kinetic_energy();
     // The pendulum's mass is not read, but made of its shapes.
-    let mass = 7800.0 * core::f64::consts::PI * (0.005_f64.powi(2) * 0.92 + 0.08 * 0.08 * 0.03);
+    let mass = 7800.0 * core::f64::consts::PI * (0.005_f64.powi(2) * 0.88 + 0.12 * 0.12 * 0.02);
     let uphill = |angle: f64| {
         let height = mass * 9.81 * arm * (1.0 - angle.cos());
         height + Clock::FRICTION * angle

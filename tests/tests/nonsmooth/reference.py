@@ -123,9 +123,10 @@ def clock():
     From an amplitude `a` to the next one, `b`, friction takes `T (a + b)` from `V`, the energy of
     the weight; where the pendulum passes the vertical the one way, `E` is added.
     """
-    rod, bob = 7800 * pi * mpf("0.005") ** 2 * mpf("0.92"), 7800 * pi * mpf("0.08") ** 2 * mpf("0.03")
-    inertia = rod * mpf("0.92") ** 2 / 3 + bob * (1 + mpf("0.08") ** 2 / 2)
-    weight = G * (rod * mpf("0.46") + bob)
+    length, radius = mpf("0.88"), mpf("0.12")
+    rod, bob = (7800 * pi * volume for volume in (mpf("2.5e-5") * length, radius**2 * mpf("0.02")))
+    inertia = rod * length**2 / 3 + bob * (1 + radius**2 / 2)
+    weight = G * (rod * length / 2 + bob)
     friction = mpf("0.04")
     path = mpf("0.15") * 2 * pi / 30 / (2 * friction)
     energy = lambda q: -weight * cos(q)

@@ -27,4 +27,4 @@ pub(super) const ROCKING: [f64; 4] = [
     0.7240259947322709,
 ];
 /// Amplitudes of a clock's pendulum after a beat and before one (rad), its period (s).
-pub(super) const CLOCK: [f64; 3] = [0.19717623365031062, 0.19552284804841355, 1.993604050959789];
+pub(super) const CLOCK: [f64; 3] = [0.1969121295935668, 0.19578695210515737, 2.0044007565260658];
