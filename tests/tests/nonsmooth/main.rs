@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod brakes;
+mod capacity;
 mod clock;
 mod cradle;
 mod extremes;
