@@ -27,12 +27,6 @@ pub(crate) struct Evaluator<'d, S: Real, M: Mechanism, F, A, C: Coordinates<M>> 
     pub(super) forces: &'d A,
 }
 
-/// A solution, and the system that it solves.
-type Solved<'s, S, M, F, C> = (
-    Saddle<'s, S, M, C, <F as Formulation<S>>::Terms>,
-    Solution<S, M, C>,
-);
-
 /// What an evaluation from its parts tells besides rates and multipliers.
 pub(super) struct Parts<S> {
     pub(super) pivot: Pivot<S>,
@@ -202,7 +196,8 @@ where
     ) -> Result<(), Fault> {
         let mut place = C::State::zeros();
         let (result, _) = self.begin(time, state, &mut place, |first, rates| {
-            let (saddle, solution) = self.solution((time, state), first, rates)?;
+            let mut solution = begun::<S, M, F, C>(first)?;
+            let saddle = self.refined((time, state), first, rates, &mut solution)?;
             then(&self.setting(saddle, rates), &solution.accelerations)
         });
         match result {
@@ -222,7 +217,8 @@ where
         multipliers: &mut C::Multipliers<S>,
         wants_efforts: bool,
     ) -> Result<Parts<S>, Fault> {
-        let (saddle, mut solution) = self.solution((time, state), first, rates)?;
+        let mut solution = begun::<S, M, F, C>(first)?;
+        let saddle = self.refined((time, state), first, rates, &mut solution)?;
         if A::INTERACTS {
             let task = Task::Complete(&mut solution, wants_efforts);
             let completed = self.forces.interact(&self.setting(saddle, rates), task);
@@ -239,23 +235,15 @@ where
         })
     }
 
-    /// The formulation's own solution, and the system that it solves.
+    /// Goes on from a first solution to that of the formulation; the system that it solves.
     #[inline(always)]
-    fn solution<'s>(
+    fn refined<'s>(
         &'s self,
         (time, state): (S, &'s C::State<S>),
         first: &First<'s, S, M, C>,
         rates: &'s C::State<S>,
-    ) -> Result<Solved<'s, S, M, F, C>, Fault> {
-        if vanishes::<S, F::Terms>(first.pivot.relative) {
-            return Err(Fault::StateNotFinite);
-        }
-        let mut solution = Solution::<S, M, C> {
-            accelerations: *first.accelerations,
-            multipliers: *first.multipliers,
-            iterations: 1,
-            unconverged: false,
-        };
+        solution: &mut Solution<S, M, C>,
+    ) -> Result<Saddle<'s, S, M, C, F::Terms>, Fault> {
         let saddle = Saddle::<S, M, C, F::Terms> {
             constants: &self.equations.constants,
             coefficients: &self.equations.coefficients,
@@ -266,9 +254,9 @@ where
             state: C::as_read(state, rates),
             terms: PhantomData,
         };
-        let refined = self.formulation.refine(&saddle, &mut solution);
+        let refined = self.formulation.refine(&saddle, solution);
         refined.map_err(explained_later)?;
-        Ok((saddle, solution))
+        Ok(saddle)
     }
 
     /// What interactions ask for.
@@ -313,6 +301,22 @@ where
         }
         forces
     }
+}
+
+/// The first solution, where no pivot vanishes.
+#[inline(always)]
+fn begun<S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>>(
+    first: &First<'_, S, M, C>,
+) -> Result<Solution<S, M, C>, Fault> {
+    if vanishes::<S, F::Terms>(first.pivot.relative) {
+        return Err(Fault::StateNotFinite);
+    }
+    Ok(Solution {
+        accelerations: *first.accelerations,
+        multipliers: *first.multipliers,
+        iterations: 1,
+        unconverged: false,
+    })
 }
 
 /// Why rates are not finite is found once the evaluation has given its stack back.

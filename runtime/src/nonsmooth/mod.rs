@@ -10,11 +10,12 @@
 //! `impulse.rs` is the impact of an event of the user's own. Points and planes are in `place.rs`.
 //!
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
-//! modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of each of them.
+//! `choice.rs` modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of it.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`.
 
 mod box_problem;
+mod choice;
 pub(crate) mod columns;
 mod efforts;
 pub(crate) mod impulse;

@@ -1,4 +1,4 @@
-//! Impulses, then modes, where a mode ends or something else has changed.
+//! Impulses, where a mode ends or something else has changed.
 
 use crate::constraints::extent::farthest;
 use crate::error::Fault;
@@ -6,7 +6,7 @@ use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
+use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors};
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::{Friction, Law, Limits, Rest};
 use crate::nonsmooth::scene::Scene;
@@ -23,31 +23,28 @@ const BEYOND: f64 = 1e-6;
 const AT_REST: f64 = 1e-11;
 
 /// Round-off of a reading, in `EPSILON` of what it is made of.
-const ROUND_OFF: f64 = 64.0;
-
-/// Round-off of a gap, likewise.
-const OF_GAP: f64 = 16.0;
+pub(super) const ROUND_OFF: f64 = 64.0;
 
 /// The part of the capacity, or of the efforts at hand, below which an effort is at its bound.
-const AT_BOUND: f64 = 1e-12;
+pub(super) const AT_BOUND: f64 = 1e-12;
 
 /// The least length (m) that a displacement is compared with.
 const LEAST: f64 = 1e-3;
 
 /// A part of a size, and at least so many `EPSILON` of it.
-fn part<S: Real>(part: f64, digits: f64) -> S {
+pub(super) fn part<S: Real>(part: f64, digits: f64) -> S {
     S::constant(part).max(S::constant(digits) * S::EPSILON)
 }
 
 /// How a quantity moves at an instant.
-struct Motion<S> {
-    rate: S,
+pub(super) struct Motion<S> {
+    pub(super) rate: S,
     /// The sum of the sizes of the terms of the rate; the largest one so far.
-    size: S,
+    pub(super) size: S,
 }
 
 impl<S: Real> Motion<S> {
-    fn of<M: Mechanism>(tracked: &Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
+    pub(super) fn of<M: Mechanism>(tracked: &Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
         let quantity = &tracked.interaction.quantity;
         let velocities = scene.bodies.velocities().as_slice();
         let mut size = S::zero();
@@ -69,8 +66,15 @@ impl<S: Real> Motion<S> {
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
+    pub(super) fn friction(&self) -> Option<&Friction<S>> {
+        match &self.interaction.law {
+            Law::Friction(friction) => Some(friction),
+            Law::Limits(_) => None,
+        }
+    }
+
     /// The size of what its value is compared with.
-    fn size(&self, scene: &Scene<'_, S, M>) -> S {
+    pub(super) fn size(&self, scene: &Scene<'_, S, M>) -> S {
         let quantity = &self.interaction.quantity;
         let coordinates = scene.bodies.coordinates().as_slice();
         let lengths = farthest(M::REPORT.bodies, coordinates);
@@ -279,165 +283,8 @@ fn report<S, M, F, C, const K: usize>(
     }
 }
 
-/// The modes that follow, after impulses, from accelerations without efforts of interactions.
-pub(crate) fn modes<S, M, F, C, const K: usize>(
-    setting: &Setting<'_, S, M, F, C>,
-    list: &[Tracked<S, M>; K],
-    accelerations: &C::Velocities<S>,
-) -> Result<(), Fault>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    C: Coordinates<M>,
-{
-    let chosen = list.each_ref().map(|tracked| {
-        let next = tracked.status.get().next;
-        !matches!(next, Next::Without)
-    });
-    let columns = Columns::of(setting, list, &chosen)?;
-    let offset = setting.accelerations(list, accelerations);
-    let mut problem = BoxProblem::at_rest(columns.delassus, offset);
-    let motions: [Motion<S>; K] =
-        setting.here(|scene| list.each_ref().map(|tracked| Motion::of(tracked, scene)));
-    let infinite = S::constant(f64::INFINITY);
-    // The sign of the rate at which friction slides, or begins to.
-    let mut sliding = [None; K];
-    for (index, tracked) in list.iter().enumerate() {
-        let (lower, upper) = match (tracked.status.get().next, tracked.friction()) {
-            (Next::On(sign), _) if sign > S::zero() => (S::zero(), infinite),
-            (Next::On(_), _) => (-infinite, S::zero()),
-            (Next::Still, Some(friction)) => {
-                // What was found at its capacity does not fall back by round-off.
-                let status = tracked.status.get();
-                let slips = status.is_found && status.before == InteractionMode::Sticking;
-                let part = if slips {
-                    S::one() - part::<S>(AT_BOUND, ROUND_OFF)
-                } else {
-                    S::one()
-                };
-                let capacity = part * friction.at_rest();
-                (-capacity, capacity)
-            }
-            (Next::Moving(sign), Some(friction)) => {
-                sliding[index] = Some(sign);
-                let effort = -sign * friction.sliding(motions[index].rate);
-                (effort, effort)
-            }
-            _ => (S::zero(), S::zero()),
-        };
-        (problem.lower[index], problem.upper[index]) = (lower, upper);
-    }
-    let mut solution = solved(&problem, setting, list)?;
-    // What begins to slide has the friction of sliding: others may follow.
-    for _ in 0..K {
-        let mut is_changed = false;
-        for (index, tracked) in list.iter().enumerate() {
-            let (Next::Still, None) = (tracked.status.get().next, sliding[index]) else {
-                continue;
-            };
-            let Some(friction) = tracked.friction() else {
-                continue;
-            };
-            let Some(sign) = begins_to_slide(friction, &solution, index) else {
-                continue;
-            };
-            sliding[index] = Some(sign);
-            let effort = -sign * friction.sliding(S::zero());
-            is_changed |= problem.lower[index] != effort && problem.upper[index] != effort;
-            (problem.lower[index], problem.upper[index]) = (effort, effort);
-        }
-        if !is_changed {
-            break;
-        }
-        solution = solved(&problem, setting, list)?;
-    }
-    for (index, tracked) in list.iter().enumerate() {
-        let is_inside = solution.places[index] == Place::Inside;
-        let mode = match (tracked.status.get().next, sliding[index]) {
-            (Next::On(sign), _) if is_inside && sign > S::zero() => InteractionMode::AtLower,
-            (Next::On(_), _) if is_inside => InteractionMode::AtUpper,
-            (_, Some(sign)) if sign > S::zero() => InteractionMode::SlidingUp,
-            (_, Some(_)) => InteractionMode::SlidingDown,
-            (Next::Still, None) => InteractionMode::Sticking,
-            _ if tracked.friction().is_some() => InteractionMode::Released,
-            _ => InteractionMode::Free,
-        };
-        let effort = solution.efforts[index];
-        let diagonal = columns.delassus[index][index];
-        let alone = if diagonal > S::zero() {
-            offset[index].abs().quotient(diagonal)
-        } else {
-            S::zero()
-        };
-        setting.here(|scene| tracked.enter(mode, scene, (effort, alone), &motions[index]));
-    }
-    Ok(())
-}
-
-/// The sign of the rate at which friction begins to slide; `None` where it sticks.
-fn begins_to_slide<S: Real, const K: usize>(
-    friction: &Friction<S>,
-    solution: &BoxSolution<S, K>,
-    index: usize,
-) -> Option<S> {
-    let residual = solution.residuals[index];
-    if friction.at_rest() > S::zero() {
-        return match solution.places[index] {
-            Place::Lower => Some(S::one()),
-            Place::Upper => Some(-S::one()),
-            Place::Inside => None,
-        };
-    }
-    // Without a capacity the acceleration says it.
-    if residual > S::zero() {
-        Some(S::one())
-    } else if residual < S::zero() {
-        Some(-S::one())
-    } else {
-        None
-    }
-}
-
-impl<S: Real, M: Mechanism> Tracked<S, M> {
-    fn friction(&self) -> Option<&Friction<S>> {
-        match &self.interaction.law {
-            Law::Friction(friction) => Some(friction),
-            Law::Limits(_) => None,
-        }
-    }
-
-    /// Enters a mode with its effort, and the one that would hold it alone.
-    fn enter(
-        &self,
-        mode: InteractionMode,
-        scene: &Scene<'_, S, M>,
-        (effort, alone): (S, S),
-        motion: &Motion<S>,
-    ) {
-        self.update(|status| {
-            if mode == InteractionMode::Sticking && status.before != InteractionMode::Sticking {
-                status.held = self.interaction.quantity.value(scene);
-            }
-            status.mode = mode;
-            status.effort = effort;
-        });
-        let reading = self.reading(scene);
-        let round_off = S::constant(ROUND_OFF) * S::EPSILON;
-        let floor = match mode {
-            InteractionMode::Free => S::constant(OF_GAP) * S::EPSILON * self.size(scene),
-            InteractionMode::AtLower | InteractionMode::AtUpper => {
-                part::<S>(AT_BOUND, ROUND_OFF) * effort.abs().max(alone)
-            }
-            InteractionMode::Sticking => part::<S>(AT_BOUND, ROUND_OFF) * effort.abs(),
-            _ => round_off * motion.size,
-        };
-        self.update(|status| status.stand(reading, floor));
-    }
-}
-
 /// The solution of a problem, or the fault where there is none.
-fn solved<S, M, F, C, const K: usize>(
+pub(super) fn solved<S, M, F, C, const K: usize>(
     problem: &BoxProblem<S, K>,
     setting: &Setting<'_, S, M, F, C>,
     list: &[Tracked<S, M>; K],

@@ -7,7 +7,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::status::Tracked;
-use crate::nonsmooth::{efforts, switch};
+use crate::nonsmooth::{choice, efforts, switch};
 
 /// What is asked for.
 pub enum Task<'t, S: Real, M: Mechanism, C: Coordinates<M>> {
@@ -41,6 +41,6 @@ where
         }
         Task::Correct(changes) => efforts::corrections(setting, list, changes),
         Task::Strike(change, is_moved) => switch::impulses(setting, list, is_moved, change),
-        Task::Choose(accelerations) => switch::modes(setting, list, accelerations),
+        Task::Choose(accelerations) => choice::modes(setting, list, accelerations),
     }
 }

@@ -264,8 +264,7 @@ where
     /// #     hinge: Revolute,
     /// # }
     /// let (rod, h) = (Rod::default(), Rod::HANDLES);
-    /// let report = rod
-    ///     .simulation(StandardLagrange, DormandPrince::default())
+    /// rod.simulation(StandardLagrange, DormandPrince::default())
     ///     .interactions([
     ///         Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.4),
     ///         Interaction::friction(h.hinge.angle(), 0.2),
