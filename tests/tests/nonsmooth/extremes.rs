@@ -14,7 +14,10 @@ struct Ball {
     mass: f64,
     #[param]
     height: f64,
-    #[body(mass = mass, inertia = [0.1 * mass, 0.1 * mass, 0.1 * mass], position = [0.0, 0.0, height])]
+    #[body(
+        mass = mass, inertia = [0.1 * mass, 0.1 * mass, 0.1 * mass],
+        position = [0.0, 0.0, height]
+    )]
     ball: Body,
     #[joint(between = [ground, ball], point = [0.0, 0.0, height], axis = [0.0, 0.0, 1.0])]
     rail: Prismatic,
@@ -278,7 +281,7 @@ fn no_stop_is_passed_whatever_the_step() {
 #[test]
 #[ignore = "an angle that wraps passes what is forbidden between two looks into a step"]
 fn no_stop_near_half_a_turn_is_passed_whatever_the_step() {
-    for stop in [3.0, 3.1, 3.14] {
+    for stop in [3.0, 3.1, 3.125] {
         no_stop_is_passed::<Relative>(stop);
         no_stop_is_passed::<Absolute>(stop);
     }

@@ -99,7 +99,9 @@ fn a_steeper_one_slides_as_galileo_says() {
 struct Bolt {
     #[body(mass = 5.0, inertia = [0.02, 0.02, 0.01])]
     nut: Body,
-    #[joint(between = [ground, nut], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0], pitch = 0.002)]
+    #[joint(
+        between = [ground, nut], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0], pitch = 0.002
+    )]
     thread: Screw,
 }
 

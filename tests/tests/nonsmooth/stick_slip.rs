@@ -24,11 +24,17 @@ struct Oscillator {
     block: Body,
     #[joint(between = [ground, belt], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     rollers: Prismatic,
-    #[joint(between = [ground, belt], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0], motion = 0.2 * time)]
+    #[joint(
+        between = [ground, belt], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0],
+        motion = 0.2 * time
+    )]
     drive: DisplacementDriver,
     #[joint(between = [belt, block], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     contact: Prismatic,
-    #[force(between = [ground, block], head = [-10.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], stiffness = 50.0, free_length = 10.0)]
+    #[force(
+        between = [ground, block], head = [-10.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0],
+        stiffness = 50.0, free_length = 10.0
+    )]
     spring: SpringDamper,
 }
 
