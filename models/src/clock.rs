@@ -50,7 +50,8 @@ pub struct Clock {
             rod(radius = 0.005, from = [0.0, 0.0, 0.0], to = [0.0, 0.0, -0.88]),
             disc(radius = 0.12, thickness = 0.02, at = [0.0, 0.0, -1.0], axis = [0.0, 1.0, 0.0]),
         ],
-        density = 7800.0, velocity = [0.8 * 0.29768 / 0.31, 0.0, 0.0], angular_velocity = [0.0, -0.8, 0.0]
+        density = 7800.0,
+        velocity = [0.8 * 0.29768 / 0.31, 0.0, 0.0], angular_velocity = [0.0, -0.8, 0.0]
     )]
     pendulum: Body,
     #[body(

@@ -41,8 +41,8 @@ struct Oscillator {
 /// Where the block is at a time, and whether it sticks.
 ///
 /// It slips where the spring holds the stiction, and moves about the place of the sliding friction
-/// as a free oscillator does: `(S - F) / k cos(w t) + v / w sin(w t)`. It has the belt's speed again
-/// as far before that place as it was beyond it.
+/// as a free oscillator does: `(S - F) / k cos(w t) + v / w sin(w t)`. It has the belt's speed
+/// again as far before that place as it was beyond it.
 fn exact(time: f64) -> (f64, bool) {
     let frequency = (STIFFNESS / 2.0).sqrt();
     let (middle, beyond) = (SLIDING / STIFFNESS, (STICTION - SLIDING) / STIFFNESS);
