@@ -14,6 +14,7 @@
 //! | [`FlyballGovernor`] | balls, arms and a slider on stiff springs | stiffness | IFToMM A05 |
 //! | [`Door`] | a leaf on two hinges | redundant equations | own data |
 //! | [`CartPole`] | a pole on a cart | control, a closed form | Barto, Sutton and Anderson 1983 |
+//! | [`Clock`] | a pendulum with dry friction and a wheel that a dog holds | interactions: friction, events, dogs | Andronov, Vitt and Khaikin 1966 |
 //! | [`Ur5`], [`Panda`] | arms of six and seven hinges | robots, forward dynamics against Pinocchio | `example-robot-data` |
 //! | [`HeavyChain`] | 1000 kg on a chain of grams | a ratio of masses of 1e6 | own data |
 //!
@@ -34,6 +35,8 @@ extern crate std;
 mod bricard;
 #[cfg(feature = "cart-pole")]
 mod cart_pole;
+#[cfg(feature = "clock")]
+mod clock;
 #[cfg(feature = "door")]
 mod door;
 #[cfg(feature = "flyball-governor")]
@@ -66,6 +69,8 @@ mod variable_length_pendulum;
 pub use bricard::Bricard;
 #[cfg(feature = "cart-pole")]
 pub use cart_pole::CartPole;
+#[cfg(feature = "clock")]
+pub use clock::Clock;
 #[cfg(feature = "door")]
 pub use door::Door;
 #[cfg(feature = "flyball-governor")]

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use holonom_film::Sketch as _;
 use holonom_models::{
-    Bricard, CartPole, Door, DoubleFourBar, DrivenSliderCrank, FlyballGovernor, FourBar,
+    Bricard, CartPole, Clock, Door, DoubleFourBar, DrivenSliderCrank, FlyballGovernor, FourBar,
     HeavyChain, HeavyTop, Panda, QuintupleFourBar, RodPendulum, SimplePendulum, SliderCrank,
     SqueezingMechanism, Ur5, VariableLengthPendulum,
 };
@@ -47,6 +47,7 @@ macro_rules! sketches {
 sketches! {
     "bricard": Bricard,
     "cart_pole": CartPole,
+    "clock": Clock,
     "door": Door,
     "double_four_bar": DoubleFourBar,
     "driven_slider_crank": DrivenSliderCrank,
