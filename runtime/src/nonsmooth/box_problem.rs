@@ -6,8 +6,8 @@
 //! Principal pivoting by the least index (Murty, *Note on a Bard-type scheme for solving the
 //! complementarity problem*, 1974; for bounds: Judice and Pires, *A block principal pivoting
 //! algorithm for large-scale strictly monotone linear complementarity problems*, 1994). It ends for
-//! a positive definite matrix. A relative floor on the diagonal makes it one, and chooses the least
-//! efforts where rows depend on each other.
+//! a positive definite matrix. A relative floor on the diagonal makes it one, and chooses small
+//! efforts where rows depend on each other; refinement then takes it out again.
 
 use crate::math::scalar::Real;
 
@@ -43,6 +43,9 @@ pub(crate) struct BoxSolution<S, const K: usize> {
 /// Rounds of refinement, which take out what the floor has put in.
 const ROUNDS: usize = 3;
 
+/// Round-off of residuals and efforts, in `EPSILON`.
+const NOISE: f64 = 64.0;
+
 /// Pivots for each unknown, at the most.
 const PIVOTS: usize = 64;
 
@@ -69,46 +72,69 @@ impl<S: Real, const K: usize> BoxProblem<S, K> {
 
     /// The solution; `None` where pivoting does not end, or a number is not finite.
     pub(crate) fn solved(&self) -> Option<BoxSolution<S, K>> {
+        let root = S::EPSILON.sqrt();
+        // The lower floor tells bounds apart by more digits, the higher one always ends.
+        let floors = [root * root.sqrt(), root];
+        floors.into_iter().find_map(|floor| self.solved_with(floor))
+    }
+
+    fn solved_with(&self, floor: S) -> Option<BoxSolution<S, K>> {
+        // Inside at first: what depends on each other then shares the effort.
         let mut places = [Place::Lower; K];
         for (place, (&lower, &upper)) in places.iter_mut().zip(self.lower.iter().zip(&self.upper)) {
-            // Zero where that is allowed is the nearest guess.
-            if lower < S::zero() && upper > S::zero() {
+            if lower < upper {
                 *place = Place::Inside;
-            } else if lower < S::zero() && lower < upper {
-                *place = Place::Upper;
             }
         }
+        let floored = self.floored(floor);
         for _ in 0..PIVOTS * (K + 1) {
-            let efforts = self.with_places(&places)?;
-            let residuals = self.residuals(&efforts);
-            let sizes = self.sizes(&efforts);
-            let mut changed = false;
-            for index in 0..K {
-                let (effort, residual) = (efforts[index], residuals[index]);
-                let (lower, upper) = (self.lower[index], self.upper[index]);
-                // What round-off leaves is no reason for a pivot.
-                let noise = S::constant(64.0) * S::EPSILON;
-                let next = match places[index] {
-                    Place::Inside if effort < lower - noise * lower.abs() => Place::Lower,
-                    Place::Inside if effort > upper + noise * upper.abs() => Place::Upper,
-                    Place::Lower if lower < upper && residual < -noise * sizes[index] => {
-                        Place::Inside
-                    }
-                    Place::Upper if residual > noise * sizes[index] => Place::Inside,
-                    same => same,
-                };
-                if next != places[index] {
-                    places[index] = next;
-                    changed = true;
-                    break;
-                }
-            }
-            if !changed {
+            let efforts = floored.with_places(&places)?;
+            let residuals = floored.residuals(&efforts);
+            let Some((index, next)) = floored.pivot(&places, &efforts, &residuals) else {
+                let efforts = self.refined(efforts, &places)?;
                 return Some(BoxSolution {
                     efforts,
-                    residuals,
+                    residuals: self.residuals(&efforts),
                     places,
                 });
+            };
+            places[index] = next;
+        }
+        None
+    }
+
+    /// The same with a floor on the diagonal, so that pivoting ends.
+    fn floored(&self, floor: S) -> Self {
+        let mut floored = *self;
+        for index in 0..K {
+            let diagonal = &mut floored.matrix[index][index];
+            *diagonal = *diagonal * (S::one() + floor);
+        }
+        floored
+    }
+
+    /// The first unknown that is not where it should be, and where it goes.
+    fn pivot(
+        &self,
+        places: &[Place; K],
+        efforts: &[S; K],
+        residuals: &[S; K],
+    ) -> Option<(usize, Place)> {
+        // What round-off leaves is no reason for a pivot.
+        let noise = S::constant(NOISE) * S::EPSILON;
+        let sizes = self.sizes(efforts);
+        for index in 0..K {
+            let (effort, residual) = (efforts[index], residuals[index]);
+            let (lower, upper) = (self.lower[index], self.upper[index]);
+            let next = match places[index] {
+                Place::Inside if effort < lower - noise * lower.abs() => Place::Lower,
+                Place::Inside if effort > upper + noise * upper.abs() => Place::Upper,
+                Place::Lower if lower < upper && residual < -noise * sizes[index] => Place::Inside,
+                Place::Upper if residual > noise * sizes[index] => Place::Inside,
+                same => same,
+            };
+            if next != places[index] {
+                return Some((index, next));
             }
         }
         None
@@ -134,6 +160,11 @@ impl<S: Real, const K: usize> BoxProblem<S, K> {
                 Place::Inside => S::zero(),
             };
         }
+        self.refined(efforts, places)
+    }
+
+    /// Efforts with what is inside solved for.
+    fn refined(&self, mut efforts: [S; K], places: &[Place; K]) -> Option<[S; K]> {
         let inside = places.map(|place| place == Place::Inside);
         let factors = Factors::of(&self.matrix, &inside);
         for _ in 0..ROUNDS {

@@ -12,6 +12,9 @@ use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
 use crate::nonsmooth::switch::{AT_BOUND, Motion, ROUND_OFF, part, solved};
 
+/// What was found at its capacity slips, to this part of it: more than the floor of a problem.
+const SLIPS: f64 = 1e-11;
+
 /// Round-off of a gap, in `EPSILON` of its size.
 const OF_GAP: f64 = 16.0;
 
@@ -48,7 +51,7 @@ where
                 let status = tracked.status.get();
                 let slips = status.is_found && status.before == InteractionMode::Sticking;
                 let part = if slips {
-                    S::one() - part::<S>(AT_BOUND, ROUND_OFF)
+                    S::one() - part::<S>(SLIPS, ROUND_OFF)
                 } else {
                     S::one()
                 };
@@ -89,7 +92,16 @@ where
         solution = solved(&problem, setting, list)?;
     }
     for (index, tracked) in list.iter().enumerate() {
-        let is_inside = solution.places[index] == Place::Inside;
+        let effort = solution.efforts[index];
+        let diagonal = columns.delassus[index][index];
+        let alone = if diagonal > S::zero() {
+            offset[index].abs().quotient(diagonal)
+        } else {
+            S::zero()
+        };
+        // A limit that bears nothing is left.
+        let bears = effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone;
+        let is_inside = solution.places[index] == Place::Inside && bears;
         let mode = match (tracked.status.get().next, sliding[index]) {
             (Next::On(sign), _) if is_inside && sign > S::zero() => InteractionMode::AtLower,
             (Next::On(_), _) if is_inside => InteractionMode::AtUpper,
@@ -98,13 +110,6 @@ where
             (Next::Still, None) => InteractionMode::Sticking,
             _ if tracked.friction().is_some() => InteractionMode::Released,
             _ => InteractionMode::Free,
-        };
-        let effort = solution.efforts[index];
-        let diagonal = columns.delassus[index][index];
-        let alone = if diagonal > S::zero() {
-            offset[index].abs().quotient(diagonal)
-        } else {
-            S::zero()
         };
         setting.here(|scene| tracked.enter(mode, scene, (effort, alone), &motions[index]));
     }

@@ -77,6 +77,8 @@ pub(crate) enum Next<S> {
 pub(crate) struct Status<S> {
     pub(crate) mode: InteractionMode,
     pub(crate) is_engaged: bool,
+    /// A handler has engaged or released it.
+    pub(crate) is_asked: bool,
     /// The value that is held.
     pub(crate) held: S,
     /// The effort when it was last asked for.
@@ -172,6 +174,7 @@ impl<S: Real> Status<S> {
         Self {
             mode: InteractionMode::Free,
             is_engaged: true,
+            is_asked: false,
             held: S::zero(),
             effort: S::zero(),
             reading: S::zero(),
@@ -186,10 +189,17 @@ impl<S: Real> Status<S> {
         }
     }
 
+    /// Engages or releases it.
+    pub(crate) fn engage(&mut self, is_engaged: bool) {
+        self.is_engaged = is_engaged;
+        self.is_asked = true;
+    }
+
     /// Begins a mode with the reading of its condition, which resolves no more than `floor`.
     pub(crate) fn stand(&mut self, reading: S, floor: S) {
         let two = S::constant(2.0);
         self.is_found = false;
+        self.is_asked = false;
         self.has_left = reading > two * floor;
         self.band = floor.max(two * reading.abs());
     }

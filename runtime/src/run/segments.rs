@@ -447,6 +447,12 @@ where
         if self.monitor.is_some() {
             self.dynamics.see_pivot(time, &bodies);
         }
+        // A mode may end where the step began: no step to look at.
+        if A::INTERACTS && time <= last_good.0 {
+            *last_good = (time, bodies);
+            self.log.unseen += 1;
+            return Ok(());
+        }
         let state = self.dynamics.nearest(&bodies);
         self.accept((time, &state), bodies, estimate, last_good)
     }

@@ -85,6 +85,17 @@ fn enumerated<const K: usize>(problem: &BoxProblem<f64, K>) -> Vec<[f64; K]> {
             continue;
         }
         let n = inside.len();
+        if n == 0 {
+            let candidate = BoxSolution {
+                efforts,
+                residuals: [0.0; K],
+                places: [Place::Lower; K],
+            };
+            if wrong(problem, &candidate) < 1e-9 {
+                found.push(efforts);
+            }
+            continue;
+        }
         let w = nalgebra::DMatrix::from_fn(n, n, |i, j| problem.matrix[inside[i]][inside[j]]);
         let right = nalgebra::DVector::from_fn(n, |i, _| {
             let row = problem.matrix[inside[i]].iter().zip(&efforts);
@@ -114,7 +125,9 @@ fn agrees<const K: usize>(seed: u64, rank: usize) {
         let problem = problem::<K>(&mut numbers, rank);
         let solution = problem.solved().expect("pivoting ends");
         let rest = wrong(&problem, &solution);
-        assert!(rest < 1e-9, "{rest} in {problem:?}: {solution:?}");
+        // Where rows depend on each other, places are right to the floor.
+        let bound = if rank < K { 1e-6 } else { 1e-9 };
+        assert!(rest < bound, "{rest} in {problem:?}: {solution:?}");
         if rank < K {
             continue;
         }
@@ -154,8 +167,11 @@ fn equal_rows_share_the_effort() {
     problem.upper = [f64::INFINITY; 2];
     let solution = problem.solved().expect("pivoting ends");
     for effort in solution.efforts {
-        assert!((effort - 5.0).abs() < 1e-9, "{effort}");
+        // To what the floor resolves, `EPSILON^(1/4)`.
+        assert!((effort - 5.0).abs() < 1e-3, "{effort}");
     }
+    let sum: f64 = solution.efforts.iter().sum();
+    assert!((sum - 10.0).abs() < 1e-9, "{sum}");
     assert_eq!(solution.places, [Place::Inside; 2]);
 }
 
@@ -168,9 +184,5 @@ fn a_row_without_freedom_has_no_effort() {
     assert!((solution.efforts[1] - 3.0).abs() < 1e-12);
     let mut nothing = problem;
     nothing.offset = [f64::NAN; 2];
-    assert!(
-        nothing
-            .solved()
-            .is_none_or(|solution| solution.efforts[1].is_nan())
-    );
+    assert!(nothing.solved().is_none());
 }

@@ -95,7 +95,7 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     /// [`Fault::NoSuchInteraction`].
     pub fn engage(&mut self, number: usize) -> Result<(), Fault> {
         let tracked = self.sample.tracked(number)?;
-        tracked.update(|status| status.is_engaged = true);
+        tracked.update(|status| status.engage(true));
         Ok(())
     }
 
@@ -105,7 +105,7 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     /// [`Fault::NoSuchInteraction`].
     pub fn release(&mut self, number: usize) -> Result<(), Fault> {
         let tracked = self.sample.tracked(number)?;
-        tracked.update(|status| status.is_engaged = false);
+        tracked.update(|status| status.engage(false));
         Ok(())
     }
 

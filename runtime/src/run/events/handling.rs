@@ -14,6 +14,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
+use crate::nonsmooth::status::Tracked;
 use crate::run::companion::Companion;
 use crate::run::events::context::Event;
 use crate::run::events::list::{Happening, Hybrid};
@@ -30,6 +31,8 @@ const LITTLE: f64 = 1e-6;
 struct Done {
     /// A handler has set the state.
     moved: bool,
+    /// Or something else by which modes of interactions may change.
+    changed: bool,
     /// A handler or a controller stops the run.
     stops: bool,
 }
@@ -111,6 +114,7 @@ where
         }
         let mut done = Done {
             moved: false,
+            changed: false,
             stops: self.log.flow.is_break(),
         };
         if !done.stops {
@@ -136,6 +140,7 @@ where
         let before = self.monitor.is_some().then(|| self.energies(time, state));
         let mut done = Done {
             moved: false,
+            changed: false,
             stops: false,
         };
         if is_found {
@@ -146,13 +151,18 @@ where
         done.moved = self.switch(hybrid, time, state, false)?;
         if is_found {
             let handled = self.call(hybrid, Called::Handlers, time, state)?;
-            self.switch(hybrid, time, state, true)?;
+            if handled.changed {
+                self.switch(hybrid, time, state, true)?;
+            }
             done.moved |= handled.moved;
             done.stops = handled.stops;
         }
         if !done.stops && time < hybrid.end {
-            done.stops = self.call(hybrid, Called::Controllers, time, state)?.stops;
-            self.switch(hybrid, time, state, true)?;
+            let controlled = self.call(hybrid, Called::Controllers, time, state)?;
+            if controlled.changed {
+                self.switch(hybrid, time, state, true)?;
+            }
+            done.stops = controlled.stops;
         }
         if is_found {
             hybrid.is_fresh = true;
@@ -188,6 +198,7 @@ where
     ) -> Result<Done, Fault> {
         let mut done = Done {
             moved: false,
+            changed: false,
             stops: false,
         };
         let Hybrid {
@@ -224,6 +235,7 @@ where
             if held != *inputs || parameters.is_some() {
                 self.dynamics.set_inputs(&held)?;
                 *inputs = held;
+                done.changed = true;
             }
             if next != *state {
                 let duration = *end - time;
@@ -233,6 +245,8 @@ where
             done.stops |= matches!(flow, ControlFlow::Break(()));
             Ok(())
         })?;
+        let asks = |tracked: &Tracked<S, M>| tracked.status.get().is_asked;
+        done.changed |= done.moved || self.dynamics.tracked().iter().any(asks);
         Ok(done)
     }
 

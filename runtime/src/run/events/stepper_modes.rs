@@ -175,7 +175,7 @@ where
     /// [`Fault::NoSuchInteraction`].
     pub fn engage(&mut self, number: usize) -> Result<(), Fault> {
         let tracked = self.tracked(number)?;
-        tracked.update(|status| status.is_engaged = true);
+        tracked.update(|status| status.engage(true));
         Ok(())
     }
 
@@ -185,7 +185,7 @@ where
     /// [`Fault::NoSuchInteraction`].
     pub fn release(&mut self, number: usize) -> Result<(), Fault> {
         let tracked = self.tracked(number)?;
-        tracked.update(|status| status.is_engaged = false);
+        tracked.update(|status| status.engage(false));
         Ok(())
     }
 
