@@ -30,7 +30,7 @@ struct Lamp {
 
 /// By mpmath, with 30 digits: where the potential energy is least (rad), and the square roots of
 /// the eigenvalues of `M^-1 K` there (rad/s).
-const REST: [f64; 2] = [0.19385167692180368, -0.09764636967273810];
+const REST: [f64; 2] = [0.1938516769218037, -0.0976463696727381];
 const FREQUENCIES: [f64; 2] = [6.335204313471399, 29.840534939648855];
 
 fn main() -> Result<(), Fault> {

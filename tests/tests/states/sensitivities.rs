@@ -1,5 +1,6 @@
 //! Derivatives of runs by parameters and starts of states.
 
+use holonom::Forward;
 use holonom::prelude::*;
 
 use crate::{Fan, L, tight};
@@ -69,7 +70,7 @@ fn derivatives_by_a_start_are_those_of_the_linear_system() {
 fn a_start_in_chosen_coordinates_has_the_same_derivative() {
     let fan = Fan::of(R);
     let h = Fan::HANDLES;
-    let mut ends = [[0.0; 2]; 2];
+    let mut ends = [[0.0_f64; 2]; 2];
     let [plain, chosen] = &mut ends;
     let read = |sample: &Sample<'_, Forward<f64, 1>, Fan>| {
         let [current] = sample.state_value(h.current).derivatives();

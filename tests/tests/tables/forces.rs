@@ -106,7 +106,7 @@ fn derivatives_of_runs_pass_through_a_table() {
     let handles = Pendulums::HANDLES;
     let mut last = [f64::NAN; 3];
     pendulums
-        .sensitivities([handles.share.into()])
+        .sensitivities([handles.share])
         .expect("a parameter")
         .simulation(StandardLagrange, Rk4::every(STEP))
         .run(0.0..=1.0, every(1.0), |sample| {

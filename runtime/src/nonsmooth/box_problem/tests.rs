@@ -72,13 +72,13 @@ fn enumerated<const K: usize>(problem: &BoxProblem<f64, K>) -> Vec<[f64; K]> {
         let mut efforts = [0.0; K];
         let mut inside = Vec::new();
         let mut is_possible = true;
-        for index in 0..K {
+        for (index, effort) in efforts.iter_mut().enumerate() {
             match digits % 3 {
-                0 => efforts[index] = problem.lower[index],
-                1 => efforts[index] = problem.upper[index],
+                0 => *effort = problem.lower[index],
+                1 => *effort = problem.upper[index],
                 _ => inside.push(index),
             }
-            is_possible &= efforts[index].is_finite();
+            is_possible &= effort.is_finite();
             digits /= 3;
         }
         if !is_possible {
