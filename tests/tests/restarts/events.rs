@@ -2,6 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 
+use holonom::error::CheckpointFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::Checkpoint;
@@ -160,4 +161,74 @@ fn a_run_stops_at_a_checkpoint() {
     let last = last.expect("one");
     assert_eq!(stopped.time, last.time());
     assert_eq!(build().resume(&last, |_| ()).expect("it goes on"), whole);
+}
+
+/// Their modes are not kept, and the run says so.
+#[test]
+fn a_run_with_interactions_has_no_checkpoint() {
+    let flap = flap();
+    let friction = Interaction::friction(Flap::HANDLES.hinge.angle(), 0.1);
+    let error = flap
+        .simulation(StandardLagrange, Rk4::every(0.01))
+        .interactions([friction])
+        .checkpoints(10, |_| ())
+        .run(0.0..=1.0, every(0.1), |_| ())
+        .expect_err("no checkpoint");
+    assert_eq!(
+        error.fault,
+        Fault::Checkpoint(CheckpointFault::Interactions)
+    );
+}
+
+/// A pendulum on a slide that is driven from outside.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Driven {
+    #[input(order = 2)]
+    target: Setpoint,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1])]
+    slide: Body,
+    #[body(mass = 1.0, inertia = [0.083, 0.083, 0.001], position = [0.0, 0.0, -0.5])]
+    rod: Body,
+    #[joint(between = [ground, slide], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    rail: Prismatic,
+    #[joint(
+        between = [ground, slide], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0], motion = target
+    )]
+    drive: DisplacementDriver,
+    #[joint(between = [slide, rod], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    hinge: Revolute,
+}
+
+/// A target moves at 0.1 m/s^2 from rest. Value, rate and acceleration are held for a millisecond.
+fn target(time: f64) -> Setpoint {
+    Setpoint {
+        value: 0.05 * time * time,
+        rate: 0.1 * time,
+        acceleration: 0.1,
+    }
+}
+
+#[test]
+fn inputs_with_derivatives_go_on() {
+    let driven = Driven::default();
+    let build = || {
+        driven
+            .simulation(StandardLagrange, Rk4::every(1e-3))
+            .joint_coordinates()
+            .every_period(1e-3, |sample, inputs| inputs.target = target(sample.time()))
+    };
+    let mut kept = None;
+    let whole = build()
+        .checkpoints(501, |checkpoint| {
+            kept = kept.take().or(Some(checkpoint.clone()))
+        })
+        .run(0.0..=1.0, every(0.25), |_| ())
+        .expect("it runs");
+    let kept = kept.expect("one");
+    let resumed = build().resume(&kept, |_| ()).expect("it goes on");
+    assert_eq!(resumed.state, whole.state);
+    // The slide drags the rod behind: about 0.1 / 9.81 rad.
+    let angle = driven.view(&whole.state).angle(Driven::HANDLES.hinge);
+    assert!(angle.abs() > 1e-4, "{angle}");
 }

@@ -125,20 +125,21 @@ fn a_rate_that_is_no_number_names_its_state() {
     let empty = Empty::default();
     let run = |by_joints| {
         let run = empty.simulation(StandardLagrange, DormandPrince::default());
-        if by_joints {
+        let ended = if by_joints {
             run.joint_coordinates().run(0.0..=1.0, every(1.0), |_| ())
         } else {
             run.absolute_coordinates()
                 .run(0.0..=1.0, every(1.0), |_| ())
-        }
+        };
+        ended.expect_err("no root").fault
     };
     for by_joints in [false, true] {
-        let error = run(by_joints).expect_err("no root");
+        let fault = run(by_joints);
         let expected = Fault::RatesNotFinite {
             origin: NotFinite::Rate("level"),
         };
-        assert_eq!(error.fault, expected);
-        let text = error.fault.to_string();
+        assert_eq!(fault, expected);
+        let text = fault.to_string();
         assert_eq!(
             text,
             "the rates of the state are not finite: the rate of state `level` is not finite"
