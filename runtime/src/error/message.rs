@@ -3,6 +3,7 @@
 
 use core::fmt;
 
+use crate::error::interactions;
 use crate::error::readable::{Given, Measured};
 use crate::error::{
     AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
@@ -222,58 +223,13 @@ impl fmt::Display for Fault {
                     "the trajectory goes from {start} s to {end} s, and was asked for {time} s"
                 )
             }
-            Self::InteractionSetting {
-                joint,
-                setting,
-                value,
-            } => write!(
-                f,
-                "the {setting} of the interaction on `{joint}` is {}: limits are in order, those of an angle that does not count turns \
-                 are from -pi to pi; a restitution is from 0 to 1, a capacity is zero or more, a stiction is not below the capacity, and rates are \
-                 finite; a normal has a length",
-                Given(value)
-            ),
-            Self::MisplacedSetting { joint, setting } => write!(
-                f,
-                "the interaction on `{joint}` has no `{setting}`: `restitution` and `rest_below` are of limits, `radius` of a point and a plane, `stiction`, `stribeck` \
-                 and `released` of friction, brakes and clutches"
-            ),
-            Self::NoSuchInteraction {
-                number,
-                interactions,
-            } => write!(
-                f,
-                "there is no interaction {number}: the run has {interactions}, and they count from 0"
-            ),
-            Self::BeyondLimit {
-                joint,
-                value,
-                limit,
-            } => write!(
-                f,
-                "`{joint}` is at {}, beyond its limit of {}: start between the limits, and let no handler leave them",
-                Given(value),
-                Given(limit)
-            ),
-            Self::NoMode { joint, time } => write!(
-                f,
-                "at {} s no choice of modes satisfies all interactions, that on `{joint}` among them: an engaged dog may hold what is driven, \
-                 or numbers are out of range",
-                Given(time)
-            ),
-            Self::EndlessModes {
-                joint,
-                changes,
-                time,
-            } => write!(
-                f,
-                "the modes of interactions changed {changes} times within a moment at {} s, last on `{joint}`: take a stiction that is nearer \
-                 to the capacity, a smoother curve, or a tighter tolerance",
-                Given(time)
-            ),
-            Self::NoInteractions => f.write_str(
-                "`GeneralizedAlpha` does not move a mechanism with interactions; every other method does, `RadauIIA` where the system is stiff",
-            ),
+            Self::InteractionSetting { .. }
+            | Self::MisplacedSetting { .. }
+            | Self::NoSuchInteraction { .. }
+            | Self::BeyondLimit { .. }
+            | Self::NoMode { .. }
+            | Self::EndlessModes { .. }
+            | Self::NoInteractions => interactions::say(self, f),
             Self::NotVerified => write!(
                 f,
                 "a run with events, controllers or checkpoints has no companion that `verified()` could compare it with; compare with a second run of \

@@ -4,6 +4,7 @@
 //! that returns an error prints `Debug`.
 
 mod checkpoint;
+mod interactions;
 mod kinds;
 pub(crate) mod message;
 pub(crate) mod readable;

@@ -141,7 +141,7 @@ impl<S: Real, const K: usize> BoxProblem<S, K> {
     }
 
     /// Of what size the terms of the residuals are.
-    fn sizes(&self, efforts: &[S; K]) -> [S; K] {
+    pub(super) fn sizes(&self, efforts: &[S; K]) -> [S; K] {
         let mut sizes = self.offset.map(|offset| offset.abs());
         for (size, row) in sizes.iter_mut().zip(&self.matrix) {
             let terms = row.iter().zip(efforts);
@@ -151,7 +151,7 @@ impl<S: Real, const K: usize> BoxProblem<S, K> {
     }
 
     /// The efforts with these places.
-    fn with_places(&self, places: &[Place; K]) -> Option<[S; K]> {
+    pub(super) fn with_places(&self, places: &[Place; K]) -> Option<[S; K]> {
         let mut efforts = [S::zero(); K];
         for index in 0..K {
             efforts[index] = match places[index] {

@@ -7,13 +7,16 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Place};
 use crate::nonsmooth::columns::{Columns, Setting};
-use crate::nonsmooth::interaction::Friction;
+use crate::nonsmooth::interaction::{Friction, Law};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
 use crate::nonsmooth::switch::{AT_BOUND, Motion, ROUND_OFF, part, solved};
 
 /// What was found at its capacity slips, to this part of it: more than the floor of a problem.
 const SLIPS: f64 = 1e-11;
+
+/// Accelerations that are none, in `EPSILON` of what efforts bring about.
+const NO_ACCELERATION: f64 = 256.0;
 
 /// Round-off of a gap, in `EPSILON` of its size.
 const OF_GAP: f64 = 16.0;
@@ -68,9 +71,15 @@ where
         (problem.lower[index], problem.upper[index]) = (lower, upper);
     }
     let mut solution = solved(&problem, setting, list)?;
+    let roots: [S; K] = core::array::from_fn(|index| {
+        let diagonal = columns.delassus[index][index];
+        diagonal.max(S::zero()).sqrt()
+    });
+    let mut strength = strength_of(&problem, &solution, &roots);
     // What begins to slide has the friction of sliding: others may follow.
     for _ in 0..K {
         let mut is_changed = false;
+        let can_be_held = held_at_bounds(list, &problem, &solution, (strength, &roots), &sliding);
         for (index, tracked) in list.iter().enumerate() {
             let (Next::Still, None) = (tracked.status.get().next, sliding[index]) else {
                 continue;
@@ -78,7 +87,8 @@ where
             let Some(friction) = tracked.friction() else {
                 continue;
             };
-            let Some(sign) = begins_to_slide(friction, &solution, index) else {
+            let is_held = can_be_held[index];
+            let Some(sign) = begins_to_slide(friction, &solution, (index, is_held)) else {
                 continue;
             };
             sliding[index] = Some(sign);
@@ -90,6 +100,7 @@ where
             break;
         }
         solution = solved(&problem, setting, list)?;
+        strength = strength_of(&problem, &solution, &roots);
     }
     for (index, tracked) in list.iter().enumerate() {
         let effort = solution.efforts[index];
@@ -111,18 +122,85 @@ where
             _ if tracked.friction().is_some() => InteractionMode::Released,
             _ => InteractionMode::Free,
         };
-        setting.here(|scene| tracked.enter(mode, scene, (effort, alone), &motions[index]));
+        let work = if roots[index] > S::zero() {
+            strength.quotient(roots[index])
+        } else {
+            alone
+        };
+        let efforts = [effort, alone, work];
+        setting.here(|scene| tracked.enter(mode, scene, efforts, &motions[index]));
     }
     Ok(())
 }
 
-/// The sign of the rate at which friction begins to slide; `None` where it sticks.
+/// The largest acceleration that is at work, over the root of its compliance: so all quantities
+/// can be compared, whatever their units.
+fn strength_of<S: Real, const K: usize>(
+    problem: &BoxProblem<S, K>,
+    solution: &BoxSolution<S, K>,
+    roots: &[S; K],
+) -> S {
+    let sizes = problem.sizes(&solution.efforts);
+    let pairs = sizes.into_iter().zip(roots);
+    pairs.fold(S::zero(), |strength, (size, &root)| {
+        if root > S::zero() {
+            strength.max(size.quotient(root))
+        } else {
+            strength
+        }
+    })
+}
+
+/// Which frictions can be held at their bounds: those without acceleration, if they have the same
+/// effort where all that is held is solved for. They have not where a limit bears the rest.
+fn held_at_bounds<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    problem: &BoxProblem<S, K>,
+    solution: &BoxSolution<S, K>,
+    (strength, roots): (S, &[S; K]),
+    sliding: &[Option<S>; K],
+) -> [bool; K] {
+    let round_off = S::constant(NO_ACCELERATION) * S::EPSILON * strength;
+    let mut held = [false; K];
+    let mut places = solution.places;
+    for (index, tracked) in list.iter().enumerate() {
+        let status = tracked.status.get();
+        let slips = status.is_found && status.before == InteractionMode::Sticking;
+        let is_still = status.next == Next::Still && sliding[index].is_none();
+        let is_at_bound = places[index] != Place::Inside;
+        let rests = solution.residuals[index].abs() <= round_off * roots[index];
+        if is_still && is_at_bound && rests && !slips {
+            held[index] = true;
+            places[index] = Place::Inside;
+        }
+    }
+    if !held.contains(&true) {
+        return held;
+    }
+    let Some(efforts) = problem.with_places(&places) else {
+        return [false; K];
+    };
+    for (index, held) in held.iter_mut().enumerate() {
+        let effort = solution.efforts[index];
+        let change = (efforts[index] - effort).abs();
+        let nearly = part::<S>(AT_BOUND, ROUND_OFF) * effort.abs();
+        let bound = nearly.max(round_off.quotient(roots[index]));
+        *held &= roots[index] > S::zero() && change <= bound;
+    }
+    held
+}
+
+/// The sign of the rate at which friction begins to slide; `None` where it sticks, or can be held at
+/// its bound.
 fn begins_to_slide<S: Real, const K: usize>(
     friction: &Friction<S>,
     solution: &BoxSolution<S, K>,
-    index: usize,
+    (index, can_be_held): (usize, bool),
 ) -> Option<S> {
     let residual = solution.residuals[index];
+    if can_be_held {
+        return None;
+    }
     if friction.at_rest() > S::zero() {
         return match solution.places[index] {
             Place::Lower => Some(S::one()),
@@ -141,12 +219,13 @@ fn begins_to_slide<S: Real, const K: usize>(
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
-    /// Enters a mode with its effort, and the one that would hold it alone.
+    /// Enters a mode with its effort, the one that would hold it alone, and the size of those that
+    /// are at work.
     fn enter(
         &self,
         mode: InteractionMode,
         scene: &Scene<'_, S, M>,
-        (effort, alone): (S, S),
+        [effort, alone, work]: [S; 3],
         motion: &Motion<S>,
     ) {
         self.update(|status| {
@@ -156,6 +235,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             status.mode = mode;
             status.effort = effort;
         });
+        if let Law::Limits(limits) = &self.interaction.law {
+            self.begin_turning(self.value_now(limits, scene), scene);
+        }
         let reading = self.reading(scene);
         let round_off = S::constant(ROUND_OFF) * S::EPSILON;
         let floor = match mode {
@@ -163,7 +245,10 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             InteractionMode::AtLower | InteractionMode::AtUpper => {
                 part::<S>(AT_BOUND, ROUND_OFF) * effort.abs().max(alone)
             }
-            InteractionMode::Sticking => part::<S>(AT_BOUND, ROUND_OFF) * effort.abs(),
+            InteractionMode::Sticking => {
+                let at_work = S::constant(NO_ACCELERATION) * S::EPSILON * work;
+                at_work.max(part::<S>(AT_BOUND, ROUND_OFF) * effort.abs())
+            }
             _ => round_off * motion.size,
         };
         self.update(|status| status.stand(reading, floor));

@@ -123,7 +123,9 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// An impact has no restitution if none is given. Impulses act in the metric of the mass, on
     /// the whole mechanism, and all impacts of an instant are one problem.
     ///
-    /// Both ends of an angle that does not count turns lie from `-pi` to `pi`.
+    /// The turns of an angle are counted, also where [`View::angle`](crate::View::angle) does not:
+    /// ends may be more than a turn apart. It begins as the one of all angles that differ by turns
+    /// that is nearest to the middle of the limits, to zero where one of them is infinite.
     #[must_use]
     pub fn limits(quantity: JointQuantity<M>, bounds: [S; 2]) -> Self {
         let limits = Limits {
@@ -275,8 +277,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self.quantity.name::<M>()
     }
 
-    /// Refuses settings that are not acceptable; `wraps` of an angle that does not count turns.
-    pub(crate) fn check(&self, wraps: bool) -> Result<(), Fault> {
+    /// Refuses settings that are not acceptable.
+    pub(crate) fn check(&self) -> Result<(), Fault> {
         let joint = self.name();
         let refuse = |setting: &'static str, value: S| {
             Err(Fault::InteractionSetting {
@@ -299,14 +301,6 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
                 let [lower, upper] = limits.bounds;
                 if lower >= upper || is_nan(lower) || is_nan(upper) {
                     return refuse("lower limit", lower);
-                }
-                let turn = S::constant(core::f64::consts::PI) + S::constant(4.0) * S::EPSILON;
-                let within = |bound: S| bound.abs() <= turn;
-                if wraps && !within(lower) {
-                    return refuse("lower limit", lower);
-                }
-                if wraps && !within(upper) {
-                    return refuse("upper limit", upper);
                 }
                 if !(limits.restitution >= zero && limits.restitution <= S::one()) {
                     return refuse("restitution", limits.restitution);

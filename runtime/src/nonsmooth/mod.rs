@@ -12,6 +12,8 @@
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
 //! `choice.rs` modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of it.
 //!
+//! `turning.rs` counts the turns of an angle that has limits.
+//!
 //! The reasons are in `docs/decisions/027-interactions.md`.
 
 mod box_problem;
@@ -26,3 +28,4 @@ pub(crate) mod scene;
 pub(crate) mod status;
 mod switch;
 pub(crate) mod task;
+pub(crate) mod turning;

@@ -1,6 +1,5 @@
 //! Quantities of a mechanism along which an effort acts.
 
-use core::f64::consts::TAU;
 use core::marker::PhantomData;
 
 use crate::forward::Forward;
@@ -10,6 +9,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::nonsmooth::place::{At, PlaceOfPlane};
 use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::turning::nearest;
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -224,33 +224,11 @@ impl<S: Real> Quantity<S> {
         let Self::Joint(JointReading::Angle(joint)) = *self else {
             return difference;
         };
-        let turn = S::constant(TAU);
         let counts = M::joint_angle(scene.constants, scene.bodies, joint).turns;
-        if counts.is_some() || difference.abs() <= S::constant(0.5) * turn {
+        if counts.is_some() {
             return difference;
         }
-        if difference > S::zero() {
-            difference - turn
-        } else {
-            difference + turn
-        }
-    }
-
-    /// How far it is above a lower and below an upper bound. An angle that does not count turns is
-    /// measured from the middle, the short way round, so that it jumps where it is farthest from
-    /// both.
-    pub(crate) fn gaps<M: Mechanism>(
-        &self,
-        scene: &Scene<'_, S, M>,
-        [lower, upper]: [S; 2],
-    ) -> [S; 2] {
-        if !(lower.is_finite() && upper.is_finite()) {
-            let value = self.value(scene);
-            return [value - lower, upper - value];
-        }
-        let half = S::constant(0.5) * (upper - lower);
-        let beyond = self.beyond(scene, lower + half);
-        [beyond + half, half - beyond]
+        nearest(difference, S::zero())
     }
 
     /// Whether it is an angle that does not count turns.

@@ -6,6 +6,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::interaction::{Interaction, Law};
 use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::turning::Turning;
 
 /// The mode of an [`Interaction`](crate::run::Interaction).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,6 +97,9 @@ pub(crate) struct Status<S> {
     /// The largest sum of the sizes of the terms of its rate so far.
     pub(crate) largest: S,
     pub(crate) impact: Option<Impact<S>>,
+    /// An angle that wraps, at the last look, and at the one that is under way.
+    pub(crate) turning: Option<Turning<S>>,
+    pub(crate) ahead: Option<Turning<S>>,
     /// What may follow, and the mode before.
     pub(crate) next: Next<S>,
     pub(crate) before: InteractionMode,
@@ -148,8 +152,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let Interaction { quantity, law, .. } = &self.interaction;
         match (status.mode, law) {
             (InteractionMode::Free, Law::Limits(limits)) => {
-                let [above, below] = quantity.gaps(scene, limits.bounds);
-                above.min(below)
+                let [lower, upper] = limits.bounds;
+                let value = self.value(limits, scene);
+                (value - lower).min(upper - value)
             }
             (InteractionMode::AtLower, _) => status.effort,
             (InteractionMode::AtUpper, _) => -status.effort,
@@ -184,6 +189,8 @@ impl<S: Real> Status<S> {
             fastest: S::zero(),
             largest: S::zero(),
             impact: None,
+            turning: None,
+            ahead: None,
             next: Next::Without,
             before: InteractionMode::Free,
         }
@@ -221,5 +228,6 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         self.has_left |= self.reading > self.band;
+        self.turning = self.ahead.take().or(self.turning);
     }
 }

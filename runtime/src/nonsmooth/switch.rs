@@ -86,16 +86,34 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         }
     }
 
-    /// The limit that the quantity is on, by its sign; the fault where it is beyond.
-    fn limit(&self, limits: &Limits<S>, scene: &Scene<'_, S, M>) -> Result<Option<S>, Fault> {
+    /// The limit that the quantity is on, by its sign; the fault where it is beyond. `is_moved`
+    /// where a handler may have set it.
+    fn limit(
+        &self,
+        limits: &Limits<S>,
+        scene: &Scene<'_, S, M>,
+        is_moved: bool,
+    ) -> Result<Option<S>, Fault> {
         let status = self.status.get();
-        let value = self.interaction.quantity.value(scene);
         let [lower, upper] = limits.bounds;
-        let gaps = self.interaction.quantity.gaps(scene, limits.bounds);
         let size = self.size(scene);
+        let beyond = part::<S>(BEYOND, 1e4) * size;
+        let mut value = if is_moved {
+            self.value_now(limits, scene)
+        } else {
+            self.value(limits, scene)
+        };
+        if is_moved
+            && (value - lower).min(upper - value) < -beyond
+            && let Some(other) = self.other_turn(value, limits, scene)
+        {
+            value = other;
+        }
+        self.begin_turning(value, scene);
+        let gaps = [value - lower, upper - value];
         let is_lower = gaps[0] <= gaps[1];
         let gap = gaps[0].min(gaps[1]);
-        if gap < -(part::<S>(BEYOND, 1e4) * size) {
+        if gap < -beyond {
             return Err(Fault::BeyondLimit {
                 joint: self.interaction.name(),
                 value: value.to_f64(),
@@ -140,7 +158,7 @@ where
     for (index, tracked) in list.iter().enumerate() {
         match &tracked.interaction.law {
             Law::Limits(limits) => {
-                at_limit[index] = setting.here(|scene| tracked.limit(limits, scene))?;
+                at_limit[index] = setting.here(|scene| tracked.limit(limits, scene, is_moved))?;
             }
             Law::Friction(_) => is_engaged[index] = tracked.status.get().is_engaged,
         }

@@ -36,11 +36,12 @@ fn stops<C: Coordinates<Block>>() {
                 stopped = Some((sample.time(), sample.displacement(h.slide)));
             }
             let effort = sample.effort(0).expect("one interaction");
-            let wanted = if sample.time() < 1.2401 {
-                -capacity
-            } else {
-                0.0
-            };
+            // At the stop there is a report before, and one after.
+            let slides = sample.mode(0) == Ok(InteractionMode::SlidingUp);
+            if (sample.time() - 1.24).abs() > 1e-9 {
+                assert_eq!(slides, sample.time() < 1.24);
+            }
+            let wanted = if slides { -capacity } else { 0.0 };
             assert!(
                 (effort - wanted).abs() < 1e-10,
                 "{effort} {}",
@@ -132,7 +133,10 @@ fn swings<C: Coordinates<Block>>() {
             let (x, wanted) = (sample.displacement(h.slide), exact(sample.time()));
             assert!((x - wanted).abs() < 1e-11, "{} {x} {wanted}", sample.time());
             let sticks = sample.mode(0) == Ok(InteractionMode::Sticking);
-            assert_eq!(sticks, sample.time() > 3.0 * half);
+            // At the end of the last swing there is a report before, and one after.
+            if (sample.time() - 3.0 * half).abs() > 1e-9 {
+                assert_eq!(sticks, sample.time() > 3.0 * half);
+            }
         })
         .expect("it comes to rest");
     assert!(report.warnings().is_empty(), "{}", report.warnings());

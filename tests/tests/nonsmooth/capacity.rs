@@ -2,7 +2,7 @@
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::Plane;
+use holonom::run::{InteractionMode as Mode, Plane};
 
 use super::{GRAVITY, tight};
 
@@ -79,10 +79,11 @@ fn two_blocks_stick_and_slide_one_on_the_other() {
 }
 
 #[test]
-#[ignore = "modes of two frictions that slide at their bounds change without end"]
 fn what_slides_at_its_bound_without_acceleration_is_held() {
     slides(4.0, [0.0, 0.0], [0.0, 2.0]);
     slides(3.5, [3.0, 3.0], [0.0, 0.25]);
+    slides(3.0001, [3.0, 3.0], [0.0, 0.00005]);
+    slides(-4.0, [0.0, 0.0], [0.0, -2.0]);
 }
 
 /// A ball of 1 kg on a vertical rail.
@@ -150,6 +151,34 @@ fn frictions_add_and_a_touch_is_no_impact() {
             "{beyond:e}: {found} {wanted}"
         );
     }
+}
+
+/// The observer sees both sides of a change of modes, whatever it asks for.
+#[test]
+fn a_change_of_modes_is_reported_before_and_after() {
+    let (ball, h) = (Ball::default(), Ball::HANDLES);
+    let mut reports = Vec::new();
+    ball.simulation(StandardLagrange, DormandPrince::new(tight()))
+        .interactions([Interaction::friction(h.rail.displacement(), 20.0)])
+        .run(0.0..=0.5, every(0.5), |sample| -> Result<(), Fault> {
+            reports.push((sample.time(), sample.mode(0)?, sample.effort(0)?));
+            Ok(())
+        })
+        .expect("it rises and stays");
+    let stop = 2.0 / (GRAVITY + 20.0);
+    let wanted = [
+        (0.0, Mode::SlidingUp, -20.0),
+        (stop, Mode::SlidingUp, -20.0),
+        (stop, Mode::Sticking, GRAVITY),
+        (0.5, Mode::Sticking, GRAVITY),
+    ];
+    assert_eq!(reports.len(), wanted.len(), "{reports:?}");
+    for (found, wanted) in reports.iter().zip(&wanted) {
+        assert!((found.0 - wanted.0).abs() < 1e-12, "{reports:?}");
+        assert_eq!(found.1, wanted.1, "{reports:?}");
+        assert!((found.2 - wanted.2).abs() < 1e-11, "{reports:?}");
+    }
+    assert_eq!(reports[1].0, reports[2].0);
 }
 
 /// A table of 4 kg on four legs, of which three would do, that falls level on the floor.

@@ -60,7 +60,7 @@ where
         let Some(mut hybrid) = self.hybrid.take() else {
             return Ok(());
         };
-        self.begin_interactions(*time, state)?;
+        self.begin_interactions()?;
         let before = self.monitor.is_some().then(|| self.energies(*time, state));
         let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
         self.switch(&mut hybrid, *time, state, true)?;
@@ -119,7 +119,8 @@ where
         };
         if !done.stops {
             done = self.act(&mut hybrid, is_found, last_good)?;
-            if done.moved || done.stops && self.log.unseen > 0 {
+            let is_switched = is_found && hybrid.is_switched;
+            if done.moved || is_switched || done.stops && self.log.unseen > 0 {
                 self.show(last_good.0, &last_good.1, companion);
             }
         }
@@ -148,6 +149,7 @@ where
                 watch.correct(reading);
             })?;
         }
+        hybrid.is_switched = false;
         done.moved = self.switch(hybrid, time, state, false)?;
         if is_found {
             let handled = self.call(hybrid, Called::Handlers, time, state)?;

@@ -326,7 +326,8 @@ where
     /// # Errors of the run
     /// [`Fault::InteractionSetting`] and [`Fault::MisplacedSetting`] of what is not acceptable;
     /// [`Fault::BeyondLimit`] of a start or a handler; [`Fault::NoMode`] and
-    /// [`Fault::EndlessModes`] where no modes are found; [`Fault::NoInteractions`] with
+    /// [`Fault::EndlessModes`] where no modes are found; [`Fault::StepTooShort`] where the turns of
+    /// an angle with limits cannot be followed; [`Fault::NoInteractions`] with
     /// [`GeneralizedAlpha`](crate::GeneralizedAlpha). [`Fault::NotVerified`] of a run that is to be
     /// [`Simulation::verified`].
     #[must_use]

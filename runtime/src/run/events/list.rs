@@ -196,6 +196,8 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     pub(super) is_fresh: bool,
     /// Whether the last step ended at an event.
     pub(super) is_found: bool,
+    /// Whether modes of interactions have changed at this instant.
+    pub(super) is_switched: bool,
     /// How often modes of interactions changed at once.
     pub(super) changes: Changes<S>,
 }
@@ -245,6 +247,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             watches,
             is_fresh: true,
             is_found: false,
+            is_switched: false,
             changes: Changes::none(),
         })
     }

@@ -7,7 +7,6 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::run::events::list::Hybrid;
 use crate::run::segments::Run;
@@ -21,16 +20,10 @@ where
     C: Coordinates<M>,
 {
     /// Begins all interactions anew, once their settings are accepted.
-    pub(crate) fn begin_interactions(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
+    pub(crate) fn begin_interactions(&self) -> Result<(), Fault> {
         let dynamics: &Dynamics<S, M, F, A, C> = &self.dynamics;
-        let scene = Scene::<S, M> {
-            constants: dynamics.constants(),
-            time,
-            bodies,
-        };
         for tracked in dynamics.tracked() {
-            let interaction = &tracked.interaction;
-            interaction.check(interaction.quantity.wraps(&scene))?;
+            tracked.interaction.check()?;
             tracked.begin();
         }
         Ok(())
@@ -72,6 +65,10 @@ where
         let next = dynamics.switched(time, &state, moved)?;
         *bodies = dynamics.bodies_near(&next, bodies);
         hybrid.is_fresh = true;
+        hybrid.is_switched |= dynamics.tracked().iter().any(|tracked| {
+            let status = tracked.status.get();
+            status.mode != status.before
+        });
         let now = |tracked: &Tracked<S, M>| {
             let impact = tracked.status.get().impact;
             impact.is_some_and(|impact| impact.time == time)

@@ -14,7 +14,6 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::nonsmooth::interaction::Interaction;
-use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Impact, InteractionMode, Status, Tracked};
 use crate::run::events::looked::Looked;
 use crate::run::events::watch::looks;
@@ -210,7 +209,7 @@ where
     pub fn step(&mut self, state: &mut C::State<S>, dt: S) -> Result<(), Fault> {
         self.stepper.checked(state, dt)?;
         if !self.has_begun {
-            self.begin(state)?;
+            self.begin()?;
         }
         let list = self.stepper.dynamics.tracked();
         let mut before = [None; N];
@@ -229,17 +228,10 @@ where
     }
 
     /// Accepts the settings.
-    fn begin(&mut self, state: &C::State<S>) -> Result<(), Fault> {
+    fn begin(&mut self) -> Result<(), Fault> {
         let dynamics = &self.stepper.dynamics;
-        let bodies = dynamics.bodies(state);
-        let scene = Scene::<S, M> {
-            constants: dynamics.constants(),
-            time: self.stepper.time(),
-            bodies: &bodies,
-        };
         for tracked in dynamics.tracked() {
-            let interaction = &tracked.interaction;
-            interaction.check(interaction.quantity.wraps(&scene))?;
+            tracked.interaction.check()?;
         }
         self.has_begun = true;
         Ok(())
