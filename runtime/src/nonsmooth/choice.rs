@@ -190,8 +190,8 @@ fn held_at_bounds<S: Real, M: Mechanism, const K: usize>(
     held
 }
 
-/// The sign of the rate at which friction begins to slide; `None` where it sticks, or can be held at
-/// its bound.
+/// The sign of the rate at which friction begins to slide; `None` where it sticks, or can be held
+/// at its bound.
 fn begins_to_slide<S: Real, const K: usize>(
     friction: &Friction<S>,
     solution: &BoxSolution<S, K>,

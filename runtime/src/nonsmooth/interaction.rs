@@ -172,9 +172,9 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self
     }
 
-    /// Dry friction (Coulomb) along a quantity. While it slides, an effort of `capacity` (N m for an
-    /// angle, N for a displacement) acts against the rate. While it sticks, it has whatever effort
-    /// up to that keeps it.
+    /// Dry friction (Coulomb) along a quantity. While it slides, an effort of `capacity` (N m for
+    /// an angle, N for a displacement) acts against the rate. While it sticks, it has whatever
+    /// effort up to that keeps it.
     ///
     /// The capacity is known: it does not depend on the load of the joint. Friction of a finite
     /// capacity gives no impulse.

@@ -28,4 +28,4 @@ pub(crate) mod scene;
 pub(crate) mod status;
 mod switch;
 pub(crate) mod task;
-pub(crate) mod turning;
+mod turning;

@@ -1,5 +1,6 @@
 //! Quantities of a mechanism along which an effort acts.
 
+use core::f64::consts::TAU;
 use core::marker::PhantomData;
 
 use crate::forward::Forward;
@@ -9,7 +10,6 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::nonsmooth::place::{At, PlaceOfPlane};
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::turning::nearest;
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -215,6 +215,12 @@ impl<S: Scalar> Quantity<S> {
             }
         });
     }
+}
+
+/// Which of the angles that differ by turns is nearest to another one.
+pub(super) fn nearest<S: Real>(angle: S, to: S) -> S {
+    let turn = S::constant(TAU);
+    angle - turn * (angle - to).quotient(turn).round()
 }
 
 impl<S: Real> Quantity<S> {

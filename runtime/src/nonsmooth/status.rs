@@ -6,7 +6,6 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::interaction::{Interaction, Law};
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::turning::Turning;
 
 /// The mode of an [`Interaction`](crate::run::Interaction).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +70,14 @@ pub(crate) enum Next<S> {
     Still,
     /// Friction that slides at a rate of this sign.
     Moving(S),
+}
+
+/// An angle with its turns, and its rate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turning<S> {
+    pub(super) time: S,
+    pub(super) angle: S,
+    pub(super) rate: S,
 }
 
 /// An interaction in a run.

@@ -10,22 +10,9 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::interaction::{Law, Limits};
+use crate::nonsmooth::quantity::nearest;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::status::Tracked;
-
-/// An angle with its turns, and its rate.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Turning<S> {
-    time: S,
-    angle: S,
-    rate: S,
-}
-
-/// Which of the angles that differ by turns is nearest to another one.
-pub(super) fn nearest<S: Real>(angle: S, to: S) -> S {
-    let turn = S::constant(TAU);
-    angle - turn * (angle - to).quotient(turn).round()
-}
+use crate::nonsmooth::status::{Tracked, Turning};
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// The value of its quantity, with the turns since the last look of an angle that wraps.

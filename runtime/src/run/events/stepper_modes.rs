@@ -204,8 +204,8 @@ where
     ///
     /// # Errors
     /// Those of [`Stepper::step`] and of
-    /// [`Simulation::interactions`](crate::Simulation::interactions). State, time and modes are then
-    /// as before.
+    /// [`Simulation::interactions`](crate::Simulation::interactions). State, time and modes are
+    /// then as before.
     pub fn step(&mut self, state: &mut C::State<S>, dt: S) -> Result<(), Fault> {
         self.stepper.checked(state, dt)?;
         if !self.has_begun {
