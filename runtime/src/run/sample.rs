@@ -204,8 +204,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     }
 
     /// The mode of an interaction by its place in the list of
-    /// [`Simulation::interactions`](crate::Simulation::interactions). The state in which a mode ends
-    /// is shown in that mode, and once more in the next one after an impulse.
+    /// [`Simulation::interactions`](crate::Simulation::interactions). The state in which a mode
+    /// ends is shown in that mode, and once more in the next one after an impulse.
     ///
     /// # Errors
     /// [`Fault::NoSuchInteraction`].

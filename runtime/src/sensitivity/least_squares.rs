@@ -154,7 +154,9 @@ impl<E: fmt::Debug + fmt::Display> core::error::Error for FitError<E> {}
 ///     rod: Body,
 ///     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
 ///     hinge: Revolute,
-///     #[force(between = [ground, rod], axis = [1.0, 0.0, 0.0], stiffness = 0.0, damping = damping)]
+///     #[force(
+///         between = [ground, rod], axis = [1.0, 0.0, 0.0], stiffness = 0.0, damping = damping
+///     )]
 ///     oil: TorsionalSpringDamper,
 /// }
 ///

@@ -336,7 +336,8 @@ pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
 /// arrays is, body by body, `[r (m, global), p (Euler parameters, scalar first, principal axes)]`
 /// and `[v (m/s, global), w (rad/s, principal axes)]`; a particle has `r` and `v` only. Behind the
 /// coordinates of all bodies stand the auxiliary variables of mechanisms that have some: angles
-/// that count turns (rad). The user's own states are behind these. The same type holds the rates of a state.
+/// that count turns (rad). The user's own states are behind these. The same type holds the rates of
+/// a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<S, const Q: usize, const U: usize> {
     coordinates: [S; Q],

@@ -12,10 +12,10 @@
 //!   expressions: one in `f64` for checks, one over the scalar type for kernels.
 //! - `linear.rs`: linear functions of such numbers.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
-//! - `states.rs`: rates of the user's own states, and what they read of joints and forces.
+//! - `states.rs`: rates of the user's own states; `readings.rs`: what they read of joints and forces.
 //! - `tables.rs`: splines and inputs with derivatives, in laws.
-//! - `values.rs`: parameters, inputs and starts of states. A reader that meets an input where none may be is given
-//!   the reason.
+//! - `values.rs`: parameters, inputs and starts of states. A reader that meets an input where none
+//!   may be is given the reason.
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
 //!   all names are known (`syntax/integer.rs`). See `docs/decisions/003-arrays-of-fields.md`.
 //! - `between.rs`: bodies by name, of the mechanism and of its parts.
@@ -50,6 +50,7 @@ pub mod pairs;
 mod parts;
 mod placement;
 mod points;
+mod readings;
 mod redundant;
 mod states;
 mod tables;

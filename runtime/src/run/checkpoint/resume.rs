@@ -51,8 +51,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// Those of [`Simulation::run`], and [`Fault::Checkpoint`](crate::Fault::Checkpoint) where the simulation is not that of
-    /// the checkpoint.
+    /// Those of [`Simulation::run`], and [`Fault::Checkpoint`](crate::Fault::Checkpoint) where the
+    /// simulation is not that of the checkpoint.
     ///
     /// [`HybridSimulation::resume`]: crate::run::HybridSimulation::resume
     pub fn resume<O, R>(

@@ -60,8 +60,8 @@ struct Piece<S> {
 /// Between the ends of steps it is the dense output of the method, to 1e-11 of the elements of the
 /// state: what a report at that time would have shown. Its error is that of the method's
 /// interpolant. [`RadauIIA`](crate::RadauIIA) solves for each of these states, so it is theirs to
-/// what this iteration leaves. At the ends of steps it is the state of the run. At the time of an event it has
-/// both states, the one that was found and the one with which the run went on.
+/// what this iteration leaves. At the ends of steps it is the state of the run. At the time of an
+/// event it has both states, the one that was found and the one with which the run went on.
 ///
 /// ```
 /// use holonom::prelude::*;
