@@ -213,7 +213,10 @@ pub fn fit<const N: usize, E>(
         let next = at + step.component_div(&scales);
         if damping <= 1.0 && (step.norm() <= STEP * size || gain <= GAIN * here.sum) {
             // The last step is a correction of digits, and not worth another round.
-            return found(&next, &here, rounds);
+            return match squares_at(&next) {
+                Ok(there) if there.is_finite() => found(&next, &there, rounds),
+                _ => found(&at, &here, rounds),
+            };
         }
         match squares_at(&next) {
             Ok(there) if there.is_finite() && there.sum <= here.sum => {
