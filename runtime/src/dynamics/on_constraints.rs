@@ -76,7 +76,7 @@ where
         &mut self,
         asked: &AlphaStep<'_, S, M::State<S>>,
     ) -> Result<AlphaEnd<M::State<S>>, Fault> {
-        bodies_alone::<M>(LeavesOut::Method)?;
+        bodies_alone::<M>(LeavesOut::StepMethod)?;
         let mass = M::mass(self.constants());
         let first = M::jacobian(self.constants(), asked.end - asked.step, asked.state);
         let mut trial = Trial::<S, M>::new(asked, first);

@@ -9,9 +9,9 @@ use crate::error::readable::Given;
 #[non_exhaustive]
 pub enum CheckpointFault {
     /// The run was by another method, or with another step, tolerance or limit.
-    Method,
+    OtherMethod,
     /// The run was by another formulation, or with other coefficients.
-    Formulation,
+    OtherFormulation,
     /// The run was in other coordinates.
     Coordinates {
         /// Whether it was in joint coordinates.
@@ -44,11 +44,11 @@ pub enum CheckpointFault {
 impl fmt::Display for CheckpointFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Method => f.write_str(
+            Self::OtherMethod => f.write_str(
                 "the checkpoint is of a run by another method, or with another step, tolerance or limit; take that of the run, which \
                  `Checkpoint::method` prints",
             ),
-            Self::Formulation => f.write_str(
+            Self::OtherFormulation => f.write_str(
                 "the checkpoint is of a run by another formulation, or with other coefficients; take that of the run, which \
                  `Checkpoint::formulation` prints",
             ),

@@ -500,7 +500,7 @@ pub enum NotFinite {
 #[non_exhaustive]
 pub enum LeavesOut {
     /// A method that moves bodies alone: [`GeneralizedAlpha`](crate::GeneralizedAlpha).
-    Method,
+    StepMethod,
     /// A [`KinematicAnalysis`](crate::KinematicAnalysis), which integrates nothing.
     Kinematics,
     /// A linearisation, an equilibrium, a trim or a continuation in chosen coordinates.

@@ -68,7 +68,7 @@ impl fmt::Display for Fault {
             }
             Self::StateLeftOut { state, by } => {
                 let why = match by {
-                    LeavesOut::Method => {
+                    LeavesOut::StepMethod => {
                         "the generalized-alpha method moves bodies alone; take another method"
                     }
                     LeavesOut::Kinematics => {

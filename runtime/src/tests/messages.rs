@@ -105,7 +105,7 @@ fn what_cannot_be_set_is_told_with_what_can() {
 fn who_leaves_states_out_says_so() {
     for (by, message) in [
         (
-            LeavesOut::Method,
+            LeavesOut::StepMethod,
             "the state `current` of the mechanism has a rate of its own: the generalized-alpha method moves bodies alone; take another method",
         ),
         (

@@ -24,7 +24,7 @@ fn generalized_alpha_names_the_state() {
         .absolute_coordinates()
         .run(0.0..=0.1, every(0.1), |_| ())
         .expect_err("it moves bodies alone");
-    assert_eq!(left_out(error.fault), LeavesOut::Method);
+    assert_eq!(left_out(error.fault), LeavesOut::StepMethod);
 }
 
 /// A shaft that is driven, and the heat in its bearing.

@@ -186,9 +186,9 @@ impl<M: Mechanism, S: Real> Plan<S, M> for &Checkpoint<M, S> {
                 joints: self.joints,
             })
         } else if self.method != format!("{integrator:?}") {
-            Some(CheckpointFault::Method)
+            Some(CheckpointFault::OtherMethod)
         } else if self.formulation != format!("{formulation:?}") {
-            Some(CheckpointFault::Formulation)
+            Some(CheckpointFault::OtherFormulation)
         } else {
             None
         };
