@@ -247,7 +247,7 @@ fn what_does_not_fit_is_refused_by_name() -> Result<(), Box<dyn std::error::Erro
     );
     says(
         &|value| value["version"] = 2.into(),
-        "unknown field `version`, expected one of `mechanism`, `time`, `bodies`, `unwrapped_angles`",
+        "unknown field `version`, expected one of `mechanism`, `time`, `bodies`, `unwrapped_angles`, `states`",
     );
     let wheel = json!({
         "mechanism": "Workshop", "time": 0.0, "bodies": { "wheel": whole["bodies"]["wheel"] },
