@@ -135,8 +135,8 @@ fn rows_of_a_child() {
     }
 }
 
-/// The child is killed once some rows are in its journal, and never gets to all of them. (A shell may
-/// have its jobs ignore an interrupt, and that is inherited.)
+/// The child is killed once some rows are in its journal, and never gets to all of them. A shell
+/// may have its jobs ignore an interrupt, which is inherited.
 #[test]
 fn an_interrupted_computation_goes_on() {
     use std::process::{Command, Stdio};

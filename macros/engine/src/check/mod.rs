@@ -12,7 +12,8 @@
 //!   expressions: one in `f64` for checks, one over the scalar type for kernels.
 //! - `linear.rs`: linear functions of such numbers.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
-//! - `states.rs`: rates of the user's own states; `readings.rs`: what they read of joints and forces.
+//! - `states.rs`: rates of the user's own states.
+//! - `readings.rs`: what these read of joints and forces.
 //! - `tables.rs`: splines and inputs with derivatives, in laws.
 //! - `values.rs`: parameters, inputs and starts of states. A reader that meets an input where none
 //!   may be is given the reason.
