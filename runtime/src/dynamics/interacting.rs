@@ -98,12 +98,7 @@ where
             let task = Task::Correct([&mut faster, &mut farther]);
             evaluator.forces.interact(setting, task)
         })?;
-        let mut still = *state;
-        still.rates_slice_mut().fill(S::zero());
-        let mut way = C::State::zeros();
-        add(way.rates_slice_mut(), S::one(), farther.as_slice());
-        C::with_new_velocities(self.own_constants(), time, &still, S::one(), &mut way);
-        way.rates_slice_mut().fill(S::zero());
+        let way = C::way(self.own_constants(), time, state, &farther);
         let mut next = state.plus([(S::one(), &way)]);
         add(next.rates_slice_mut(), S::one(), faster.as_slice());
         Ok(Some(next))

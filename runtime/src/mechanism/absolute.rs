@@ -139,6 +139,18 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         *rates.velocities_mut() = *accelerations;
     }
 
+    fn way<S: Scalar>(
+        constants: &M::Constants<S>,
+        _time: S,
+        state: &M::State<S>,
+        velocities: &M::Velocities<S>,
+    ) -> M::State<S> {
+        let mut read = with_unit_orientations::<S, M>(state);
+        *read.velocities_mut() = *velocities;
+        let rates = rates_of_motion::<S, M, P>(constants, (state, &read));
+        M::State::from_parts(rates, Array::zeros())
+    }
+
     #[inline]
     fn with_new_velocities<S: Scalar>(
         constants: &M::Constants<S>,
@@ -271,11 +283,21 @@ fn coordinate_rates<S: Scalar, M: Mechanism, P: Orientation>(
     time: S,
     (state, read): (&M::State<S>, &M::State<S>),
 ) -> <M::State<S> as StateParts<S>>::Coordinates {
+    let mut rates = rates_of_motion::<S, M, P>(constants, (state, read));
+    M::state_rates_into(constants, time, read, &mut rates);
+    rates
+}
+
+/// The same by the velocities alone: zeros for the user's own states.
+#[inline]
+fn rates_of_motion<S: Scalar, M: Mechanism, P: Orientation>(
+    constants: &M::Constants<S>,
+    (state, read): (&M::State<S>, &M::State<S>),
+) -> <M::State<S> as StateParts<S>>::Coordinates {
     let mut rates = M::coordinate_rates(constants, read);
     if !P::NORMALISED_RATES {
         scale_euler_rates::<S, M>(&mut rates, state, |length| length);
     }
-    M::state_rates_into(constants, time, read, &mut rates);
     rates
 }
 

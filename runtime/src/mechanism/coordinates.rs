@@ -178,6 +178,16 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
         accelerations: &Self::Velocities<S>,
     );
 
+    /// The rates of coordinates at other velocities, along a way that is no motion in time: the
+    /// user's own states stay what they are. The rates of velocities are zero.
+    #[doc(hidden)]
+    fn way<S: Scalar>(
+        constants: &Self::Constants<S>,
+        time: S,
+        state: &Self::State<S>,
+        velocities: &Self::Velocities<S>,
+    ) -> Self::State<S>;
+
     /// Replaces the rates of coordinates by those at the velocities `u + step u'`.
     #[doc(hidden)]
     fn with_new_velocities<S: Scalar>(

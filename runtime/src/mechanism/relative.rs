@@ -188,6 +188,20 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
             .for_each(|(place, &rate)| *place = rate);
     }
 
+    fn way<S: Scalar>(
+        constants: &M::JointConstants<S>,
+        time: S,
+        state: &M::JointState<S>,
+        velocities: &M::JointVelocities<S>,
+    ) -> M::JointState<S> {
+        let mut moving = *state;
+        let places = moving.rates_slice_mut().iter_mut();
+        places
+            .zip(velocities.as_slice())
+            .for_each(|(place, &velocity)| *place = velocity);
+        rates_of_motion::<S, M>(constants, time, &moving)
+    }
+
     #[inline]
     fn with_new_velocities<S: Scalar>(
         constants: &M::JointConstants<S>,

@@ -5,6 +5,7 @@
 mod block;
 mod bounces;
 mod contacts;
+mod currents;
 mod descriptions;
 mod faults;
 mod loops;
