@@ -369,3 +369,47 @@ fn every_operation_is_that_of_its_lanes() {
     holds::<f64>();
     holds::<f32>();
 }
+
+/// A fan on a motor whose current is a state of its own, against a moment from a table.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Fan {
+    #[param]
+    drag: Spline<4>,
+    #[input(order = 2)]
+    voltage: Setpoint,
+    #[state(rate = (voltage - 2.0 * current - 0.5 * shaft.rate) / 0.02)]
+    current: f64,
+    #[body(mass = 1.0, inertia = [1e-3, 1e-3, 1e-3])]
+    rotor: Body,
+    #[joint(between = [ground, rotor], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+    #[force(between = [ground, rotor], axis = [0.0, 0.0, 1.0], moment = 0.5 * current - drag(rate))]
+    motor: TorsionalActuator,
+}
+
+/// Every lane reads another part of another table.
+#[test]
+fn states_and_tables_take_lanes() {
+    let fans: [Fan; 4] = from_fn(|lane| {
+        let most = 0.2 * (lane + 1) as f64;
+        let drag = Spline::natural([0.0, 3.0, 9.0, 20.0], [0.0, 0.1, 0.4, most]);
+        Fan::new(drag).expect("sound")
+    });
+    let starts = from_fn(|lane| {
+        let mut state = fans[lane].described_state().expect("a sound start");
+        let rate = 4.0 * lane as f64;
+        fans[lane]
+            .set_angle_rate(&mut state, Fan::HANDLES.shaft, rate)
+            .expect("a free rate");
+        Fan::set_state_value(&mut state, Fan::HANDLES.current, 0.3 * lane as f64);
+        state
+    });
+    let voltages = |step, lane| InputsOf::<Fan> {
+        voltage: Setpoint::at_rest(0.1 * step as f64 + lane as f64),
+    };
+    let run = (60, 1e-3);
+    let method = (StandardLagrange, Rk4);
+    compared::<f64, _, _, _, Relative, 4>(&fans, method, &starts, voltages, run);
+    compared::<f64, _, _, _, Absolute, 4>(&fans, method, &starts, voltages, run);
+}

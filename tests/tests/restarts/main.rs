@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod crossed;
 mod events;
 mod files;
 mod methods;

@@ -104,10 +104,11 @@ fn structure<M: Mechanism>() -> String {
     }
     let mut hash = Hash(0xcbf2_9ce4_8422_2325);
     let report = M::REPORT;
-    let elements = (report.bodies, report.joints, report.forces, report.values);
+    let described = (report.bodies, report.joints, report.forces);
+    let numbers = (report.values, report.states);
     let layout = (report.carriers, report.redundant, report.equations);
     let sizes = (report.coordinates, report.auxiliaries, report.velocities);
-    let _ = write!(hash, "{elements:?} {layout:?} {sizes:?}");
+    let _ = write!(hash, "{described:?} {numbers:?} {layout:?} {sizes:?}");
     format!("{:016x}", hash.0)
 }
 
