@@ -92,6 +92,40 @@ fn parameters_and_inputs_enter() {
     }
 }
 
+/// A fan on a motor whose current is a state, against a moment from a table.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Fan {
+    #[param]
+    drag: Spline<4>,
+    #[state(rate = (6.0 - 2.0 * current * current - 0.5 * shaft.rate * cos(time)) / 0.2)]
+    current: f64,
+    #[body(mass = 1.0, inertia = [0.01, 0.01, 0.02])]
+    rotor: Body,
+    #[joint(between = [ground, rotor], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    shaft: Revolute,
+    #[force(between = [ground, rotor], axis = [0.0, 0.0, 1.0], moment = 0.5 * current - drag(rate))]
+    motor: TorsionalActuator,
+}
+
+/// Rows and columns of the current, and the slope of the table where the shaft turns.
+#[test]
+fn states_and_tables_enter() {
+    let drag = Spline::natural([-2.0, 0.5, 1.0, 2.0], [-0.9, 0.1, 0.4, 2.0]);
+    let fan = Fan::new(drag).expect("sound");
+    let mut bodies = Dynamics::<f64, _, _>::new(&fan, StandardLagrange).expect("sound");
+    let mut joints = bodies.clone().joint_coordinates();
+    let mut of_bodies = Fan::initial_state(bodies.constants());
+    fan.set_angle_rate(&mut of_bodies, Fan::HANDLES.shaft, 0.8)
+        .expect("a free rate");
+    Fan::set_state_value(&mut of_bodies, Fan::HANDLES.current, 1.7);
+    let of_joints = joints.state_of(&of_bodies).expect("consistent");
+    // Seven coordinates of the rotor, six velocities; a pair, a rate; the current.
+    let matrix = agrees("bodies", &mut bodies, &of_bodies, (7 + 6 + 1, EXACT));
+    assert!(matrix.amax() > 10.0);
+    agrees("joints", &mut joints, &of_joints, (1 + 1 + 1, EXACT));
+}
+
 /// A drag of the air, which only plain numbers know, enters by differences, and everything else
 /// does not.
 #[test]
