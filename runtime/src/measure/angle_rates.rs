@@ -13,7 +13,7 @@ use crate::math::quaternion::rotate_back;
 use crate::math::scalar::Real;
 use crate::math::vec3::minus;
 use crate::measure::access::MechanismExt as _;
-use crate::measure::angles::{BryantAngles, EulerAngles, RollPitchYaw, is_apart};
+use crate::measure::angles::{BryantAngles, EulerAngles, RollPitchYaw, as_array, is_apart};
 use crate::measure::view::View;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
@@ -53,18 +53,7 @@ macro_rules! rates {
             }
         }
 
-        impl<S> From<[S; 3]> for $name<S> {
-            fn from([$($field),*]: [S; 3]) -> Self {
-                Self { $($field),* }
-            }
-        }
-
-        impl<S> From<$name<S>> for [S; 3] {
-            fn from(rates: $name<S>) -> Self {
-                let $name { $($field),* } = rates;
-                [$($field),*]
-            }
-        }
+        as_array! { $name: $($field),* }
     };
 }
 

@@ -33,6 +33,25 @@ fn parameters<S: Real>(orientation: &Quaternion<S>) -> [S; 4] {
     [w, x, y, z]
 }
 
+/// Three numbers with names, from an array and as one.
+macro_rules! as_array {
+    ($name:ident: $($field:ident),*) => {
+        impl<S> From<[S; 3]> for $name<S> {
+            fn from([$($field),*]: [S; 3]) -> Self {
+                Self { $($field),* }
+            }
+        }
+
+        impl<S> From<$name<S>> for [S; 3] {
+            fn from(numbers: $name<S>) -> Self {
+                let $name { $($field),* } = numbers;
+                [$($field),*]
+            }
+        }
+    };
+}
+pub(super) use as_array;
+
 macro_rules! angles {
     (
         $(#[$about:meta])*
@@ -69,18 +88,7 @@ macro_rules! angles {
             }
         }
 
-        impl<S> From<[S; 3]> for $name<S> {
-            fn from([$($field),*]: [S; 3]) -> Self {
-                Self { $($field),* }
-            }
-        }
-
-        impl<S> From<$name<S>> for [S; 3] {
-            fn from(angles: $name<S>) -> Self {
-                let $name { $($field),* } = angles;
-                [$($field),*]
-            }
-        }
+        as_array! { $name: $($field),* }
     };
 }
 

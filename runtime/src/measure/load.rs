@@ -10,8 +10,9 @@ use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::report::BodyKind;
 use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::quantity::{JointQuantity, Quantity};
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, StateParts};
@@ -193,10 +194,7 @@ impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
     /// # Ok::<(), SimulationError<_>>(())
     /// ```
     pub fn moment_between<J: HasAngle>(&mut self, joint: JointHandle<M, J>, moment: S) {
-        let view = self.view;
-        self.drive(joint, moment, |still| {
-            view.of_state(still).angle_parts(joint.index()).rate
-        });
+        self.drive(joint.angle(), moment);
     }
 
     /// A force (N) along the displacement of a joint, on its second body, and its opposite on the
@@ -232,37 +230,18 @@ impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn force_between<J: HasDisplacement>(&mut self, joint: JointHandle<M, J>, force: S) {
-        let view = self.view;
-        self.drive(joint, force, |still| {
-            view.of_state(still).displacement_parts(joint.index()).rate
-        });
+        self.drive(joint.displacement(), force);
     }
 
-    /// An effort on a quantity of a joint, by its power. The quantity's rate is linear in the
-    /// velocities of the joint's bodies: each gets the effort times its part in that rate.
+    /// An effort on a quantity of a joint, by its power.
     #[inline(never)]
-    fn drive<J>(&mut self, joint: JointHandle<M, J>, effort: S, rate: impl Fn(&M::State<S>) -> S) {
-        let mut still = *self.view.state();
-        *still.velocities_mut() = Array::zeros();
-        let offset = rate(&still);
-        let bodies = joint.info().map_or(&[][..], |info| info.bodies);
-        for body in bodies.iter().flatten() {
-            let Some(info) = M::REPORT.bodies.get(*body) else {
-                continue;
-            };
-            let velocities = if info.kind == BodyKind::Rigid { 6 } else { 3 };
-            for place in info.velocity..info.velocity + velocities {
-                let set = |still: &mut M::State<S>, value| {
-                    if let Some(velocity) = still.velocities_mut().as_mut_slice().get_mut(place) {
-                        *velocity = value;
-                    }
-                };
-                set(&mut still, S::one());
-                let part = rate(&still) - offset;
-                set(&mut still, S::zero());
-                self.add(place, [effort * part]);
-            }
-        }
+    fn drive(&mut self, quantity: JointQuantity<M>, effort: S) {
+        let scene = Scene::<S, M> {
+            constants: self.view.constants(),
+            time: self.view.time(),
+            bodies: self.view.state(),
+        };
+        Quantity::Joint(quantity.reading).add_effort(&scene, effort, self.forces);
     }
 
     fn add<const N: usize>(&mut self, place: usize, value: [S; N]) {

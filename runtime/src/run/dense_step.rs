@@ -21,6 +21,17 @@ pub struct DenseStep<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> {
     near: M::State<S>,
 }
 
+impl<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> DenseStep<S, M, K, C> {
+    /// The state after a part of the step; its end as the step has it.
+    pub(super) fn at(&self, part: S) -> C::State<S> {
+        if part == S::one() {
+            *self.step.end()
+        } else {
+            self.step.at(part)
+        }
+    }
+}
+
 /// The interval.
 impl<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> Debug for DenseStep<S, M, K, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -74,18 +85,33 @@ where
         state: &mut C::State<S>,
         dt: S,
     ) -> Result<DenseStep<S, M, K, C>, Fault> {
+        let mut step = self.ahead(state, dt)?;
+        self.end_step(state, step.at(S::one()), dt)?;
+        step.end = self.time();
+        Ok(step)
+    }
+
+    /// A step of `dt` (s) from a state, which stays where it is.
+    pub(super) fn ahead(
+        &mut self,
+        state: &C::State<S>,
+        dt: S,
+    ) -> Result<DenseStep<S, M, K, C>, Fault> {
         let start = self.time();
         self.checked(state, dt)?;
-        let from = (start, &*state);
-        let step = StepWithin::take(self.scheme, &mut self.dynamics, from, dt)?;
-        let near = self.dynamics.bodies(state);
-        self.end_step(state, *step.end(), dt)?;
+        let step = StepWithin::take(self.scheme, &mut self.dynamics, (start, state), dt)?;
         Ok(DenseStep {
             step,
             start,
-            end: self.time(),
-            near,
+            end: start + dt,
+            near: self.dynamics.bodies(state),
         })
+    }
+
+    /// The bodies after a part of a step, with Euler parameters of length 1.
+    pub(super) fn bodies_within(&self, step: &DenseStep<S, M, K, C>, part: S) -> M::State<S> {
+        let bodies = self.dynamics.bodies_near(&step.at(part), &step.near);
+        with_unit_orientations::<S, M>(&bodies)
     }
 
     /// The bodies at a time (s) within a step of this stepper, by the interpolant of the method:
@@ -101,13 +127,11 @@ where
                 end: step.end.to_f64(),
             });
         }
-        let state = if time == step.end {
-            *step.step.end()
+        let part = if time == step.end {
+            S::one()
         } else {
-            let part = (time - step.start).quotient(step.end - step.start);
-            step.step.at(part)
+            (time - step.start).quotient(step.end - step.start)
         };
-        let bodies = self.dynamics.bodies_near(&state, &step.near);
-        Ok(with_unit_orientations::<S, M>(&bodies))
+        Ok(self.bodies_within(step, part))
     }
 }

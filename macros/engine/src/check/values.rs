@@ -181,15 +181,19 @@ fn allowed(
     false
 }
 
+/// The pairs behind the word that says what a field is.
+fn pairs_of<'a>(what: &str, field: &'a Field) -> Option<Pairs<'a>> {
+    let (_, word) = field.role.as_ref()?;
+    let owner = word.segments.first()?.ident.span();
+    let what = format!("{what} `{}`", field.name);
+    Some(Pairs::new(what, owner, &field.list))
+}
+
 /// Whether an input has its first and second derivative.
 fn order(field: &Field, faults: &mut Faults) -> bool {
-    let Some((_, word)) = field.role.as_ref() else {
+    let Some(mut pairs) = pairs_of("input", field) else {
         return false;
     };
-    let Some(owner) = word.segments.first().map(|first| first.ident.span()) else {
-        return false;
-    };
-    let mut pairs = Pairs::new(format!("input `{}`", field.name), owner, &field.list);
     let written = pairs.optional("order", faults);
     pairs.finish(faults);
     let Some(written) = written else {
@@ -212,9 +216,7 @@ fn like(
     facade: &TokenStream,
     faults: &mut Faults,
 ) -> Option<f64> {
-    let (_, word) = field.role.as_ref()?;
-    let owner = word.segments.first()?.ident.span();
-    let mut pairs = Pairs::new(format!("parameter `{}`", field.name), owner, &field.list);
+    let mut pairs = pairs_of("parameter", field)?;
     let written = pairs.optional("like", faults);
     pairs.finish(faults);
     let written = written?;
@@ -235,9 +237,7 @@ fn start(
     facade: &TokenStream,
     faults: &mut Faults,
 ) -> Option<f64> {
-    let (_, word) = field.role.as_ref()?;
-    let owner = word.segments.first()?.ident.span();
-    let mut pairs = Pairs::new(format!("state `{}`", field.name), owner, &field.list);
+    let mut pairs = pairs_of("state", field)?;
     // What it is, is read once joints and forces are known.
     pairs.required("rate", RATE, faults);
     let written = pairs.optional("start", faults);

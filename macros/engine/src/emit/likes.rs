@@ -4,7 +4,6 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::parts::Frame;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
 use crate::model::Model;
@@ -49,18 +48,8 @@ impl Writer<'_> {
         let kernel = left_out(self.model);
         let size = self.model.layout().velocities;
         let [constants, time, state, number] = ["constants", "time", "state", "number"].map(local);
-        let (unpack, mechanism) = (Self::unpack(), &self.model.name);
-        let frame = Frame {
-            name: "__left_out".into(),
-            facade: facade.clone(),
-            declared: quote! {
-                #constants: &<#mechanism as #facade::Mechanism>::Constants<__S>,
-                #time: __S,
-                #state: &<#mechanism as #facade::Mechanism>::State<__S>,
-            },
-            passed: quote!(#constants, #time, #state,),
-            unpack: unpack.clone(),
-        };
+        let unpack = Self::unpack();
+        let frame = self.frame_of_state("left_out", &quote!(#time: __S,));
         let StraightLine {
             statements,
             outputs,

@@ -257,6 +257,22 @@ impl Writer<'_> {
         tokens
     }
 
+    /// The function of a kernel of constants, time (if it is declared) and state.
+    pub(super) fn frame_of_state(&self, name: &str, time: &TokenStream) -> Frame {
+        let (facade, mechanism) = (self.facade, &self.model.name);
+        let (constants, state) = (local("constants"), local("state"));
+        let passed_time = (!time.is_empty()).then(|| local("time")).into_iter();
+        self.frame(
+            format!("__{name}"),
+            quote! {
+                #constants: &<#mechanism as #facade::Mechanism>::Constants<__S>,
+                #time
+                #state: &<#mechanism as #facade::Mechanism>::State<__S>,
+            },
+            quote!(#constants, #(#passed_time,)* #state,),
+        )
+    }
+
     /// A function of constants, time (if it is declared) and state.
     fn function(
         &mut self,
@@ -268,19 +284,7 @@ impl Writer<'_> {
         let facade = self.facade;
         let (constants, state) = (local("constants"), local("state"));
         let unpack = Self::unpack();
-        let mechanism = &self.model.name;
-        let passed_time = (!time.is_empty()).then(|| local("time")).into_iter();
-        let frame = Frame {
-            name: format!("__{name}"),
-            facade: facade.clone(),
-            declared: quote! {
-                #constants: &<#mechanism as #facade::Mechanism>::Constants<__S>,
-                #time
-                #state: &<#mechanism as #facade::Mechanism>::State<__S>,
-            },
-            passed: quote!(#constants, #(#passed_time,)* #state,),
-            unpack: unpack.clone(),
-        };
+        let frame = self.frame_of_state(name, time);
         let StraightLine {
             statements,
             outputs,

@@ -3,7 +3,6 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::parts::Frame;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
 use crate::syntax::words::local;
@@ -17,18 +16,8 @@ impl Writer<'_> {
         }
         let facade = self.facade;
         let [constants, time, state, rates] = ["constants", "time", "state", "rates"].map(local);
-        let (unpack, mechanism) = (Self::unpack(), &self.model.name);
-        let frame = Frame {
-            name: "__state_rates".into(),
-            facade: facade.clone(),
-            declared: quote! {
-                #constants: &<#mechanism as #facade::Mechanism>::Constants<__S>,
-                #time: __S,
-                #state: &<#mechanism as #facade::Mechanism>::State<__S>,
-            },
-            passed: quote!(#constants, #time, #state,),
-            unpack: unpack.clone(),
-        };
+        let unpack = Self::unpack();
+        let frame = self.frame_of_state("state_rates", &quote!(#time: __S,));
         let StraightLine {
             statements,
             outputs,

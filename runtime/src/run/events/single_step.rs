@@ -3,13 +3,12 @@
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{OneStep, StepWithin};
+use crate::integrate::OneStep;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::orientations::with_unit_orientations;
 use crate::run::events::root::locate;
 use crate::run::events::watch::{Crossing, Watch, looks};
 use crate::run::stepper::Stepper;
@@ -79,24 +78,12 @@ where
         reading: impl Fn(&View<'_, S, M>) -> S,
     ) -> Result<Option<S>, Fault> {
         let time = self.time();
-        self.checked(state, dt)?;
-        let from = (time, &*state);
-        let step = StepWithin::take(self.scheme, &mut self.dynamics, from, dt)?;
-        let dynamics = &self.dynamics;
-        let near = dynamics.bodies(state);
-        let state_at = |part: S| {
-            if part == S::one() {
-                *step.end()
-            } else {
-                step.at(part)
-            }
-        };
+        let step = self.ahead(state, dt)?;
         let watch = Watch::new("the end of a step", crossing);
         let read = |part: S| {
-            let bodies = dynamics.bodies_near(&state_at(part), &near);
-            let bodies = with_unit_orientations::<S, M>(&bodies);
+            let bodies = self.bodies_within(&step, part);
             let time = part.fused(dt, time);
-            watch.checked(time, reading(&dynamics.view(time, &bodies)))
+            watch.checked(time, reading(&self.dynamics.view(time, &bodies)))
         };
         let mut sign = watch;
         let (zero, one) = (S::zero(), S::one());
@@ -116,8 +103,7 @@ where
             before = part;
         }
         let part = found.unwrap_or(one);
-        let next = state_at(part);
-        self.end_step(state, next, part * dt)?;
+        self.end_step(state, step.at(part), part * dt)?;
         Ok(found.map(|_| self.time()))
     }
 }
