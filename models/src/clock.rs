@@ -6,8 +6,8 @@ use holonom::Scalar;
 use holonom::prelude::*;
 use holonom::run::Event;
 
-/// A clock whose pendulum loses energy by dry friction and gets it back once a period, when the
-/// wheel goes on by a tooth; it passes the vertical at 0.8 rad/s at the start, gravity along -z.
+/// A clock whose pendulum loses energy by dry friction. It gets it back once a period, when the
+/// wheel goes on by a tooth. At the start it passes the vertical at 0.8 rad/s. Gravity is along -z.
 ///
 #[doc = include_str!("sketches/clock.svg")]
 ///

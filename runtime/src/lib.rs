@@ -166,6 +166,10 @@ pub mod joints;
 /// one with its derivatives, for the motion of a driver. `#[param]` on a field of type
 /// [`Spline`](spline::Spline): a table, which laws call.
 ///
+/// `#[state(rate = .., start = 0.0)]` on a field of type `f64`: a number of your own that
+/// integrates a rate, such as the current of a motor. See
+/// [`guide::states`](mod@crate::guide::states).
+///
 /// Each of these fields may be an array, `links: [Body; 16]`: in its attribute `k` is the number of
 /// the element, and `links[k - 1]` names an element of another array, see
 /// [`guide::mechanism`](mod@crate::guide::mechanism#many-bodies-arrays).

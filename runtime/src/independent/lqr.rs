@@ -14,9 +14,9 @@ const LEFT: f64 = 1e-12;
 /// `Q` and `R` are symmetric, `Q` without negative eigenvalues. What counts of them is their
 /// symmetric part.
 ///
-/// `None` where no such gain brings every state to rest: a motion that does not decay by itself is
-/// not reached by `u`, or not weighed by `Q`. `None` too where `R` is not positive definite, or a
-/// number not finite.
+/// `None` where no such gain brings every state to rest. Then `u` does not reach a motion that does
+/// not decay by itself, or `Q` does not weigh it. `None` too where `R` is not positive definite, or
+/// a number is not finite.
 ///
 /// From the discrete algebraic Riccati equation by structured doubling (Chu, Fan, Lin and Wang,
 /// *Structure-preserving algorithms for periodic discrete-time algebraic Riccati equations*,
@@ -42,8 +42,8 @@ pub fn discrete_lqr<const X: usize, const U: usize>(
 ) -> Option<SMatrix<f64, U, X>> {
     let (q, r) = ((q + q.transpose()) * 0.5, (r + r.transpose()) * 0.5);
     let inverse = r.cholesky()?.inverse();
-    // The transition over so many steps, with the loop closed in the end; how far inputs of unit
-    // cost lead in these; and the cost of what is there at their start.
+    // Over some steps, twice as many each time: the transition, in the end with the loop closed;
+    // how far inputs of unit cost lead; and the cost of what is there at their start.
     let (mut transition, mut reach, mut cost) = (*a, b * inverse * b.transpose(), q);
     for _ in 0..DOUBLINGS {
         let inner = (SMatrix::identity() + reach * cost).try_inverse()?;

@@ -340,8 +340,8 @@ pub trait Integration<S: Real, X: Vector<S>> {
     fn counts(&self) -> Counts;
 
     /// Hands everything that the next steps depend on to a [`Memory`], which writes it or replaces
-    /// it: where it is, slopes and states of former steps, the size of the next step. Whether it
-    /// does: a method that does not cannot go on from a checkpoint.
+    /// it. That is where it is, slopes and states of former steps, and the size of the next step.
+    /// Whether it does so: a method that does not cannot go on from a checkpoint.
     ///
     /// It is asked between two steps. What it replaces was begun by the same method over the same
     /// interval.

@@ -101,9 +101,10 @@ pub trait Scalar:
         false
     }
 
-    /// How many of `count` increasing bounds are not above this number; all of them for NaN. `None`
-    /// where a number is several that disagree, and of a type that cannot tell: then every bound is
-    /// compared by [`Scalar::select`].
+    /// How many of `count` increasing bounds are not above this number; all of them for NaN.
+    ///
+    /// `None` where a number is several that disagree, and of a type that cannot tell. Then every
+    /// bound is compared by [`Scalar::select`].
     #[must_use]
     fn bounds_passed(self, count: usize, bound: impl Fn(usize) -> Self) -> Option<usize> {
         let _ = (count, bound);

@@ -206,9 +206,9 @@ fn no_rates<S: Real, M: Mechanism>(
 
 /// Rates (rad/s) of the angles of an orientation, against global axes or those of another body.
 ///
-/// All are refused where the angles are: with [`Fault::SingularAngles`] where the first and the
-/// third turn about one axis, [`Fault::ZeroOrientation`] where the state holds no orientation.
-/// [`Fault::StateNotFinite`] where a rate would not be finite.
+/// All are refused where the angles are. That is [`Fault::SingularAngles`] where the first and the
+/// third turn about one axis, and [`Fault::ZeroOrientation`] where the state holds no orientation.
+/// Beside that, [`Fault::StateNotFinite`] where a rate would not be finite.
 impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S, M, K> {
     /// Rates (rad/s) of [`View::euler_angles`].
     ///

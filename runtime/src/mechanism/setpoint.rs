@@ -2,8 +2,8 @@
 
 use crate::math::scalar::Scalar;
 
-/// An input with its first and second derivative in time: what prescribes the motion of a driver
-/// from outside (`#[input(order = 2)]`), in the units of the motion (rad or m, per s, per s^2).
+/// An input with its first and second derivative in time (`#[input(order = 2)]`). It prescribes the
+/// motion of a driver from outside, in the units of the motion (rad or m, per s, per s^2).
 ///
 /// The three belong to one instant and to one motion: rate and acceleration are its derivatives.
 /// Within a step of a run they are held, as all inputs are.

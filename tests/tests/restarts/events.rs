@@ -22,8 +22,8 @@ struct Controller {
 /// often the condition had been met.
 type Kept = (Checkpoint<Flap>, Controller, usize, usize);
 
-/// A run with a controller that remembers and sets its input by the one before, a condition whose
-/// handler gives the flap a push and, every second time, another spring; and all its checkpoints.
+/// A run and all its checkpoints. Its controller remembers, and sets the input by the one before.
+/// The handler of its condition gives the flap a push and, every second time, another spring.
 fn run<I, C>(
     method: I,
     from: Option<&Kept>,

@@ -51,8 +51,8 @@ fn derivatives_by_a_start_are_those_of_the_linear_system() {
             found = [current, speed];
         })
         .expect("it runs");
-    // A jump of the current by 1 A is what a pulse of L volt seconds does: the derivative of the
-    // answer to a step of the voltage, over 12 V and times L.
+    // A jump of the current by 1 A is what a pulse of L volt seconds does. That is the derivative
+    // of the answer to a step of the voltage, over 12 V and times L.
     let step = 1e-5;
     let slope = |time: f64| {
         let [a, b] = [time + step, time - step].map(|time| Fan::closed_form(R, time));

@@ -1,7 +1,7 @@
 //! Splines: functions of one number from tables.
 //!
-//! A piece is a cubic by its values and slopes at both knots (Hermite's form), so that all kinds
-//! differ in their slopes alone (`slopes.rs`). `pieces.rs` evaluates them over any numbers.
+//! A piece is a cubic by its values and slopes at both knots (Hermite's form). So all kinds differ
+//! in their slopes alone (`slopes.rs`). `pieces.rs` evaluates them over any numbers.
 
 mod fault;
 mod pieces;

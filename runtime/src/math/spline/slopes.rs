@@ -198,8 +198,8 @@ const fn same_sign(a: f64, b: f64) -> bool {
     (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0)
 }
 
-/// The slope of the parabola through three points, where it has the sign of the first chord, and at
-/// most three times its size where the chords have not the same sign.
+/// The slope of the parabola through three points, if it has the sign of the first chord, else
+/// zero. Where the chords differ in sign it is at most three times the first.
 const fn at_end([near, far]: [f64; 2], [first, second]: [f64; 2]) -> f64 {
     let slope = ((2.0 * near + far) * first - near * second) / (near + far);
     if !same_sign(slope, first) {

@@ -32,9 +32,8 @@ use crate::run::past::{Numbers, Past, PastSegment, Plan, Progress};
 /// Where a run can go on: what [`Simulation::checkpoints`] hands over, and what
 /// [`Simulation::resume`] takes.
 ///
-/// The second part of the run then gives what the whole run would have given, bit for bit: with
-/// fixed steps, with step control, and with methods that look back at former steps. That holds for
-/// the same program on the same kind of processor.
+/// The second part of the run then gives what the whole run would have given, bit for bit. That
+/// holds for all methods, and for the same program on the same kind of processor.
 ///
 /// It keeps the state, the parameters and inputs, what the method remembers, what was counted and
 /// reported, and what events and controllers need. It does not keep what your closures remember:
@@ -152,7 +151,7 @@ impl<M: Mechanism, S: Real> Checkpoint<M, S> {
     /// The same with another end (s) of the interval, for a run that is to go on for longer than
     /// was planned.
     ///
-    /// Steps then differ from those of a run that had been planned so: a step control knows the
+    /// Steps then differ from those of a run that had been planned so. A step control knows the
     /// interval, and the last step before the former end is fitted to it. From a checkpoint before
     /// that step, fixed steps do not differ.
     #[must_use]

@@ -212,8 +212,8 @@ where
     /// remembers: some states, with implicit methods the Jacobian as well.
     ///
     /// # Errors of the run
-    /// [`Fault::Setting`] of zero steps, [`Fault::Checkpoint`] with a method of your own that does
-    /// not hand over what it remembers, and the fault that the closure returns.
+    /// [`Fault::Setting`] of zero steps. [`Fault::Checkpoint`] with a method of your own that does
+    /// not hand over what it remembers, and with interactions. The fault that the closure returns.
     /// [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
     #[cfg(feature = "std")]
     #[must_use]
@@ -324,12 +324,13 @@ where
     /// ```
     ///
     /// # Errors of the run
-    /// [`Fault::InteractionSetting`] and [`Fault::MisplacedSetting`] of what is not acceptable;
-    /// [`Fault::BeyondLimit`] of a start or a handler; [`Fault::NoMode`] and
-    /// [`Fault::EndlessModes`] where no modes are found; [`Fault::StepTooShort`] where the turns of
-    /// an angle with limits cannot be followed; [`Fault::NoInteractions`] with
-    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha). [`Fault::NotVerified`] of a run that is to be
-    /// [`Simulation::verified`].
+    /// - [`Fault::InteractionSetting`] and [`Fault::MisplacedSetting`] of what is not acceptable.
+    /// - [`Fault::BeyondLimit`] of a start or a handler.
+    /// - [`Fault::NoMode`] and [`Fault::EndlessModes`] where no modes are found.
+    /// - [`Fault::StepTooShort`] where the turns of an angle with limits cannot be followed.
+    /// - [`Fault::NoInteractions`] with [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    /// - [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
+    /// - [`Fault::Checkpoint`] of a run that keeps checkpoints, or goes on from one.
     #[must_use]
     pub fn interactions<const K: usize>(
         self,

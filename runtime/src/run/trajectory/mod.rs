@@ -1,11 +1,12 @@
 //! A motion that can be asked at any time.
 //!
 //! A piece is a step, or what of it lies before an event. It holds the bodies at Chebyshev points
-//! of its time, each as a report would show them, and the polynomial through them is the motion
-//! (Berrut and Trefethen, *Barycentric Lagrange Interpolation*, SIAM Review 46 (2004), 501-517).
-//! So it needs to know of no method: interpolants are polynomials up to degree 13, or shorter
-//! steps, and bodies are functions of joint coordinates. `record.rs` takes as many points as the
-//! motion in a step needs.
+//! of its time, each as a report would show them. The polynomial through them is the motion (Berrut
+//! and Trefethen, *Barycentric Lagrange Interpolation*, SIAM Review 46 (2004), 501-517).
+//!
+//! So it needs to know of no method. Interpolants are polynomials up to degree 13, or shorter
+//! steps. Bodies are functions of joint coordinates. `record.rs` takes as many points as the motion
+//! in a step needs.
 
 mod record;
 
