@@ -1,6 +1,6 @@
 //! Mass matrix, efforts and accelerations.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use super::elimination::{at, set};
 use super::partition::{Partition, joint_rates};
@@ -77,9 +77,15 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             at(lower, row * (row + 1) / 2 + column)
         };
         let Some(partition) = following else {
-            return self
-                .places
-                .map(|place| self.places.map(|other| entry(place, other)));
+            let mut rows = [[S::zero(); N]; N];
+            for (row, &place) in self.places.iter().enumerate() {
+                for (column, &other) in self.places.iter().enumerate().take(row + 1) {
+                    let entry = entry(place, other);
+                    rows[row][column] = entry;
+                    rows[column][row] = entry;
+                }
+            }
+            return rows;
         };
         partition.columns.map(|rates| {
             // The momenta of unit rates.
@@ -233,8 +239,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     where
         M: HasMassMatrix,
     {
+        // It is symmetric: its rows are its columns.
         let rows = self.equations.mass(state)?;
-        finite_matrix(SMatrix::from_fn(|row, column| rows[row][column]))
+        finite_matrix(SMatrix::from_data(ArrayStorage(rows)))
     }
 
     /// Inverse dynamics: the efforts that have to act along the coordinates, beside the described
@@ -346,7 +353,9 @@ pub(super) fn finite<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector
 pub(super) fn finite_matrix<S: Real, const R: usize, const C: usize>(
     matrix: SMatrix<S, R, C>,
 ) -> Result<SMatrix<S, R, C>, Fault> {
-    if matrix.iter().all(|number| number.is_finite()) {
+    // All of them, as no branch tells them apart: numbers side by side are looked at together.
+    let numbers = matrix.as_slice().iter();
+    if numbers.fold(true, |finite, number| finite & number.is_finite()) {
         Ok(matrix)
     } else {
         Err(not_finite())
