@@ -3,11 +3,12 @@
 
 use std::hint::black_box;
 
-use criterion::{Criterion, criterion_group, criterion_main};
-use holonom::independent::{Chosen, Direction};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
+use holonom::independent::{Chosen, Direction, IndependentCoordinates};
 use holonom::mechanism::{HasInverse, HasMassMatrix};
 use holonom::prelude::*;
-use holonom_models::{FourBar, Panda, Ur5};
+use holonom_models::{FourBar, Ur5};
 
 /// Of the last angle that is chosen, by a start.
 fn equations<M, const N: usize>(
@@ -35,6 +36,19 @@ fn equations<M, const N: usize>(
     group.bench_function("linearise", |bencher| {
         bencher.iter(|| space.linearise(black_box(&state), [], |_| []));
     });
+    runs(&mut group, &mechanism, &space, directions);
+}
+
+/// A run, and the same with derivatives.
+fn runs<M: HasMassMatrix, const N: usize>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    mechanism: &M,
+    space: &IndependentCoordinates<M, N>,
+    directions: [Direction<M>; 8],
+) {
+    let state = space
+        .state([0.3; N], [0.7; N])
+        .expect("it can be assembled");
     let bodies = space.bodies(&state);
     group.bench_function("run", |bencher| {
         let simulation = mechanism
@@ -54,6 +68,7 @@ fn equations<M, const N: usize>(
     });
 }
 
+/// The equations of arms are timed by `study arms`; here are their runs.
 fn robots(criterion: &mut Criterion) {
     let h = Ur5::HANDLES;
     let arm = [h.pan, h.lift, h.elbow, h.wrist_1, h.wrist_2, h.wrist_3];
@@ -62,15 +77,10 @@ fn robots(criterion: &mut Criterion) {
         [a, b, c, d].map(Direction::position),
         [a, b, c, d].map(Direction::rate),
     ];
-    equations::<Ur5, 6>(criterion, "UR5", arm, flattened(directions));
-    let h = Panda::HANDLES;
-    let [a, b, c, d] = [h.joint_1, h.joint_2, h.joint_3, h.joint_4];
-    let arm = [a, b, c, d, h.joint_5, h.joint_6, h.joint_7];
-    let directions = [
-        [a, b, c, d].map(Direction::position),
-        [a, b, c, d].map(Direction::rate),
-    ];
-    equations::<Panda, 7>(criterion, "Panda", arm, flattened(directions));
+    let ur5 = Ur5::default();
+    let space = ur5.coordinates(arm).expect("they are independent");
+    let mut group = criterion.benchmark_group("UR5");
+    runs(&mut group, &ur5, &space, flattened(directions));
 }
 
 /// A loop, by one coordinate again and again.

@@ -3,6 +3,8 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "arms")]
+pub mod arms;
 pub mod baselines;
 #[cfg(feature = "compare")]
 pub mod compare;
@@ -12,7 +14,7 @@ pub mod ensemble;
 pub mod extremes;
 pub mod measures;
 pub mod output;
-#[cfg(any(feature = "compare", feature = "trade"))]
+#[cfg(any(feature = "arms", feature = "compare", feature = "trade"))]
 pub mod reference_kernel;
 #[cfg(feature = "show")]
 pub mod show;

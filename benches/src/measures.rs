@@ -39,6 +39,12 @@ pub const COMPARE: Measures = Measures {
     feature: "compare",
     seconds: [Some(81), None],
 };
+/// `study arms`.
+pub const ARMS: Measures = Measures {
+    name: "arms",
+    feature: "arms",
+    seconds: [None, None],
+};
 /// `study trade`.
 pub const TRADE: Measures = Measures {
     name: "trade",

@@ -11,7 +11,11 @@
 use std::hint::black_box;
 
 use holonom::{Fault, Real, Scalar, error::NotFinite, integrate::System, state::Vector as _};
-use holonom_study::compare::measure::Subject;
+use holonom_study::StudyError;
+use holonom_study::compare::measure::{Subject, candidates};
+use holonom_study::timing::Candidate;
+
+use crate::baselines::START;
 
 /// `x = (r, p, v, w)` of the rod: position (m, global), Euler parameters, velocity (m/s, global),
 /// angular velocity (rad/s, body axes).
@@ -224,4 +228,17 @@ impl<S: Real> Subject<S> for Written {
         (*rates, multipliers) = evaluate(state);
         black_box(&multipliers);
     }
+}
+
+/// The reference kernel, to be timed beside others.
+///
+/// # Errors
+/// [`StudyError::Run`], were it not to run.
+pub fn candidate() -> Result<Candidate<'static>, StudyError> {
+    let candidates = candidates::<f64, _>(Written::default(), START, 1e-3);
+    let candidates = candidates.map_err(|fault| StudyError::Run {
+        name: "reference kernel".into(),
+        reason: fault.to_string(),
+    })?;
+    Ok(candidates.throughput)
 }

@@ -5,13 +5,7 @@ use holonom_models::problems::{Chain, Leaf, QuintupleParallelogram, Ring, Squeez
 #[cfg(feature = "large")]
 use holonom_models::problems::{Crank, DoubleParallelogram, Governor, LongPendulum, Slide, Top};
 use holonom_models::problems::{Parallelogram, Pendulum};
-use holonom_study::StudyError;
-use holonom_study::compare::measure::candidates;
-use holonom_study::timing::Candidate;
 use holonom_study::trade::{Posed, Subject};
-
-use crate::baselines::START;
-use crate::reference_kernel::Written;
 
 /// All of them with the feature `huge`, most with `large`, two without either: every one is
 /// compiled for two descriptions, four formulations and two number types.
@@ -80,17 +74,4 @@ pub fn problem(name: &str) -> Result<Box<dyn Subject>, String> {
             ))
         }
     }
-}
-
-/// The reference kernel, whose evaluations are timed beside every run.
-///
-/// # Errors
-/// [`StudyError::Run`], were it not to run.
-pub fn reference_kernel() -> Result<Candidate<'static>, StudyError> {
-    let candidates = candidates::<f64, _>(Written::default(), START, 1e-3);
-    let candidates = candidates.map_err(|fault| StudyError::Run {
-        name: "reference kernel".into(),
-        reason: fault.to_string(),
-    })?;
-    Ok(candidates.throughput)
 }

@@ -3,6 +3,8 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "arms")]
+mod arms;
 #[cfg(feature = "compare")]
 mod comparison;
 #[cfg(feature = "ensemble")]
@@ -28,6 +30,9 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Study {
+    /// What the equations of motion of two arms cost in their angles, beside Pinocchio and CasADi.
+    #[cfg(feature = "arms")]
+    Arms(arms::Arms),
     /// What an evaluation costs: every mechanism in both descriptions, all formulations and both
     /// number types, beside a pendulum written by hand and the run-time assembler.
     #[cfg(feature = "compare")]
@@ -57,6 +62,8 @@ enum Study {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match &arguments.study {
+        #[cfg(feature = "arms")]
+        Study::Arms(arguments) => arms::study(arguments),
         #[cfg(feature = "compare")]
         Study::Compare(arguments) => comparison::study(arguments),
         #[cfg(feature = "trade")]

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use holonom_benches::trade::{names, problem, reference_kernel};
+use holonom_benches::reference_kernel::candidate;
+use holonom_benches::trade::{names, problem};
 use holonom_study::StudyError;
 use holonom_study::chapter15::Method;
 use holonom_study::compare::{Coordinates, Precision};
@@ -122,8 +123,8 @@ impl Part {
 
 /// The reference kernel, as often as it is needed.
 fn beside() -> Result<impl Fn() -> Candidate<'static>, StudyError> {
-    reference_kernel()?;
-    Ok(|| reference_kernel().expect("it was made before"))
+    candidate()?;
+    Ok(|| candidate().expect("it was made before"))
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,6 @@
 //! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores
-//! (2015), `study compare` shows what an evaluation costs, `study trade` what accuracy costs,
+//! (2015), `study compare` shows what an evaluation costs, `study arms` what the equations of motion
+//! of robots cost beside other programs, `study trade` what accuracy costs,
 //! `study recommend` which setting does, `study extremes` where the numerics stop to hold,
 //! `study ensemble` what many rows of drawn parameters give, and `study show` how a problem moves.
 //! All but the first are a program of their own, which is built where it is asked for.
@@ -34,6 +35,8 @@ enum Study {
     /// What an evaluation costs: mechanisms in both descriptions, all formulations and both number
     /// types.
     Compare(Handed),
+    /// What the equations of motion of two arms cost, beside Pinocchio and CasADi.
+    Arms(Handed),
     /// What accuracy costs: a problem with every setting.
     Trade(Handed),
     /// Which setting does for an error or a time, and the lines of Rust that run it.
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.study {
         None => chapter15::study(&arguments.chapter15).map(|()| ExitCode::SUCCESS),
         Some(Study::Compare(handed)) => measures::COMPARE.run(handed),
+        Some(Study::Arms(handed)) => measures::ARMS.run(handed),
         Some(Study::Trade(handed)) => measures::TRADE.run(handed),
         Some(Study::Recommend(handed)) => measures::RECOMMEND.run(handed),
         Some(Study::Extremes(handed)) => measures::EXTREMES.run(handed),
