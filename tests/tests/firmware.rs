@@ -2,6 +2,9 @@
 //! controller (`tests/firmware/run`).
 
 #[allow(unreachable_pub, reason = "the firmware is a crate of its own")]
+#[path = "../firmware/src/modes.rs"]
+mod modes;
+#[allow(unreachable_pub, reason = "the firmware is a crate of its own")]
 #[path = "../firmware/src/reference.rs"]
 mod reference;
 #[allow(unreachable_pub, reason = "the firmware is a crate of its own")]
@@ -64,6 +67,18 @@ fn single_precision() {
     below(off::<f32, SwingByBodies<_>>(FOUR_BAR_BY_BODIES), 1e-3);
     below(off::<f32, SwingByJoints<_>>(FOUR_BAR_BY_JOINTS), 1e-3);
     below(off::<f32, Ur5ByJoints<_>>(UR5_BY_JOINTS), 1e-3);
+}
+
+/// Stops, friction, a clutch, events, a state and a table against their closed forms. Steps of 1 ms
+/// are exact where accelerations are constant; the motor has come to its speed.
+#[test]
+fn modes_of_a_loop() {
+    let [double, single] = [
+        modes::worst::<f64>().expect("regular"),
+        f64::from(modes::worst::<f32>().expect("regular")),
+    ];
+    println!("off by {double:e} in f64, {single:e} in f32");
+    assert!(double < 1e-9 && single < 1e-4);
 }
 
 /// The page of the guide shows the files of `tests/firmware/balancer`, which `tests/firmware/run`

@@ -7,6 +7,7 @@
 #[cfg_attr(target_arch = "arm", path = "board/cortex_m.rs")]
 #[cfg_attr(target_arch = "riscv32", path = "board/riscv.rs")]
 mod board;
+pub mod modes;
 pub mod reference;
 pub mod regulator;
 pub mod trials;
