@@ -107,7 +107,7 @@ pub(super) fn chosen(
 
 /// What changes along a direction, by the number of a chosen coordinate or the place of a value.
 #[derive(Clone, Copy)]
-pub(super) enum Along {
+pub(crate) enum Along {
     Position(usize),
     Rate(usize),
     Value(usize),
@@ -119,13 +119,19 @@ type Start<M, const K: usize, S> = (
     <M as Mechanism>::State<Forward<S, K>>,
 );
 
+/// A state along directions, and the bodies in it.
+type Standing<M, const N: usize, const K: usize, S> = (
+    StateAlong<M, N, K, S>,
+    <M as Mechanism>::State<Forward<S, K>>,
+);
+
 /// A state along directions, and what the kernels take there.
-pub(super) struct StateAlong<M: JointRates, const N: usize, const K: usize, S: Scalar> {
-    pub(super) parameters: M::Parameters<Forward<S, K>>,
+pub(crate) struct StateAlong<M: JointRates, const N: usize, const K: usize, S: Scalar> {
+    pub(crate) parameters: M::Parameters<Forward<S, K>>,
     /// Whether a parameter or an input varies.
     pub(super) is_varied: bool,
     pub(super) equations: Equations<M, N, Forward<S, K>>,
-    pub(super) state: M::JointState<Forward<S, K>>,
+    pub(crate) state: M::JointState<Forward<S, K>>,
 }
 
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
@@ -212,19 +218,29 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         })
     }
 
+    /// A state along directions by number, with the bodies there.
+    pub(crate) fn standing_along<const K: usize>(
+        &self,
+        state: &M::JointState<S>,
+        directions: &[Option<Along>; K],
+    ) -> Result<Standing<M, N, K, S>, Fault> {
+        let partition = self.equations.partition(state)?;
+        let there = self.state_along(state, &partition, directions)?;
+        let bodies = self.bodies_along(state, &there);
+        Ok((there, bodies))
+    }
+
     /// Parameters and bodies of a state along some directions.
     pub(crate) fn start_along<const K: usize>(
         &self,
         state: &M::JointState<S>,
         directions: &[Direction<M>; K],
     ) -> Result<Start<M, K, S>, Fault> {
-        let partition = self.equations.partition(state)?;
         let mut along = [None; K];
         for (along, direction) in along.iter_mut().zip(directions) {
             *along = Some(direction.among(&self.equations.places)?);
         }
-        let there = self.state_along(state, &partition, &along)?;
-        let bodies = self.bodies_along(state, &there);
+        let (there, bodies) = self.standing_along(state, &along)?;
         Ok((there.parameters, bodies))
     }
 

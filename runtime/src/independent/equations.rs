@@ -324,9 +324,14 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The rates of the coordinates (rad/s, m/s) at a state.
     #[must_use]
     pub fn rates(&self, state: &M::JointState<S>) -> SVector<S, N> {
-        let rates = joint_rates::<M, S>(state);
+        SVector::from(self.rates_of(state))
+    }
+
+    /// The same of a state of other numbers, such as those that carry derivatives.
+    pub(crate) fn rates_of<T: Scalar>(&self, state: &M::JointState<T>) -> [T; N] {
+        let rates = joint_rates::<M, T>(state);
         let places = &self.equations.places;
-        SVector::from(places.map(|place| at(rates.as_slice(), place)))
+        places.map(|place| at(rates.as_slice(), place))
     }
 
     /// Kinetic energy (J).
@@ -363,7 +368,7 @@ pub(super) fn finite_matrix<S: Real, const R: usize, const C: usize>(
 }
 
 /// The fault of numbers that may not.
-pub(super) const fn not_finite() -> Fault {
+pub(crate) const fn not_finite() -> Fault {
     Fault::RatesNotFinite {
         origin: NotFinite::Unknown,
     }

@@ -56,7 +56,9 @@ pub use base_parameters::{BaseParameters, InertialParameter};
 pub use choice::{Chosen, Coordinate, Motion};
 pub use continuation::{BranchEnd, BranchPoint, Continuation, PointKind};
 pub use directions::Direction;
-pub(crate) use directions::vary;
+pub(crate) use directions::{Along, vary};
+#[cfg(feature = "std")]
+pub(crate) use equations::not_finite;
 #[cfg(feature = "std")]
 pub use identification::{Identification, Identified};
 pub use linearised::{Linearised, to_discrete};
@@ -86,7 +88,7 @@ use crate::mechanism::kernels::Mechanism;
 /// What it holds is prepared once; [`IndependentCoordinates::set_inputs`] and
 /// [`IndependentCoordinates::set_time`] change it without preparing again.
 pub struct IndependentCoordinates<M: JointRates, const N: usize, S: Scalar = f64> {
-    parameters: M::Parameters<S>,
+    pub(crate) parameters: M::Parameters<S>,
     /// In absolute coordinates.
     constants: M::Constants<S>,
     equations: Equations<M, N, S>,

@@ -31,7 +31,12 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// [`Fault::NoPosition`] for a chosen component of an angular velocity, which is the rate of no
     /// coordinate.
     pub fn positions(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault> {
-        let mut positions = [S::zero(); N];
+        self.positions_of(state).map(SVector::from)
+    }
+
+    /// The same of a state of other numbers, such as those that carry derivatives.
+    pub(crate) fn positions_of<T: Real>(&self, state: &M::JointState<T>) -> Result<[T; N], Fault> {
+        let mut positions = [T::zero(); N];
         for (position, &place) in positions.iter_mut().zip(&self.equations.places) {
             let (number, motion) = motion_at::<M>(place)?;
             let joint = motion.mover();
@@ -39,7 +44,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 .coordinate(number, state)
                 .ok_or(Fault::NoPosition { joint })?;
         }
-        Ok(SVector::from(positions))
+        Ok(positions)
     }
 
     /// The state with these coordinates (rad, m) and rates (rad/s, m/s).

@@ -9,6 +9,8 @@
 //! `start.rs` looks whether the derivatives of a start satisfy those of the constraints, which
 //! nothing in a run would notice. `least_squares.rs` fits unknowns to measurements.
 
+#[cfg(feature = "std")]
+mod adjoint;
 mod chosen;
 mod differentiable;
 mod least_squares;
@@ -17,6 +19,8 @@ mod start;
 
 use core::fmt::{self, Debug};
 
+#[cfg(feature = "std")]
+pub use adjoint::{Adjoint, Gradient, Instant};
 pub use differentiable::Differentiable;
 pub use least_squares::{Fit, FitError, Squares, fit};
 pub use simulation::SensitivitySimulation;

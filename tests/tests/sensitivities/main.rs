@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod adjoint;
 mod closed_forms;
 mod differences;
 mod estimated;

@@ -1,0 +1,261 @@
+//! Gradients by the adjoint against forward sensitivities, differences of whole runs, and a closed
+//! form.
+
+use holonom::independent::Direction;
+use holonom::prelude::*;
+use holonom::{Forward, Kutta3};
+
+/// A cart that a force pushes, with a pendulum.
+#[derive(Clone, Copy, Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass])]
+struct Crane {
+    #[input]
+    push: f64,
+    #[param]
+    length: f64,
+    #[body(mass = 2.0, inertia = [1.0, 1.0, 1.0])]
+    cart: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [0.01 + length * length / 30.0, 0.01 + length * length / 30.0, 0.01],
+        position = [0.0, 0.0, -length]
+    )]
+    load: Body,
+    #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    rail: Prismatic,
+    #[joint(between = [cart, load], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    hinge: Revolute,
+    #[force(between = [ground, cart], point = [0.0, 0.0, 0.0], force = [push, 0.0, 0.0])]
+    motor: PointForce,
+}
+
+/// A crank-rocker of 1, 3, 2.5 and 3 m with a moment on its crank; the length of the crank may
+/// change.
+#[derive(Clone, Copy, Mechanism)]
+#[mechanism(
+    gravity = [0.0, 0.0, -9.81],
+    redundant = "drop",
+    coordinates = "joints",
+    kernels = [mass]
+)]
+struct Rocker {
+    #[input]
+    torque: f64,
+    #[param]
+    mass: f64,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.5])]
+    crank: Body,
+    #[body(mass = mass, inertia = [1.5 * mass / 2.0, 1.0, 1.0], position = [0.0, 1.5, 1.5])]
+    coupler: Body,
+    #[body(mass = 2.0, inertia = [1.0, 1.0, 1.0], position = [0.0, 3.0, 1.0])]
+    rocker: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    foot: Revolute,
+    #[joint(between = [crank, coupler], point = [0.0, 0.0, 1.0], axis = [1.0, 0.0, 0.0])]
+    pin: Revolute,
+    #[joint(between = [coupler, rocker], point = [0.0, 3.0, 2.0], axis = [1.0, 0.0, 0.0])]
+    knee: Revolute,
+    #[joint(between = [ground, rocker], point = [0.0, 3.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    post: Revolute,
+    #[force(between = [ground, crank], axis = [1.0, 0.0, 0.0], moment = torque)]
+    motor: TorsionalActuator,
+}
+
+/// Controls that are all different.
+fn controls<const K: usize>() -> [[f64; 1]; K] {
+    core::array::from_fn(|k| [3.0 * (0.7 * k as f64).sin() + 1.0])
+}
+
+/// How far two gradients are from each other, over the size of one.
+fn off(found: f64, wanted: f64) -> f64 {
+    (found - wanted).abs() / wanted.abs().max(1.0)
+}
+
+#[test]
+fn of_a_crane_by_everything() {
+    const STEPS: usize = 40;
+    let (crane, h) = (Crane::new(0.8).expect("acceptable"), Crane::HANDLES);
+    let space = crane.coordinates([h.rail]).err();
+    assert!(space.is_some(), "one of two");
+    let space = crane.coordinates((h.rail, h.hinge)).expect("both");
+    let start = space.state([0.1, 0.4], [0.2, -0.3]).expect("regular");
+    let run = space.adjoint(StandardLagrange, Rk4::every(0.02));
+    let controls = controls::<STEPS>();
+    let cost = |controls: &[[f64; 1]], start: &StateOf<Crane>, length: f64| {
+        let crane = Crane::new(length).expect("acceptable");
+        let mut stepper =
+            Stepper::<f64, _, _, _>::new(&crane, StandardLagrange, Rk4).expect("regular");
+        let mut state = stepper.state_of(start).expect("regular");
+        let mut sum = 0.0;
+        for number in 0..=controls.len() {
+            let bodies = stepper.bodies(&state);
+            let view = stepper.view(&bodies);
+            let place = view.point(h.load, [0.0, 0.0, -0.1].into());
+            let off: f64 = place.x - 1.0;
+            sum += off * off + 0.1 * view.angle_rate(h.hinge).powi(2);
+            if let Some(&[push]) = controls.get(number) {
+                sum += 1e-2 * push * push;
+                let inputs = InputsOf::<Crane, f64> { push };
+                stepper
+                    .step_with(&mut state, &inputs, 0.02)
+                    .expect("regular");
+            }
+        }
+        sum
+    };
+    let found = run.gradient(&start, [h.push], &controls, [h.length], |instant| {
+        let arm = [0.0, 0.0, -0.1].map(Forward::fixed);
+        let off = instant.point(h.load, arm.into()).x - Forward::fixed(1.0);
+        let rate = instant.angle_rate(h.hinge);
+        let sum = off * off + Forward::fixed(0.1) * rate * rate;
+        instant
+            .controls()
+            .map_or(sum, |[push]| sum + Forward::fixed(1e-2) * push * push)
+    });
+    let found = found.expect("regular");
+    let bodies = space.bodies(&start);
+    let plain = cost(&controls, &bodies, 0.8);
+    assert!(off(found.cost, plain) < 1e-13, "{} {plain}", found.cost);
+    const H: f64 = 1e-5;
+    for step in 0..STEPS {
+        let ends = [H, -H].map(|h| {
+            let mut controls = controls;
+            controls[step][0] += h;
+            cost(&controls, &bodies, 0.8)
+        });
+        let wanted = (ends[0] - ends[1]) / (2.0 * H);
+        let by = found.by_controls[step][0];
+        assert!(off(by, wanted) < 1e-8, "step {step}: {by} {wanted}");
+    }
+    let of_start = |q: [f64; 2], v: [f64; 2]| {
+        let state = space.state(q, v).expect("regular");
+        cost(&controls, &space.bodies(&state), 0.8)
+    };
+    let (q, v) = ([0.1, 0.4], [0.2, -0.3]);
+    for k in 0..2 {
+        let moved = |numbers: [f64; 2], h: f64| {
+            let mut numbers = numbers;
+            numbers[k] += h;
+            numbers
+        };
+        let by_position = (of_start(moved(q, H), v) - of_start(moved(q, -H), v)) / (2.0 * H);
+        let by_rate = (of_start(q, moved(v, H)) - of_start(q, moved(v, -H))) / (2.0 * H);
+        assert!(off(found.by_positions[k], by_position) < 1e-8);
+        assert!(off(found.by_rates[k], by_rate) < 1e-8);
+    }
+    // The coordinates of the start stay.
+    let of_length = |length: f64| {
+        let crane = Crane::new(length).expect("acceptable");
+        let space = crane.coordinates((h.rail, h.hinge)).expect("both");
+        let state = space.state(q, v).expect("regular");
+        cost(&controls, &space.bodies(&state), length)
+    };
+    let by_length = (of_length(0.8 + H) - of_length(0.8 - H)) / (2.0 * H);
+    assert!(
+        off(found.by_values[0], by_length) < 1e-8,
+        "{by_length} {found:?}"
+    );
+}
+
+/// Against forward sensitivities to a constant input: the sum over the controls. The adjoint takes
+/// states that close the loop; forward ones drift from it as the steps do, so short steps.
+#[test]
+fn of_a_loop_is_the_sum_of_forward_ones() {
+    const STEPS: usize = 200;
+    let (rocker, h) = (Rocker::new(1.5).expect("acceptable"), Rocker::HANDLES);
+    let mut space = rocker.coordinates([h.foot]).expect("the crank");
+    space.set_value(h.torque, 2.0).expect("finite");
+    let start = space.state([0.3], [1.0]).expect("regular");
+    let directions = [
+        h.torque.into(),
+        h.mass.into(),
+        Direction::position(h.foot),
+        Direction::rate(h.foot),
+    ];
+    macro_rules! agree {
+        ($formulation:expr, $scheme:expr, $bound:literal) => {{
+            let integrator = $scheme;
+            let run = space.adjoint($formulation, integrator);
+            let controls = [[2.0]; STEPS];
+            let found = run.gradient(&start, [h.torque], &controls, [h.mass], |instant| {
+                if instant.is_end() {
+                    instant.angle(h.post)
+                } else {
+                    Forward::fixed(0.0)
+                }
+            });
+            let found = found.expect("regular");
+            let mut end = [0.0; 4];
+            space
+                .sensitivities(&start, directions)
+                .expect("chosen")
+                .simulation($formulation, integrator)
+                .run(0.0..=0.5, every(0.5), |sample| {
+                    end = sample.angle(h.post).derivatives()
+                })
+                .expect("regular");
+            let by_torque: f64 = found.by_controls.iter().map(|[by]| by).sum();
+            let found = [
+                by_torque,
+                found.by_values[0],
+                found.by_positions[0],
+                found.by_rates[0],
+            ];
+            for (found, wanted) in found.into_iter().zip(end) {
+                assert!(off(found, wanted) < $bound, "{found} {wanted}");
+            }
+        }};
+    }
+    agree!(StandardLagrange, Rk4::every(0.0025), 1e-8);
+    agree!(Baumgarte::default(), Rk4::every(0.0025), 1e-8);
+    agree!(StandardLagrange, Kutta3::every(0.0025), 1e-6);
+}
+
+/// `x'' = u`: the end of a step `k` of `n` moves by `h^2 (n - k - 1/2)` with its control.
+#[test]
+fn of_a_cart_is_the_closed_form() {
+    /// A cart.
+    #[derive(Clone, Copy, Mechanism)]
+    #[mechanism(coordinates = "joints", kernels = [mass])]
+    struct Cart {
+        #[input]
+        push: f64,
+        #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0])]
+        cart: Body,
+        #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+        rail: Prismatic,
+        #[force(between = [ground, cart], point = [0.0, 0.0, 0.0], force = [push, 0.0, 0.0])]
+        motor: PointForce,
+    }
+
+    let (cart, h) = (Cart::default(), Cart::HANDLES);
+    let space = cart.coordinates([h.rail]).expect("it slides");
+    let start = space.state([0.0], [0.0]).expect("regular");
+    let run = space.adjoint(StandardLagrange, Rk4::every(0.1));
+    let found = run.gradient(&start, [h.push], &[[1.0]; 20], [], |instant| {
+        if instant.is_end() {
+            instant.displacement(h.rail)
+        } else {
+            Forward::fixed(0.0)
+        }
+    });
+    let found = found.expect("regular");
+    assert!((found.cost - 2.0).abs() < 1e-13);
+    for (k, [by]) in found.by_controls.iter().enumerate() {
+        assert!((by - 0.01 * (19.5 - k as f64)).abs() < 1e-14);
+    }
+    assert!((found.by_positions[0] - 1.0).abs() < 1e-15);
+    assert!((found.by_rates[0] - 2.0).abs() < 1e-14);
+    let none = run.gradient(&start, [h.push], &[], [], |instant| {
+        instant.displacement(h.rail)
+    });
+    let none = none.expect("the start alone");
+    assert_eq!(
+        (none.cost, none.by_positions[0], none.by_rates[0]),
+        (0.0, 1.0, 0.0)
+    );
+    let bad = run.gradient(&start, [h.push], &[[f64::NAN]], [], |_| Forward::fixed(0.0));
+    assert!(bad.is_err());
+    let bad = run.gradient(&start, [h.push], &[[1.0]], [], |_| Forward::fixed(f64::NAN));
+    assert!(bad.is_err());
+}
