@@ -12,13 +12,14 @@
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
 //! `choice.rs` modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of it.
 //!
-//! `turning.rs` counts the turns of an angle that has limits.
+//! `described.rs` has the limits of a description. `turning.rs` counts the turns of an angle that has limits.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`.
 
 mod box_problem;
 mod choice;
 pub(crate) mod columns;
+pub(crate) mod described;
 mod efforts;
 pub(crate) mod impulse;
 pub(crate) mod interaction;

@@ -135,6 +135,7 @@ impl JointChecker<'_> {
             );
         }
         let is_cut = self.cut(joint, &mut pairs, faults);
+        let limits = self.limits(joint, &mut pairs, numbers, faults);
         let mut bindings = Vec::new();
         for parameter in &joint.parameters {
             let key = parameter.name.to_string();
@@ -206,6 +207,7 @@ impl JointChecker<'_> {
             dropped: Vec::new(),
             is_cut,
             read: Vec::new(),
+            limits,
         })
     }
 

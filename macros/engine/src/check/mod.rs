@@ -23,6 +23,7 @@
 //! - `points.rs`: named points.
 //! - `parts.rs`, `placement.rs`, `mirror.rs`: where parts are, and what that makes of what is in
 //!   them. See `docs/decisions/022-assemblies.md`.
+//! - `limits.rs`: limits of joints that leave one coordinate free.
 //! - `asked.rs`: kernels that are asked for by `kernels = [..]`.
 //! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
 //!
@@ -41,6 +42,7 @@ mod joints;
 pub mod kinds;
 mod later;
 mod laws;
+mod limits;
 mod linear;
 pub mod mechanism;
 mod mirror;
