@@ -214,8 +214,8 @@ where
     ///
     /// # Errors of the run
     /// [`Fault::Setting`] of zero steps. [`Fault::Checkpoint`] with a method of your own that does
-    /// not hand over what it remembers, and with interactions. The fault that the closure returns.
-    /// [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
+    /// not hand over what it remembers. The fault that the closure returns. [`Fault::NotVerified`] of
+    /// a run that is to be [`Simulation::verified`].
     #[cfg(feature = "std")]
     #[must_use]
     pub fn checkpoints<K, R>(
@@ -331,7 +331,6 @@ where
     /// - [`Fault::StepTooShort`] where the turns of an angle with limits cannot be followed.
     /// - [`Fault::NoInteractions`] with [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     /// - [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
-    /// - [`Fault::Checkpoint`] of a run that keeps checkpoints, or goes on from one.
     #[must_use]
     pub fn interactions<const K: usize>(
         self,
