@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::apart;
 use super::between::{Between, Mentioned};
 use super::definition::{Definition, Definitions, definition};
 use super::expression::too_large;
@@ -447,6 +448,16 @@ impl JointChecker<'_> {
                     _ => false,
                 };
                 if !at_centre {
+                    let [at, from] = match (&bindings[parameter], uses) {
+                        (Binding::Global(point), ParameterKind::Point) => {
+                            [literals(point), literals(&body.position)]
+                        }
+                        (Binding::Local(points), ParameterKind::Point) => {
+                            [literals(&points[place]), Some([0.0; 3])]
+                        }
+                        _ => [None; 2],
+                    };
+                    let beside = apart::beside(at, from);
                     let parameter = &joint.parameters[parameter].name;
                     let key = parameter;
                     let written = self.field.list.pairs.iter().find(|pair| pair.key == *key);
@@ -457,7 +468,7 @@ impl JointChecker<'_> {
                         }),
                         format!(
                             "{} `{}` fixes `{parameter}` on the particle `{}`, which has no orientation: only a point \
-                             at the particle's own position can be fixed on it",
+                             at the particle's own position can be fixed on it{beside}",
                             self.kind.word(), self.field.name, body.name
                         ),
                     );
@@ -477,7 +488,7 @@ fn turns(joint: &ElementDef, body: usize) -> bool {
 }
 
 /// The vector parameters that a definition fixes on one of its bodies.
-fn uses(joint: &ElementDef, body: usize) -> Vec<(usize, ParameterKind)> {
+pub(super) fn uses(joint: &ElementDef, body: usize) -> Vec<(usize, ParameterKind)> {
     let mut found = Vec::new();
     let mut note = |term: &Term| match term {
         Term::Point { body: b, parameter }

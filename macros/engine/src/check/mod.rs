@@ -26,10 +26,12 @@
 //! - `limits.rs`: limits of joints that leave one coordinate free.
 //! - `asked.rs`: kernels that are asked for by `kernels = [..]`.
 //! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
+//!   `apart.rs` says how far from each other things are.
 //!
 //! Bounds. `syntax/depth.rs` limits nesting before anything recurses. `model::Extent` limits what
 //! is differentiated. Both refuse.
 
+mod apart;
 mod asked;
 mod between;
 pub mod bodies;
