@@ -1,7 +1,7 @@
 //! Where things are that should be together: distances and directions in numbers, along global
 //! axes, as a sketch would show them.
 
-use super::joints::uses;
+use super::fixed::uses;
 use crate::model::inertia::{IDENTITY, compose, rotation};
 use crate::model::{Binding, BodyKind, Element, Model, ParameterKind};
 

@@ -8,6 +8,7 @@ use super::apart;
 use super::between::{Between, Mentioned};
 use super::definition::{Definition, Definitions, definition};
 use super::expression::too_large;
+use super::fixed::{turns, uses};
 use super::laws::LawReader;
 use super::mirror::pseudovectors;
 use super::number::{AT_LIKES, Numbers, elements};
@@ -17,8 +18,8 @@ use super::points::{NamedPoints, position_of};
 use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Number,
-    ParameterKind, Term,
+    Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Number,
+    ParameterKind,
 };
 use crate::syntax::array::is_index;
 use crate::syntax::mechanism::Field;
@@ -478,37 +479,6 @@ impl JointChecker<'_> {
         }
         sound
     }
-}
-
-/// Whether a definition fixes a vector of its own on one of its bodies, or exerts a moment on it.
-fn turns(joint: &ElementDef, body: usize) -> bool {
-    let moment = |action: &Action| matches!(action, Action::Moment { body: b, .. } if *b == body);
-    let onto = |term: &Term| matches!(term, Term::Onto(b, _) if *b == body);
-    joint.terms().any(|term| term.has(onto)) || joint.actions.iter().any(moment)
-}
-
-/// The vector parameters that a definition fixes on one of its bodies.
-pub(super) fn uses(joint: &ElementDef, body: usize) -> Vec<(usize, ParameterKind)> {
-    let mut found = Vec::new();
-    let mut note = |term: &Term| match term {
-        Term::Point { body: b, parameter }
-        | Term::Fixed { body: b, parameter }
-        | Term::Normal {
-            body: b, parameter, ..
-        } if *b == body => found.push(*parameter),
-        Term::Angle(turn) if turn.from == body || turn.to == body => found.push(turn.axis),
-        _ => {}
-    };
-    joint.terms().for_each(|term| term.visit(&mut note));
-    if let Some(angle) = joint.angle {
-        note(&Term::Angle(angle));
-    }
-    found.sort_unstable();
-    found.dedup();
-    found
-        .into_iter()
-        .map(|parameter| (parameter, joint.parameters[parameter].kind))
-        .collect()
 }
 
 /// "1 body", "2 bodies".

@@ -19,6 +19,7 @@
 //!   may be is given the reason.
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
 //!   all names are known (`syntax/integer.rs`). See `docs/decisions/003-arrays-of-fields.md`.
+//! - `fixed.rs`: what a definition fixes on its bodies.
 //! - `between.rs`: bodies by name, of the mechanism and of its parts.
 //! - `points.rs`: named points.
 //! - `parts.rs`, `placement.rs`, `mirror.rs`: where parts are, and what that makes of what is in
@@ -38,6 +39,7 @@ pub mod bodies;
 pub mod definition;
 mod elements;
 mod expression;
+mod fixed;
 mod functions;
 pub mod joint;
 mod joints;
