@@ -10,7 +10,7 @@
 //!   reference configuration, where there is no time and no rate.
 //! - `number.rs`: numbers the macro can see. A path or a run-time value becomes a symbol with two
 //!   expressions: one in `f64` for checks, one over the scalar type for kernels.
-//! - `linear.rs`: linear functions of such numbers.
+//! - `linear.rs`, `turning.rs`: linear functions of such numbers, and rotations by them.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
 //! - `states.rs`: rates of the user's own states.
 //! - `readings.rs`: what these read of joints and forces.
@@ -61,6 +61,7 @@ mod readings;
 mod redundant;
 mod states;
 mod tables;
+mod turning;
 mod values;
 
 use crate::diag::Faults;
